@@ -19,11 +19,11 @@
 
 /* Every model once: MODEL(KIND, name, Parameters) makes the kind BSDF_KIND, the member `name`
  * of Bsdf, and the row of bsdf.c's table for `name_model`, which the model's file defines. */
-#define BSDF_MODELS(MODEL)                                                                     \
-    MODEL(METALLIC_ROUGHNESS, metallic_roughness, MetallicRoughness)                           \
-    MODEL(THIN_WINDOW, thin_window, ThinWindow)                                                \
-    MODEL(GLAZED_WINDOW, glazed_window, GlazedWindow)                                          \
-    MODEL(DIELECTRIC, dielectric, Dielectric)                                                  \
+#define BSDF_MODELS(MODEL) \
+    MODEL(METALLIC_ROUGHNESS, metallic_roughness, MetallicRoughness) \
+    MODEL(THIN_WINDOW, thin_window, ThinWindow) \
+    MODEL(GLAZED_WINDOW, glazed_window, GlazedWindow) \
+    MODEL(DIELECTRIC, dielectric, Dielectric) \
     MODEL(DISPLAY, display, DisplaySurface)
 
 #define BSDF_KIND(KIND, name, Parameters) BSDF_##KIND,
@@ -42,16 +42,14 @@ typedef struct Bsdf {
 } Bsdf;
 
 /* bsdf_be_NAME: becomes that model; its parameters are to be set. */
-#define BSDF_BE(KIND, name, Parameters)                                                        \
-    static inline Parameters *bsdf_be_##name(Bsdf *bsdf)                                       \
-    {                                                                                          \
-        bsdf->kind = BSDF_##KIND;                                                              \
-        return &bsdf->name;                                                                    \
+#define BSDF_BE(KIND, name, Parameters) \
+    static inline Parameters *bsdf_be_##name(Bsdf *bsdf) { \
+        bsdf->kind = BSDF_##KIND; \
+        return &bsdf->name; \
     }
 BSDF_MODELS(BSDF_BE)
 
-static inline void bsdf_be_black(Bsdf *bsdf)
-{
+static inline void bsdf_be_black(Bsdf *bsdf) {
     bsdf->kind = BSDF_BLACK;
 }
 
@@ -120,7 +118,7 @@ bool bsdf_sends_across(const Bsdf *bsdf);
 
 /* Has it a lambertian part that is known separately? And that part's share, per lane, of what
  * the surface scatters from wi: 0 to 1. */
-bool     bsdf_has_lambertian(const Bsdf *bsdf);
+bool bsdf_has_lambertian(const Bsdf *bsdf);
 Spectrum bsdf_lambertian_share(const Bsdf *bsdf, Vec3 wo, Vec3 wi);
 
 /* Is what it sends from wi to wo, in its mirror direction too, extrapolated from measurements

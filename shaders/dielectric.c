@@ -50,30 +50,26 @@
 #include "shaders/polarisation.h"
 
 /* Facets between equal media bend nothing, and would have no half-way normal to be found by. */
-static bool is_delta(const Dielectric *d)
-{
+static bool is_delta(const Dielectric *d) {
     return is_smooth(d->alpha) || fabsf(d->ior - 1) < 1e-4f;
 }
 
 /* ---- facets: even, or brushed -------------------------------------------------------- */
 
-static inline float facets_send(const Dielectric *d, const SolidRay *s, Vec3 half)
-{
-    return solid_is_brushed(d) ? brushed_reflection(s->wo, s->wi, half, solid_alphas(d)) :
-                           ggx_reflection(s->wo, s->wi, half, d->alpha);
+static inline float facets_send(const Dielectric *d, const SolidRay *s, Vec3 half) {
+    return solid_is_brushed(d) ? brushed_reflection(s->wo, s->wi, half, solid_alphas(d))
+                               : ggx_reflection(s->wo, s->wi, half, d->alpha);
 }
 
-static inline float facet_pdf(const Dielectric *d, Vec3 wo, Vec3 half)
-{
-    return solid_is_brushed(d) ? brushed_visible_pdf(wo, half, solid_alphas(d)) :
-                           ggx_visible_pdf(wo, half, d->alpha);
+static inline float facet_pdf(const Dielectric *d, Vec3 wo, Vec3 half) {
+    return solid_is_brushed(d) ? brushed_visible_pdf(wo, half, solid_alphas(d))
+                               : ggx_visible_pdf(wo, half, d->alpha);
 }
 
 /* ---- one facet --------------------------------------------------------------------------- */
 
-static Spectrum eval_reflected(const Dielectric *d, const SolidRay *s, float *pdf)
-{
-    Vec3  half = vec3_normalize(vec3_add(s->wo, s->wi));
+static Spectrum eval_reflected(const Dielectric *d, const SolidRay *s, float *pdf) {
+    Vec3 half = vec3_normalize(vec3_add(s->wo, s->wi));
     float cosine = vec3_dot(s->wo, half);
     FacetShares f = solid_facet(d, s, cosine);
     *pdf = f.prob * facet_pdf(d, s->wo, half) / (4 * cosine);
@@ -83,12 +79,11 @@ static Spectrum eval_reflected(const Dielectric *d, const SolidRay *s, float *pd
 /* The facet that refracts light from wi to wo; out: wo.h; spread: |wi.h| / (wo.h + eta wi.h)^2.
  * False: there is none. */
 typedef struct RefractingFacet {
-    Vec3  half;
+    Vec3 half;
     float out, spread;
 } RefractingFacet;
 
-static bool refracting_facet(const SolidRay *s, RefractingFacet *at)
-{
+static bool refracting_facet(const SolidRay *s, RefractingFacet *at) {
     at->half = vec3_normalize(vec3_along(s->wo, s->wi, s->eta));
     if (at->half.z < 0) at->half = vec3_neg(at->half);
     float in = vec3_dot(s->wi, at->half);
@@ -100,8 +95,7 @@ static bool refracting_facet(const SolidRay *s, RefractingFacet *at)
 
 /* Walter 2007, equations 16, 17 and 21 for wo + eta wi along the facet's normal, with the
  * factor 1/eta^2 of radiance: f = |wi.h| |wo.h| T G D / (|wo.z| |wi.z| (wo.h + eta wi.h)^2). */
-static Spectrum eval_transmitted(const Dielectric *d, const SolidRay *s, float *pdf)
-{
+static Spectrum eval_transmitted(const Dielectric *d, const SolidRay *s, float *pdf) {
     RefractingFacet at;
     *pdf = 0;
     if (!refracting_facet(s, &at)) return spectrum_all(0);
@@ -112,8 +106,7 @@ static Spectrum eval_transmitted(const Dielectric *d, const SolidRay *s, float *
     return d->tint * (f.through * lobe * spectrum_all(at.out) * spectrum_all(at.spread));
 }
 
-static Vec3 turn_back(const SolidRay *s, Vec3 wi)
-{
+static Vec3 turn_back(const SolidRay *s, Vec3 wi) {
     return s->turned ? vec3(wi.x, wi.y, -wi.z) : wi;
 }
 
@@ -121,24 +114,22 @@ static Vec3 turn_back(const SolidRay *s, Vec3 wi)
 
 /* A smooth boundary, or a facet, as every lane finds it. */
 typedef struct LaneFacets {
-    Spectrum chance;   /* of each lane to be drawn */
-    Spectrum eta;      /* the other side's index over this side's */
-    Spectrum mirror;   /* Fresnel's share, or the film's */
-    Spectrum reflects; /* probability of reflection, where the lane is drawn */
-    float    behind[SPECTRUM_LANES]; /* cosines of the refracted directions */
+    Spectrum chance;              /* of each lane to be drawn */
+    Spectrum eta;                 /* the other side's index over this side's */
+    Spectrum mirror;              /* Fresnel's share, or the film's */
+    Spectrum reflects;            /* probability of reflection, where the lane is drawn */
+    float behind[SPECTRUM_LANES]; /* cosines of the refracted directions */
 } LaneFacets;
 
-static float lane_reflects(float mirror, float tint)
-{
+static float lane_reflects(float mirror, float tint) {
     return reflect_prob(mirror, (1 - mirror) * tint);
 }
 
 /* cosine: to the facet. */
-static void meet_lanes(const Dielectric *d, const SolidRay *s, float cosine, LaneFacets *out)
-{
+static void meet_lanes(const Dielectric *d, const SolidRay *s, float cosine, LaneFacets *out) {
     Spectrum n = curve_lookup(d->index, d->wavelengths);
-    out->chance = d->light ? *d->light / spectrum_all(spectrum_sum(*d->light)) :
-                             spectrum_all(1.0f / SPECTRUM_LANES);
+    out->chance = d->light ? *d->light / spectrum_all(spectrum_sum(*d->light))
+                           : spectrum_all(1.0f / SPECTRUM_LANES);
     out->eta = s->turned ? spectrum_all(1) / n : n;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         SolidRay own = {.eta = out->eta[i], .turned = s->turned};
@@ -149,8 +140,7 @@ static void meet_lanes(const Dielectric *d, const SolidRay *s, float cosine, Lan
 }
 
 /* The lane on whose strip of [0, the sum) the place lies; it becomes the place in that. */
-static int lane_at(Spectrum strips, float *place)
-{
+static int lane_at(Spectrum strips, float *place) {
     int last = 0;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         if (!(strips[i] > 0)) continue;
@@ -163,28 +153,26 @@ static int lane_at(Spectrum strips, float *place)
 }
 
 /* One lane's facet, refracting: f, and the density if that lane is drawn (eval_transmitted). */
-static float lane_transmitted(const Dielectric *d, const SolidRay *s, int lane, float *pdf)
-{
+static float lane_transmitted(const Dielectric *d, const SolidRay *s, int lane, float *pdf) {
     RefractingFacet at;
-    float           tint = d->tint[lane];
+    float tint = d->tint[lane];
     *pdf = 0;
     if (!refracting_facet(s, &at)) return 0;
-    float f = solid_has_film(d) ? solid_filmed_lane(d, s, lane, at.out) :
-                                  fresnel_unpolarised(at.out, s->eta);
-    *pdf = (1 - lane_reflects(f, tint)) * facet_pdf(d, s->wo, at.half) * s->eta * s->eta *
-           at.spread;
+    float f = solid_has_film(d) ? solid_filmed_lane(d, s, lane, at.out)
+                                : fresnel_unpolarised(at.out, s->eta);
+    *pdf =
+        (1 - lane_reflects(f, tint)) * facet_pdf(d, s->wo, at.half) * s->eta * s->eta * at.spread;
     return tint * (1 - f) * 4 * facets_send(d, s, at.half) * at.out * at.spread;
 }
 
-static Spectrum split_eval(const Dielectric *d, SolidRay s, float *pdf)
-{
+static Spectrum split_eval(const Dielectric *d, SolidRay s, float *pdf) {
     LaneFacets lanes;
     if (s.wi.z > 0) {
-        Vec3  half = vec3_normalize(vec3_add(s.wo, s.wi));
+        Vec3 half = vec3_normalize(vec3_add(s.wo, s.wi));
         float cosine = vec3_dot(s.wo, half);
         meet_lanes(d, &s, cosine, &lanes);
-        *pdf = spectrum_sum(lanes.chance * lanes.reflects) * facet_pdf(d, s.wo, half) /
-               (4 * cosine);
+        *pdf =
+            spectrum_sum(lanes.chance * lanes.reflects) * facet_pdf(d, s.wo, half) / (4 * cosine);
         return lanes.mirror * spectrum_all(facets_send(d, &s, half));
     }
     Spectrum value;
@@ -200,19 +188,17 @@ static Spectrum split_eval(const Dielectric *d, SolidRay s, float *pdf)
 }
 
 /* At normal incidence no lane is bent away from the others. */
-static bool is_straight(Vec3 wo)
-{
+static bool is_straight(Vec3 wo) {
     return wo.x * wo.x + wo.y * wo.y < 1e-12f;
 }
 
-static bool split_smooth(const Dielectric *d, SolidRay *s, float u, BsdfSample *sample)
-{
+static bool split_smooth(const Dielectric *d, SolidRay *s, float u, BsdfSample *sample) {
     LaneFacets lanes;
     meet_lanes(d, s, s->wo.z, &lanes);
     Spectrum one = spectrum_all(1), refracts = lanes.chance * (one - lanes.reflects);
     Spectrum through = (one - lanes.mirror) * d->tint / (lanes.eta * lanes.eta);
-    float    turned_back = spectrum_sum(lanes.chance * lanes.reflects);
-    float    goes_on = spectrum_sum(refracts), place = u * (turned_back + goes_on);
+    float turned_back = spectrum_sum(lanes.chance * lanes.reflects);
+    float goes_on = spectrum_sum(refracts), place = u * (turned_back + goes_on);
     *sample = (BsdfSample){.is_delta = true};
     if (place < turned_back) {
         sample->wi = turn_back(s, vec3(-s->wo.x, -s->wo.y, s->wo.z));
@@ -222,11 +208,11 @@ static bool split_smooth(const Dielectric *d, SolidRay *s, float u, BsdfSample *
     }
     if (!(goes_on > 0)) return false;
     place -= turned_back;
-    int   lane = lane_at(refracts, &place);
-    Vec3  up = vec3(0, 0, 1);
+    int lane = lane_at(refracts, &place);
+    Vec3 up = vec3(0, 0, 1);
     float eta = lanes.eta[lane];
-    sample->wi = turn_back(s, vec3_normalize(refracted(s->wo, up, eta, s->wo.z,
-                                                     lanes.behind[lane])));
+    sample->wi =
+        turn_back(s, vec3_normalize(refracted(s->wo, up, eta, s->wo.z, lanes.behind[lane])));
     sample->pdf = is_straight(s->wo) ? goes_on : refracts[lane];
     sample->weight = spectrum_all(0);
     if (is_straight(s->wo)) sample->weight = through / spectrum_all(goes_on);
@@ -235,9 +221,8 @@ static bool split_smooth(const Dielectric *d, SolidRay *s, float u, BsdfSample *
 }
 
 /* Draws a lane, and whether it is reflected by a facet met at that cosine. */
-static bool lane_choice(const Dielectric *d, const SolidRay *s, float cosine, float u,
-                        float *eta, float *behind)
-{
+static bool lane_choice(const Dielectric *d, const SolidRay *s, float cosine, float u, float *eta,
+                        float *behind) {
     LaneFacets lanes;
     meet_lanes(d, s, cosine, &lanes);
     int lane = lane_at(lanes.chance, &u);
@@ -248,17 +233,15 @@ static bool lane_choice(const Dielectric *d, const SolidRay *s, float cosine, fl
 
 /* ---- the model -------------------------------------------------------------------------- */
 
-static Spectrum rough_eval(const Dielectric *d, const SolidRay *s, float *pdf)
-{
-    Spectrum value = d->index      ? split_eval(d, *s, pdf) :
-                     s->wi.z > 0   ? eval_reflected(d, s, pdf) :
-                                     eval_transmitted(d, s, pdf);
+static Spectrum rough_eval(const Dielectric *d, const SolidRay *s, float *pdf) {
+    Spectrum value = d->index      ? split_eval(d, *s, pdf)
+                     : s->wi.z > 0 ? eval_reflected(d, s, pdf)
+                                   : eval_transmitted(d, s, pdf);
     if (d->energy) solid_loss_add(d, s, &value, pdf);
     return value;
 }
 
-static Spectrum solid_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
-{
+static Spectrum solid_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf) {
     const Dielectric *d = parameters;
     *pdf = 0;
     if (is_delta(d) || wo.z == 0 || wi.z == 0) return spectrum_all(0);
@@ -267,29 +250,27 @@ static Spectrum solid_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
 }
 
 /* For a boundary of one index. */
-static bool smooth_sample(const Dielectric *d, SolidRay *s, float u, BsdfSample *sample)
-{
+static bool smooth_sample(const Dielectric *d, SolidRay *s, float u, BsdfSample *sample) {
     FacetShares f = solid_facet(d, s, s->wo.z);
     bool reflects = u < f.prob;
     if (!reflects && !(f.behind > 0 && f.prob < 1)) return false;
     Vec3 up = vec3(0, 0, 1);
-    s->wi = reflects ? vec3(-s->wo.x, -s->wo.y, s->wo.z) :
-                       vec3_normalize(refracted(s->wo, up, s->eta, s->wo.z, f.behind));
+    s->wi = reflects ? vec3(-s->wo.x, -s->wo.y, s->wo.z)
+                     : vec3_normalize(refracted(s->wo, up, s->eta, s->wo.z, f.behind));
     if (!(reflects ? s->wi.z > 0 : s->wi.z < 0)) return false;
     float prob = reflects ? f.prob : 1 - f.prob;
     *sample = (BsdfSample){.wi = turn_back(s, s->wi), .pdf = prob, .is_delta = true};
-    sample->weight = reflects ? f.reflected / spectrum_all(prob) :
-                                f.through / spectrum_all(prob * s->eta * s->eta) * d->tint;
+    sample->weight = reflects ? f.reflected / spectrum_all(prob)
+                              : f.through / spectrum_all(prob * s->eta * s->eta) * d->tint;
     return true;
 }
 
 /* Chooses s->wi by a visible facet of a rough boundary, of one index or of a drawn lane. u[2]
  * decides between reflection and refraction. False: the light is lost. */
-static bool facet_sample(const Dielectric *d, SolidRay *s, const float u[3])
-{
-    Vec3  half = brushed_sample_visible(s->wo, solid_alphas(d), u[0], u[1]);
+static bool facet_sample(const Dielectric *d, SolidRay *s, const float u[3]) {
+    Vec3 half = brushed_sample_visible(s->wo, solid_alphas(d), u[0], u[1]);
     float cosine = vec3_dot(s->wo, half), behind, eta = s->eta;
-    bool  reflects;
+    bool reflects;
     if (!(cosine > 0)) return false;
     if (d->index) {
         reflects = lane_choice(d, s, cosine, u[2], &eta, &behind);
@@ -299,41 +280,37 @@ static bool facet_sample(const Dielectric *d, SolidRay *s, const float u[3])
         behind = f.behind;
     }
     if (!reflects && !(behind > 0)) return false;
-    s->wi = reflects ? vec3_sub(vec3_scale(half, 2 * cosine), s->wo) :
-                       vec3_normalize(refracted(s->wo, half, eta, cosine, behind));
+    s->wi = reflects ? vec3_sub(vec3_scale(half, 2 * cosine), s->wo)
+                     : vec3_normalize(refracted(s->wo, half, eta, cosine, behind));
     return reflects ? s->wi.z > 0 : s->wi.z < 0;
 }
 
-static bool rough_sample(const Dielectric *d, SolidRay *s, const float u[3], BsdfSample *sample)
-{
+static bool rough_sample(const Dielectric *d, SolidRay *s, const float u[3], BsdfSample *sample) {
     float v[3] = {u[0], u[1], u[2]}, pdf;
-    bool  is_lost = d->energy && solid_loss_sample(d, s, v);
+    bool is_lost = d->energy && solid_loss_sample(d, s, v);
     if (!is_lost && !facet_sample(d, s, v)) return false;
     Spectrum value = rough_eval(d, s, &pdf);
     if (!(pdf > 0)) return false;
-    *sample = (BsdfSample){.wi = turn_back(s, s->wi), .pdf = pdf,
+    *sample = (BsdfSample){.wi = turn_back(s, s->wi),
+                           .pdf = pdf,
                            .weight = value * spectrum_all(fabsf(s->wi.z) / pdf)};
     return true;
 }
 
-static bool solid_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
-{
+static bool solid_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample) {
     const Dielectric *d = parameters;
     if (wo.z == 0) return false;
     SolidRay s = solid_ray(d, wo, wo);
     if (!is_delta(d)) return rough_sample(d, &s, u, sample);
-    return d->index ? split_smooth(d, &s, u[2], sample) :
-                      smooth_sample(d, &s, u[2], sample);
+    return d->index ? split_smooth(d, &s, u[2], sample) : smooth_sample(d, &s, u[2], sample);
 }
 
-static void solid_facts(const void *parameters, BsdfFacts *facts)
-{
+static void solid_facts(const void *parameters, BsdfFacts *facts) {
     const Dielectric *d = parameters;
     facts->scatters = !is_delta(d);
 }
 
-static Spectrum solid_mirror(const void *parameters, Vec3 wo)
-{
+static Spectrum solid_mirror(const void *parameters, Vec3 wo) {
     const Dielectric *d = parameters;
     if (!is_delta(d) || wo.z == 0) return spectrum_all(0);
     SolidRay s = solid_ray(d, wo, wo);
@@ -345,37 +322,32 @@ static Spectrum solid_mirror(const void *parameters, Vec3 wo)
     return solid_facet(d, &s, s.wo.z).reflected;
 }
 
-static Spectrum solid_albedo(const void *parameters, Vec3 wo)
-{
+static Spectrum solid_albedo(const void *parameters, Vec3 wo) {
     const Dielectric *d = parameters;
     if (!d->coating || wo.z == 0) return spectrum_all(1);
-    SolidRay        s = solid_ray(d, wo, wo);
+    SolidRay s = solid_ray(d, wo, wo);
     FacetShares f = solid_facet(d, &s, s.wo.z);
     return f.reflected + f.through;
 }
 
 /* The cosine to the facet that light met on its way from s->wi to s->wo. */
-static float met_at(const Dielectric *d, const SolidRay *s)
-{
+static float met_at(const Dielectric *d, const SolidRay *s) {
     if (is_delta(d)) return s->wo.z;
-    Vec3  half = vec3_normalize(vec3_along(s->wo, s->wi, s->wi.z > 0 ? 1 : s->eta));
+    Vec3 half = vec3_normalize(vec3_along(s->wo, s->wi, s->wi.z > 0 ? 1 : s->eta));
     return fminf(fabsf(vec3_dot(s->wo, half)), 1);
 }
 
 static bool solid_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,
-                           BsdfPolarisation *out)
-{
+                           BsdfPolarisation *out) {
     const Dielectric *d = parameters;
     if (wo.z == 0) return false;
-    SolidRay  s = solid_ray(d, wo, way->wi);
+    SolidRay s = solid_ray(d, wo, way->wi);
     float cosine = met_at(d, &s);
-    *out = polarised_by(s.wi.z > 0 ? waves_reflected(cosine, s.eta)
-                                   : waves_through(cosine, s.eta));
+    *out = polarised_by(s.wi.z > 0 ? waves_reflected(cosine, s.eta) : waves_through(cosine, s.eta));
     return true;
 }
 
-static void solid_set(void *parameters, const BsdfSetting *setting)
-{
+static void solid_set(void *parameters, const BsdfSetting *setting) {
     if (setting->light) ((Dielectric *)parameters)->light = setting->light;
 }
 

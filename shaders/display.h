@@ -12,14 +12,14 @@
 
 typedef struct DisplaySurface {
     const Panel *panel;
-    PanelLanes   lanes; /* its reflection at the path's wavelengths */
-    PanelMix     mix;   /* several panels instead of the one, whose lanes are not used then;
-                           count 0: none */
-    float        matte;       /* share of its mirror that a modelled finish scatters; 0: none */
-    float        matte_alpha; /* by facets of that GGX alpha, at least SMOOTH_ALPHA */
-    const CoatingTable *cover;       /* factor of its mirror (coating_of_cover); NULL: 1 */
-    const CoatingWaves *waves;       /* of the coated cover; NULL: as bare glass */
-    const Wavelengths  *wavelengths; /* NULL where cover is, and without a mix */
+    PanelLanes lanes;          /* its reflection at the path's wavelengths */
+    PanelMix mix;              /* several panels instead of the one, whose lanes are not used then;
+                                  count 0: none */
+    float matte;               /* share of its mirror that a modelled finish scatters; 0: none */
+    float matte_alpha;         /* by facets of that GGX alpha, at least SMOOTH_ALPHA */
+    const CoatingTable *cover; /* factor of its mirror (coating_of_cover); NULL: 1 */
+    const CoatingWaves *waves; /* of the coated cover; NULL: as bare glass */
+    const Wavelengths *wavelengths; /* NULL where cover is, and without a mix */
 } DisplaySurface;
 
 extern const BsdfModel display_model;

@@ -56,40 +56,35 @@ typedef struct Faces {
 
 /* The pane as one direction meets it. */
 typedef struct Meeting {
-    Faces    s, p;              /* where it is bare */
+    Faces s, p;                 /* where it is bare */
     Spectrum through;           /* the body, once */
     Spectrum reflected, passed; /* by all of it */
-    bool     is_coated;
-    PaneImages coated[2];       /* s, p; undefined where it is bare */
+    bool is_coated;
+    PaneImages coated[2]; /* s, p; undefined where it is bare */
 } Meeting;
 
-static Spectrum faces_reflect(Faces f, Spectrum t)
-{
+static Spectrum faces_reflect(Faces f, Spectrum t) {
     return pane_reflects(spectrum_all(f.near_one), spectrum_all(f.far_one), t);
 }
 
-static Spectrum faces_pass(Faces f, Spectrum t)
-{
+static Spectrum faces_pass(Faces f, Spectrum t) {
     return pane_passes(spectrum_all(f.near_one), spectrum_all(f.far_one), t);
 }
 
-static void meet_coated_faces(const GlazedWindow *window, float cosine, bool is_front,
-                              Meeting *m)
-{
+static void meet_coated_faces(const GlazedWindow *window, float cosine, bool is_front, Meeting *m) {
     PaneMeeting meeting = {window->coating, window->wavelengths, cosine, is_front, m->through};
-    Spectrum    half = spectrum_all(0.5f);
+    Spectrum half = spectrum_all(0.5f);
     m->is_coated = true;
     m->reflected = half * pane_coated_images(&meeting, false, &m->coated[0]);
     m->reflected += half * pane_coated_images(&meeting, true, &m->coated[1]);
     m->passed = half * (m->coated[0].passed + m->coated[1].passed);
 }
 
-static Meeting meet(const GlazedWindow *window, Vec3 wo)
-{
+static Meeting meet(const GlazedWindow *window, Vec3 wo) {
     const Glazing *pane = window->pane;
     Meeting m;
     float cosine = clampf(fabsf(wo.z), LEAST_COSINE, 1);
-    bool  is_front = (wo.z > 0) == window->front_is_up;
+    bool is_front = (wo.z > 0) == window->front_is_up;
     float slant = pane_cosine_inside(cosine, pane->absorbing_ior);
     m.through = spectrum_exp(window->absorbance * spectrum_all(-1 / slant));
     if (window->coating) {
@@ -109,38 +104,33 @@ static Meeting meet(const GlazedWindow *window, Vec3 wo)
 }
 
 /* An image's share without absorption; each order has r1 r2 of the one before. */
-static float order_of_faces(Faces f, int order)
-{
+static float order_of_faces(Faces f, int order) {
     if (!order) return f.near_one;
     float share = (1 - f.near_one) * (1 - f.near_one) * f.far_one;
     for (int i = 1; i < order; i++) share *= f.near_one * f.far_one;
     return share;
 }
 
-static Spectrum coated_order(const PaneImages *images, int order)
-{
+static Spectrum coated_order(const PaneImages *images, int order) {
     if (!order) return images->first;
     Spectrum share = images->ghost;
     for (int i = 1; i < order; i++) share *= images->next;
     return share;
 }
 
-static Spectrum order_share(const Meeting *m, int order)
-{
+static Spectrum order_share(const Meeting *m, int order) {
     if (m->is_coated)
-        return spectrum_all(0.5f) * (coated_order(&m->coated[0], order) +
-                                     coated_order(&m->coated[1], order));
+        return spectrum_all(0.5f) *
+               (coated_order(&m->coated[0], order) + coated_order(&m->coated[1], order));
     Spectrum t2 = spectrum_all(1);
     for (int i = 0; i < order; i++) t2 *= m->through * m->through;
-    return t2 *
-           spectrum_all(0.5f * (order_of_faces(m->s, order) + order_of_faces(m->p, order)));
+    return t2 * spectrum_all(0.5f * (order_of_faces(m->s, order) + order_of_faces(m->p, order)));
 }
 
 /* ---- images ------------------------------------------------------------------------------ */
 
 /* 2 d tan t' of all layers: shift along the pane, m, of light that went to and fro once. */
-static float ghost_shift(const Glazing *pane, float cosine)
-{
+static float ghost_shift(const Glazing *pane, float cosine) {
     float sine = safe_sqrtf(1 - cosine * cosine), sum = 0;
     for (int i = 0; i < pane->layer_count; i++) {
         const GlazingLayer *layer = &pane->layers[i];
@@ -150,10 +140,9 @@ static float ghost_shift(const Glazing *pane, float cosine)
     return 2 * sum;
 }
 
-static float window_shift(const void *parameters, float cosine)
-{
+static float window_shift(const void *parameters, float cosine) {
     const Glazing *pane = ((const GlazedWindow *)parameters)->pane;
-    float          thickness = 0;
+    float thickness = 0;
     for (int i = 0; i < pane->layer_count; i++) thickness += pane->layers[i].thickness_m;
     cosine = fmaxf(cosine, LEAST_COSINE);
     float straight = thickness * safe_sqrtf(1 - cosine * cosine) / cosine;
@@ -161,8 +150,7 @@ static float window_shift(const void *parameters, float cosine)
 }
 
 /* Turns v as the least turn does that takes the unit vector a to b. */
-static Vec3 turned(Vec3 v, Vec3 a, Vec3 b)
-{
+static Vec3 turned(Vec3 v, Vec3 a, Vec3 b) {
     Vec3 sum = vec3_add(a, b), to_a = vec3_scale(b, 2 * vec3_dot(v, a));
     return vec3_along(vec3_add(v, to_a), sum, -vec3_dot(v, sum) / (1 + vec3_dot(a, b)));
 }
@@ -170,13 +158,12 @@ static Vec3 turned(Vec3 v, Vec3 a, Vec3 b)
 /* The direction of an image in a pane whose faces are flat about its place: in the wedge's
  * layer the light meets the far face, leaning by the slope, `order` times. wo.z > 0. False: it
  * does not come out again. */
-static bool flat_direction(const GlazedWindow *window, Vec3 wo, int order, Vec3 *wi)
-{
+static bool flat_direction(const GlazedWindow *window, Vec3 wo, int order, Vec3 *wi) {
     *wi = vec3(-wo.x, -wo.y, wo.z);
     if (!order || (window->slope[0] == 0 && window->slope[1] == 0)) return true;
     float n = window->pane->wedge_ior;
-    Vec3  far = vec3_normalize(vec3(window->slope[0], window->slope[1], 1));
-    Vec3  way = vec3(-wo.x / n, -wo.y / n, -pane_cosine_inside(wo.z, n));
+    Vec3 far = vec3_normalize(vec3(window->slope[0], window->slope[1], 1));
+    Vec3 way = vec3(-wo.x / n, -wo.y / n, -pane_cosine_inside(wo.z, n));
     for (int i = 0; i < order; i++) {
         if (i) way.z = -way.z;
         way = vec3_along(way, far, -2 * vec3_dot(way, far));
@@ -199,28 +186,25 @@ static bool flat_direction(const GlazedWindow *window, Vec3 wo, int order, Vec3 
  * what a flat pane does that leans by K k s / 2: as the pane does half-way to where the image
  * comes out. So it is turned to there, with its wedge, and taken as flat. Faces between layers
  * are met in pairs, as far before half-way as behind it, and change nothing of this. */
-static bool image_direction(const GlazedWindow *window, Vec3 wo, bool is_up, int order,
-                            Vec3 *wi)
-{
-    const float (*bend)[2] = window->bend;
+static bool image_direction(const GlazedWindow *window, Vec3 wo, bool is_up, int order, Vec3 *wi) {
+    const float(*bend)[2] = window->bend;
     bool is_flat = bend[0][0] == 0 && bend[0][1] == 0 && bend[1][0] == 0 && bend[1][1] == 0;
     float sine = sqrtf(wo.x * wo.x + wo.y * wo.y);
     if (!order || is_flat || !(sine > 0)) return flat_direction(window, wo, order, wi);
     float way = (is_up ? -0.5f : 0.5f) * (float)order * ghost_shift(window->pane, wo.z) / sine;
     float x = way * wo.x, y = way * wo.y;
-    Vec3  z = vec3(0, 0, 1), there = vec3_normalize(vec3(bend[0][0] * x + bend[1][0] * y,
-                                                         bend[0][1] * x + bend[1][1] * y, 1));
-    Vec3  eye = turned(wo, there, z), flat;
+    Vec3 z = vec3(0, 0, 1), there = vec3_normalize(vec3(bend[0][0] * x + bend[1][0] * y,
+                                                        bend[0][1] * x + bend[1][1] * y, 1));
+    Vec3 eye = turned(wo, there, z), flat;
     if (!(eye.z > 0) || !flat_direction(window, eye, order, &flat)) return false;
     *wi = turned(flat, z, there);
     return wi->z > 0;
 }
 
 /* u: in [0, the mean of all images' light); sum: of what may be chosen. */
-static bool sample_image(const GlazedWindow *window, const Meeting *m, Vec3 wo, float u,
-                         float sum, BsdfSample *sample)
-{
-    int      order = 0;
+static bool sample_image(const GlazedWindow *window, const Meeting *m, Vec3 wo, float u, float sum,
+                         BsdfSample *sample) {
+    int order = 0;
     Spectrum share = order_share(m, 0), rest = m->reflected - share;
     while (u >= spectrum_mean(share) && spectrum_mean(rest) > LEFT_OVER && order < ORDERS_MAX) {
         u -= spectrum_mean(share);
@@ -229,10 +213,12 @@ static bool sample_image(const GlazedWindow *window, const Meeting *m, Vec3 wo, 
     }
     if (!(spectrum_mean(rest) > LEFT_OVER) || order == ORDERS_MAX) share += rest;
     float prob = spectrum_mean(share) / sum;
-    Vec3  up = vec3(wo.x, wo.y, fabsf(wo.z)), wi;
+    Vec3 up = vec3(wo.x, wo.y, fabsf(wo.z)), wi;
     if (!(prob > 0) || !image_direction(window, up, wo.z > 0, order, &wi)) return false;
     if (wo.z < 0) wi.z = -wi.z;
-    *sample = (BsdfSample){.wi = wi, .pdf = prob, .is_delta = true,
+    *sample = (BsdfSample){.wi = wi,
+                           .pdf = prob,
+                           .is_delta = true,
                            .weight = share / spectrum_all(prob),
                            .along = (float)order * ghost_shift(window->pane, up.z)};
     return true;
@@ -241,14 +227,12 @@ static bool sample_image(const GlazedWindow *window, const Meeting *m, Vec3 wo, 
 /* ---- haze -------------------------------------------------------------------------------- */
 
 /* sr^-1 of a solid angle's part along the pane: its integral over all b is 1. */
-static float haze_lobe(float width, float b2)
-{
+static float haze_lobe(float width, float b2) {
     float w2 = width * width, sum = w2 + b2;
     return w2 / (PI_F * sum * sum);
 }
 
-static float haze_at(const GlazedWindow *window, Vec3 wo, Vec3 wi)
-{
+static float haze_at(const GlazedWindow *window, Vec3 wo, Vec3 wi) {
     float x = wo.x + wi.x, y = wo.y + wi.y;
     return haze_lobe(window->pane->haze_width, x * x + y * y);
 }
@@ -258,89 +242,80 @@ typedef struct PaneChoices {
     float image, haze, pass, sum;
 } PaneChoices;
 
-static PaneChoices choices_of(const GlazedWindow *window, const Meeting *m)
-{
-    float       through = spectrum_mean(m->passed), share = window->pane->haze_share;
+static PaneChoices choices_of(const GlazedWindow *window, const Meeting *m) {
+    float through = spectrum_mean(m->passed), share = window->pane->haze_share;
     PaneChoices c = {.image = spectrum_mean(m->reflected), .haze = share * through};
     c.pass = window->shows_itself ? 0 : through - c.haze;
     c.sum = c.image + c.haze + c.pass;
     return c;
 }
 
-static bool window_reaches(const void *parameters, Vec3 wo, Vec3 wi)
-{
+static bool window_reaches(const void *parameters, Vec3 wo, Vec3 wi) {
     const GlazedWindow *window = parameters;
     return window->pane->haze_share > 0 && wo.z * wi.z < 0;
 }
 
-static Spectrum window_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
-{
+static Spectrum window_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf) {
     const GlazedWindow *window = parameters;
     *pdf = 0;
     if (!window_reaches(parameters, wo, wi)) return spectrum_all(0);
-    Meeting     out = meet(window, wo), in = meet(window, wi);
+    Meeting out = meet(window, wo), in = meet(window, wi);
     PaneChoices c = choices_of(window, &out);
-    float       lobe = haze_at(window, wo, wi);
+    float lobe = haze_at(window, wo, wi);
     if (c.sum > 0) *pdf = c.haze / c.sum * lobe * fabsf(wi.z);
-    return spectrum_min(out.passed, in.passed) *
-           spectrum_all(window->pane->haze_share * lobe);
+    return spectrum_min(out.passed, in.passed) * spectrum_all(window->pane->haze_share * lobe);
 }
 
-static bool sample_haze(const GlazedWindow *window, Vec3 wo, const float u[3],
-                        BsdfSample *sample)
-{
+static bool sample_haze(const GlazedWindow *window, Vec3 wo, const float u[3], BsdfSample *sample) {
     float sine, cosine;
     sincos_turns(u[1], &sine, &cosine);
     float b = window->pane->haze_width * sqrtf(u[0] / (1 - u[0]));
     float x = b * cosine - wo.x, y = b * sine - wo.y, z2 = 1 - x * x - y * y;
     if (!(z2 > 0)) return false;
-    Vec3     wi = vec3(x, y, wo.z > 0 ? -sqrtf(z2) : sqrtf(z2));
-    float    pdf;
+    Vec3 wi = vec3(x, y, wo.z > 0 ? -sqrtf(z2) : sqrtf(z2));
+    float pdf;
     Spectrum f = window_eval(window, wo, wi, &pdf);
     if (!(pdf > 0)) return false;
-    *sample = (BsdfSample){.wi = wi, .pdf = pdf,
-                           .weight = f * spectrum_all(fabsf(wi.z) / pdf)};
+    *sample = (BsdfSample){.wi = wi, .pdf = pdf, .weight = f * spectrum_all(fabsf(wi.z) / pdf)};
     return true;
 }
 
 /* ---- the model --------------------------------------------------------------------------- */
 
-static bool window_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
-{
+static bool window_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample) {
     const GlazedWindow *window = parameters;
-    Meeting     m = meet(window, wo);
+    Meeting m = meet(window, wo);
     PaneChoices c = choices_of(window, &m);
-    float       place = u[2] * c.sum;
+    float place = u[2] * c.sum;
     if (!(c.sum > 0)) return false;
     if (place < c.image) return sample_image(window, &m, wo, place, c.sum, sample);
     if (place < c.image + c.haze || !(c.pass > 0)) return sample_haze(window, wo, u, sample);
     Spectrum clear = m.passed * spectrum_all(1 - window->pane->haze_share);
-    *sample = (BsdfSample){.wi = vec3_neg(wo), .pdf = c.pass / c.sum, .is_delta = true,
-                           .passes = true, .weight = clear * spectrum_all(c.sum / c.pass)};
+    *sample = (BsdfSample){.wi = vec3_neg(wo),
+                           .pdf = c.pass / c.sum,
+                           .is_delta = true,
+                           .passes = true,
+                           .weight = clear * spectrum_all(c.sum / c.pass)};
     return true;
 }
 
-static Spectrum window_pass(const void *parameters, Vec3 wo)
-{
+static Spectrum window_pass(const void *parameters, Vec3 wo) {
     const GlazedWindow *window = parameters;
     Meeting m = meet(window, wo);
     return m.passed * spectrum_all(1 - window->pane->haze_share);
 }
 
-static Spectrum window_mirror(const void *parameters, Vec3 wo)
-{
+static Spectrum window_mirror(const void *parameters, Vec3 wo) {
     Meeting m = meet(parameters, wo);
     return m.reflected;
 }
 
-static void window_facts(const void *parameters, BsdfFacts *facts)
-{
+static void window_facts(const void *parameters, BsdfFacts *facts) {
     const GlazedWindow *window = parameters;
     facts->scatters = window->pane->haze_share > 0;
 }
 
-static Spectrum window_albedo(const void *parameters, Vec3 wo)
-{
+static Spectrum window_albedo(const void *parameters, Vec3 wo) {
     Meeting m = meet(parameters, wo);
     return m.reflected + m.passed;
 }
@@ -348,29 +323,25 @@ static Spectrum window_albedo(const void *parameters, Vec3 wo)
 /* ---- polarisation ------------------------------------------------------------------------ */
 
 /* The order of the image with this shift along the pane. */
-static int order_at(const GlazedWindow *window, float cosine, float along)
-{
+static int order_at(const GlazedWindow *window, float cosine, float along) {
     float shift = ghost_shift(window->pane, cosine);
     return shift > 0 ? (int)(along / shift + 0.5f) : 0;
 }
 
 /* Both faces as one direction meets them: near, far. */
-static void face_waves(const GlazedWindow *window, Vec3 wo, Waves face[2])
-{
+static void face_waves(const GlazedWindow *window, Vec3 wo, Waves face[2]) {
     const Glazing *pane = window->pane;
     float cosine = clampf(fabsf(wo.z), LEAST_COSINE, 1);
-    bool  is_front = (wo.z > 0) == window->front_is_up;
+    bool is_front = (wo.z > 0) == window->front_is_up;
     float ior[2] = {pane->layers[0].ior, pane->layers[pane->layer_count - 1].ior};
     for (int i = 0; i < 2; i++) face[i] = waves_reflected(cosine, ior[i != !is_front]);
 }
 
-static Waves image_waves(const Waves face[2], int order)
-{
+static Waves image_waves(const Waves face[2], int order) {
     Waves near = face[0], far = face[1];
     if (!order) return near;
     float lets_s = 1 - near.s, lets_p = 1 - near.p;
-    Waves w = {lets_s * lets_s * far.s, lets_p * lets_p * far.p, lets_s * lets_p * far.along,
-               0};
+    Waves w = {lets_s * lets_s * far.s, lets_p * lets_p * far.p, lets_s * lets_p * far.along, 0};
     for (int i = 1; i < order; i++) {
         w.s *= near.s * far.s;
         w.p *= near.p * far.p;
@@ -380,19 +351,17 @@ static Waves image_waves(const Waves face[2], int order)
 }
 
 /* Coated faces are exact in s and p; out of step by as much as bare ones. */
-static BsdfPolarisation coated_polarisation(Spectrum s, Spectrum p, Waves bare)
-{
-    float    size = sqrtf(bare.s * bare.p), step = size > 0 ? bare.along / size : 0;
+static BsdfPolarisation coated_polarisation(Spectrum s, Spectrum p, Waves bare) {
+    float size = sqrtf(bare.s * bare.p), step = size > 0 ? bare.along / size : 0;
     Spectrum along = spectrum_all(0);
     for (int i = 0; i < SPECTRUM_LANES; i++) along[i] = 2 * step * sqrtf(s[i] * p[i]);
     PolarisedParts parts = {s + p, s - p, along, spectrum_all(0)};
     return polarised_of(&parts, s + p);
 }
 
-static BsdfPolarisation pass_polarisation(const Meeting *m, const Waves face[2])
-{
+static BsdfPolarisation pass_polarisation(const Meeting *m, const Waves face[2]) {
     Spectrum t = m->through, s = faces_pass(m->s, t), p = faces_pass(m->p, t);
-    float    lets = (1 - face[0].s) * (1 - face[0].p) * (1 - face[1].s) * (1 - face[1].p);
+    float lets = (1 - face[0].s) * (1 - face[0].p) * (1 - face[1].s) * (1 - face[1].p);
     Spectrum along = t * spectrum_all(sqrtf(lets)) /
                      (spectrum_all(1) - t * t * spectrum_all(face[0].along * face[1].along));
     PolarisedParts parts = {s + p, s - p, along + along, spectrum_all(0)};
@@ -400,17 +369,15 @@ static BsdfPolarisation pass_polarisation(const Meeting *m, const Waves face[2])
 }
 
 static bool window_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,
-                            BsdfPolarisation *out)
-{
+                            BsdfPolarisation *out) {
     const GlazedWindow *window = parameters;
     Waves face[2];
     if (!way->is_delta) return false;
     Meeting m = meet(window, wo);
-    int     order = order_at(window, fabsf(wo.z), way->along);
+    int order = order_at(window, fabsf(wo.z), way->along);
     face_waves(window, wo, face);
     Waves image = image_waves(face, order);
-    if (!m.is_coated)
-        *out = way->passes ? pass_polarisation(&m, face) : polarised_by(image);
+    if (!m.is_coated) *out = way->passes ? pass_polarisation(&m, face) : polarised_by(image);
     else if (way->passes)
         *out = coated_polarisation(m.coated[0].passed, m.coated[1].passed, (Waves){1, 1, 1, 0});
     else
@@ -419,14 +386,15 @@ static bool window_polarise(const void *parameters, Vec3 wo, const BsdfSample *w
     return true;
 }
 
-static void window_set(void *parameters, const BsdfSetting *setting)
-{
+static void window_set(void *parameters, const BsdfSetting *setting) {
     if (setting->shows_itself) ((GlazedWindow *)parameters)->shows_itself = true;
 }
 
 const BsdfModel glazed_window_model = {
     .traits = BSDF_IS_SHEET | BSDF_SHOWS_ITSELF,
-    .scatter = {.eval = window_eval, .sample = window_sample, .reaches = window_reaches,
+    .scatter = {.eval = window_eval,
+                .sample = window_sample,
+                .reaches = window_reaches,
                 .albedo = window_albedo},
     .boundary = {window_mirror, window_pass, window_shift},
     .facts = window_facts,

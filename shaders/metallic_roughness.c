@@ -96,11 +96,11 @@
 #include "shaders/metallic/metallic_eval.h"
 #include "shaders/polarisation.h"
 
-#define WIDE_ALPHA 0.15f  /* lobes of more than about ten degrees */
+#define WIDE_ALPHA 0.15f /* lobes of more than about ten degrees */
 
-MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
-{
-    return (MetallicRoughness){.base_color = spectrum_all(1), .tint = spectrum_all(1),
+MetallicRoughness metallic_roughness_default(const EnergyTable *energy) {
+    return (MetallicRoughness){.base_color = spectrum_all(1),
+                               .tint = spectrum_all(1),
                                .specular_color = spectrum_all(1),
                                .metallic = 1,
                                .alpha = 1,
@@ -109,8 +109,7 @@ MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
                                .energy = energy};
 }
 
-static void model_set(void *parameters, const BsdfSetting *setting)
-{
+static void model_set(void *parameters, const BsdfSetting *setting) {
     MetallicRoughness *m = parameters;
     MetallicView *view = setting->room;
     if (!setting->wo) return;
@@ -120,15 +119,13 @@ static void model_set(void *parameters, const BsdfSetting *setting)
     m->seen = view;
 }
 
-static bool model_reaches(const void *parameters, Vec3 wo, Vec3 wi)
-{
+static bool model_reaches(const void *parameters, Vec3 wo, Vec3 wi) {
     const MetallicRoughness *m = parameters;
     bool lets_through = sends_below(m) || m->across > 0;
     return wo.z > 0 && (wi.z > 0 || (wi.z < 0 && lets_through));
 }
 
-static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
-{
+static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf) {
     const MetallicRoughness *m = parameters;
     *pdf = 0;
     if (!model_reaches(parameters, wo, wi)) return spectrum_all(0);
@@ -139,11 +136,10 @@ static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
 
 /* ---- images ------------------------------------------------------------------------------ */
 
-static Spectrum model_mirror(const void *parameters, Vec3 wo)
-{
+static Spectrum model_mirror(const void *parameters, Vec3 wo) {
     const MetallicRoughness *m = parameters;
-    bool     is_upright = m->clearcoat_normal.z >= COAT_UPRIGHT;
-    float    coat = is_upright && is_smooth(m->clearcoat_alpha) ? m->clearcoat : 0;
+    bool is_upright = m->clearcoat_normal.z >= COAT_UPRIGHT;
+    float coat = is_upright && is_smooth(m->clearcoat_alpha) ? m->clearcoat : 0;
     if (!(wo.z > 0)) return spectrum_all(0);
     Spectrum by_coat = spectrum_all(coat > 0 ? coat * coat_facet(wo.z) : 0);
     if (!is_smooth(m->alpha)) return by_coat;
@@ -152,11 +148,10 @@ static Spectrum model_mirror(const void *parameters, Vec3 wo)
     return by_coat + eval_smooth(view, vec3(-wo.x, -wo.y, wo.z));
 }
 
-static Spectrum model_part(const void *parameters, BsdfPart part, Vec3 wo, Vec3 wi)
-{
+static Spectrum model_part(const void *parameters, BsdfPart part, Vec3 wo, Vec3 wi) {
     const MetallicRoughness *m = parameters;
     ThroughCoat below;
-    bool    is_glint = !is_smooth(m->alpha) && m->alpha <= GLINT_ALPHA && !is_brushed(m);
+    bool is_glint = !is_smooth(m->alpha) && m->alpha <= GLINT_ALPHA && !is_brushed(m);
     if (part != BSDF_GLINT || !(wo.z > 0 && wi.z > 0 && is_glint)) return spectrum_all(0);
     MetallicView own;
     const MetallicView *view = metallic_seen(m, wo, &own);
@@ -164,17 +159,16 @@ static Spectrum model_part(const void *parameters, BsdfPart part, Vec3 wo, Vec3 
     return eval_facets(view, wi, &below);
 }
 
-static Spectrum model_pass(const void *parameters, Vec3 wo)
-{
+static Spectrum model_pass(const void *parameters, Vec3 wo) {
     const MetallicRoughness *m = parameters;
     if (!is_smooth(m->alpha) || !(m->transmission > 0) || !(wo.z > 0)) return spectrum_all(0);
     MetallicFace b = boundary_of(m);
-    float    kept = has_overlay(m) ? sqrtf(energy_kept(m, wo.z)) : 1;
+    float kept = has_overlay(m) ? sqrtf(energy_kept(m, wo.z)) : 1;
     Spectrum through = facet_through(m, &b, wo.z);
     if (m->clearcoat > 0) {
-        float      open = coat_open(m, wo);
+        float open = coat_open(m, wo);
         SheetFaces faces = facet_sheet(m, &b, wo.z);
-        Spectrum   turned = sheet_turns(&faces, 1 - open).through;
+        Spectrum turned = sheet_turns(&faces, 1 - open).through;
         through = coat_mixed(m, through, turned * spectrum_all(clear_share(m) * open * open));
     }
     return through * spectrum_all(kept * kept);
@@ -182,28 +176,25 @@ static Spectrum model_pass(const void *parameters, Vec3 wo)
 
 /* ---- a direction ------------------------------------------------------------------------- */
 
-static bool sample_smooth(BsdfSample *sample, Vec3 wi, Spectrum value, float prob)
-{
-    *sample = (BsdfSample){.wi = wi, .weight = value / spectrum_all(prob), .pdf = prob,
-                           .is_delta = true};
+static bool sample_smooth(BsdfSample *sample, Vec3 wi, Spectrum value, float prob) {
+    *sample =
+        (BsdfSample){.wi = wi, .weight = value / spectrum_all(prob), .pdf = prob, .is_delta = true};
     return true;
 }
 
 /* The smooth coat's mirror image, about the coat's own normal. */
-static bool sample_smooth_coat(const MetallicView *view, BsdfSample *sample)
-{
+static bool sample_smooth_coat(const MetallicView *view, BsdfSample *sample) {
     const MetallicRoughness *m = view->m;
-    Vec3  wo = view->wo;
+    Vec3 wo = view->wo;
     float cosine = vec3_dot(m->clearcoat_normal, wo);
-    Vec3  wi = vec3_sub(vec3_scale(m->clearcoat_normal, 2 * cosine), wo);
+    Vec3 wi = vec3_sub(vec3_scale(m->clearcoat_normal, 2 * cosine), wo);
     float value = m->clearcoat * coat_facet(cosine) * coat_tilt(m, wo, wi);
     if (!(value > 0)) return false;
     /* Tilted cosines: the lobe is per cosine to the coat, the surface's cosine carries it. */
     return sample_smooth(sample, wi, spectrum_all(value * wi.z / cosine), view->choices.coat);
 }
 
-static bool sample_smooth_base(const MetallicView *view, BsdfSample *sample)
-{
+static bool sample_smooth_base(const MetallicView *view, BsdfSample *sample) {
     Vec3 wi = vec3(-view->wo.x, -view->wo.y, view->wo.z);
     return sample_smooth(sample, wi, eval_smooth(view, wi), view->choices.mirror);
 }
@@ -220,10 +211,9 @@ typedef enum Part {
 
 /* Chooses the part that u falls on; u becomes the place inside it: so directions of every part
  * are spread as well as their share of u is. */
-static Part choose_part(const MetallicChoices *choices, float *u)
-{
-    const float prob[] = {choices->coat, choices->mirror, choices->diffuse, choices->through,
-                          choices->across, choices->overlay};
+static Part choose_part(const MetallicChoices *choices, float *u) {
+    const float prob[] = {choices->coat,    choices->mirror, choices->diffuse,
+                          choices->through, choices->across, choices->overlay};
     for (int part = 0; part < PART_NONE; part++) {
         if (*u < prob[part]) {
             *u = fminf(*u / prob[part], 0x1.fffffep-1f);
@@ -234,49 +224,42 @@ static Part choose_part(const MetallicChoices *choices, float *u)
     return PART_NONE;
 }
 
-static Vec3 anywhere_above(float u0, float u1)
-{
+static Vec3 anywhere_above(float u0, float u1) {
     float sine, cosine, side = safe_sqrtf(1 - u1 * u1);
     sincos_turns(u0, &sine, &cosine);
     return vec3(side * cosine, side * sine, u1);
 }
 
-static Vec3 turned_over(Vec3 w)
-{
+static Vec3 turned_over(Vec3 w) {
     return vec3(w.x, w.y, -w.z);
 }
 
 /* A direction by the rough coat, the rough mirror, the Lambert base, overlay or rough sheet. */
-static Vec3 sample_rough(const MetallicView *view, Part part, const float u[3])
-{
+static Vec3 sample_rough(const MetallicView *view, Part part, const float u[3]) {
     const MetallicRoughness *m = view->m;
     if (part == PART_COAT) {
         Frame frame = frame_from_z(m->clearcoat_normal);
-        Vec3  out = frame_to_local(&frame, view->wo);
-        return frame_to_world(&frame,
-                              ggx_sample_reflection(out, m->clearcoat_alpha, u[0], u[1]));
+        Vec3 out = frame_to_local(&frame, view->wo);
+        return frame_to_world(&frame, ggx_sample_reflection(out, m->clearcoat_alpha, u[0], u[1]));
     }
     if (part == PART_MIRROR) return base_sample(m, view->wo, u[0], u[1]);
     if (part == PART_DIFFUSE) return microfacet_cosine(u[0], u[1]);
     if (part == PART_OVERLAY) return anywhere_above(u[0], u[1]);
     if (part == PART_ACROSS) return turned_over(microfacet_cosine(u[0], u[1]));
     bool by_facet = u[2] < view->energy.all;
-    Vec3 up = by_facet ? base_sample(m, view->wo, u[0], u[1])
-                       : microfacet_cosine(u[0], u[1]);
+    Vec3 up = by_facet ? base_sample(m, view->wo, u[0], u[1]) : microfacet_cosine(u[0], u[1]);
     return turned_over(up);
 }
 
-static bool model_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
-{
+static bool model_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample) {
     const MetallicRoughness *m = parameters;
     if (!(wo.z > 0)) return false;
     MetallicView own;
     const MetallicView *view = metallic_seen(m, wo, &own);
     float v[3] = {u[0], u[1], u[2]};
-    Part  part = choose_part(&view->choices, &v[0]);
+    Part part = choose_part(&view->choices, &v[0]);
     if (part == PART_NONE) return false;
-    if (part == PART_COAT && is_smooth(m->clearcoat_alpha))
-        return sample_smooth_coat(view, sample);
+    if (part == PART_COAT && is_smooth(m->clearcoat_alpha)) return sample_smooth_coat(view, sample);
     if (part == PART_MIRROR && is_smooth(m->alpha)) return sample_smooth_base(view, sample);
     if (part == PART_THROUGH && is_smooth(m->alpha)) {
         sample_smooth(sample, vec3_neg(wo), model_pass(m, wo), view->choices.through);
@@ -284,7 +267,7 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
     }
     Vec3 wi = sample_rough(view, part, v);
     if (!(part == PART_THROUGH || part == PART_ACROSS ? wi.z < 0 : wi.z > 0)) return false;
-    float    pdf;
+    float pdf;
     Spectrum f = eval_all(view, wi, &pdf);
     if (!(pdf > 0)) return false;
     *sample = (BsdfSample){.wi = wi, .weight = f * spectrum_all(fabsf(wi.z) / pdf), .pdf = pdf};
@@ -293,8 +276,7 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
 
 /* ---- for choosing where to look ---------------------------------------------------------- */
 
-static void model_facts(const void *parameters, BsdfFacts *facts)
-{
+static void model_facts(const void *parameters, BsdfFacts *facts) {
     const MetallicRoughness *m = parameters;
     bool has_base = (1 - m->metallic) * (1 - m->transmission) > 0;
     bool has_coat = m->clearcoat > 0 && !is_smooth(m->clearcoat_alpha);
@@ -304,8 +286,7 @@ static void model_facts(const void *parameters, BsdfFacts *facts)
 }
 
 /* f0 of the non-metal and of the metal, and what the face sends back in all. */
-static void lobe_shares(const MetallicView *view, float *nonmetal, float *metal, float *face)
-{
+static void lobe_shares(const MetallicView *view, float *nonmetal, float *metal, float *face) {
     const MetallicRoughness *m = view->m;
     Energy e = view->energy;
     *metal = spectrum_mean(m->base_color);
@@ -314,15 +295,13 @@ static void lobe_shares(const MetallicView *view, float *nonmetal, float *metal,
     if (coated_metal(m))
         *metal = spectrum_mean(coating_at(m->coating->metal->front, m->wavelengths, 1));
     if (!coated_face(m)) return;
-    *nonmetal = m->specular *
-                spectrum_mean(coating_at(m->coating->face->front, m->wavelengths, 1));
+    *nonmetal = m->specular * spectrum_mean(coating_at(m->coating->face->front, m->wavelengths, 1));
     *face = spectrum_mean(view->coated);
 }
 
 /* A rough coat is left out: it is rare. Where light crosses there are none: lobes are on wo's
  * side, and light from behind would be left to few samples. */
-static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
-{
+static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes) {
     const MetallicRoughness *m = parameters;
     if (!(wo.z > 0) || m->across > 0) return;
     MetallicView own;
@@ -335,9 +314,9 @@ static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
     if (has_overlay(m)) { /* it spreads light as widely */
         float left = 1 - overlay_most(&m->overlay) * view->overlay.albedo;
         lobes->prob += view->choices.overlay;
-        lobes->diffuse = lobes->diffuse * left +
-                         under * view->overlay.albedo *
-                             spectrum_mean(overlay_tint(&m->overlay, m->wavelengths));
+        lobes->diffuse =
+            lobes->diffuse * left +
+            under * view->overlay.albedo * spectrum_mean(overlay_tint(&m->overlay, m->wavelengths));
     }
     float alpha = is_brushed(m) ? sqrtf(m->alpha_along * m->alpha) : m->alpha;
     if (alpha < WIDE_ALPHA) return;
@@ -347,18 +326,16 @@ static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
     lobes->alpha = alpha;
 }
 
-static Spectrum sent_by(PaneLight pane)
-{
+static Spectrum sent_by(PaneLight pane) {
     return pane.reflected + pane.passed;
 }
 
 /* Of a rough one over some facets. */
-static Spectrum coated_pane_albedo(const MetallicRoughness *m, const MetallicFace *b, Vec3 wo)
-{
+static Spectrum coated_pane_albedo(const MetallicRoughness *m, const MetallicFace *b, Vec3 wo) {
     if (is_smooth(m->alpha)) return sent_by(facet_pane(m, b, wo.z));
     LobeFacets facets = lobe_facets(&common_facet_table, wo, facet_alphas(m));
-    Spectrum   sum = spectrum_all(0);
-    float      all = 1e-6f; /* what they hide is taken as they send the rest */
+    Spectrum sum = spectrum_all(0);
+    float all = 1e-6f; /* what they hide is taken as they send the rest */
     for (int i = 0; i < LOBE_FACETS; i++) {
         sum += sent_by(facet_pane(m, b, facet_cosine[i])) * spectrum_all(facets.weight[i]);
         all += facets.weight[i];
@@ -368,9 +345,8 @@ static Spectrum coated_pane_albedo(const MetallicRoughness *m, const MetallicFac
 
 /* The base's albedo by its shares: opaque, sheet, metal. */
 static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, Spectrum *clear,
-                         Spectrum *metal)
-{
-    Energy   e = base_energy(m, wo);
+                         Spectrum *metal) {
+    Energy e = base_energy(m, wo);
     MetallicFace b = boundary_of(m);
     Spectrum one = spectrum_all(1), in = let_in(&b, e), base = m->base_color;
     if (coated_face(m)) in = one - energy_coated(m, wo);
@@ -379,16 +355,15 @@ static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, S
         const MetallicView *view = metallic_seen(m, wo, &own);
         in = one - view->coated;
     }
-    *clear = coated_sheet(m) ? coated_pane_albedo(m, &b, wo) :
-                               sent_by(pane_between(one - in, one - in,
-                                                    pane_body(m->tint, wo.z, body_ior(m))));
+    *clear = coated_sheet(m)
+                 ? coated_pane_albedo(m, &b, wo)
+                 : sent_by(pane_between(one - in, one - in, pane_body(m->tint, wo.z, body_ior(m))));
     *solid = (one - in) + in * base_lambert_albedo(m);
     *metal = base + (one - base) * spectrum_all(e.shape);
     if (coated_metal(m) || has_film(m)) *metal = facet_metal_at(m, wo.z);
 }
 
-static Spectrum model_albedo(const void *parameters, Vec3 wo)
-{
+static Spectrum model_albedo(const void *parameters, Vec3 wo) {
     const MetallicRoughness *m = parameters;
     if (!(wo.z > 0)) return spectrum_all(0);
     Spectrum solid, clear, metal;
@@ -401,10 +376,9 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
                 mixed * spectrum_all(1 - overlay_most(&m->overlay) * own);
     }
     if (!(m->clearcoat > 0)) return mixed;
-    float    own = coat_albedo(m, wo) / m->clearcoat;
-    float    open = coat_mean(m->coat, m->alpha, m->clearcoat_alpha).open;
-    Spectrum coated = spectrum_all(own) + mixed * coat_turns(open, mixed) *
-                      spectrum_all(1 - own);
+    float own = coat_albedo(m, wo) / m->clearcoat;
+    float open = coat_mean(m->coat, m->alpha, m->clearcoat_alpha).open;
+    Spectrum coated = spectrum_all(own) + mixed * coat_turns(open, mixed) * spectrum_all(1 - own);
     return coat_mixed(m, mixed, coated);
 }
 
@@ -413,8 +387,7 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
 /* Adds the base's facets, met at `cosine`, which send `all` in sum. A metal without n, k is
  * taken for a perfect mirror. */
 static void add_facets(const MetallicView *view, float cosine, Spectrum all,
-                       PolarisedParts *parts)
-{
+                       PolarisedParts *parts) {
     static const Waves mirror = {1, 1, -1, 0};
     const MetallicRoughness *m = view->m;
     Spectrum nonmetal = facet_of_nonmetal(m, &view->boundary, cosine);
@@ -424,8 +397,7 @@ static void add_facets(const MetallicView *view, float cosine, Spectrum all,
     if (m->metallic > 0 && coating && coating->metal_waves)
         polarised_add_coated(parts, coating->metal_waves, m->wavelengths, fminf(cosine, 1),
                              share * metal);
-    else if (m->metallic > 0)
-        polarised_add(parts, mirror, share * metal);
+    else if (m->metallic > 0) polarised_add(parts, mirror, share * metal);
     if (!(m->metallic < 1)) return;
     if (coating && coating->glass_waves && !(m->transmission > 0)) {
         polarised_add_coated(parts, coating->glass_waves, m->wavelengths, fminf(cosine, 1),
@@ -438,27 +410,24 @@ static void add_facets(const MetallicView *view, float cosine, Spectrum all,
     Spectrum opaque = spectrum_all((1 - m->transmission) * (face.s + face.p));
     Spectrum clear = spectrum_all(0), both;
     if (m->transmission > 0)
-        clear = pane_between(spectrum_all(face.s), spectrum_all(face.p),
-                             pane.through).reflected * spectrum_all(2 * m->transmission);
+        clear = pane_between(spectrum_all(face.s), spectrum_all(face.p), pane.through).reflected *
+                spectrum_all(2 * m->transmission);
     both = spectrum_max(opaque + clear, spectrum_all(1e-30f));
     polarised_add(parts, face, share * nonmetal * opaque / both);
-    if (m->transmission > 0)
-        polarised_add_pane(parts, &pane, share * nonmetal * clear / both);
+    if (m->transmission > 0) polarised_add_pane(parts, &pane, share * nonmetal * clear / both);
 }
 
-static bool is_near(Vec3 a, Vec3 b)
-{
+static bool is_near(Vec3 a, Vec3 b) {
     Vec3 apart = vec3_sub(a, b);
     return vec3_dot(apart, apart) < 1e-6f;
 }
 
 /* The images that a smooth coat and a smooth base send along this way. */
-static void polarise_smooth(const MetallicView *view, Vec3 wi, PolarisedParts *parts)
-{
+static void polarise_smooth(const MetallicView *view, Vec3 wi, PolarisedParts *parts) {
     const MetallicRoughness *m = view->m;
     float cosine = vec3_dot(m->clearcoat_normal, view->wo);
-    Vec3  by_coat = vec3_sub(vec3_scale(m->clearcoat_normal, 2 * cosine), view->wo);
-    Vec3  by_base = vec3(-view->wo.x, -view->wo.y, view->wo.z);
+    Vec3 by_coat = vec3_sub(vec3_scale(m->clearcoat_normal, 2 * cosine), view->wo);
+    Vec3 by_base = vec3(-view->wo.x, -view->wo.y, view->wo.z);
     if (m->clearcoat > 0 && is_smooth(m->clearcoat_alpha) && is_near(by_coat, wi))
         polarised_add(parts, waves_reflected(clampf(cosine, 0, 1), CLEARCOAT_IOR),
                       spectrum_all(m->clearcoat * coat_facet(cosine)));
@@ -466,11 +435,10 @@ static void polarise_smooth(const MetallicView *view, Vec3 wi, PolarisedParts *p
         add_facets(view, view->wo.z, eval_smooth(view, wi), parts);
 }
 
-static void polarise_rough(const MetallicView *view, Vec3 wi, PolarisedParts *parts)
-{
+static void polarise_rough(const MetallicView *view, Vec3 wi, PolarisedParts *parts) {
     const MetallicRoughness *m = view->m;
-    Vec3    half = vec3_normalize(vec3_add(view->wo, wi));
-    float   pdf, cosine = fminf(fabsf(vec3_dot(view->wo, half)), 1);
+    Vec3 half = vec3_normalize(vec3_add(view->wo, wi));
+    float pdf, cosine = fminf(fabsf(vec3_dot(view->wo, half)), 1);
     ThroughCoat below;
     if (!is_smooth(m->alpha)) {
         if (m->clearcoat > 0) below = coat_through(m, wi);
@@ -482,21 +450,19 @@ static void polarise_rough(const MetallicView *view, Vec3 wi, PolarisedParts *pa
 }
 
 /* A rough sheet's straight light is taken for all that it lets through. */
-static bool polarise_through(const MetallicRoughness *m, Vec3 wo, BsdfPolarisation *out)
-{
+static bool polarise_through(const MetallicRoughness *m, Vec3 wo, BsdfPolarisation *out) {
     if (!(m->energy->ior >= 1)) return false;
     float cosine = fminf(wo.z, 1);
     PolarisedParts parts = {spectrum_all(0), spectrum_all(0), spectrum_all(0), spectrum_all(0)};
-    PolarisedPane  pane = {waves_reflected(cosine, m->energy->ior),
-                           pane_body(m->tint, cosine, body_ior(m)), true};
+    PolarisedPane pane = {waves_reflected(cosine, m->energy->ior),
+                          pane_body(m->tint, cosine, body_ior(m)), true};
     polarised_add_pane(&parts, &pane, spectrum_all(1));
     *out = polarised_of(&parts, spectrum_all(1));
     return true;
 }
 
 static bool model_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,
-                           BsdfPolarisation *out)
-{
+                           BsdfPolarisation *out) {
     const MetallicRoughness *m = parameters;
     PolarisedParts parts = {spectrum_all(0), spectrum_all(0), spectrum_all(0), spectrum_all(0)};
     if (!(wo.z > 0)) return false;

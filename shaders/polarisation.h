@@ -25,9 +25,8 @@ typedef struct Waves {
 
 /* A boundary of real index; eta, cosine as of fresnel_dielectric; eta 0: a perfect mirror.
  * Under total reflection both waves come back whole and out of step. */
-static inline Waves waves_reflected(float cosine, float eta)
-{
-    float   behind;
+static inline Waves waves_reflected(float cosine, float eta) {
+    float behind;
     Fresnel face = fresnel_dielectric(cosine, eta, &behind);
     if (!(eta > 0)) return (Waves){1, 1, -1, 0};
     float sine2 = (1 - cosine * cosine) / (eta * eta);
@@ -45,8 +44,7 @@ static inline Waves waves_reflected(float cosine, float eta)
                    2 * real * imaginary / size2};
 }
 
-static inline Waves waves_through(float cosine, float eta)
-{
+static inline Waves waves_through(float cosine, float eta) {
     Fresnel face = fresnel_dielectric(cosine, eta, NULL);
     return (Waves){1 - face.s, 1 - face.p, sqrtf((1 - face.s) * (1 - face.p)), 0};
 }
@@ -57,8 +55,7 @@ typedef struct PolarisedParts {
     Spectrum share, difference, along, turned;
 } PolarisedParts;
 
-static inline void polarised_add(PolarisedParts *sum, Waves w, Spectrum share)
-{
+static inline void polarised_add(PolarisedParts *sum, Waves w, Spectrum share) {
     float mean = 0.5f * (w.s + w.p), scale = mean > 0 ? 1 / mean : 0;
     sum->share += share;
     sum->difference += share * spectrum_all(0.5f * (w.s - w.p) * scale);
@@ -69,20 +66,18 @@ static inline void polarised_add(PolarisedParts *sum, Waves w, Spectrum share)
 /* A bare pane: one face as it is met, what the body lets through once, and whether the light
  * goes on through it. All orders, whose fields add up by their shares. */
 typedef struct PolarisedPane {
-    Waves    face;
+    Waves face;
     Spectrum through;
-    bool     passes;
+    bool passes;
 } PolarisedPane;
 
 /* The same; what s and p send, and the mean of a_s and the conjugate of a_p. */
 static inline void polarised_add_pane(PolarisedParts *sum, const PolarisedPane *pane,
-                                      Spectrum share)
-{
-    Waves    face = pane->face;
+                                      Spectrum share) {
+    Waves face = pane->face;
     Spectrum r_s = spectrum_all(face.s), r_p = spectrum_all(face.p), t = pane->through;
     Spectrum half = spectrum_all(0.5f), s, p, along = spectrum_all(face.along);
-    Spectrum lets = spectrum_all((1 - face.s) * (1 - face.p)) *
-                    pane_turns(along * along * t * t);
+    Spectrum lets = spectrum_all((1 - face.s) * (1 - face.p)) * pane_turns(along * along * t * t);
     s = pane->passes ? pane_passes(r_s, r_s, t) : pane_reflects(r_s, r_s, t);
     p = pane->passes ? pane_passes(r_p, r_p, t) : pane_reflects(r_p, r_p, t);
     along = pane->passes ? lets * t : along + along * lets * t * t;
@@ -95,8 +90,7 @@ static inline void polarised_add_pane(PolarisedParts *sum, const PolarisedPane *
 /* The same of a coated boundary or a metal, met at `cosine`. */
 static inline void polarised_add_coated(PolarisedParts *sum, const CoatingWaves *waves,
                                         const Wavelengths *wavelengths, float cosine,
-                                        Spectrum share)
-{
+                                        Spectrum share) {
     Spectrum s = coating_at(waves->s, wavelengths, cosine);
     Spectrum p = coating_at(waves->p, wavelengths, cosine), half = spectrum_all(0.5f);
     Spectrum per = share / spectrum_max(half * (s + p), spectrum_all(1e-30f));
@@ -107,15 +101,13 @@ static inline void polarised_add_coated(PolarisedParts *sum, const CoatingWaves 
 }
 
 /* all: what the surface scatters there in all, polarised or not. */
-static inline BsdfPolarisation polarised_of(const PolarisedParts *sum, Spectrum all)
-{
+static inline BsdfPolarisation polarised_of(const PolarisedParts *sum, Spectrum all) {
     Spectrum over = spectrum_all(1) / spectrum_max(all, spectrum_all(1e-30f));
     return (BsdfPolarisation){sum->difference * over, sum->share * over, sum->along * over,
                               sum->turned * over};
 }
 
-static inline BsdfPolarisation polarised_by(Waves w)
-{
+static inline BsdfPolarisation polarised_by(Waves w) {
     PolarisedParts one = {spectrum_all(0), spectrum_all(0), spectrum_all(0), spectrum_all(0)};
     polarised_add(&one, w, spectrum_all(1));
     return polarised_of(&one, spectrum_all(1));

@@ -9,11 +9,11 @@
 
 /* A smooth sheet with two parallel faces: a mirror image, and light straight through. */
 typedef struct ThinWindow {
-    Spectrum tint; /* [0, 1]: what the sheet's body lets through along its normal */
-    float    ior;  /* over that of the medium about it */
-    const PaneCoating *coating;      /* NULL: bare */
-    const Wavelengths *wavelengths;  /* NULL where it is bare */
-    bool     front_is_met;           /* of a coated one: on wo's side */
+    Spectrum tint;              /* [0, 1]: what the sheet's body lets through along its normal */
+    float ior;                  /* over that of the medium about it */
+    const PaneCoating *coating; /* NULL: bare */
+    const Wavelengths *wavelengths; /* NULL where it is bare */
+    bool front_is_met;              /* of a coated one: on wo's side */
 } ThinWindow;
 
 Spectrum thin_window_reflectance(const ThinWindow *window, float cosine);

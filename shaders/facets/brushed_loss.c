@@ -22,7 +22,7 @@ typedef struct BrushedDetail {
 /* Fourth roots; one node where first is last. */
 typedef struct BrushedAxis {
     float first, last;
-    int   count;
+    int count;
 } BrushedAxis;
 
 typedef struct BrushedSide {
@@ -33,8 +33,8 @@ typedef struct BrushedSide {
 struct BrushedLoss {
     BrushedAxis alpha, ratio, mean_alpha, mean_ratio;
     BrushedDetail detail;
-    int         width;
-    float      *flux; /* on the means' axes */
+    int width;
+    float *flux;         /* on the means' axes */
     BrushedSide side[2]; /* outside, inside */
 };
 
@@ -51,20 +51,18 @@ typedef struct FacetSum {
 
 /* Light from wo; length: of wo stretched by alpha. */
 typedef struct BrushedEye {
-    Vec3  wo;
-    Vec2  alpha;
+    Vec3 wo;
+    Vec2 alpha;
     float length, eta;
-    int   width;
+    int width;
 } BrushedEye;
 
-static Spectrum root_of(Spectrum a)
-{
+static Spectrum root_of(Spectrum a) {
     for (int i = 0; i < SPECTRUM_LANES; i++) a[i] = sqrtf(a[i]);
     return a;
 }
 
-static Spectrum stretched_length(Ways w, Vec2 alpha)
-{
+static Spectrum stretched_length(Ways w, Vec2 alpha) {
     Spectrum x = spectrum_all(alpha.x) * w.x, y = spectrum_all(alpha.y) * w.y;
     return root_of(x * x + y * y + w.z * w.z);
 }
@@ -76,12 +74,11 @@ typedef struct LatticePoints {
     Spectrum x, y; /* of a circle */
 } LatticePoints;
 
-static const LatticePoints *lattice_of(int points, Arena *arena)
-{
+static const LatticePoints *lattice_of(int points, Arena *arena) {
     LatticePoints *out = ARENA_NEW(arena, LatticePoints, points / SPECTRUM_LANES);
     for (int i = 0; i < points; i++) {
         double turn = i * 0.6180339887498949;
-        float  sine, cosine;
+        float sine, cosine;
         LatticePoints *to = &out[i / SPECTRUM_LANES];
         int lane = i % SPECTRUM_LANES;
         sincos_turns((float)(turn - (int)turn), &sine, &cosine);
@@ -93,25 +90,21 @@ static const LatticePoints *lattice_of(int points, Arena *arena)
 }
 
 /* As brushed_sample_visible. */
-static Ways visible_facets(const BrushedEye *eye, const LatticePoints *u)
-{
-    Vec2     a = eye->alpha;
-    Vec3     wo = vec3_scale(vec3(a.x * eye->wo.x, a.y * eye->wo.y, eye->wo.z),
-                             1 / eye->length);
+static Ways visible_facets(const BrushedEye *eye, const LatticePoints *u) {
+    Vec2 a = eye->alpha;
+    Vec3 wo = vec3_scale(vec3(a.x * eye->wo.x, a.y * eye->wo.y, eye->wo.z), 1 / eye->length);
     Spectrum z = u->rest * u->rest * spectrum_all(1 + wo.z) - spectrum_all(wo.z);
     Spectrum radius = root_of(spectrum_max(spectrum_all(1) - z * z, spectrum_all(0)));
-    Ways     h = {spectrum_all(a.x) * (spectrum_all(wo.x) + radius * u->x),
-                  spectrum_all(a.y) * (spectrum_all(wo.y) + radius * u->y),
-                  spectrum_max(z + spectrum_all(wo.z), spectrum_all(0))};
-    Spectrum size = root_of(spectrum_max(h.x * h.x + h.y * h.y + h.z * h.z,
-                                         spectrum_all(1e-30f)));
+    Ways h = {spectrum_all(a.x) * (spectrum_all(wo.x) + radius * u->x),
+              spectrum_all(a.y) * (spectrum_all(wo.y) + radius * u->y),
+              spectrum_max(z + spectrum_all(wo.z), spectrum_all(0))};
+    Spectrum size = root_of(spectrum_max(h.x * h.x + h.y * h.y + h.z * h.z, spectrum_all(1e-30f)));
     return (Ways){h.x / size, h.y / size, h.z / size};
 }
 
 /* G2 / G1 of light that visible facets send towards wi; z: of wi to its side, none where it is
  * not above 0. */
-static Spectrum passed_on(const BrushedEye *eye, Ways wi, Spectrum z)
-{
+static Spectrum passed_on(const BrushedEye *eye, Ways wi, Spectrum z) {
     Spectrum above = spectrum_max(z, spectrum_all(0));
     Spectrum masked = spectrum_all(eye->wo.z) * stretched_length(wi, eye->alpha) +
                       above * spectrum_all(eye->length);
@@ -119,8 +112,7 @@ static Spectrum passed_on(const BrushedEye *eye, Ways wi, Spectrum z)
 }
 
 /* facet_polynomials, of 16 facets. */
-static void add_lost(FacetSum *sum, Spectrum cosine, Spectrum reflected, Spectrum through)
-{
+static void add_lost(FacetSum *sum, Spectrum cosine, Spectrum reflected, Spectrum through) {
     for (int k = 0; k < LOBE_FACETS; k++) {
         Spectrum at = spectrum_all(1);
         for (int j = 0; j < LOBE_FACETS; j++)
@@ -132,8 +124,7 @@ static void add_lost(FacetSum *sum, Spectrum cosine, Spectrum reflected, Spectru
     }
 }
 
-static void add_facets(const BrushedEye *eye, Ways h, Spectrum share, FacetSum *sum)
-{
+static void add_facets(const BrushedEye *eye, Ways h, Spectrum share, FacetSum *sum) {
     const Spectrum one = spectrum_all(1), none = spectrum_all(0), two = spectrum_all(2);
     Spectrum ox = spectrum_all(eye->wo.x), oy = spectrum_all(eye->wo.y);
     Spectrum oz = spectrum_all(eye->wo.z), eta = spectrum_all(eye->eta);
@@ -145,9 +136,9 @@ static void add_facets(const BrushedEye *eye, Ways h, Spectrum share, FacetSum *
     Spectrum s = (cosine - eta * behind) / (cosine + eta * behind);
     Spectrum p = (eta * cosine - behind) / (eta * cosine + behind);
     Spectrum mirror = spectrum_select(bends, spectrum_all(0.5f) * (s * s + p * p), one);
-    Ways     back = {to * h.x - ox, to * h.y - oy, to * h.z - oz};
+    Ways back = {to * h.x - ox, to * h.y - oy, to * h.z - oz};
     Spectrum along = cosine * over - behind;
-    Ways     on = {along * h.x - over * ox, along * h.y - over * oy, along * h.z - over * oz};
+    Ways on = {along * h.x - over * ox, along * h.y - over * oy, along * h.z - over * oz};
     Spectrum is_sent = passed_on(eye, back, back.z), passes = passed_on(eye, on, none - on.z);
     Spectrum through = spectrum_select(bends, (one - mirror) * passes, none);
     sum->value[0] += share * (one - mirror * is_sent - through);
@@ -160,8 +151,7 @@ static void add_facets(const BrushedEye *eye, Ways h, Spectrum share, FacetSum *
 
 /* For light from a direction in the medium against which the other's index is eta. */
 static void fill_node(const BrushedEye *eye, const LatticePoints *lattice, int points,
-                      float *node)
-{
+                      float *node) {
     FacetSum sum = {{{0}}};
     for (int i = 0; i < points / SPECTRUM_LANES; i++)
         add_facets(eye, visible_facets(eye, &lattice[i]),
@@ -171,13 +161,11 @@ static void fill_node(const BrushedEye *eye, const LatticePoints *lattice, int p
 
 /* ---- axes ------------------------------------------------------------------------------- */
 
-static float fourth_root(float a)
-{
+static float fourth_root(float a) {
     return sqrtf(sqrtf(a));
 }
 
-static BrushedAxis axis_of(float least, float most, float step)
-{
+static BrushedAxis axis_of(float least, float most, float step) {
     float first = fourth_root(least), last = fourth_root(most);
     if (!(last - first > 1e-6f)) return (BrushedAxis){first, first, 1};
     int count = (int)((last - first) / step) + 2;
@@ -185,29 +173,25 @@ static BrushedAxis axis_of(float least, float most, float step)
 }
 
 /* The same axis with nodes half-way between. */
-static BrushedAxis finer(BrushedAxis axis)
-{
+static BrushedAxis finer(BrushedAxis axis) {
     axis.count = 2 * axis.count - 1;
     return axis;
 }
 
-static float axis_value(BrushedAxis axis, int node)
-{
+static float axis_value(BrushedAxis axis, int node) {
     if (axis.count == 1) return axis.first * axis.first * axis.first * axis.first;
     float root = lerpf(axis.first, axis.last, (float)node / (float)(axis.count - 1));
     return fminf(root * root * root * root, 1);
 }
 
-static FacetKnot axis_knot(BrushedAxis axis, float value)
-{
+static FacetKnot axis_knot(BrushedAxis axis, float value) {
     if (axis.count == 1) return (FacetKnot){0, 1, {1, 0, 0, 0}};
     return facet_knot((fourth_root(value) - axis.first) / (axis.last - axis.first), axis.count);
 }
 
 /* ---- looking up ------------------------------------------------------------------------- */
 
-static void add_node(float *sum, const float *node, int count, float share)
-{
+static void add_node(float *sum, const float *node, int count, float share) {
     for (int k = 0; k < count; k++) sum[k] += share * node[k];
 }
 
@@ -216,8 +200,7 @@ typedef struct DirectionKnots {
     FacetKnot turn, cosine;
 } DirectionKnots;
 
-static DirectionKnots direction_knots(const BrushedLoss *t, Vec3 w, Vec2 alpha)
-{
+static DirectionKnots direction_knots(const BrushedLoss *t, Vec3 w, Vec2 alpha) {
     float own = facet_own(w, alpha);
     return (DirectionKnots){facet_knot(facet_turn(own, alpha), t->detail.azimuths),
                             facet_knot(facet_axis(w.z, own), t->detail.cosines)};
@@ -225,8 +208,7 @@ static DirectionKnots direction_knots(const BrushedLoss *t, Vec3 w, Vec2 alpha)
 
 /* Adds the first `count` numbers of the nodes of one pair. */
 static void add_direction(const BrushedLoss *t, const float *pair, const DirectionKnots *at,
-                          float share, float *sum, int count)
-{
+                          float share, float *sum, int count) {
     for (int i = 0; i < 16; i++) {
         int row = at->turn.first + (i >> 2), column = at->cosine.first + (i & 3);
         int place = row * t->detail.cosines + column;
@@ -238,39 +220,34 @@ static void add_direction(const BrushedLoss *t, const float *pair, const Directi
 /* The neighbours of a pair of alphas. */
 typedef struct PairKnots {
     FacetKnot alpha, ratio;
-    int       ratios;
+    int ratios;
 } PairKnots;
 
-static PairKnots pair_knots(BrushedAxis alphas, BrushedAxis ratios, Vec2 alpha)
-{
+static PairKnots pair_knots(BrushedAxis alphas, BrushedAxis ratios, Vec2 alpha) {
     float high = fmaxf(alpha.x, alpha.y), low = fminf(alpha.x, alpha.y);
     return (PairKnots){axis_knot(alphas, high), axis_knot(ratios, low / high), ratios.count};
 }
 
-static int pair_count(const PairKnots *pairs)
-{
+static int pair_count(const PairKnots *pairs) {
     return pairs->alpha.count * pairs->ratio.count;
 }
 
 /* Its place among all, and its share. */
-static int pair_at(const PairKnots *pairs, int i, float *share)
-{
+static int pair_at(const PairKnots *pairs, int i, float *share) {
     int a = i / pairs->ratio.count, r = i % pairs->ratio.count;
     *share = pairs->alpha.share[a] * pairs->ratio.share[r];
     return (pairs->alpha.first + a) * pairs->ratios + pairs->ratio.first + r;
 }
 
-static int pair_size(const BrushedLoss *t)
-{
+static int pair_size(const BrushedLoss *t) {
     return t->detail.azimuths * t->detail.cosines * t->width;
 }
 
 static void read_lost(const BrushedLoss *t, bool is_inside, Vec3 w, Vec2 alpha, float *sum,
-                      int count)
-{
-    PairKnots      pairs = pair_knots(t->alpha, t->ratio, alpha);
+                      int count) {
+    PairKnots pairs = pair_knots(t->alpha, t->ratio, alpha);
     DirectionKnots at = direction_knots(t, w, alpha);
-    float          share;
+    float share;
     for (int i = 0; i < pair_count(&pairs); i++) {
         int place = pair_at(&pairs, i, &share) * pair_size(t);
         add_direction(t, t->side[is_inside].node + place, &at, share, sum, count);
@@ -278,19 +255,17 @@ static void read_lost(const BrushedLoss *t, bool is_inside, Vec3 w, Vec2 alpha, 
 }
 
 /* Reads a table on the means' axes: the first `count` of each node's `width` numbers. */
-static void read_mean(const BrushedLoss *t, const float *table, int width, Vec2 alpha,
-                      float *sum, int count)
-{
+static void read_mean(const BrushedLoss *t, const float *table, int width, Vec2 alpha, float *sum,
+                      int count) {
     PairKnots pairs = pair_knots(t->mean_alpha, t->mean_ratio, alpha);
-    float     share;
+    float share;
     for (int i = 0; i < pair_count(&pairs); i++) {
         int place = pair_at(&pairs, i, &share);
         add_node(sum, table + place * width, count, share);
     }
 }
 
-SolidLost brushed_lost(const BrushedLoss *table, bool is_inside, Vec3 w, Vec2 alpha)
-{
+SolidLost brushed_lost(const BrushedLoss *table, bool is_inside, Vec3 w, Vec2 alpha) {
     float lost = 0, mean = 0, flux = 0;
     read_lost(table, is_inside, w, alpha, &lost, 1);
     read_mean(table, table->side[is_inside].mean, table->width, alpha, &mean, 1);
@@ -298,8 +273,7 @@ SolidLost brushed_lost(const BrushedLoss *table, bool is_inside, Vec3 w, Vec2 al
     return (SolidLost){clampf(lost, 0, 1), fmaxf(mean, 0), fmaxf(flux, 0)};
 }
 
-static LostFacets facets_of(const float node[MOST_WIDTH])
-{
+static LostFacets facets_of(const float node[MOST_WIDTH]) {
     LostFacets out;
     for (int k = 0; k < LOBE_FACETS; k++) {
         out.reflected[k] = node[BARE_WIDTH + k];
@@ -308,15 +282,13 @@ static LostFacets facets_of(const float node[MOST_WIDTH])
     return out;
 }
 
-LostFacets brushed_lost_facets(const BrushedLoss *table, bool is_inside, Vec3 w, Vec2 alpha)
-{
+LostFacets brushed_lost_facets(const BrushedLoss *table, bool is_inside, Vec3 w, Vec2 alpha) {
     float node[MOST_WIDTH] = {0};
     read_lost(table, is_inside, w, alpha, node, table->width);
     return facets_of(node);
 }
 
-LostFacets brushed_mean_facets(const BrushedLoss *table, bool is_inside, Vec2 alpha)
-{
+LostFacets brushed_mean_facets(const BrushedLoss *table, bool is_inside, Vec2 alpha) {
     float node[MOST_WIDTH] = {0};
     read_mean(table, table->side[is_inside].mean, table->width, alpha, node, table->width);
     return facets_of(node);
@@ -324,22 +296,20 @@ LostFacets brushed_mean_facets(const BrushedLoss *table, bool is_inside, Vec2 al
 
 /* ---- tables ----------------------------------------------------------------------------- */
 
-static Vec2 pair_of(BrushedAxis alphas, BrushedAxis ratios, int place)
-{
+static Vec2 pair_of(BrushedAxis alphas, BrushedAxis ratios, int place) {
     float high = axis_value(alphas, place / ratios.count);
     float low = high * axis_value(ratios, place % ratios.count);
     return (Vec2){high, low};
 }
 
-static void fill_pair(const BrushedLoss *t, Vec2 alpha, float eta,
-                      const LatticePoints *lattice, float *node)
-{
+static void fill_pair(const BrushedLoss *t, Vec2 alpha, float eta, const LatticePoints *lattice,
+                      float *node) {
     BrushedEye eye = {.alpha = alpha, .eta = eta, .width = t->width};
     for (int i = 0; i < t->detail.azimuths * t->detail.cosines; i++) {
         float turn = (float)(i / t->detail.cosines) / (float)(t->detail.azimuths - 1);
         float own = lerpf(alpha.y, alpha.x, turn * turn);
         float place = (float)(i % t->detail.cosines) / (float)(t->detail.cosines - 1);
-        Vec3  wo = facet_direction(facet_axis_cosine(place, own), own, alpha);
+        Vec3 wo = facet_direction(facet_axis_cosine(place, own), own, alpha);
         eye.wo = wo;
         eye.length = vec3_length(vec3(alpha.x * wo.x, alpha.y * wo.y, wo.z));
         fill_node(&eye, lattice, t->detail.points, node + i * t->width);
@@ -349,9 +319,8 @@ static void fill_pair(const BrushedLoss *t, Vec2 alpha, float eta,
 /* Fills the means of one pair on the means' axes. pair: memory for a table of one pair. Evenly
  * in the cosine's fourth root: what narrow lobes lose they lose at grazing. */
 static void fill_mean(const BrushedLoss *t, const float *node, Vec2 alpha, float *pair,
-                      float *mean)
-{
-    float     all = 0, share;
+                      float *mean) {
+    float all = 0, share;
     PairKnots pairs = pair_knots(t->alpha, t->ratio, alpha);
     for (int k = 0; k < pair_size(t); k++) pair[k] = 0;
     for (int i = 0; i < pair_count(&pairs); i++) {
@@ -369,13 +338,12 @@ static void fill_mean(const BrushedLoss *t, const float *node, Vec2 alpha, float
     for (int k = 0; k < t->width; k++) mean[k] /= all;
 }
 
-static void fill_side(const BrushedLoss *t, float eta, BrushedSide *side, Arena *arena)
-{
+static void fill_side(const BrushedLoss *t, float eta, BrushedSide *side, Arena *arena) {
     int pairs = t->alpha.count * t->ratio.count, size = pair_size(t);
     int means = t->mean_alpha.count * t->mean_ratio.count;
     const LatticePoints *lattice = lattice_of(t->detail.points, arena);
     float *room = ARENA_NEW(arena, float, size);
-    side->node = ARENA_NEW(arena, float, pairs * size);
+    side->node = ARENA_NEW(arena, float, pairs *size);
     side->mean = ARENA_NEW(arena, float, means * t->width);
     for (int i = 0; i < pairs; i++)
         fill_pair(t, pair_of(t->alpha, t->ratio, i), eta, lattice, side->node + i * size);
@@ -385,23 +353,20 @@ static void fill_side(const BrushedLoss *t, float eta, BrushedSide *side, Arena 
 }
 
 /* As in solid_energy.c: as single facets let it across, as much as both sides allow. */
-static float flux_of(const float *outside, const float *inside, float ior)
-{
+static float flux_of(const float *outside, const float *inside, float ior) {
     return fminf(outside[1] / (1 - outside[0]) * outside[0],
                  inside[1] / (1 - inside[0]) * inside[0] * ior * ior);
 }
 
 /* As fine as half a second allows. */
-static BrushedDetail detail_of(int pairs)
-{
-    return pairs == 1  ? (BrushedDetail){49, 97, 1536} :
-           pairs <= 60 ? (BrushedDetail){19, 49, 512} :
-                         (BrushedDetail){17, 37, 320};
+static BrushedDetail detail_of(int pairs) {
+    return pairs == 1    ? (BrushedDetail){49, 97, 1536}
+           : pairs <= 60 ? (BrushedDetail){19, 49, 512}
+                         : (BrushedDetail){17, 37, 320};
 }
 
 const BrushedLoss *brushed_loss_build(float ior, BrushedRange range, bool has_facets,
-                                      Arena *arena)
-{
+                                      Arena *arena) {
     BrushedLoss *t = ARENA_NEW(arena, BrushedLoss, 1);
     t->alpha = axis_of(range.least, range.most, ALPHA_STEP);
     t->ratio = axis_of(range.least_ratio, range.most_ratio, RATIO_STEP);
@@ -414,7 +379,6 @@ const BrushedLoss *brushed_loss_build(float ior, BrushedRange range, bool has_fa
     int means = t->mean_alpha.count * t->mean_ratio.count;
     t->flux = ARENA_NEW(arena, float, means);
     for (int i = 0; i < means; i++)
-        t->flux[i] = flux_of(t->side[0].mean + i * t->width, t->side[1].mean + i * t->width,
-                             ior);
+        t->flux[i] = flux_of(t->side[0].mean + i * t->width, t->side[1].mean + i * t->width, ior);
     return t;
 }

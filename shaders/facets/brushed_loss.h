@@ -27,11 +27,10 @@ typedef struct BrushedRange {
 typedef struct BrushedLoss BrushedLoss;
 
 /* ior: as solid_energy_build. has_facets: for boundaries that are not bare, too. */
-const BrushedLoss *brushed_loss_build(float ior, BrushedRange range, bool has_facets,
-                                      Arena *arena);
+const BrushedLoss *brushed_loss_build(float ior, BrushedRange range, bool has_facets, Arena *arena);
 
 /* As solid_lost, solid_lost_facets and solid_mean_facets (solid_energy.h). w: a unit direction
  * with z > 0; alpha: of x and y, within the table's range. */
-SolidLost  brushed_lost(const BrushedLoss *table, bool is_inside, Vec3 w, Vec2 alpha);
+SolidLost brushed_lost(const BrushedLoss *table, bool is_inside, Vec3 w, Vec2 alpha);
 LostFacets brushed_lost_facets(const BrushedLoss *table, bool is_inside, Vec3 w, Vec2 alpha);
 LostFacets brushed_mean_facets(const BrushedLoss *table, bool is_inside, Vec2 alpha);

@@ -13,18 +13,16 @@ typedef struct HatRow {
     float all[ENERGY_COSINES], shape[ENERGY_COSINES];
 } HatRow;
 
-float coat_reflectance(const EnergyTable *coat, float cosine, float coat_alpha)
-{
-    float  f0 = fresnel_normal(coat->ior);
+float coat_reflectance(const EnergyTable *coat, float cosine, float coat_alpha) {
+    float f0 = fresnel_normal(coat->ior);
     Energy e = energy_directional(coat, cosine, coat_alpha);
     return f0 * e.all + (1 - f0) * e.shape;
 }
 
-static void add_to_hats(const EnergyLobe *lobe, HatRow *row)
-{
+static void add_to_hats(const EnergyLobe *lobe, HatRow *row) {
     float weight = lobe->weight / ENERGY_LOBE_POINTS;
     float place = safe_sqrtf(lobe->cosine) * (ENERGY_COSINES - 1);
-    int   low = place < ENERGY_COSINES - 1 ? (int)place : ENERGY_COSINES - 2;
+    int low = place < ENERGY_COSINES - 1 ? (int)place : ENERGY_COSINES - 2;
     float above = place - (float)low;
     row->all[low] += weight * (1 - above);
     row->all[low + 1] += weight * above;
@@ -32,8 +30,7 @@ static void add_to_hats(const EnergyLobe *lobe, HatRow *row)
     row->shape[low + 1] += weight * lobe->shape * above;
 }
 
-static void fill_lobe(const EnergyTable *base, int alpha_row, HatRow *rows)
-{
+static void fill_lobe(const EnergyTable *base, int alpha_row, HatRow *rows) {
     float alpha = energy_alpha_of_row(alpha_row, COAT_PER_OCTAVE);
     memset(rows, 0, ENERGY_COSINES * sizeof *rows);
     for (int from = 0; from < ENERGY_COSINES; from++) {
@@ -50,8 +47,7 @@ static void fill_lobe(const EnergyTable *base, int alpha_row, HatRow *rows)
     }
 }
 
-static float dot(const float *a, const float *b)
-{
+static float dot(const float *a, const float *b) {
     float sum = 0;
     for (int i = 0; i < ENERGY_COSINES; i++) sum += a[i] * b[i];
     return sum;
@@ -59,8 +55,7 @@ static float dot(const float *a, const float *b)
 
 /* u: the symmetric scaling of the lobe; each round takes the mean of the old and of what would
  * put the row right. */
-static void scale_lobe(const HatRow *rows, const float *open, const float *lobe, float *u)
-{
+static void scale_lobe(const HatRow *rows, const float *open, const float *lobe, float *u) {
     for (int i = 0; i < ENERGY_COSINES; i++) u[i] = sqrtf(open[i]);
     for (int round = 0; round < ROUNDS; round++) {
         float next[ENERGY_COSINES];
@@ -73,23 +68,20 @@ static void scale_lobe(const HatRow *rows, const float *open, const float *lobe,
 }
 
 /* Mean over the hemisphere of f t, f and t linear between nodes: 4 s^3 ds with cosine = s^2. */
-static float mean_of(const float *f, const float *t)
-{
+static float mean_of(const float *f, const float *t) {
     const int fine = 16;
-    double    sum = 0;
+    double sum = 0;
     for (int i = 0; i < fine * (ENERGY_COSINES - 1); i++) {
-        float  at = ((float)(i % fine) + 0.5f) / (float)fine;
+        float at = ((float)(i % fine) + 0.5f) / (float)fine;
         double s = (i + 0.5) / (fine * (ENERGY_COSINES - 1));
-        int    k = i / fine;
+        int k = i / fine;
         sum += 4 * s * s * s / (fine * (ENERGY_COSINES - 1)) *
                (double)(lerpf(f[k], f[k + 1], at) * lerpf(t[k], t[k + 1], at));
     }
     return (float)sum;
 }
 
-static void fill_pair(const EnergyTable *coat, const HatRow *rows, int a, int c,
-                      CoatTable *table)
-{
+static void fill_pair(const EnergyTable *coat, const HatRow *rows, int a, int c, CoatTable *table) {
     float own[ENERGY_COSINES], open[ENERGY_COSINES], u[ENERGY_COSINES], one[ENERGY_COSINES];
     float lobe[ENERGY_COSINES], all[ENERGY_COSINES], shape[ENERGY_COSINES];
     float coat_alpha = energy_alpha_of_row(c, COAT_PER_OCTAVE);
@@ -110,11 +102,9 @@ static void fill_pair(const EnergyTable *coat, const HatRow *rows, int a, int c,
                                    mean_of(shape, open)};
 }
 
-const CoatTable *coat_table_build(const EnergyTable *base, const EnergyTable *coat,
-                                  Arena *arena)
-{
+const CoatTable *coat_table_build(const EnergyTable *base, const EnergyTable *coat, Arena *arena) {
     CoatTable *table = ARENA_NEW(arena, CoatTable, 1);
-    HatRow   *rows = ARENA_NEW(arena, HatRow, ENERGY_COSINES);
+    HatRow *rows = ARENA_NEW(arena, HatRow, ENERGY_COSINES);
     table->ior = base->ior;
     for (int a = 0; a < COAT_ALPHAS; a++) {
         fill_lobe(base, a, rows);
@@ -125,37 +115,32 @@ const CoatTable *coat_table_build(const EnergyTable *base, const EnergyTable *co
 
 /* ---- looking up -------------------------------------------------------------------------- */
 
-static CoatShare mix_shares(CoatShare a, CoatShare b, float t)
-{
+static CoatShare mix_shares(CoatShare a, CoatShare b, float t) {
     return (CoatShare){lerpf(a.boost, b.boost, t), lerpf(a.all, b.all, t),
                        lerpf(a.shape, b.shape, t)};
 }
 
-static CoatShare share_of_rows(const CoatShare row[ENERGY_COSINES], EnergyKnot c)
-{
+static CoatShare share_of_rows(const CoatShare row[ENERGY_COSINES], EnergyKnot c) {
     return mix_shares(row[c.low], row[c.low + 1], c.t);
 }
 
-CoatShare coat_share(const CoatTable *table, float cosine, float alpha, float coat_alpha)
-{
+CoatShare coat_share(const CoatTable *table, float cosine, float alpha, float coat_alpha) {
     EnergyKnot a = energy_alpha_knot(alpha, COAT_PER_OCTAVE);
     EnergyKnot k = energy_alpha_knot(coat_alpha, COAT_PER_OCTAVE);
     EnergyKnot c = energy_cosine_knot(cosine, ENERGY_COSINES);
-    CoatShare  below = mix_shares(share_of_rows(table->share[a.low][k.low], c),
-                                  share_of_rows(table->share[a.low][k.low + 1], c), k.t);
-    CoatShare  above = mix_shares(share_of_rows(table->share[a.low + 1][k.low], c),
-                                  share_of_rows(table->share[a.low + 1][k.low + 1], c), k.t);
+    CoatShare below = mix_shares(share_of_rows(table->share[a.low][k.low], c),
+                                 share_of_rows(table->share[a.low][k.low + 1], c), k.t);
+    CoatShare above = mix_shares(share_of_rows(table->share[a.low + 1][k.low], c),
+                                 share_of_rows(table->share[a.low + 1][k.low + 1], c), k.t);
     return mix_shares(below, above, a.t);
 }
 
-static CoatMean mix_means(CoatMean a, CoatMean b, float t)
-{
-    return (CoatMean){lerpf(a.open, b.open, t), lerpf(a.lobe, b.lobe, t),
-                      lerpf(a.all, b.all, t), lerpf(a.shape, b.shape, t)};
+static CoatMean mix_means(CoatMean a, CoatMean b, float t) {
+    return (CoatMean){lerpf(a.open, b.open, t), lerpf(a.lobe, b.lobe, t), lerpf(a.all, b.all, t),
+                      lerpf(a.shape, b.shape, t)};
 }
 
-CoatMean coat_mean(const CoatTable *table, float alpha, float coat_alpha)
-{
+CoatMean coat_mean(const CoatTable *table, float alpha, float coat_alpha) {
     EnergyKnot a = energy_alpha_knot(alpha, COAT_PER_OCTAVE);
     EnergyKnot k = energy_alpha_knot(coat_alpha, COAT_PER_OCTAVE);
     const CoatMean *below = table->mean[a.low], *above = table->mean[a.low + 1];
@@ -163,7 +148,6 @@ CoatMean coat_mean(const CoatTable *table, float alpha, float coat_alpha)
                      mix_means(above[k.low], above[k.low + 1], k.t), a.t);
 }
 
-Spectrum coat_turns(float open, Spectrum albedo)
-{
+Spectrum coat_turns(float open, Spectrum albedo) {
     return spectrum_all(open) / (spectrum_all(1) - albedo * spectrum_all(1 - open));
 }

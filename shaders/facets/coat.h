@@ -26,14 +26,14 @@ typedef struct CoatShare {
 
 /* Means over the hemisphere, weighted by the cosine. */
 typedef struct CoatMean {
-    float open;  /* of t */
-    float lobe;  /* of t a */
+    float open;       /* of t */
+    float lobe;       /* of t a */
     float all, shape; /* of what the lobe sends out in one go, t (a - all); times the shape */
 } CoatMean;
 
 typedef struct CoatTable {
-    float     ior; /* of the base */
-    CoatMean  mean[COAT_ALPHAS][COAT_ALPHAS]; /* base, coat */
+    float ior;                               /* of the base */
+    CoatMean mean[COAT_ALPHAS][COAT_ALPHAS]; /* base, coat */
     CoatShare share[COAT_ALPHAS][COAT_ALPHAS][ENERGY_COSINES];
 } CoatTable;
 
@@ -41,15 +41,14 @@ typedef struct CoatTable {
 extern const CoatTable common_coat_table;
 
 /* coat: the lacquer's own boundary; base: of the base's index of refraction. */
-const CoatTable *coat_table_build(const EnergyTable *base, const EnergyTable *coat,
-                                  Arena *arena);
+const CoatTable *coat_table_build(const EnergyTable *base, const EnergyTable *coat, Arena *arena);
 
 /* Share of light along a direction of that cosine that the lacquer's boundary reflects. */
 float coat_reflectance(const EnergyTable *coat, float cosine, float coat_alpha);
 
 /* Cosine in [0, 1], both alphas in [0, 1]. */
 CoatShare coat_share(const CoatTable *table, float cosine, float alpha, float coat_alpha);
-CoatMean  coat_mean(const CoatTable *table, float alpha, float coat_alpha);
+CoatMean coat_mean(const CoatTable *table, float alpha, float coat_alpha);
 
 /* Every further turn between a coat, which lets out the mean share `open`, and a base that
  * spreads light takes the base's albedo. */

@@ -14,9 +14,9 @@
 #include "base/arena.h"
 #include "base/mathf.h"
 
-#define ENERGY_COSINES 64     /* spaced evenly in sqrt(cosine), 0..1 */
-#define ENERGY_OCTAVES 10     /* of alpha, from 2^-10 to 1 */
-#define ENERGY_PER_OCTAVE 6   /* rows, spaced evenly within an octave */
+#define ENERGY_COSINES 64   /* spaced evenly in sqrt(cosine), 0..1 */
+#define ENERGY_OCTAVES 10   /* of alpha, from 2^-10 to 1 */
+#define ENERGY_PER_OCTAVE 6 /* rows, spaced evenly within an octave */
 #define ENERGY_ALPHAS (ENERGY_OCTAVES * ENERGY_PER_OCTAVE + 1)
 
 /* Shares of the light; each in [0, 1]. */
@@ -31,7 +31,7 @@ typedef struct OverlayShare {
 } OverlayShare;
 
 typedef struct EnergyTable {
-    float  ior;
+    float ior;
     Energy average[ENERGY_ALPHAS]; /* over the hemisphere, weighted by the cosine */
     Energy directional[ENERGY_ALPHAS][ENERGY_COSINES];
 } EnergyTable;
@@ -43,14 +43,12 @@ extern const EnergyTable common_energy_table;
 /* ior: of the inside against the outside, 1 or more; 0 means a perfect reflector (glTF). */
 const EnergyTable *energy_table_build(float ior, Arena *arena);
 
-static inline Energy energy_mix(Energy a, Energy b, float t)
-{
+static inline Energy energy_mix(Energy a, Energy b, float t) {
     return (Energy){lerpf(a.all, b.all, t), lerpf(a.shape, b.shape, t)};
 }
 
 /* Between four neighbours: low[0] and low[1], and those `width` behind them, by s. */
-static inline Energy energy_between(const Energy *low, int width, float s, float t)
-{
+static inline Energy energy_between(const Energy *low, int width, float s, float t) {
     const Energy *high = low + width;
     return energy_mix(energy_mix(low[0], low[1], t), energy_mix(high[0], high[1], t), s);
 }
@@ -64,26 +62,23 @@ Energy energy_average(const EnergyTable *table, float alpha);
 /* A place between two neighbours of an axis; energy_knot: of one of `count` nodes, place 0 to
  * count - 1. */
 typedef struct EnergyKnot {
-    int   low;
+    int low;
     float t;
 } EnergyKnot;
 
-static inline EnergyKnot energy_knot(float place, int count)
-{
+static inline EnergyKnot energy_knot(float place, int count) {
     int low = (int)place;
     if (low > count - 2) low = count - 2;
     return (EnergyKnot){low, clampf(place - (float)low, 0, 1)};
 }
 
 /* Of nodes that are spaced evenly in sqrt(cosine). */
-static inline EnergyKnot energy_cosine_knot(float cosine, int count)
-{
+static inline EnergyKnot energy_cosine_knot(float cosine, int count) {
     return energy_knot(safe_sqrtf(cosine) * (float)(count - 1), count);
 }
 
 /* The cosine of a node of ENERGY_COSINES; of node 0 nearly none. */
-static inline float energy_cosine_of_node(int node)
-{
+static inline float energy_cosine_of_node(int node) {
     float root = (float)node / (ENERGY_COSINES - 1);
     return node > 0 ? root * root : 1e-5f;
 }
@@ -92,8 +87,7 @@ static inline float energy_cosine_of_node(int node)
 EnergyKnot energy_alpha_knot(float alpha, int per_octave);
 
 /* The alpha of a row; of row 0 none. */
-static inline float energy_alpha_of_row(int row, int per_octave)
-{
+static inline float energy_alpha_of_row(int row, int per_octave) {
     float octave = (float)(1 << row / per_octave) * 0x1p-10f;
     return row > 0 ? octave * (1 + (float)(row % per_octave) / (float)per_octave) : 0;
 }

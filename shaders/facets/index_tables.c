@@ -4,8 +4,7 @@
 #define STENCIL 4
 
 /* Weights of four neighbouring nodes at an index: 1 and 0 to the bit at a node. */
-static int weights_at(float ior, double weight[STENCIL])
-{
+static int weights_at(float ior, double weight[STENCIL]) {
     int first = 0;
     while (first < INDEX_NODES - STENCIL && ior >= index_nodes[first + 2]) first++;
     for (int i = 0; i < STENCIL; i++) {
@@ -19,28 +18,25 @@ static int weights_at(float ior, double weight[STENCIL])
     return first;
 }
 
-static float mixed(const float *const shape[STENCIL], const double weight[STENCIL], int at)
-{
+static float mixed(const float *const shape[STENCIL], const double weight[STENCIL], int at) {
     double sum = 0;
     for (int i = 0; i < STENCIL; i++) sum += weight[i] * (double)shape[i][at];
     return clampf((float)sum, 0, 1);
 }
 
 static void mix_row(Energy *row, int count, const float *const shape[STENCIL],
-                    const double weight[STENCIL])
-{
+                    const double weight[STENCIL]) {
     for (int i = 0; i < count; i++) row[i].shape = mixed(shape, weight, i);
 }
 
-const EnergyTable *energy_table_of(float ior, Arena *arena)
-{
+const EnergyTable *energy_table_of(float ior, Arena *arena) {
     if (ior == common_energy_table.ior) return &common_energy_table;
     if (!(ior >= index_nodes[0] && ior <= index_nodes[INDEX_NODES - 1]))
         return energy_table_build(ior, arena);
     EnergyTable *table = ARENA_NEW(arena, EnergyTable, 1);
-    double       weight[STENCIL];
+    double weight[STENCIL];
     const float *average[STENCIL], *directional[STENCIL];
-    int          first = weights_at(ior, weight);
+    int first = weights_at(ior, weight);
     *table = common_energy_table; /* with `all`, which no index changes */
     table->ior = ior;
     for (int i = 0; i < STENCIL; i++) {

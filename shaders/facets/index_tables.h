@@ -20,7 +20,7 @@ typedef struct IndexShapes {
     float directional[ENERGY_ALPHAS][ENERGY_COSINES];
 } IndexShapes;
 
-extern const float       index_nodes[INDEX_NODES]; /* rising */
+extern const float index_nodes[INDEX_NODES]; /* rising */
 extern const IndexShapes common_index_shapes[INDEX_NODES];
 
 /* ior as energy_table_build. */

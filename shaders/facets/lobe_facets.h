@@ -20,8 +20,8 @@
 
 #define LOBE_FACETS 8
 /* Nodes on the axes below, both alphas' from FACET_LEAST to 1. */
-#define FACET_ALPHAS 13   /* of the greater alpha, evenly in its fourth root */
-#define FACET_RATIOS 10   /* of the lesser over the greater, likewise */
+#define FACET_ALPHAS 13 /* of the greater alpha, evenly in its fourth root */
+#define FACET_RATIOS 10 /* of the lesser over the greater, likewise */
 #define FACET_AZIMUTHS 11
 #define FACET_COSINES 27
 
@@ -44,8 +44,7 @@ extern const FacetTable common_facet_table;
 extern const float facet_cosine[LOBE_FACETS];
 
 /* Lagrange's polynomials of the facets' cosines at one. */
-static inline void facet_polynomials(double x, double value[LOBE_FACETS])
-{
+static inline void facet_polynomials(double x, double value[LOBE_FACETS]) {
     for (int i = 0; i < LOBE_FACETS; i++) {
         value[i] = 1;
         for (int j = 0; j < LOBE_FACETS; j++) {
@@ -89,44 +88,41 @@ typedef struct LostFacets {
 
 /* Neighbours of an axis' nodes: four, or the one that it has. */
 typedef struct FacetKnot {
-    int   first, count;
+    int first, count;
     float share[4];
 } FacetKnot;
 
 /* Lagrange's cubic at `share` of the axis, of at least four nodes. */
-static inline FacetKnot facet_knot(float share, int count)
-{
+static inline FacetKnot facet_knot(float share, int count) {
     float place = clampf(share, 0, 1) * (float)(count - 1);
-    int   first = (int)place - 1;
+    int first = (int)place - 1;
     if (first < 0) first = 0;
     if (first > count - 4) first = count - 4;
     float a = place - (float)first, b = a - 1, c = a - 2, d = a - 3;
-    return (FacetKnot){first, 4, {b * c * d * (-1.0f / 6), a * c * d * 0.5f, a * b * d * -0.5f,
-                                  a * b * c * (1.0f / 6)}};
+    return (FacetKnot){
+        first,
+        4,
+        {b * c * d * (-1.0f / 6), a * c * d * 0.5f, a * b * d * -0.5f, a * b * c * (1.0f / 6)}};
 }
 
-static inline float facet_own(Vec3 w, Vec2 alpha)
-{
+static inline float facet_own(Vec3 w, Vec2 alpha) {
     float x = alpha.x * w.x, y = alpha.y * w.y, side2 = w.x * w.x + w.y * w.y;
     return side2 > 1e-12f ? sqrtf((x * x + y * y) / side2) : fmaxf(alpha.x, alpha.y);
 }
 
-static inline float facet_turn(float own, Vec2 alpha)
-{
+static inline float facet_turn(float own, Vec2 alpha) {
     float high = fmaxf(alpha.x, alpha.y), low = fminf(alpha.x, alpha.y);
     return high > low ? safe_sqrtf((own - low) / (high - low)) : 0;
 }
 
 /* Where a cosine stands on the table's axis, 0 to 1. Half of the axis is for cosines about the
  * own alpha. */
-static inline float facet_axis(float cosine, float own)
-{
+static inline float facet_axis(float cosine, float own) {
     return 0.5f * cosine * (1 + (1 + own) / (cosine + own));
 }
 
 /* The inverse of facet_axis, which rises; for what is made before the first ray. */
-static inline float facet_axis_cosine(float x, float own)
-{
+static inline float facet_axis_cosine(float x, float own) {
     float low = 1e-5f, high = 1;
     if (x >= 1) return 1;
     for (int step = 0; step < 40; step++) {
@@ -138,8 +134,7 @@ static inline float facet_axis_cosine(float x, float own)
 }
 
 /* A direction of that cosine and of that alpha along its azimuth; alpha.x is the greater. */
-static inline Vec3 facet_direction(float cosine, float own, Vec2 alpha)
-{
+static inline Vec3 facet_direction(float cosine, float own, Vec2 alpha) {
     float range = alpha.x * alpha.x - alpha.y * alpha.y;
     float c2 = range > 0 ? clampf((own * own - alpha.y * alpha.y) / range, 0, 1) : 1;
     float sine = safe_sqrtf(1 - cosine * cosine);

@@ -23,8 +23,7 @@
  * up to 0.091 a frame of the car took 1.16 times as long, for as many fireflies. */
 #define GLINT_ALPHA 0.0451f
 
-static inline bool is_smooth(float alpha)
-{
+static inline bool is_smooth(float alpha) {
     return alpha < SMOOTH_ALPHA;
 }
 
@@ -38,34 +37,30 @@ float brushed_reflection(Vec3 wo, Vec3 wi, Vec3 half, Vec2 alpha);
 
 /* A visible facet normal for wo, wo.z > 0; u in [0,1)^2. Its density is
  * ggx_visible_pdf(wo, normal) = G1(wo) D(normal) max(0, wo.normal) / wo.z. */
-Vec3  brushed_sample_visible(Vec3 wo, Vec2 alpha, float u0, float u1);
+Vec3 brushed_sample_visible(Vec3 wo, Vec2 alpha, float u0, float u1);
 float ggx_visible_pdf(Vec3 wo, Vec3 normal, float alpha);
 float brushed_visible_pdf(Vec3 wo, Vec3 normal, Vec2 alpha);
-static inline Vec3 ggx_sample_visible(Vec3 wo, float alpha, float u0, float u1)
-{
+static inline Vec3 ggx_sample_visible(Vec3 wo, float alpha, float u0, float u1) {
     return brushed_sample_visible(wo, (Vec2){alpha, alpha}, u0, u1);
 }
 
 /* A mirror-like direction about a visible facet; few fall below the horizon (then z <= 0, and
  * the light is lost). The pdf of wi, sr^-1, holds for every wi, half as above. */
-Vec3  brushed_sample_reflection(Vec3 wo, Vec2 alpha, float u0, float u1);
+Vec3 brushed_sample_reflection(Vec3 wo, Vec2 alpha, float u0, float u1);
 float ggx_reflection_pdf(Vec3 wo, Vec3 half, float alpha);
 float brushed_reflection_pdf(Vec3 wo, Vec3 half, Vec2 alpha);
-static inline Vec3 ggx_sample_reflection(Vec3 wo, float alpha, float u0, float u1)
-{
+static inline Vec3 ggx_sample_reflection(Vec3 wo, float alpha, float u0, float u1) {
     return brushed_sample_reflection(wo, (Vec2){alpha, alpha}, u0, u1);
 }
 
 /* Where a facet, met at `cosine`, refracts light from wo; eta: the other side's index over this
  * one's; behind: the cosine on the other side (fresnel.h). Walter 2007, equation 40. */
-static inline Vec3 refracted(Vec3 wo, Vec3 half, float eta, float cosine, float behind)
-{
+static inline Vec3 refracted(Vec3 wo, Vec3 half, float eta, float cosine, float behind) {
     return vec3_sub(vec3_scale(half, cosine / eta - behind), vec3_scale(wo, 1 / eta));
 }
 
 /* A direction of a Lambert surface, with density z / pi. u in [0,1)^2. */
-static inline Vec3 microfacet_cosine(float u0, float u1)
-{
+static inline Vec3 microfacet_cosine(float u0, float u1) {
     float sine, cosine, radius = sqrtf(u1);
     sincos_turns(u0, &sine, &cosine);
     return vec3(radius * cosine, radius * sine, safe_sqrtf(1 - u1));

@@ -16,20 +16,18 @@
 /* ---- what single facets send on --------------------------------------------------------- */
 
 typedef struct Sent {
-    double     reflected, through;
-    bool       has_facets;
+    double reflected, through;
+    bool has_facets;
     LostFacets lost;
 } Sent;
 
 /* G2 / G1 of light that a visible facet, met at that cosine, sends from wo towards wi. */
-static float passed_on(Vec3 wo, Vec3 wi, Vec3 half, float cosine, float alpha)
-{
+static float passed_on(Vec3 wo, Vec3 wi, Vec3 half, float cosine, float alpha) {
     return 4 * ggx_reflection(wo, wi, half, alpha) * cosine * fabsf(wi.z) /
            ggx_visible_pdf(wo, half, alpha);
 }
 
-static void add_lost(LostFacets *sum, float cosine, float reflected, float through)
-{
+static void add_lost(LostFacets *sum, float cosine, float reflected, float through) {
     double at[LOBE_FACETS];
     facet_polynomials((double)cosine, at);
     for (int k = 0; k < LOBE_FACETS; k++) {
@@ -38,12 +36,11 @@ static void add_lost(LostFacets *sum, float cosine, float reflected, float throu
     }
 }
 
-static void add_facet(Vec3 wo, Vec3 half, float eta, float alpha, float share, Sent *sum)
-{
+static void add_facet(Vec3 wo, Vec3 half, float eta, float alpha, float share, Sent *sum) {
     float cosine = fminf(vec3_dot(wo, half), 1), behind = 0;
     if (!(cosine > 0)) return;
     float mirror = eta > 0 ? fresnel_mean(fresnel_dielectric(cosine, eta, &behind)) : 1;
-    Vec3  back = vec3_sub(vec3_scale(half, 2 * cosine), wo);
+    Vec3 back = vec3_sub(vec3_scale(half, 2 * cosine), wo);
     float is_sent = back.z > 0 ? passed_on(wo, back, half, cosine, alpha) : 0, passes = 0;
     sum->reflected += (double)(share * mirror * is_sent);
     if (!(behind > 0)) return;
@@ -56,16 +53,15 @@ static void add_facet(Vec3 wo, Vec3 half, float eta, float alpha, float share, S
 }
 
 /* Light sent on from a cosine in the medium against which the other's index is eta. */
-static Sent sent_on(float cosine, float eta, float alpha, bool has_facets)
-{
+static Sent sent_on(float cosine, float eta, float alpha, bool has_facets) {
     Vec3 wo = vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);
     Sent sum = {.has_facets = has_facets};
-    int  points = alpha > FINE_ALPHA ? POINTS : FINE_POINTS;
-    int  step = alpha > FINE_ALPHA ? STEP : FINE_STEP;
+    int points = alpha > FINE_ALPHA ? POINTS : FINE_POINTS;
+    int step = alpha > FINE_ALPHA ? STEP : FINE_STEP;
     for (int i = 0; i < points; i++) {
         float turn = ((float)(i * step % points) + 0.5f) / (float)(2 * points);
         float rest = ((float)i + 0.5f) / (float)points;
-        Vec3  half = ggx_sample_visible(wo, alpha, turn, 1 - rest * rest);
+        Vec3 half = ggx_sample_visible(wo, alpha, turn, 1 - rest * rest);
         add_facet(wo, half, eta, alpha, 2 * rest / (float)points, &sum);
     }
     return sum;
@@ -73,8 +69,7 @@ static Sent sent_on(float cosine, float eta, float alpha, bool has_facets)
 
 /* ---- tables ----------------------------------------------------------------------------- */
 
-static void add_facets(LostFacets *sum, const LostFacets *from, float share)
-{
+static void add_facets(LostFacets *sum, const LostFacets *from, float share) {
     for (int k = 0; k < LOBE_FACETS; k++) {
         sum->reflected[k] += share * from->reflected[k];
         sum->through[k] += share * from->through[k];
@@ -83,8 +78,7 @@ static void add_facets(LostFacets *sum, const LostFacets *from, float share)
 
 /* A node's weight in the mean over the hemisphere of a function linear between nodes: with t =
  * sqrt(cos) (energy.h) the integral of 4 t^3 times the hat about the node. */
-static float node_weight(int node)
-{
+static float node_weight(int node) {
     const float h = 1.0f / (ENERGY_COSINES - 1);
     float t = (float)node * h;
     if (node == 0) return 0.2f * h * h * h * h;
@@ -94,13 +88,12 @@ static float node_weight(int node)
 
 /* Fills one row; returns how much of what single facets send on goes across, over the
  * hemisphere. */
-static float fill_row(SolidSide *side, int row, float eta)
-{
+static float fill_row(SolidSide *side, int row, float eta) {
     double reflected = 0, through = 0, mean = 0;
-    float  alpha = energy_alpha_of_row(row, ENERGY_PER_OCTAVE);
+    float alpha = energy_alpha_of_row(row, ENERGY_PER_OCTAVE);
     for (int c = 0; c < ENERGY_COSINES; c++) {
         float weight = node_weight(c);
-        Sent  sent = sent_on(energy_cosine_of_node(c), eta, alpha, side->facets);
+        Sent sent = sent_on(energy_cosine_of_node(c), eta, alpha, side->facets);
         float lost = clampf((float)(1 - sent.reflected - sent.through), 0, 1);
         side->lost[row][c] = lost;
         mean += (double)(weight * lost);
@@ -116,19 +109,17 @@ static float fill_row(SolidSide *side, int row, float eta)
 
 /* Lost light crosses as single facets let it, as much as both sides allow: radiance runs both
  * ways alike where the flux from inside is 1/ior^2 of that from outside. */
-static void fill_rows(SolidEnergy *out, int row)
-{
+static void fill_rows(SolidEnergy *out, int row) {
     float ior = out->ior, ior2 = ior * ior;
     if (row == 0) return; /* smooth: nothing is lost */
     float crosses = fill_row(&out->side[0], row, ior);
     float returns = fill_row(&out->side[1], row, ior > 0 ? 1 / ior : 0);
-    out->flux[row] = fminf(crosses * out->side[0].mean[row],
-                           returns * out->side[1].mean[row] * ior2);
+    out->flux[row] =
+        fminf(crosses * out->side[0].mean[row], returns * out->side[1].mean[row] * ior2);
 }
 
 const SolidEnergy *solid_energy_build(float ior, float least, float most, bool has_facets,
-                                      Arena *arena)
-{
+                                      Arena *arena) {
     SolidEnergy *out = ARENA_NEW(arena, SolidEnergy, 1);
     int first = energy_alpha_knot(least, ENERGY_PER_OCTAVE).low;
     int last = energy_alpha_knot(most, ENERGY_PER_OCTAVE).low + 1;
@@ -139,9 +130,7 @@ const SolidEnergy *solid_energy_build(float ior, float least, float most, bool h
     return out;
 }
 
-const SolidEnergy *solid_energy_brushed(const SolidEnergy *even, BrushedRange range,
-                                        Arena *arena)
-{
+const SolidEnergy *solid_energy_brushed(const SolidEnergy *even, BrushedRange range, Arena *arena) {
     SolidEnergy *out = ARENA_NEW(arena, SolidEnergy, 1);
     *out = *even;
     out->brushed = brushed_loss_build(even->ior, range, even->side[0].facets != NULL, arena);
@@ -150,21 +139,17 @@ const SolidEnergy *solid_energy_brushed(const SolidEnergy *even, BrushedRange ra
 
 /* ---- looking up -------------------------------------------------------------------------- */
 
-SolidLost solid_lost(const SolidEnergy *energy, bool is_inside, float cosine, float alpha)
-{
+SolidLost solid_lost(const SolidEnergy *energy, bool is_inside, float cosine, float alpha) {
     const SolidSide *side = &energy->side[is_inside];
-    EnergyKnot   a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
-    EnergyKnot   c = energy_cosine_knot(cosine, ENERGY_COSINES);
+    EnergyKnot a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
+    EnergyKnot c = energy_cosine_knot(cosine, ENERGY_COSINES);
     const float *below = side->lost[a.low] + c.low, *above = below + ENERGY_COSINES;
-    return (SolidLost){lerpf(lerpf(below[0], below[1], c.t), lerpf(above[0], above[1], c.t),
-                             a.t),
+    return (SolidLost){lerpf(lerpf(below[0], below[1], c.t), lerpf(above[0], above[1], c.t), a.t),
                        lerpf(side->mean[a.low], side->mean[a.low + 1], a.t),
                        lerpf(energy->flux[a.low], energy->flux[a.low + 1], a.t)};
 }
 
-LostFacets solid_lost_facets(const SolidEnergy *energy, bool is_inside, float cosine,
-                             float alpha)
-{
+LostFacets solid_lost_facets(const SolidEnergy *energy, bool is_inside, float cosine, float alpha) {
     EnergyKnot a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
     EnergyKnot c = energy_cosine_knot(cosine, ENERGY_COSINES);
     const LostFacets *below = energy->side[is_inside].facets + a.low * ENERGY_COSINES + c.low;
@@ -175,8 +160,7 @@ LostFacets solid_lost_facets(const SolidEnergy *energy, bool is_inside, float co
     return sum;
 }
 
-LostFacets solid_mean_facets(const SolidEnergy *energy, bool is_inside, float alpha)
-{
+LostFacets solid_mean_facets(const SolidEnergy *energy, bool is_inside, float alpha) {
     EnergyKnot a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
     const LostFacets *row = energy->side[is_inside].mean_facets + a.low;
     LostFacets sum = {{0}, {0}};

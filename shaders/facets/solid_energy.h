@@ -19,14 +19,14 @@
 typedef struct SolidSide {
     float mean[ENERGY_ALPHAS]; /* of lost, weighted by the cosine */
     float lost[ENERGY_ALPHAS][ENERGY_COSINES];
-    LostFacets  mean_facets[ENERGY_ALPHAS];
+    LostFacets mean_facets[ENERGY_ALPHAS];
     LostFacets *facets; /* [ENERGY_ALPHAS][ENERGY_COSINES]; NULL: for bare boundaries alone */
 } SolidSide;
 
 typedef struct SolidEnergy {
-    float     ior;                 /* of the solid against its surroundings */
-    float     flux[ENERGY_ALPHAS]; /* outside: mean times the share that goes across */
-    SolidSide side[2]; /* outside, inside */
+    float ior;                  /* of the solid against its surroundings */
+    float flux[ENERGY_ALPHAS];  /* outside: mean times the share that goes across */
+    SolidSide side[2];          /* outside, inside */
     const BrushedLoss *brushed; /* where both alphas differ; NULL: they never do */
 } SolidEnergy;
 
@@ -36,13 +36,11 @@ const SolidEnergy *solid_energy_build(float ior, float least, float most, bool h
                                       Arena *arena);
 
 /* A copy that holds for the pairs of alphas of a brushed boundary too. */
-const SolidEnergy *solid_energy_brushed(const SolidEnergy *even, BrushedRange range,
-                                        Arena *arena);
+const SolidEnergy *solid_energy_brushed(const SolidEnergy *even, BrushedRange range, Arena *arena);
 
 /* Losses at one alpha. */
 SolidLost solid_lost(const SolidEnergy *energy, bool is_inside, float cosine, float alpha);
 
 /* The facets of that loss and of its mean. The table must have them. */
-LostFacets solid_lost_facets(const SolidEnergy *energy, bool is_inside, float cosine,
-                             float alpha);
+LostFacets solid_lost_facets(const SolidEnergy *energy, bool is_inside, float cosine, float alpha);
 LostFacets solid_mean_facets(const SolidEnergy *energy, bool is_inside, float alpha);

@@ -13,8 +13,8 @@
 #include "spectrum/wavelengths.h"
 
 typedef struct ThinFilm {
-    float share; /* of the surface that carries it, [0, 1]; 0: there is none */
-    float ior;   /* 1 or more */
+    float share;        /* of the surface that carries it, [0, 1]; 0: there is none */
+    float ior;          /* 1 or more */
     float thickness_nm; /* > 0 */
 } ThinFilm;
 
@@ -44,4 +44,4 @@ typedef struct FilmCrossing {
  * ray grazes or is reflected totally, which a clear film does not change. */
 Spectrum clear_film_between(const ThinFilm *film, const Wavelengths *wavelengths,
                             const FilmCrossing *ray);
-float    clear_film_lane(const ThinFilm *film, float nm, const FilmCrossing *ray);
+float clear_film_lane(const ThinFilm *film, float nm, const FilmCrossing *ray);

@@ -14,8 +14,8 @@
 #include "spectrum/curve.h"
 
 typedef struct CoatingTable {
-    int          count; /* rows, spaced evenly in sqrt(cosine), 0..1; the thicker a stack, the
-                           more: 65 to COATING_COSINES_MAX */
+    int count; /* rows, spaced evenly in sqrt(cosine), 0..1; the thicker a stack, the
+                  more: 65 to COATING_COSINES_MAX */
     const Curve *row;
 } CoatingTable;
 
@@ -27,9 +27,9 @@ typedef struct CoatingTable {
 
 /* Energies that a rough boundary of that reflectance sends back, as energy.h's tables. */
 typedef struct CoatingEnergy {
-    int          count;       /* of cosines, as of the table; COATING_ENERGY_COSINES_MAX most */
+    int count;                /* of cosines, as of the table; COATING_ENERGY_COSINES_MAX most */
     const Curve *directional; /* COATING_ALPHAS times count */
-    Curve        average[COATING_ALPHAS];
+    Curve average[COATING_ALPHAS];
 } CoatingEnergy;
 
 /* Tables of a boundary between two media, over the cosine in the one of the smaller index; of
@@ -48,7 +48,7 @@ typedef struct CoatingTables {
 /* The two faces of a pane or thin sheet, of which one at least is coated: front is what each
  * reflects from outside, back from the glass, over the cosine outside. */
 typedef struct PaneCoating {
-    float ior; /* of the body over the medium outside */
+    float ior;                       /* of the body over the medium outside */
     const CoatingTables *face[2][2]; /* the front's, the back's; of light s and p */
 } PaneCoating;
 
@@ -60,12 +60,12 @@ typedef struct CoatingWaves {
 
 /* The coating of each share of a material; NULL: that share is bare, or is none. */
 typedef struct SurfaceCoating {
-    const CoatingTables *metal, *face; /* face: of opaque plastic and glass */
-    const CoatingTables *solid; /* the boundary of a closed solid */
-    const CoatingTables *cover; /* of a display */
-    const PaneCoating   *sheet, *pane; /* of a thin sheet, of a laminated one */
-    const CoatingWaves  *metal_waves, *glass_waves; /* of metal; of face or cover; NULL:
-                                                       polarisation is not requested */
+    const CoatingTables *metal, *face;             /* face: of opaque plastic and glass */
+    const CoatingTables *solid;                    /* the boundary of a closed solid */
+    const CoatingTables *cover;                    /* of a display */
+    const PaneCoating *sheet, *pane;               /* of a thin sheet, of a laminated one */
+    const CoatingWaves *metal_waves, *glass_waves; /* of metal; of face or cover; NULL:
+                                                      polarisation is not requested */
 } SurfaceCoating;
 
 /* cosine in [0, 1]. */

@@ -5,17 +5,16 @@
 
 /* A stack and the body behind it: a metal or, where that is NULL, clear glass. */
 typedef struct CoatedBody {
-    const LayerStack       *stack;
+    const LayerStack *stack;
     const OpticalConstants *metal;
-    double                  ior;
-    bool                    is_p; /* of a pane: which polarisation */
+    double ior;
+    bool is_p; /* of a pane: which polarisation */
 } CoatedBody;
 
-static ThinMedia media_at(const CoatedBody *body, const LayerStack *stack, int nm)
-{
-    ThinMedia  media;
+static ThinMedia media_at(const CoatedBody *body, const LayerStack *stack, int nm) {
+    ThinMedia media;
     ThinMedium behind = {body->ior, 0, 0};
-    int        at = nm - CURVE_FIRST_NM;
+    int at = nm - CURVE_FIRST_NM;
     if (body->metal) {
         behind.n = (double)body->metal->n.value[at];
         behind.k = (double)body->metal->k.value[at];
@@ -24,25 +23,21 @@ static ThinMedia media_at(const CoatedBody *body, const LayerStack *stack, int n
     return media;
 }
 
-static double unpolarised(double s, double p)
-{
+static double unpolarised(double s, double p) {
     return 0.5 * (s + p);
 }
 
 /* The cosine behind a boundary into an index `ratio` times that in front; below 0: none. */
-static double cosine_behind(double cosine, double ratio)
-{
+static double cosine_behind(double cosine, double ratio) {
     double square = 1 - (1 - cosine * cosine) / (ratio * ratio);
     return square > 0 ? sqrt(square) : -1;
 }
 
-static double outside_of(const CoatedBody *body)
-{
+static double outside_of(const CoatedBody *body) {
     return body->stack ? body->stack->outside : 1;
 }
 
-static double cosine_of_row(int row, int count)
-{
+static double cosine_of_row(int row, int count) {
     double t = (double)row / (count - 1);
     return t * t;
 }
@@ -57,31 +52,26 @@ typedef struct CoatingRow {
 typedef CoatingRow RowMaker(const CoatedBody *body, int nm, double cosine);
 
 static ThinShares shares_at(const CoatedBody *body, const LayerStack *stack, int nm,
-                            double cosine)
-{
+                            double cosine) {
     ThinMedia media = media_at(body, stack, nm);
     return thin_film_at(&media, cosine);
 }
 
-static CoatingRow front_row(const CoatedBody *body, int nm, double cosine)
-{
+static CoatingRow front_row(const CoatedBody *body, int nm, double cosine) {
     ThinShares at = shares_at(body, body->stack, nm, cosine);
     return (CoatingRow){.front = unpolarised(at.reflect_s, at.reflect_p)};
 }
 
-static CoatingRow wave_row(const CoatedBody *body, int nm, double cosine)
-{
+static CoatingRow wave_row(const CoatedBody *body, int nm, double cosine) {
     ThinShares at = shares_at(body, body->stack, nm, cosine);
     return (CoatingRow){at.reflect_s, at.reflect_p, at.reflect_along};
 }
 
-static CoatingRow turned_row(const CoatedBody *body, int nm, double cosine)
-{
+static CoatingRow turned_row(const CoatedBody *body, int nm, double cosine) {
     return (CoatingRow){.front = shares_at(body, body->stack, nm, cosine).reflect_turned};
 }
 
-static CoatingRow cover_row(const CoatedBody *body, int nm, double cosine)
-{
+static CoatingRow cover_row(const CoatedBody *body, int nm, double cosine) {
     ThinShares bare = shares_at(body, NULL, nm, cosine);
     return (CoatingRow){.front = front_row(body, nm, cosine).front /
                                  fmax(unpolarised(bare.reflect_s, bare.reflect_p), 1e-9)};
@@ -90,36 +80,31 @@ static CoatingRow cover_row(const CoatedBody *body, int nm, double cosine)
 /* Beyond the critical angle the wave behind the boundary falls off as e^(-kz). With k and the
  * wave's own part c along z in front, k^2 + c^2 is the same for all angles; over k / (k + c)
  * the reflectance has no kink, neither at the critical angle nor at grazing incidence. */
-static double total_reflectance(const ThinMedia *from_denser, double ratio, double share)
-{
-    double     c2 = (1 - share) * (1 - share) / (share * share + (1 - share) * (1 - share));
-    double     cosine = sqrt(c2 * (1 - 1 / (ratio * ratio)));
+static double total_reflectance(const ThinMedia *from_denser, double ratio, double share) {
+    double c2 = (1 - share) * (1 - share) / (share * share + (1 - share) * (1 - share));
+    double cosine = sqrt(c2 * (1 - 1 / (ratio * ratio)));
     ThinShares at = thin_film_at(from_denser, cosine);
     return unpolarised(at.reflect_s, at.reflect_p);
 }
 
-static CoatingRow total_row(const CoatedBody *body, int nm, double share)
-{
-    double    ratio = body->ior / outside_of(body);
+static CoatingRow total_row(const CoatedBody *body, int nm, double share) {
+    double ratio = body->ior / outside_of(body);
     ThinMedia media = media_at(body, body->stack, nm);
     if (ratio >= 1) thin_film_reverse(&media);
-    return (CoatingRow){
-        .front = total_reflectance(&media, ratio >= 1 ? ratio : 1 / ratio, share)};
+    return (CoatingRow){.front = total_reflectance(&media, ratio >= 1 ? ratio : 1 / ratio, share)};
 }
 
 /* cosine: in the medium of the smaller index. */
-static CoatingRow solid_row(const CoatedBody *body, int nm, double cosine)
-{
-    double     ratio = body->ior / outside_of(body); /* inside over outside */
-    double     denser = ratio >= 1 ? ratio : 1 / ratio, other = cosine_behind(cosine, denser);
-    ThinMedia  outer = media_at(body, body->stack, nm), inner = outer;
+static CoatingRow solid_row(const CoatedBody *body, int nm, double cosine) {
+    double ratio = body->ior / outside_of(body); /* inside over outside */
+    double denser = ratio >= 1 ? ratio : 1 / ratio, other = cosine_behind(cosine, denser);
+    ThinMedia outer = media_at(body, body->stack, nm), inner = outer;
     thin_film_reverse(&inner);
     ThinShares front = thin_film_at(&outer, ratio >= 1 ? cosine : other);
     ThinShares back = thin_film_at(&inner, ratio >= 1 ? other : cosine);
-    return (CoatingRow){
-        .front = unpolarised(front.reflect_s, front.reflect_p),
-        .back = unpolarised(back.reflect_s, back.reflect_p),
-        .through = unpolarised(front.through_s, front.through_p)};
+    return (CoatingRow){.front = unpolarised(front.reflect_s, front.reflect_p),
+                        .back = unpolarised(back.reflect_s, back.reflect_p),
+                        .through = unpolarised(front.through_s, front.through_p)};
 }
 
 /* A face of a sheet as both sides find it, for one polarisation. */
@@ -128,8 +113,7 @@ typedef struct SheetFace {
 } SheetFace;
 
 static void sheet_face(const ThinMedia *media, double cosine, double inside, SheetFace *s,
-                       SheetFace *p)
-{
+                       SheetFace *p) {
     ThinMedia turned = *media;
     thin_film_reverse(&turned);
     ThinShares outer = thin_film_at(media, cosine), inner = thin_film_at(&turned, inside);
@@ -139,11 +123,10 @@ static void sheet_face(const ThinMedia *media, double cosine, double inside, She
 
 /* A face of a pane for one polarisation. At grazing incidence, and where nothing enters a
  * thinner body, nothing gets in or out. */
-static CoatingRow pane_row(const CoatedBody *body, int nm, double cosine)
-{
+static CoatingRow pane_row(const CoatedBody *body, int nm, double cosine) {
     SheetFace s, p;
     ThinMedia media = media_at(body, body->stack, nm);
-    double    inside = cosine_behind(cosine, body->ior / outside_of(body));
+    double inside = cosine_behind(cosine, body->ior / outside_of(body));
     if (!(cosine > 0 && inside > 0)) return (CoatingRow){.front = 1, .back = 1};
     sheet_face(&media, cosine, inside, &s, &p);
     SheetFace one = body->is_p ? p : s;
@@ -154,8 +137,7 @@ static CoatingRow pane_row(const CoatedBody *body, int nm, double cosine)
 
 /* 2 * integral over dcos of (piecewise linear in t) cos with cos = t^2: exact, by the integrals
  * of 4 t^3 and 4 t^4 over each interval. */
-static void mean_weights(int count, double *weight)
-{
+static void mean_weights(int count, double *weight) {
     for (int i = 0; i < count; i++) weight[i] = 0;
     for (int i = 0; i + 1 < count; i++) {
         double a = (double)i / (count - 1), b = (double)(i + 1) / (count - 1);
@@ -166,8 +148,7 @@ static void mean_weights(int count, double *weight)
     }
 }
 
-static void mean_of(const Curve *row, int count, Curve *out)
-{
+static void mean_of(const Curve *row, int count, Curve *out) {
     double weight[COATING_COSINES_MAX];
     mean_weights(count, weight);
     for (int w = 0; w < CURVE_COUNT; w++) {
@@ -181,8 +162,7 @@ enum { KINDS = 3 }; /* front, back, through */
 
 /* A row of each table; NULL: not requested. */
 static void make_row(Curve *const out[KINDS], const CoatedBody *body, RowMaker *make,
-                     double cosine)
-{
+                     double cosine) {
     for (int w = 0; w < CURVE_COUNT; w++) {
         CoatingRow row = make(body, CURVE_FIRST_NM + w, cosine);
         const double value[KINDS] = {row.front, row.back, row.through};
@@ -191,8 +171,7 @@ static void make_row(Curve *const out[KINDS], const CoatedBody *body, RowMaker *
     }
 }
 
-static double bend_of(const Curve *row)
-{
+static double bend_of(const Curve *row) {
     double worst = 0;
     for (int w = 0; w < CURVE_COUNT; w++) {
         double between = 0.5 * ((double)row[0].value[w] + (double)row[2].value[w]);
@@ -203,10 +182,9 @@ static double bend_of(const Curve *row)
 
 /* Doubles the rows; returns how much new ones differ from straight lines between the old. */
 static double refine(Curve *table[KINDS], int *count, const CoatedBody *body, RowMaker *make,
-                     Arena *arena)
-{
+                     Arena *arena) {
     double worst = 0;
-    int    old = *count;
+    int old = *count;
     Curve *finer[KINDS] = {NULL};
     *count = 2 * old - 1;
     for (int i = 0; i < KINDS; i++) {
@@ -228,8 +206,7 @@ static double refine(Curve *table[KINDS], int *count, const CoatedBody *body, Ro
 /* Between the old rows; the straight lines between the finer ones are four times nearer. */
 static const double BEND_ALLOWED = 1e-3;
 
-static const CoatingTable *table_of(const Curve *row, int count, Arena *arena)
-{
+static const CoatingTable *table_of(const Curve *row, int count, Arena *arena) {
     if (!row) return NULL;
     CoatingTable *table = ARENA_NEW(arena, CoatingTable, 1);
     *table = (CoatingTable){count, row};
@@ -237,9 +214,8 @@ static const CoatingTable *table_of(const Curve *row, int count, Arena *arena)
 }
 
 /* kinds: how many of front, back, through are requested. */
-static CoatingTables *tables_of(const CoatedBody *body, RowMaker *make, int kinds, Arena *arena)
-{
-    int    count = 2;
+static CoatingTables *tables_of(const CoatedBody *body, RowMaker *make, int kinds, Arena *arena) {
+    int count = 2;
     Curve *row[KINDS] = {NULL};
     CoatingTables *out = ARENA_NEW(arena, CoatingTables, 1);
     for (int i = 0; i < kinds; i++) row[i] = ARENA_NEW(arena, Curve, count);
@@ -259,30 +235,26 @@ static CoatingTables *tables_of(const CoatedBody *body, RowMaker *make, int kind
     return out;
 }
 
-const CoatingTables *coating_of_solid(const LayerStack *stack, double ior, Arena *arena)
-{
-    CoatedBody     body = {.stack = stack, .ior = ior};
+const CoatingTables *coating_of_solid(const LayerStack *stack, double ior, Arena *arena) {
+    CoatedBody body = {.stack = stack, .ior = ior};
     CoatingTables *out = tables_of(&body, solid_row, 3, arena);
     out->total = tables_of(&body, total_row, 1, arena)->front;
     return out;
 }
 
 const CoatingTables *coating_of_metal(const LayerStack *stack, const OpticalConstants *metal,
-                                      Arena *arena)
-{
+                                      Arena *arena) {
     return tables_of(&(CoatedBody){.stack = stack, .metal = metal}, front_row, 1, arena);
 }
 
-const CoatingTables *coating_of_cover(const LayerStack *stack, double ior, Arena *arena)
-{
+const CoatingTables *coating_of_cover(const LayerStack *stack, double ior, Arena *arena) {
     return tables_of(&(CoatedBody){.stack = stack, .ior = ior}, cover_row, 1, arena);
 }
 
 const CoatingWaves *coating_waves(const LayerStack *stack, double ior,
-                                  const OpticalConstants *metal, Arena *arena)
-{
-    CoatedBody     body = {.stack = stack, .metal = metal, .ior = ior};
-    CoatingWaves  *out = ARENA_NEW(arena, CoatingWaves, 1);
+                                  const OpticalConstants *metal, Arena *arena) {
+    CoatedBody body = {.stack = stack, .metal = metal, .ior = ior};
+    CoatingWaves *out = ARENA_NEW(arena, CoatingWaves, 1);
     const CoatingTables *tables = tables_of(&body, wave_row, KINDS, arena);
     *out = (CoatingWaves){tables->front, tables->back, tables->through,
                           tables_of(&body, turned_row, 1, arena)->front};
@@ -290,16 +262,14 @@ const CoatingWaves *coating_waves(const LayerStack *stack, double ior,
 }
 
 static void set_face(const LayerStack *stack, double ior, PaneCoating *pane, int side,
-                     Arena *arena)
-{
+                     Arena *arena) {
     CoatedBody body = {.stack = stack, .ior = ior};
     pane->face[side][0] = tables_of(&body, pane_row, KINDS, arena);
     body.is_p = true;
     pane->face[side][1] = tables_of(&body, pane_row, KINDS, arena);
 }
 
-const PaneCoating *coating_of_pane(const Glazing *pane, Arena *arena)
-{
+const PaneCoating *coating_of_pane(const Glazing *pane, Arena *arena) {
     PaneCoating *out = ARENA_NEW(arena, PaneCoating, 1);
     out->ior = pane->absorbing_ior;
     for (int i = 0; i < 2; i++) {
@@ -309,19 +279,17 @@ const PaneCoating *coating_of_pane(const Glazing *pane, Arena *arena)
     return out;
 }
 
-const PaneCoating *coating_of_sheet(const LayerStack *stack, double ior, Arena *arena)
-{
+const PaneCoating *coating_of_sheet(const LayerStack *stack, double ior, Arena *arena) {
     PaneCoating *out = ARENA_NEW(arena, PaneCoating, 1);
-    double       outside = stack ? stack->outside : 1;
-    LayerStack  *none = ARENA_NEW(arena, LayerStack, 1);
+    double outside = stack ? stack->outside : 1;
+    LayerStack *none = ARENA_NEW(arena, LayerStack, 1);
     none->outside = outside;
     out->ior = (float)(ior / outside);
     for (int i = 0; i < 2; i++) {
         bool is_bare = stack && stack->faces == (i ? COATED_FRONT : COATED_BACK);
         if (i && stack && stack->faces == COATED_BOTH)
             memcpy(out->face[1], out->face[0], sizeof out->face[1]);
-        else
-            set_face(is_bare ? none : stack, ior, out, i, arena);
+        else set_face(is_bare ? none : stack, ior, out, i, arena);
     }
     return out;
 }
@@ -329,21 +297,19 @@ const PaneCoating *coating_of_sheet(const LayerStack *stack, double ior, Arena *
 /* ---- energies --------------------------------------------------------------------------- */
 
 /* How much of the light along a direction meets facets at the cosine of each row of a table. */
-static void facet_weights(float cosine, float alpha, int count, double *weight)
-{
+static void facet_weights(float cosine, float alpha, int count, double *weight) {
     EnergyLobe lobe;
     for (int i = 0; i < count; i++) weight[i] = 0;
     for (int i = 0; i < ENERGY_LOBE_POINTS; i++) {
         if (!energy_lobe_point(1, cosine, alpha, i, &lobe)) continue;
         double place = sqrt((double)lobe.facet) * (count - 1);
-        int    low = place < count - 2 ? (int)place : count - 2;
+        int low = place < count - 2 ? (int)place : count - 2;
         weight[low] += (double)lobe.weight * (low + 1 - place) / ENERGY_LOBE_POINTS;
         weight[low + 1] += (double)lobe.weight * (place - low) / ENERGY_LOBE_POINTS;
     }
 }
 
-static void energy_row(const CoatingTable *front, const double *weight, Curve *out)
-{
+static void energy_row(const CoatingTable *front, const double *weight, Curve *out) {
     double sum[CURVE_COUNT] = {0};
     for (int i = 0; i < front->count; i++)
         for (int w = 0; w < CURVE_COUNT && weight[i] > 0; w++)
@@ -352,8 +318,7 @@ static void energy_row(const CoatingTable *front, const double *weight, Curve *o
 }
 
 /* One alpha's rows; row 0 of alpha stands for every smooth boundary. */
-static void energy_rows(const CoatingTable *front, int alpha_row, int count, Curve *row)
-{
+static void energy_rows(const CoatingTable *front, int alpha_row, int count, Curve *row) {
     double weight[COATING_COSINES_MAX];
     for (int c = 0; c < count; c++) {
         double cosine = c > 0 ? cosine_of_row(c, count) : 1e-5;
@@ -367,15 +332,13 @@ static void energy_rows(const CoatingTable *front, int alpha_row, int count, Cur
     }
 }
 
-static const CoatingEnergy *energy_of(const CoatingTable *front, AlphaSpan alphas,
-                                      Arena *arena)
-{
+static const CoatingEnergy *energy_of(const CoatingTable *front, AlphaSpan alphas, Arena *arena) {
     int first = energy_alpha_knot(alphas.least, COATING_PER_OCTAVE).low;
     int last = energy_alpha_knot(alphas.most, COATING_PER_OCTAVE).low + 1;
-    int count = front->count < COATING_ENERGY_COSINES_MAX ? front->count :
-                                                            COATING_ENERGY_COSINES_MAX;
+    int count =
+        front->count < COATING_ENERGY_COSINES_MAX ? front->count : COATING_ENERGY_COSINES_MAX;
     CoatingEnergy *energy = ARENA_NEW(arena, CoatingEnergy, 1);
-    Curve         *row = ARENA_NEW(arena, Curve, COATING_ALPHAS * count);
+    Curve *row = ARENA_NEW(arena, Curve, COATING_ALPHAS * count);
     for (int a = first; a <= last; a++) {
         energy_rows(front, a, count, row + a * count);
         mean_of(row + a * count, count, &energy->average[a]);
@@ -386,10 +349,8 @@ static const CoatingEnergy *energy_of(const CoatingTable *front, AlphaSpan alpha
 }
 
 const CoatingTables *coating_of_face(const LayerStack *stack, double ior, AlphaSpan alphas,
-                                     Arena *arena)
-{
-    CoatingTables *out =
-        tables_of(&(CoatedBody){.stack = stack, .ior = ior}, front_row, 1, arena);
+                                     Arena *arena) {
+    CoatingTables *out = tables_of(&(CoatedBody){.stack = stack, .ior = ior}, front_row, 1, arena);
     out->energy = energy_of(out->front, alphas, arena);
     return out;
 }

@@ -22,16 +22,16 @@
 
 /* Coat and overlay over the facets, by the cosine (energy_cosine_knot). */
 typedef struct Cover {
-    Vec2  alpha;  /* of the facets, each in [SMOOTH_ALPHA, 1] */
-    Vec3  normal; /* of the coat, unit */
+    Vec2 alpha;                 /* of the facets, each in [SMOOTH_ALPHA, 1] */
+    Vec3 normal;                /* of the coat, unit */
     float open[ENERGY_COSINES]; /* t: what the coat lets pass */
-    bool  has_overlay;
+    bool has_overlay;
     float kept[ENERGY_COSINES]; /* what the overlay leaves; the lesser of both counts */
 } Cover;
 
 typedef struct CoveredLobe {
     LobeFacets facets;
-    float      lost;
+    float lost;
 } CoveredLobe;
 
 /* w: a unit direction with z > 0. */

@@ -47,7 +47,6 @@ Energy overlay_passes(const Overlay *overlay, Energy e, OverlayShare share);
 float overlay_open(const Overlay *overlay, float cosine, float coat_alpha);
 
 /* The strongest primary. */
-static inline float overlay_most(const Overlay *overlay)
-{
+static inline float overlay_most(const Overlay *overlay) {
     return fmaxf(fmaxf(overlay->color[0], overlay->color[1]), overlay->color[2]);
 }

@@ -33,9 +33,9 @@ typedef struct PaneImages {
 typedef struct PaneMeeting {
     const PaneCoating *coating;
     const Wavelengths *wavelengths;
-    float    cosine;
-    bool     is_front; /* the front's face is met */
-    Spectrum through;  /* the body, once */
+    float cosine;
+    bool is_front;    /* the front's face is met */
+    Spectrum through; /* the body, once */
 } PaneMeeting;
 
 /* One polarisation; returns what is reflected in all. */
@@ -50,47 +50,39 @@ PaneLight pane_coated_mean(const PaneMeeting *meeting);
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 /* The cosine of the refracted direction, by Snell's law. */
-static inline float pane_cosine_inside(float cosine, float ior)
-{
+static inline float pane_cosine_inside(float cosine, float ior) {
     return safe_sqrtf(1 - (1 - cosine * cosine) / (ior * ior));
 }
 
 /* Mean of 1 / cosine inside over the hemisphere, weighted by the cosine outside: 2 n^2 (1 -
  * sqrt(1 - 1 / n^2)). */
-static inline float pane_mean_slant(float ior)
-{
+static inline float pane_mean_slant(float ior) {
     float n2 = ior * ior;
     return n2 < 1e6f ? 2 * n2 * (1 - sqrtf(1 - 1 / n2)) : 1;
 }
 
 /* What a body lets through once; tint: along the normal. ior 1 or more. */
-static inline Spectrum pane_body(Spectrum tint, float cosine, float ior)
-{
+static inline Spectrum pane_body(Spectrum tint, float cosine, float ior) {
     float inside = fmaxf(pane_cosine_inside(cosine, ior), PANE_LEAST_COSINE);
     return spectrum_pow(tint, 1 / inside);
 }
 
 /* Between two perfect mirrors nothing gets in: 0, and not 0 / 0. */
-static inline Spectrum pane_turns(Spectrum next)
-{
+static inline Spectrum pane_turns(Spectrum next) {
     return spectrum_all(1) / spectrum_max(spectrum_all(1) - next, spectrum_all(1e-12f));
 }
 
-static inline Spectrum pane_reflects(Spectrum near, Spectrum far, Spectrum t)
-{
+static inline Spectrum pane_reflects(Spectrum near, Spectrum far, Spectrum t) {
     Spectrum in = spectrum_all(1) - near, t2 = t * t;
     return near + in * in * t2 * far * pane_turns(near * far * t2);
 }
 
-static inline Spectrum pane_passes(Spectrum near, Spectrum far, Spectrum t)
-{
-    return (spectrum_all(1) - near) * (spectrum_all(1) - far) * t *
-           pane_turns(near * far * t * t);
+static inline Spectrum pane_passes(Spectrum near, Spectrum far, Spectrum t) {
+    return (spectrum_all(1) - near) * (spectrum_all(1) - far) * t * pane_turns(near * far * t * t);
 }
 
 /* Two like faces, which reflect s and p of the two polarisations. */
-static inline PaneLight pane_between(Spectrum s, Spectrum p, Spectrum t)
-{
+static inline PaneLight pane_between(Spectrum s, Spectrum p, Spectrum t) {
     Spectrum half = spectrum_all(0.5f);
     return (PaneLight){half * (pane_reflects(s, s, t) + pane_reflects(p, p, t)),
                        half * (pane_passes(s, s, t) + pane_passes(p, p, t))};

@@ -27,17 +27,17 @@
 #define SHEEN_COSINES 48     /* spaced evenly in sqrt(cosine) */
 #define SHEEN_BROAD 16       /* the same axes, for facets */
 #define SHEEN_WIDE 32
-#define SHEEN_BASES 21       /* energy.h's octaves of the facets' alpha, two rows each */
+#define SHEEN_BASES 21          /* energy.h's octaves of the facets' alpha, two rows each */
 #define SHEEN_LEAST 0.26457513f /* the fourth root of the least alpha: roughness 0.07 */
 #define SHEEN_LEAST_ALPHA 0.0049f
 
 typedef struct SheenTable {
-    float       full[SHEEN_ROUGHNESSES][SHEEN_COSINES]; /* the albedo, were it not bounded */
-    float       albedo[SHEEN_ROUGHNESSES][SHEEN_COSINES];
-    float       mean_albedo[SHEEN_BROAD];
-    Energy      mean[SHEEN_BROAD][SHEEN_BASES];
-    Energy      excess[SHEEN_BROAD][SHEEN_BASES][SHEEN_WIDE]; /* less the albedo, of facets */
-    float       open[SHEEN_BROAD][SHEEN_BASES][SHEEN_WIDE]; /* by the coat's alpha */
+    float full[SHEEN_ROUGHNESSES][SHEEN_COSINES]; /* the albedo, were it not bounded */
+    float albedo[SHEEN_ROUGHNESSES][SHEEN_COSINES];
+    float mean_albedo[SHEEN_BROAD];
+    Energy mean[SHEEN_BROAD][SHEEN_BASES];
+    Energy excess[SHEEN_BROAD][SHEEN_BASES][SHEEN_WIDE]; /* less the albedo, of facets */
+    float open[SHEEN_BROAD][SHEEN_BASES][SHEEN_WIDE];    /* by the coat's alpha */
 } SheenTable;
 
 extern const SheenTable common_sheen_table;

@@ -38,39 +38,32 @@ PaneLight base_pane_mean(const MetallicView *view);
 /* The rebound of metals and sheets on the eye's side. */
 Spectrum base_rebound(const MetallicView *view, Vec3 wi, Energy in);
 
-static inline Spectrum lambert_back(const MetallicRoughness *m)
-{
+static inline Spectrum lambert_back(const MetallicRoughness *m) {
     return m->across > 0 ? m->base_color * spectrum_all(1 - m->across) : m->base_color;
 }
 
-static inline bool has_lambert(const MetallicRoughness *m)
-{
+static inline bool has_lambert(const MetallicRoughness *m) {
     return (1 - m->metallic) * (1 - m->transmission) > 0;
 }
 
 /* Only metals and sheets have one: the non-metal's is in the Lambert base. */
-static inline bool has_rebound(const MetallicRoughness *m)
-{
+static inline bool has_rebound(const MetallicRoughness *m) {
     return m->metallic > 0 || m->transmission > 0;
 }
 
 /* Is the boundary over the Lambert base more than a bare one? */
-static inline bool has_layers(const MetallicRoughness *m)
-{
+static inline bool has_layers(const MetallicRoughness *m) {
     return m->coating || has_film(m) || has_overlay(m);
 }
 
 /* Share of the light from w that comes to the Lambert base where no coat lies; e: of facets. */
-static inline Spectrum enters(const MetallicView *view, Vec3 w, Energy e)
-{
+static inline Spectrum enters(const MetallicView *view, Vec3 w, Energy e) {
     return has_layers(view->m) ? base_enters_layers(view, w, e) : let_in(&view->boundary, e);
 }
 
 /* Lambert under boundary and overlay: albedo / pi * in(wo) in(wi) / mean of in (Kelemen
  * 2001). */
-static inline Spectrum base_diffuse(const MetallicView *view, Spectrum albedo, Vec3 wi,
-                                    Energy in)
-{
+static inline Spectrum base_diffuse(const MetallicView *view, Spectrum albedo, Vec3 wi, Energy in) {
     if (!has_lambert(view->m)) return spectrum_all(0);
     return albedo * view->lambert * enters(view, wi, in);
 }
@@ -96,8 +89,7 @@ float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf);
 
 /* Factor for light in and out along these, t t / sqrt of both 1 - r (1 - p), where p = (t /
  * u)^2 is the share that a lobe's light gets out with each time and r the base's albedo. */
-Spectrum coat_on_metal(const MetallicRoughness *m, const ThroughCoat *out,
-                       const ThroughCoat *in);
+Spectrum coat_on_metal(const MetallicRoughness *m, const ThroughCoat *out, const ThroughCoat *in);
 
 /* A mirror of reflectance r under a coat that lets pass t: t t (1 + r (1 - t) + ...). A rough
  * lobe has the lesser t of its two directions: so it never sends out more than came in along
@@ -132,55 +124,46 @@ void covered_set(MetallicView *view);
 
 /* The Lambert base, the rebound's lobe and all of the rebound, as above; in: of wi. */
 Spectrum covered_lambert(const MetallicView *view, Spectrum albedo, const CoveredRest *in);
-float    covered_rebound_lobe(const MetallicView *view, const CoveredRest *in);
+float covered_rebound_lobe(const MetallicView *view, const CoveredRest *in);
 Spectrum covered_rebound(const MetallicView *view, const CoveredRest *in);
 
-static inline float coat_cosine(const MetallicRoughness *m, Vec3 w)
-{
+static inline float coat_cosine(const MetallicRoughness *m, Vec3 w) {
     return fabsf(vec3_dot(m->clearcoat_normal, w));
 }
 
 /* Is there a coat over a base that coat.h's tables do not cover? */
-static inline bool is_covered(const MetallicRoughness *m)
-{
-    return m->clearcoat > 0 &&
-           (is_brushed(m) || has_film(m) || has_overlay(m) || coated_face(m));
+static inline bool is_covered(const MetallicRoughness *m) {
+    return m->clearcoat > 0 && (is_brushed(m) || has_film(m) || has_overlay(m) || coated_face(m));
 }
 
 /* Is there a sheet that a coat lies on? On both of its sides alike. */
-static inline bool has_sheet_under_coat(const MetallicRoughness *m)
-{
+static inline bool has_sheet_under_coat(const MetallicRoughness *m) {
     return m->clearcoat > 0 && clear_share(m) > 0;
 }
 
 /* Bare and coated, by the coat's share. */
-static inline Spectrum coat_mixed(const MetallicRoughness *m, Spectrum bare, Spectrum coated)
-{
+static inline Spectrum coat_mixed(const MetallicRoughness *m, Spectrum bare, Spectrum coated) {
     return bare + (coated - bare) * spectrum_all(m->clearcoat);
 }
 
 /* The coat's albedo for a direction, times its share. */
-static inline float coat_albedo(const MetallicRoughness *m, Vec3 w)
-{
+static inline float coat_albedo(const MetallicRoughness *m, Vec3 w) {
     if (!(m->clearcoat > 0)) return 0;
     return m->clearcoat *
            coat_reflectance(m->clearcoat_energy, coat_cosine(m, w), m->clearcoat_alpha);
 }
 
-static inline float coat_open(const MetallicRoughness *m, Vec3 w)
-{
+static inline float coat_open(const MetallicRoughness *m, Vec3 w) {
     return 1 - coat_reflectance(m->clearcoat_energy, coat_cosine(m, w), m->clearcoat_alpha);
 }
 
-static inline float coat_facet(float cosine)
-{
+static inline float coat_facet(float cosine) {
     return fresnel_unpolarised(cosine, CLEARCOAT_IOR);
 }
 
 /* A tilted coat's turns are left out: the table knows no tilt. */
-static inline ThroughCoat coat_through(const MetallicRoughness *m, Vec3 w)
-{
-    float       cosine = coat_cosine(m, w);
+static inline ThroughCoat coat_through(const MetallicRoughness *m, Vec3 w) {
+    float cosine = coat_cosine(m, w);
     ThroughCoat t;
     t.open = 1 - coat_reflectance(m->clearcoat_energy, cosine, m->clearcoat_alpha);
     t.share = coat_share(m->coat, cosine, m->alpha, m->clearcoat_alpha);

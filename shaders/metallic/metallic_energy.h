@@ -41,48 +41,40 @@ OverlayShare energy_overlay(const MetallicRoughness *m, Vec3 w);
 /* Share of light at a cosine that gets past the overlay. */
 float energy_kept(const MetallicRoughness *m, float cosine);
 
-static inline bool is_brushed(const MetallicRoughness *m)
-{
+static inline bool is_brushed(const MetallicRoughness *m) {
     return m->alpha_along > 0;
 }
 
 /* Of facets, along x and y. */
-static inline Vec2 facet_alphas(const MetallicRoughness *m)
-{
+static inline Vec2 facet_alphas(const MetallicRoughness *m) {
     return (Vec2){is_brushed(m) ? m->alpha_along : m->alpha, m->alpha};
 }
 
 /* Energies that the base's facets send back along a direction above it, and on average. */
-static inline Energy base_energy(const MetallicRoughness *m, Vec3 w)
-{
+static inline Energy base_energy(const MetallicRoughness *m, Vec3 w) {
     return is_brushed(m) ? energy_brushed(m, w) : energy_directional(m->energy, w.z, m->alpha);
 }
 
-static inline Energy base_average(const MetallicRoughness *m)
-{
+static inline Energy base_average(const MetallicRoughness *m) {
     return is_brushed(m) ? energy_brushed_average(m) : energy_average(m->energy, m->alpha);
 }
 
-static inline float base_lobe(const MetallicRoughness *m, Vec3 wo, Vec3 wi, Vec3 half)
-{
-    return is_brushed(m) ? brushed_reflection(wo, wi, half, facet_alphas(m)) :
-                           ggx_reflection(wo, wi, half, m->alpha);
+static inline float base_lobe(const MetallicRoughness *m, Vec3 wo, Vec3 wi, Vec3 half) {
+    return is_brushed(m) ? brushed_reflection(wo, wi, half, facet_alphas(m))
+                         : ggx_reflection(wo, wi, half, m->alpha);
 }
 
-static inline float base_lobe_pdf(const MetallicRoughness *m, Vec3 wo, Vec3 half)
-{
-    return is_brushed(m) ? brushed_reflection_pdf(wo, half, facet_alphas(m)) :
-                           ggx_reflection_pdf(wo, half, m->alpha);
+static inline float base_lobe_pdf(const MetallicRoughness *m, Vec3 wo, Vec3 half) {
+    return is_brushed(m) ? brushed_reflection_pdf(wo, half, facet_alphas(m))
+                         : ggx_reflection_pdf(wo, half, m->alpha);
 }
 
-static inline Vec3 base_sample(const MetallicRoughness *m, Vec3 wo, float u0, float u1)
-{
+static inline Vec3 base_sample(const MetallicRoughness *m, Vec3 wo, float u0, float u1) {
     return brushed_sample_reflection(wo, facet_alphas(m), u0, u1);
 }
 
 /* No colour is below 0. */
-static inline bool has_overlay(const MetallicRoughness *m)
-{
+static inline bool has_overlay(const MetallicRoughness *m) {
     const float *color = m->overlay.color;
     return color[0] + color[1] + color[2] > 0;
 }

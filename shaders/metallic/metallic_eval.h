@@ -20,10 +20,8 @@ Spectrum eval_all(const MetallicView *view, Vec3 wi, float *pdf);
 
 /* Does a sheet send light to the other side, elsewhere than straight on? A smooth one does with
  * what its coats hold back of the light that the overlay spreads. */
-static inline bool sends_below(const MetallicRoughness *m)
-{
-    return m->transmission > 0 &&
-           (!is_smooth(m->alpha) || (m->clearcoat > 0 && has_overlay(m)));
+static inline bool sends_below(const MetallicRoughness *m) {
+    return m->transmission > 0 && (!is_smooth(m->alpha) || (m->clearcoat > 0 && has_overlay(m)));
 }
 
 /* Filled where it stands: it is large, and a plain surface needs little of it. */
@@ -32,8 +30,7 @@ void metallic_look(MetallicView *view, const MetallicRoughness *m, Vec3 wo);
 /* The view that was kept, if it is of this eye; else one made now in *own. A copy of the
  * material may still point at the view of the first. */
 static inline const MetallicView *metallic_seen(const MetallicRoughness *m, Vec3 wo,
-                                                MetallicView *own)
-{
+                                                MetallicView *own) {
     const MetallicView *seen = m->seen;
     if (seen && seen->m == m && seen->wo.x == wo.x && seen->wo.y == wo.y && seen->wo.z == wo.z)
         return seen;

@@ -35,34 +35,28 @@ Spectrum facet_through(const MetallicRoughness *m, const MetallicFace *b, float 
 /* The same from both of its sides. */
 SheetFaces facet_sheet(const MetallicRoughness *m, const MetallicFace *b, float cosine);
 
-static inline bool has_film(const MetallicRoughness *m)
-{
+static inline bool has_film(const MetallicRoughness *m) {
     return m->film.share > 0;
 }
 
-static inline float clear_share(const MetallicRoughness *m)
-{
+static inline float clear_share(const MetallicRoughness *m) {
     return (1 - m->metallic) * m->transmission;
 }
 
-static inline const CoatingTables *coated_metal(const MetallicRoughness *m)
-{
+static inline const CoatingTables *coated_metal(const MetallicRoughness *m) {
     return m->coating ? m->coating->metal : NULL;
 }
 
-static inline const CoatingTables *coated_face(const MetallicRoughness *m)
-{
+static inline const CoatingTables *coated_face(const MetallicRoughness *m) {
     return m->coating ? m->coating->face : NULL;
 }
 
-static inline const PaneCoating *coated_sheet(const MetallicRoughness *m)
-{
+static inline const PaneCoating *coated_sheet(const MetallicRoughness *m) {
     return m->coating ? m->coating->sheet : NULL;
 }
 
-static inline MetallicFace boundary_of(const MetallicRoughness *m)
-{
-    float    f0 = m->energy->ior >= 1 ? fresnel_normal(m->energy->ior) : 1.0f;
+static inline MetallicFace boundary_of(const MetallicRoughness *m) {
+    float f0 = m->energy->ior >= 1 ? fresnel_normal(m->energy->ior) : 1.0f;
     Spectrum tinted = m->specular_color * spectrum_all(f0);
     MetallicFace b;
     b.f0 = spectrum_min(tinted, spectrum_all(1)) * spectrum_all(m->specular);
@@ -71,29 +65,25 @@ static inline MetallicFace boundary_of(const MetallicRoughness *m)
 }
 
 /* Share of the base's light that a boundary lets pass, for an energy of the table. */
-static inline Spectrum let_in(const MetallicFace *b, Energy e)
-{
+static inline Spectrum let_in(const MetallicFace *b, Energy e) {
     return spectrum_all(1) - b->f0 * spectrum_all(e.all) - b->rise * spectrum_all(e.shape);
 }
 
 /* The index that slants a way through the sheet's body. */
-static inline float body_ior(const MetallicRoughness *m)
-{
+static inline float body_ior(const MetallicRoughness *m) {
     if (coated_sheet(m)) return coated_sheet(m)->ior;
     return m->energy->ior >= 1 ? m->energy->ior : INFINITY;
 }
 
 static inline Spectrum facet_reflectance(const MetallicRoughness *m, const MetallicFace *b,
-                                         float cosine)
-{
+                                         float cosine) {
     Spectrum bare = b->f0 + b->rise * spectrum_all(fresnel_shape(m->energy->ior, cosine));
     return has_film(m) ? facet_filmed(m, bare, cosine) : bare;
 }
 
 /* Reflectance of a facet met at `cosine`, of the non-metal's share, sheet or solid. */
 static inline Spectrum facet_of_nonmetal(const MetallicRoughness *m, const MetallicFace *b,
-                                         float cosine)
-{
+                                         float cosine) {
     if (!(m->metallic < 1)) return spectrum_all(0);
     if (coated_face(m) || coated_sheet(m)) return facet_coated(m, b, cosine);
     Spectrum face = facet_reflectance(m, b, cosine);
@@ -102,8 +92,7 @@ static inline Spectrum facet_of_nonmetal(const MetallicRoughness *m, const Metal
     return face * spectrum_all(1 - m->metallic);
 }
 
-static inline Spectrum facet_of_metal(const MetallicRoughness *m, float cosine)
-{
+static inline Spectrum facet_of_metal(const MetallicRoughness *m, float cosine) {
     if (!(m->metallic > 0)) return spectrum_all(0);
     return facet_metal_at(m, cosine) * spectrum_all(m->metallic);
 }
@@ -122,8 +111,7 @@ typedef struct SheetLight {
 } SheetLight;
 
 /* held in [0, 1). What leaves the sheet for good is (1 - held) of this. */
-static inline SheetLight sheet_turns(const SheetFaces *sheet, float held)
-{
+static inline SheetLight sheet_turns(const SheetFaces *sheet, float held) {
     Spectrum one = spectrum_all(1), h = spectrum_all(held), through = h * sheet->through;
     Spectrum rest = (one - h * sheet->front) * (one - h * sheet->rear) - through * through;
     Spectrum determinant = sheet->front * sheet->rear - sheet->through * sheet->through;

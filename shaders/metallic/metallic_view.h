@@ -21,26 +21,26 @@ struct MetallicView;
 typedef struct MetallicRoughness {
     Spectrum base_color;       /* [0, 1]: albedo; of metals, reflectance at normal incidence */
     Spectrum specular_color;   /* >= 0: multiplies the dielectric's F0 */
-    float    metallic;         /* [0, 1] */
-    float    alpha;            /* GGX, [0, 1]; below SMOOTH_ALPHA a perfect mirror */
-    float    alpha_along;      /* brushed: GGX along the frame's x, in [SMOOTH_ALPHA, 1]; then
+    float metallic;            /* [0, 1] */
+    float alpha;               /* GGX, [0, 1]; below SMOOTH_ALPHA a perfect mirror */
+    float alpha_along;         /* brushed: GGX along the frame's x, in [SMOOTH_ALPHA, 1]; then
                                   alpha is that along y, in the same range. 0: alpha */
-    float    specular;         /* [0, 1]: strength of the dielectric's reflection */
-    float    transmission;     /* [0, 1]: share of the non-metal that is a thin sheet */
+    float specular;            /* [0, 1]: strength of the dielectric's reflection */
+    float transmission;        /* [0, 1]: share of the non-metal that is a thin sheet */
     Spectrum tint;             /* [0, 1]: what the sheet's body lets through once along the
                                   normal of a facet */
-    float    clearcoat;        /* [0, 1]: share that carries a lacquer of CLEARCOAT_IOR */
-    float    clearcoat_alpha;  /* GGX, [0, 1] */
-    Vec3     clearcoat_normal; /* unit, local frame; z > 0 */
-    const EnergyTable *energy;           /* of the material's index of refraction */
+    float clearcoat;           /* [0, 1]: share that carries a lacquer of CLEARCOAT_IOR */
+    float clearcoat_alpha;     /* GGX, [0, 1] */
+    Vec3 clearcoat_normal;     /* unit, local frame; z > 0 */
+    const EnergyTable *energy; /* of the material's index of refraction */
     const EnergyTable *clearcoat_energy; /* of CLEARCOAT_IOR; NULL: clearcoat is 0 */
-    const CoatTable   *coat;             /* of both; likewise */
+    const CoatTable *coat;               /* of both; likewise */
     const SurfaceCoating *coating;       /* what reflects in place of the colours; NULL: none */
-    const Wavelengths    *wavelengths;   /* NULL where coating is, without film, across and
+    const Wavelengths *wavelengths;      /* NULL where coating is, without film, across and
                                             overlay */
-    const OpticalConstants *film_metal; /* under a film; NULL: by the colour */
-    ThinFilm film;        /* where there is no coating; share 0: none */
-    bool  seen_from_back;                /* of a coated sheet */
+    const OpticalConstants *film_metal;  /* under a film; NULL: by the colour */
+    ThinFilm film;                       /* where there is no coating; share 0: none */
+    bool seen_from_back;                 /* of a coated sheet */
     float across;          /* [0, 1]: share of diffuse light that leaves on the other side */
     float across_color[3]; /* its albedo, linear Rec.709, [0, 1]; needs wavelengths */
     Overlay overlay;       /* under the coat; needs wavelengths */
@@ -59,7 +59,7 @@ typedef struct MetallicChoices {
 
 /* The coat's effect on light along one direction. */
 typedef struct ThroughCoat {
-    float     open; /* share that its boundary lets pass */
+    float open; /* share that its boundary lets pass */
     CoatShare share;
 } ThroughCoat;
 
@@ -67,29 +67,29 @@ typedef struct ThroughCoat {
  * base's or, of a metal, the rebound's. */
 typedef struct CoveredRest {
     Spectrum base;
-    float    metal;
+    float metal;
 } CoveredRest;
 
 /* A coat over what coat.h's tables do not know. */
 typedef struct CoveredBase {
-    Cover       cover;
-    Spectrum    face[LOBE_FACETS]; /* of the non-metal, at facet_cosine */
-    CoveredRest rest, mean;        /* towards wo; over the hemisphere */
+    Cover cover;
+    Spectrum face[LOBE_FACETS]; /* of the non-metal, at facet_cosine */
+    CoveredRest rest, mean;     /* towards wo; over the hemisphere */
 } CoveredBase;
 
 /* Layers that a surface does not have leave their members undefined. */
 typedef struct MetallicView {
     const MetallicRoughness *m;
-    Vec3            wo;
-    MetallicFace    boundary;
+    Vec3 wo;
+    MetallicFace boundary;
     MetallicChoices choices;
-    Energy          energy; /* of the base towards wo */
-    float           coat;   /* the coat's albedo towards wo, times its share */
-    ThroughCoat     through; /* the coat, and of it all: */
-    CoatMean        coat_mean;
-    Spectrum        lambert; /* the factor of the Lambert base's light that depends on wo */
-    Spectrum        coated;  /* what a coated or filmed face sends back towards wo */
-    Spectrum        film[LOBE_FACETS]; /* filmed faces' reflectance at facet_cosine */
-    OverlayShare    overlay, overlay_mean; /* towards wo; over the hemisphere */
-    CoveredBase     covered;
+    Energy energy;       /* of the base towards wo */
+    float coat;          /* the coat's albedo towards wo, times its share */
+    ThroughCoat through; /* the coat, and of it all: */
+    CoatMean coat_mean;
+    Spectrum lambert;           /* the factor of the Lambert base's light that depends on wo */
+    Spectrum coated;            /* what a coated or filmed face sends back towards wo */
+    Spectrum film[LOBE_FACETS]; /* filmed faces' reflectance at facet_cosine */
+    OverlayShare overlay, overlay_mean; /* towards wo; over the hemisphere */
+    CoveredBase covered;
 } MetallicView;

@@ -22,17 +22,16 @@
 #define MEAN_COSINES 96
 #define MEAN_TURNS 12
 
-static LobeFacets facets_of_lobe(Vec3 wo, Vec2 alpha)
-{
+static LobeFacets facets_of_lobe(Vec3 wo, Vec2 alpha) {
     LobeFacets out;
-    double     sum[LOBE_FACETS] = {0}, at[LOBE_FACETS];
+    double sum[LOBE_FACETS] = {0}, at[LOBE_FACETS];
     for (int i = 0; i < LOBE_POINTS; i++) {
-        int   row = i / LOBE_TURNS;
+        int row = i / LOBE_TURNS;
         float rest = ((float)row + 0.5f) / LOBE_HEIGHTS, shift = (float)row * 0.618034f;
         float turn = ((float)(i % LOBE_TURNS) + shift - (float)(int)shift) / LOBE_TURNS;
-        Vec3  wi = brushed_sample_reflection(wo, alpha, turn, 1 - rest * rest);
+        Vec3 wi = brushed_sample_reflection(wo, alpha, turn, 1 - rest * rest);
         if (!(wi.z > 0)) continue;
-        Vec3  half = vec3_normalize(vec3_add(wo, wi));
+        Vec3 half = vec3_normalize(vec3_add(wo, wi));
         float weight = 2 * rest * brushed_reflection(wo, wi, half, alpha) * wi.z /
                        brushed_reflection_pdf(wo, half, alpha);
         facet_polynomials((double)vec3_dot(wo, half), at);
@@ -42,14 +41,12 @@ static LobeFacets facets_of_lobe(Vec3 wo, Vec2 alpha)
     return out;
 }
 
-static float fourth_power(int row, int count)
-{
+static float fourth_power(int row, int count) {
     float root = lerpf(FACET_LEAST, 1, (float)row / (float)(count - 1));
     return root * root * root * root;
 }
 
-static void fill_lobes(Vec2 alpha, LobeFacets (*rows)[FACET_COSINES])
-{
+static void fill_lobes(Vec2 alpha, LobeFacets (*rows)[FACET_COSINES]) {
     for (int t = 0; t < FACET_AZIMUTHS; t++)
         for (int c = 0; c < FACET_COSINES; c++) {
             float turn = (float)t / (FACET_AZIMUTHS - 1);
@@ -60,10 +57,9 @@ static void fill_lobes(Vec2 alpha, LobeFacets (*rows)[FACET_COSINES])
 }
 
 /* Evenly in the cosine's fourth root: what narrow lobes lose they lose at grazing. */
-static LobeFacets mean_lobe(const FacetTable *table, Vec2 alpha)
-{
+static LobeFacets mean_lobe(const FacetTable *table, Vec2 alpha) {
     LobeFacets sum = {{0}};
-    float      all = 0;
+    float all = 0;
     for (int i = 0; i < MEAN_COSINES * MEAN_TURNS; i++) {
         float root = ((float)(i % MEAN_COSINES) + 0.5f) / MEAN_COSINES, sine, cosine;
         float root3 = root * root * root, z = root3 * root, side = safe_sqrtf(1 - z * z);
@@ -78,8 +74,7 @@ static LobeFacets mean_lobe(const FacetTable *table, Vec2 alpha)
 }
 
 /* It takes some seconds. */
-static const FacetTable *facet_table_build(Arena *arena)
-{
+static const FacetTable *facet_table_build(Arena *arena) {
     FacetTable *table = ARENA_NEW(arena, FacetTable, 1);
     for (int a = 0; a < FACET_ALPHAS; a++)
         for (int r = 0; r < FACET_RATIOS; r++) {
@@ -89,8 +84,7 @@ static const FacetTable *facet_table_build(Arena *arena)
     for (int a = 0; a < MEAN_ALPHAS; a++)
         for (int r = 0; r < MEAN_RATIOS; r++) {
             float high = fourth_power(a, MEAN_ALPHAS);
-            table->mean[a][r] =
-                mean_lobe(table, (Vec2){high, high * fourth_power(r, MEAN_RATIOS)});
+            table->mean[a][r] = mean_lobe(table, (Vec2){high, high * fourth_power(r, MEAN_RATIOS)});
         }
     return table;
 }
@@ -101,49 +95,43 @@ static const FacetTable *facet_table_build(Arena *arena)
 #define TURNS 48    /* over half a turn */
 #define MEANS 512   /* cosines of a mean, evenly in the root too */
 
-static float alpha_of(int row, int count)
-{
+static float alpha_of(int row, int count) {
     float root = lerpf(SHEEN_LEAST, 1, (float)row / (float)(count - 1));
     return fmaxf(root * root * root * root, SHEEN_LEAST_ALPHA);
 }
 
-static float base_of(int row)
-{
+static float base_of(int row) {
     return energy_alpha_of_row(row, (SHEEN_BASES - 1) / ENERGY_OCTAVES);
 }
 
-static float cosine_of(int column, int count)
-{
+static float cosine_of(int column, int count) {
     float root = (float)column / (float)(count - 1);
     return column > 0 ? root * root : 1e-6f;
 }
 
-static float height_root(int height)
-{
+static float height_root(int height) {
     return ((float)height + 0.5f) / HEIGHTS;
 }
 
 /* Integrates what is sent to each height. Light is thickest where it leaves on the near side:
  * turns stand closer there. Without a table it is not bounded. */
 static void integrate_heights(const SheenTable *table, float cosine, float alpha,
-                              double sent[HEIGHTS])
-{
+                              double sent[HEIGHTS]) {
     Vec3 wo = vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);
     for (int i = 0; i < HEIGHTS * TURNS; i++) {
-        float  root = height_root(i / TURNS), z = root * root, x, y;
-        float  side = safe_sqrtf(1 - z * z), turn = ((float)(i % TURNS) + 0.5f) / TURNS;
+        float root = height_root(i / TURNS), z = root * root, x, y;
+        float side = safe_sqrtf(1 - z * z), turn = ((float)(i % TURNS) + 0.5f) / TURNS;
         sincos_turns(0.5f * turn * turn, &y, &x);
         double area = 2 * (double)root * 2 * PI * 2 * (double)turn / (HEIGHTS * TURNS);
-        Vec3   wi = vec3(side * x, side * y, z);
+        Vec3 wi = vec3(side * x, side * y, z);
         if (i % TURNS == 0) sent[i / TURNS] = 0;
-        sent[i / TURNS] += area * (double)z *
-                           (double)(table ? sheen_lobe(table, wo, wi, alpha) :
-                                            sheen_lobe_full(wo, wi, alpha));
+        sent[i / TURNS] +=
+            area * (double)z *
+            (double)(table ? sheen_lobe(table, wo, wi, alpha) : sheen_lobe_full(wo, wi, alpha));
     }
 }
 
-static float integrate(const SheenTable *table, float cosine, float alpha)
-{
+static float integrate(const SheenTable *table, float cosine, float alpha) {
     double sent[HEIGHTS], sum = 0;
     integrate_heights(table, cosine, alpha, sent);
     for (int i = 0; i < HEIGHTS; i++) sum += sent[i];
@@ -151,8 +139,7 @@ static float integrate(const SheenTable *table, float cosine, float alpha)
 }
 
 /* Under coats of every alpha. */
-static void fill_open(const EnergyTable *coat, int row, int column, SheenTable *table)
-{
+static void fill_open(const EnergyTable *coat, int row, int column, SheenTable *table) {
     double sent[HEIGHTS];
     integrate_heights(table, cosine_of(column, SHEEN_WIDE), alpha_of(row, SHEEN_BROAD), sent);
     for (int k = 0; k < SHEEN_BASES; k++) {
@@ -167,10 +154,9 @@ static void fill_open(const EnergyTable *coat, int row, int column, SheenTable *
 }
 
 /* Over the facets' lobe about one direction. */
-static Energy excess_of(const SheenTable *table, float ior, float cosine, int row, int base)
-{
-    float      alpha = alpha_of(row, SHEEN_BROAD), own = sheen_albedo(table, cosine, alpha);
-    float      light = 0, shape = 0;
+static Energy excess_of(const SheenTable *table, float ior, float cosine, int row, int base) {
+    float alpha = alpha_of(row, SHEEN_BROAD), own = sheen_albedo(table, cosine, alpha);
+    float light = 0, shape = 0;
     Energy sum = {0, 0};
     EnergyLobe lobe;
     if (base == 0) return sum;
@@ -186,12 +172,11 @@ static Energy excess_of(const SheenTable *table, float ior, float cosine, int ro
 }
 
 static OverlayShare mean_of_facets(const SheenTable *table, const EnergyTable *energy, int row,
-                                   int base)
-{
+                                   int base) {
     double albedo = 0, all = 0, shape = 0, light = 0, shaped = 0;
     for (int i = 0; i < MEANS; i++) {
         double root = (i + 0.5) / MEANS, weight = 4 * root * root * root / MEANS;
-        float  cosine = (float)(root * root);
+        float cosine = (float)(root * root);
         Energy e = energy_directional(energy, cosine, base_of(base));
         OverlayShare s = sheen_share(table, cosine, alpha_of(row, SHEEN_BROAD), base_of(base));
         albedo += weight * (double)s.albedo;
@@ -203,26 +188,24 @@ static OverlayShare mean_of_facets(const SheenTable *table, const EnergyTable *e
     return (OverlayShare){(float)albedo, (float)(all / light), (float)(shape / shaped)};
 }
 
-static void fill_albedos(SheenTable *table)
-{
+static void fill_albedos(SheenTable *table) {
     for (int i = 0; i < SHEEN_ROUGHNESSES * SHEEN_COSINES; i++) {
         int r = i / SHEEN_COSINES, c = i % SHEEN_COSINES;
-        table->full[r][c] = integrate(NULL, cosine_of(c, SHEEN_COSINES),
-                                      alpha_of(r, SHEEN_ROUGHNESSES));
+        table->full[r][c] =
+            integrate(NULL, cosine_of(c, SHEEN_COSINES), alpha_of(r, SHEEN_ROUGHNESSES));
     }
     for (int r = 0; r < SHEEN_ROUGHNESSES; r++) {
         float most = 0;
         for (int c = 0; c < SHEEN_COSINES; c++) most = fmaxf(most, table->full[r][c]);
         for (int c = 0; c < SHEEN_COSINES; c++)
-            table->albedo[r][c] = most < 0.98f ? table->full[r][c] :
-                                  integrate(table, cosine_of(c, SHEEN_COSINES),
-                                            alpha_of(r, SHEEN_ROUGHNESSES));
+            table->albedo[r][c] = most < 0.98f ? table->full[r][c]
+                                               : integrate(table, cosine_of(c, SHEEN_COSINES),
+                                                           alpha_of(r, SHEEN_ROUGHNESSES));
     }
 }
 
 /* energy: of the boundary whose facets lie beneath, and of the coat above. Some 4 seconds. */
-static const SheenTable *sheen_table_build(const EnergyTable *energy, Arena *arena)
-{
+static const SheenTable *sheen_table_build(const EnergyTable *energy, Arena *arena) {
     SheenTable *table = ARENA_NEW(arena, SheenTable, 1);
     fill_albedos(table);
     for (int i = 0; i < SHEEN_BROAD * SHEEN_WIDE; i++)
@@ -245,12 +228,11 @@ static const SheenTable *sheen_table_build(const EnergyTable *energy, Arena *are
 
 /* The program's usual ones stand here themselves: water 1.333, paint and lining 1.45, glTF's
  * default 1.5, window glass 1.52. */
-static const float NODES[INDEX_NODES] = {1.3f,  1.333f, 1.4f,  1.45f, 1.5f, 1.52f, 1.57f, 1.63f,
-                                         1.7f,  1.78f,  1.87f, 1.98f, 2.1f, 2.25f, 2.4f};
+static const float NODES[INDEX_NODES] = {1.3f, 1.333f, 1.4f,  1.45f, 1.5f, 1.52f, 1.57f, 1.63f,
+                                         1.7f, 1.78f,  1.87f, 1.98f, 2.1f, 2.25f, 2.4f};
 
 /* All members of the tables are floats. */
-static void write_floats(FILE *file, const void *table, size_t size)
-{
+static void write_floats(FILE *file, const void *table, size_t size) {
     const float *values = table;
     fprintf(file, "{");
     for (size_t i = 0; i < size / sizeof *values; i++)
@@ -258,15 +240,13 @@ static void write_floats(FILE *file, const void *table, size_t size)
     fprintf(file, "\n}");
 }
 
-static void write_table(FILE *file, const char *head, const void *table, size_t size)
-{
+static void write_table(FILE *file, const char *head, const void *table, size_t size) {
     fprintf(file, "\nconst %s = ", head);
     write_floats(file, table, size);
     fprintf(file, ";\n");
 }
 
-static void take_shapes(const EnergyTable *table, IndexShapes *shapes)
-{
+static void take_shapes(const EnergyTable *table, IndexShapes *shapes) {
     for (int a = 0; a < ENERGY_ALPHAS; a++) {
         shapes->average[a] = table->average[a].shape;
         for (int c = 0; c < ENERGY_COSINES; c++)
@@ -274,8 +254,7 @@ static void take_shapes(const EnergyTable *table, IndexShapes *shapes)
     }
 }
 
-static void write_shapes(FILE *file, Arena *arena)
-{
+static void write_shapes(FILE *file, Arena *arena) {
     IndexShapes *shapes = ARENA_NEW(arena, IndexShapes, 1);
     write_table(file, "float index_nodes[INDEX_NODES]", NODES, sizeof NODES);
     fprintf(file, "\nconst IndexShapes common_index_shapes[INDEX_NODES] = {\n");
@@ -287,13 +266,12 @@ static void write_shapes(FILE *file, Arena *arena)
     fprintf(file, "};\n");
 }
 
-int main(int count, char **names)
-{
+int main(int count, char **names) {
     FILE *file = count == 2 ? fopen(names[1], "w") : NULL;
     if (!file) return 1;
-    Arena              arena = arena_reserve((size_t)1 << 28);
+    Arena arena = arena_reserve((size_t)1 << 28);
     const EnergyTable *energy = energy_table_build(CLEARCOAT_IOR, &arena);
-    const CoatTable   *coat = coat_table_build(energy, energy, &arena);
+    const CoatTable *coat = coat_table_build(energy, energy, &arena);
     fprintf(file, "#include \"shaders/facets/coat.h\"\n"
                   "#include \"shaders/facets/index_tables.h\"\n"
                   "#include \"shaders/facets/lobe_facets.h\"\n"

@@ -13,14 +13,14 @@
  * that number, counted, and differs from the weight's share by the rounding. What is divided by
  * prob is therefore without bias; a share far below 2^-24 may never be chosen. */
 typedef struct AliasSlot {
-    uint32_t keep;  /* of 2^24 places in slot i, the first that i keeps */
-    uint32_t other; /* what slot i gives otherwise */
-    float    prob;  /* probability of i; they sum to one */
-    float    other_prob; /* of `other`, to be had without another read far away */
+    uint32_t keep;    /* of 2^24 places in slot i, the first that i keeps */
+    uint32_t other;   /* what slot i gives otherwise */
+    float prob;       /* probability of i; they sum to one */
+    float other_prob; /* of `other`, to be had without another read far away */
 } AliasSlot;
 
 typedef struct AliasTable {
-    int        count;
+    int count;
     AliasSlot *slots;
 } AliasTable;
 
@@ -28,8 +28,7 @@ typedef struct AliasTable {
 AliasTable alias_build(const double *weights, int count, Arena *arena);
 
 /* u in [0,1). *prob: of what was chosen. */
-static inline int alias_sample(const AliasTable *table, float u, float *prob)
-{
+static inline int alias_sample(const AliasTable *table, float u, float *prob) {
     uint64_t place = (uint64_t)(u * 0x1p24f) * (uint64_t)table->count;
     uint32_t slot = (uint32_t)(place >> 24), rest = (uint32_t)place & 0xffffffu;
     const AliasSlot *at = &table->slots[slot];

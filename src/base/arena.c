@@ -14,8 +14,7 @@
 #include "print/printable.h"
 
 /* Threads may still be at work: their libraries' tables must not be taken down under them. */
-static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
-{
+static void exit_when_full(size_t bytes_wanted, size_t bytes_left) {
     print_to(stderr, "parhelion: out of memory: %zu bytes required, %zu left\n", bytes_wanted,
              bytes_left);
     fflush(stderr);
@@ -27,8 +26,7 @@ static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
 /* The most that one arena may take: libraries and further arenas need room too, and a file
  * that requests more than there is should exhaust the arena, not the system, nor the container,
  * which is killed then. */
-static size_t most_bytes(void)
-{
+static size_t most_bytes(void) {
     size_t space = machine_address_space_left() / 2;
     size_t memory = machine_installed_bytes() / 4 * 3;
     return (space < memory ? space : memory) / PAGE * PAGE;
@@ -38,8 +36,7 @@ static size_t most_bytes(void)
  * 2 MB spare most of these reads the search for their page. */
 #define LARGE ((size_t)1 << 32)
 
-bool arena_try_reserve(size_t bytes, Arena *out)
-{
+bool arena_try_reserve(size_t bytes, Arena *out) {
     size_t size = (bytes + PAGE - 1) / PAGE * PAGE, most = most_bytes();
     if (size > most) size = most;
     char *memory = mmap(NULL, size, PROT_READ | PROT_WRITE,
@@ -47,31 +44,28 @@ bool arena_try_reserve(size_t bytes, Arena *out)
     *out = (Arena){0};
     if (memory == MAP_FAILED) return false;
     if (bytes >= LARGE) madvise(memory, size, MADV_HUGEPAGE); /* or stays with small ones */
-    *out = (Arena){.next = memory, .end = memory + size, .on_full = exit_when_full,
-                   .begin = memory};
+    *out =
+        (Arena){.next = memory, .end = memory + size, .on_full = exit_when_full, .begin = memory};
     guard_start(out);
     return true;
 }
 
-Arena arena_reserve(size_t bytes)
-{
+Arena arena_reserve(size_t bytes) {
     Arena arena;
     if (!arena_try_reserve(bytes, &arena)) exit_when_full(bytes, 0);
     return arena;
 }
 
-void arena_trim(Arena *arena)
-{
+void arena_trim(Arena *arena) {
     size_t used = ((size_t)(arena->next - arena->begin) + PAGE - 1) / PAGE * PAGE;
-    char  *end = arena->begin + used;
+    char *end = arena->begin + used;
     if (end >= arena->end) return;
     guard_end(arena);
     munmap(end, (size_t)(arena->end - end));
     arena->end = end;
 }
 
-void arena_release(Arena *arena)
-{
+void arena_release(Arena *arena) {
     if (arena->begin) {
         guard_end(arena);
         munmap(arena->begin, (size_t)(arena->end - arena->begin));
@@ -84,8 +78,7 @@ void arena_release(Arena *arena)
 #define LARGE_BLOCK ((size_t)1 << 22)
 
 /* A block's size, and what is left for it. */
-static size_t block_bytes(const Arena *arena, size_t size, size_t count, size_t *left)
-{
+static size_t block_bytes(const Arena *arena, size_t size, size_t count, size_t *left) {
     size_t bytes;
     *left = arena_left(arena);
     if (__builtin_mul_overflow(size, count, &bytes)) bytes = SIZE_MAX;
@@ -97,8 +90,7 @@ static size_t block_bytes(const Arena *arena, size_t size, size_t count, size_t 
 }
 
 /* Zeroed bytes, or NULL where they are more than what is left. */
-static void *take_block(Arena *arena, size_t bytes, size_t align, size_t left)
-{
+static void *take_block(Arena *arena, size_t bytes, size_t align, size_t left) {
     if (align < GUARD_ALIGN) align = GUARD_ALIGN;
     size_t pad = (size_t)(-(uintptr_t)arena->next) & (align - 1);
     if (pad > left || bytes > left - pad) return NULL;
@@ -108,24 +100,21 @@ static void *take_block(Arena *arena, size_t bytes, size_t align, size_t left)
     return bytes ? memset(memory, 0, bytes) : memory;
 }
 
-void *arena_try(Arena *arena, size_t size, size_t align, size_t count)
-{
+void *arena_try(Arena *arena, size_t size, size_t align, size_t count) {
     size_t left, bytes = block_bytes(arena, size, count, &left);
     return take_block(arena, bytes, align, left);
 }
 
-void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count)
-{
+void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count) {
     size_t left, bytes = block_bytes(arena, size, count, &left);
-    void  *memory = take_block(arena, bytes, align, left);
+    void *memory = take_block(arena, bytes, align, left);
     if (memory) return memory;
     if (arena->way_out) longjmp(*arena->way_out, 1);
     arena->on_full(bytes, left);
     abort(); /* on_full must not return */
 }
 
-void *arena_grow(Arena *arena, void *bytes, size_t size, size_t wanted, size_t align)
-{
+void *arena_grow(Arena *arena, void *bytes, size_t size, size_t wanted, size_t align) {
     if (bytes && (char *)bytes + size == arena->next) {
         arena_alloc(arena, 1, 1, wanted - size);
         return bytes;
@@ -134,8 +123,7 @@ void *arena_grow(Arena *arena, void *bytes, size_t size, size_t wanted, size_t a
     return bytes ? memcpy(bigger, bytes, size) : bigger;
 }
 
-void *arena_keep(Arena *arena, const void *bytes, size_t size, size_t align)
-{
+void *arena_keep(Arena *arena, const void *bytes, size_t size, size_t align) {
     char *memory = arena->next + ((size_t)(-(uintptr_t)arena->next) & (align - 1));
     arena->next = memory + size;
     guard_lift(memory, size);
@@ -144,27 +132,24 @@ void *arena_keep(Arena *arena, const void *bytes, size_t size, size_t align)
     return memory;
 }
 
-char *arena_string(Arena *arena, const char *text, size_t length)
-{
+char *arena_string(Arena *arena, const char *text, size_t length) {
     char *copy = ARENA_NEW(arena, char, length + 1);
     memcpy(copy, text, length);
     return copy;
 }
 
-char *arena_printable(Arena *arena, const char *text)
-{
+char *arena_printable(Arena *arena, const char *text) {
     size_t size = printable_size(text);
-    char  *copy = ARENA_NEW(arena, char, size);
+    char *copy = ARENA_NEW(arena, char, size);
     printable_copy(copy, size, text);
     return copy;
 }
 
-char *arena_format(Arena *arena, const char *format, ...)
-{
+char *arena_format(Arena *arena, const char *format, ...) {
     va_list args, again;
     va_start(args, format);
     va_copy(again, args);
-    int   length = vsnprintf(NULL, 0, format, args);
+    int length = vsnprintf(NULL, 0, format, args);
     char *text = ARENA_NEW(arena, char, length + 1);
     vsnprintf(text, (size_t)length + 1, format, again);
     va_end(again);
@@ -172,8 +157,7 @@ char *arena_format(Arena *arena, const char *format, ...)
     return text;
 }
 
-char *arena_format_list(Arena *arena, size_t most, const char *format, va_list list)
-{
+char *arena_format_list(Arena *arena, size_t most, const char *format, va_list list) {
     char text[ARENA_FORMAT_MOST + 1];
     vsnprintf(text, most < sizeof text ? most + 1 : sizeof text, format, list);
     return arena_string(arena, text, strlen(text));

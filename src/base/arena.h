@@ -39,8 +39,7 @@ Arena arena_reserve(size_t bytes);
 bool arena_try_reserve(size_t bytes, Arena *out);
 
 /* Bytes that it still has. */
-static inline size_t arena_left(const Arena *arena)
-{
+static inline size_t arena_left(const Arena *arena) {
     return (size_t)(arena->end - arena->next);
 }
 
@@ -71,8 +70,7 @@ char *arena_string(Arena *arena, const char *text, size_t length);
 char *arena_printable(Arena *arena, const char *text);
 
 /* printf into the arena. */
-char *arena_format(Arena *arena, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+char *arena_format(Arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* The same for a function that is itself like printf, cut at `most` bytes (ARENA_FORMAT_MOST at
  * most). The arguments may lie in scratch behind the arena's end. */
@@ -88,6 +86,6 @@ char *arena_format_list(Arena *arena, size_t most, const char *format, va_list l
     ((Type *)arena_alloc((arena), sizeof(Type), _Alignof(Type), (size_t)(count)))
 
 /* A list of `count` items with room for `wanted` of them. */
-#define ARENA_GROW(arena, Type, list, count, wanted)                                           \
-    ((Type *)arena_grow((arena), (list), sizeof(Type) * (size_t)(count),                       \
+#define ARENA_GROW(arena, Type, list, count, wanted) \
+    ((Type *)arena_grow((arena), (list), sizeof(Type) * (size_t)(count), \
                         sizeof(Type) * (size_t)(wanted), _Alignof(Type)))

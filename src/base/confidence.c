@@ -5,9 +5,7 @@
 
 #include "base/mathd.h"
 
-
-void batch_add(BatchSums *sums, double mean)
-{
+void batch_add(BatchSums *sums, double mean) {
     sums->count++;
     sums->sum += mean;
     sums->squares += mean * mean;
@@ -15,19 +13,16 @@ void batch_add(BatchSums *sums, double mean)
 }
 
 /* About the mean, over all batches. */
-static double variance_of(const BatchSums *sums)
-{
+static double variance_of(const BatchSums *sums) {
     double mean = sums->sum / sums->count;
     return fmax(sums->squares / sums->count - mean * mean, 0);
 }
 
-double batch_error(const BatchSums *sums)
-{
+double batch_error(const BatchSums *sums) {
     return sqrt(variance_of(sums) / (sums->count - 1));
 }
 
-void bright_add(BrightSamples *samples, double light)
-{
+void bright_add(BrightSamples *samples, double light) {
     double square = light * light;
     samples->squares += square;
     samples->fourths += square * square;
@@ -41,47 +36,40 @@ void bright_add(BrightSamples *samples, double light)
  * where the spread is finite (k < 1/2). As many such may be missing: for k = 2 those up to 50
  * times as bright as the brightest, 2 (sqrt(50) - 1) = 12; for k = 1 log(50) = 4 to 7; of many
  * that are alike what an interval of Poisson's has more than a normal one, 1. */
-double bright_missing(const BrightSamples *samples, double count, double repeated)
-{
+double bright_missing(const BrightSamples *samples, double count, double repeated) {
     double q = samples->squares, f = samples->fourths;
     if (!(f > 0)) return 0;
     return (1 + 14 * f / (q * q * repeated)) * sqrt(f / q) / (count * repeated);
 }
 
 /* The third moment by the standard deviation's cube. */
-static double skewness_of(const BatchSums *sums)
-{
+static double skewness_of(const BatchSums *sums) {
     double n = sums->count, mean = sums->sum / n, variance = variance_of(sums);
     if (!(variance > 0)) return 0;
     double third = sums->cubes / n - mean * (3 * variance + mean * mean);
     return third / (variance * sqrt(variance));
 }
 
-double student_quantile(double freedom)
-{
+double student_quantile(double freedom) {
     double z = NORMAL_QUANTILE, s = z * z, v = freedom;
     return z * (1 + (s + 1) / (4 * v) + ((5 * s + 16) * s + 3) / (96 * v * v) +
                 (((3 * s + 19) * s + 17) * s - 15) / (384 * v * v * v));
 }
 
 /* The same bits on every processor. */
-static double cube_root(double x)
-{
+static double cube_root(double x) {
     return x != 0 ? copysign(exp_d(log_d(fabs(x)) / 3), x) : 0;
 }
 
 /* The inverse t of Hall's transformation: t + a t^2 / 3 + a^2 t^3 / 27 + a / 6 is `value`, a
  * the skewness over the square root of the count. */
-static double untransformed(double value, double a)
-{
+static double untransformed(double value, double a) {
     if (fabs(a) < 1e-6) return value;
     return 3 / a * (cube_root(1 + a * (value - a / 6)) - 1);
 }
 
-MeanInterval batch_interval(const BatchSums *sums)
-{
+MeanInterval batch_interval(const BatchSums *sums) {
     double n = sums->count, mean = sums->sum / n, error = batch_error(sums);
     double a = skewness_of(sums) / sqrt(n), t = student_quantile(n - 1);
-    return (MeanInterval){mean - error * untransformed(t, a),
-                          mean - error * untransformed(-t, a)};
+    return (MeanInterval){mean - error * untransformed(t, a), mean - error * untransformed(-t, a)};
 }

@@ -12,8 +12,9 @@
  */
 #pragma once
 #define CONFIDENCE_MISS 0.05 /* chance that a 95 % interval does not hold the true value: */
-#define NORMAL_QUANTILE 1.959963984540054 /* that a normal variable lies farther out, on either
-                                             side: erfc(z / sqrt 2) */
+#define NORMAL_QUANTILE \
+    1.959963984540054 /* that a normal variable lies farther out, on either \
+                         side: erfc(z / sqrt 2) */
 
 /* Power sums of batch means; every batch has the same number of samples. */
 typedef struct BatchSums {

@@ -7,8 +7,7 @@
 #include "print/printable.h"
 
 bool error_at_list(Error *err, ErrorCode code, const char *file, const char *path,
-                   const char *format, va_list list)
-{
+                   const char *format, va_list list) {
     char text[sizeof err->text];
     vsnprintf(text, sizeof text, format, list); /* may quote *err */
     err->code = code;
@@ -18,8 +17,7 @@ bool error_at_list(Error *err, ErrorCode code, const char *file, const char *pat
     return false;
 }
 
-bool error_set(Error *err, ErrorCode code, const char *format, ...)
-{
+bool error_set(Error *err, ErrorCode code, const char *format, ...) {
     va_list list;
     va_start(list, format);
     error_at_list(err, code, NULL, NULL, format, list);
@@ -27,9 +25,8 @@ bool error_set(Error *err, ErrorCode code, const char *format, ...)
     return false;
 }
 
-bool error_at(Error *err, ErrorCode code, const char *file, const char *path,
-              const char *format, ...)
-{
+bool error_at(Error *err, ErrorCode code, const char *file, const char *path, const char *format,
+              ...) {
     va_list list;
     va_start(list, format);
     error_at_list(err, code, file, path, format, list);
@@ -37,16 +34,14 @@ bool error_at(Error *err, ErrorCode code, const char *file, const char *path,
     return false;
 }
 
-bool error_at_count(Error *err, const char *file, const char *unit, long number,
-                    const char *format, va_list list)
-{
+bool error_at_count(Error *err, const char *file, const char *unit, long number, const char *format,
+                    va_list list) {
     char place[48];
     snprintf(place, sizeof place, "%s %ld", unit, number);
     return error_at_list(err, ERROR_INPUT, file, place, format, list);
 }
 
-bool error_prefix(Error *err, const char *format, ...)
-{
+bool error_prefix(Error *err, const char *format, ...) {
     char context[sizeof err->text];
     char whole[2 * sizeof err->text + 4];
     va_list args;
@@ -58,20 +53,17 @@ bool error_prefix(Error *err, const char *format, ...)
     return false;
 }
 
-bool error_in_file(Error *err, const char *file)
-{
+bool error_in_file(Error *err, const char *file) {
     if (!err->file[0]) printable_copy(err->file, sizeof err->file, file ? file : "");
     return false;
 }
 
-void error_line(const Error *err, char *buffer, int size)
-{
-    snprintf(buffer, (size_t)size, "%s%s%s%s%s", err->file, err->file[0] ? ": " : "",
-             err->path, err->path[0] ? ": " : "", err->text);
+void error_line(const Error *err, char *buffer, int size) {
+    snprintf(buffer, (size_t)size, "%s%s%s%s%s", err->file, err->file[0] ? ": " : "", err->path,
+             err->path[0] ? ": " : "", err->text);
 }
 
-int error_exit_status(ErrorCode code)
-{
+int error_exit_status(ErrorCode code) {
     if (code == ERROR_MACHINE) return 5;
     return code == ERROR_LIBRARY || code == ERROR_MEMORY ? 3 : (int)code;
 }

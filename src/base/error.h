@@ -28,8 +28,8 @@ typedef enum ErrorCode {
 
 typedef struct Error {
     ErrorCode code;
-    char file[512]; /* the file in question as the user named it, or "" */
-    char path[256]; /* the place inside it ("/materials/3", "line 12"), or "" */
+    char file[512];  /* the file in question as the user named it, or "" */
+    char path[256];  /* the place inside it ("/materials/3", "line 12"), or "" */
     char text[1024]; /* what was found and what was required; outermost context first */
 } Error;
 
@@ -38,18 +38,17 @@ bool error_set(Error *err, ErrorCode code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* As error_set, naming the file and the place inside it (NULL or "" = none). */
-bool error_at(Error *err, ErrorCode code, const char *file, const char *path,
-              const char *format, ...) __attribute__((format(printf, 5, 6)));
+bool error_at(Error *err, ErrorCode code, const char *file, const char *path, const char *format,
+              ...) __attribute__((format(printf, 5, 6)));
 bool error_at_list(Error *err, ErrorCode code, const char *file, const char *path,
                    const char *format, va_list list) __attribute__((format(printf, 5, 0)));
 
 /* An ERROR_INPUT at a numbered place: `unit` "line" and number 12 are "line 12". */
-bool error_at_count(Error *err, const char *file, const char *unit, long number,
-                    const char *format, va_list list) __attribute__((format(printf, 5, 0)));
+bool error_at_count(Error *err, const char *file, const char *unit, long number, const char *format,
+                    va_list list) __attribute__((format(printf, 5, 0)));
 
 /* Puts "context: " in front of the text; keeps the rest; returns false. */
-bool error_prefix(Error *err, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+bool error_prefix(Error *err, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Names the file unless one is named already; returns false. */
 bool error_in_file(Error *err, const char *file);

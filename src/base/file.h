@@ -24,14 +24,13 @@ typedef struct FileBytes {
 bool file_read(const char *path, size_t max_bytes, Arena *arena, FileBytes *out, Error *err);
 
 /* Its first bytes: at most max_bytes of them, of a file of any length. */
-bool file_read_start(const char *path, size_t max_bytes, Arena *arena, FileBytes *out,
-                     Error *err);
+bool file_read_start(const char *path, size_t max_bytes, Arena *arena, FileBytes *out, Error *err);
 
 typedef struct FilePieces {
     size_t max_bytes; /* of a file that is read */
-    bool   is_start;  /* that many bytes at most, of a file of any length */
+    bool is_start;    /* that many bytes at most, of a file of any length */
     void (*on_bytes)(void *user, size_t done, size_t size); /* after each piece; NULL: nobody */
-    void  *user;
+    void *user;
 } FilePieces;
 
 /* Piece by piece, for who shows how far it has come. */

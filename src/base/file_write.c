@@ -12,21 +12,18 @@
 
 #define PATH_BYTES 4096
 
-static bool output_error(const char *path, const char *what, int reason, Error *err)
-{
+static bool output_error(const char *path, const char *what, int reason, Error *err) {
     return error_at(err, ERROR_OUTPUT, path, "", "cannot be %s: %s", what, strerror(reason));
 }
 
 /* A device or a pipe takes the bytes itself: a rename would put a file in its place. */
-static bool is_special(const char *path)
-{
+static bool is_special(const char *path) {
     struct stat info;
     return stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
 }
 
 /* A rename would also replace what its owner has protected. */
-static bool is_protected(const char *path)
-{
+static bool is_protected(const char *path) {
     return access(path, W_OK) != 0 && errno != ENOENT;
 }
 
@@ -34,42 +31,36 @@ static bool is_protected(const char *path)
 
 /* A folder that several machines share may see the same process number twice: FNV-1a, 32 bits,
  * of the machine's name distinguishes them. */
-static unsigned machine_number(void)
-{
-    char     name[256] = "";
+static unsigned machine_number(void) {
+    char name[256] = "";
     unsigned hash = 2166136261u;
     gethostname(name, sizeof name - 1);
     for (const char *c = name; *c; c++) hash = (hash ^ (unsigned char)*c) * 16777619u;
     return hash;
 }
 
-char *file_temporary_name(const char *path, Arena *arena)
-{
+char *file_temporary_name(const char *path, Arena *arena) {
     return arena_format(arena, "%s.%08x-%ld.part", path, machine_number(), (long)getpid());
 }
 
 /* The same without an arena. */
-static void own_name(const char *path, char name[PATH_BYTES])
-{
+static void own_name(const char *path, char name[PATH_BYTES]) {
     snprintf(name, PATH_BYTES, "%s.%08x-%ld.part", path, machine_number(), (long)getpid());
 }
 
 /* Where a finished file stands for a moment before it replaces another: the same name for
  * everyone, so that what a killed process left there is gone with the next file. */
-static void handover_name(const char *path, char name[PATH_BYTES])
-{
+static void handover_name(const char *path, char name[PATH_BYTES]) {
     snprintf(name, PATH_BYTES, "%s.parhelion-part", path);
 }
 
-static void folder_name(const char *path, char name[PATH_BYTES])
-{
+static void folder_name(const char *path, char name[PATH_BYTES]) {
     int length = (int)(path_name(path) - path);
     snprintf(name, PATH_BYTES, "%.*s", length ? length : 1, length ? path : ".");
 }
 
 /* Room for the longest of them; a file system may allow less than that. */
-static bool fits_name(const char *path)
-{
+static bool fits_name(const char *path) {
     char name[PATH_BYTES];
     if (strlen(path) + 48 > sizeof name) return false;
     handover_name(path, name);
@@ -80,8 +71,7 @@ static bool fits_name(const char *path)
 
 /* A file without a name in the path's folder: it vanishes with the process. -1 where the file
  * system, or a system without /proc, has no such thing; the reason is in errno. */
-static int open_unnamed(const char *path)
-{
+static int open_unnamed(const char *path) {
     char folder[PATH_BYTES], proc[64];
     folder_name(path, folder);
     int handle = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
@@ -93,21 +83,18 @@ static int open_unnamed(const char *path)
     return -1;
 }
 
-static bool has_no_unnamed(int reason)
-{
+static bool has_no_unnamed(int reason) {
     return reason == EOPNOTSUPP || reason == EISDIR || reason == EINVAL;
 }
 
-static int open_own_name(const char *path)
-{
+static int open_own_name(const char *path) {
     char name[PATH_BYTES];
     own_name(path, name);
     return open(name, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
 }
 
 /* 0, or errno. */
-static int open_writer(const char *path, FileWriter *out)
-{
+static int open_writer(const char *path, FileWriter *out) {
     FileWriter writer = {.path = path};
     if (is_special(path)) {
         writer.kind = FILE_SPECIAL;
@@ -125,17 +112,15 @@ static int open_writer(const char *path, FileWriter *out)
     return writer.handle < 0 ? errno : 0;
 }
 
-bool file_writer_open(const char *path, FileWriter *out, Error *err)
-{
+bool file_writer_open(const char *path, FileWriter *out, Error *err) {
     FileWriter writer;
-    int        reason = open_writer(path, &writer);
+    int reason = open_writer(path, &writer);
     if (reason) return output_error(path, "created", reason, err);
     *out = writer;
     return true;
 }
 
-static bool write_all(int file, const char *bytes, size_t size)
-{
+static bool write_all(int file, const char *bytes, size_t size) {
     while (size) {
         ssize_t n = write(file, bytes, size);
         if (n < 0 && errno == EINTR) continue;
@@ -146,8 +131,7 @@ static bool write_all(int file, const char *bytes, size_t size)
     return true;
 }
 
-void file_writer_discard(FileWriter *writer)
-{
+void file_writer_discard(FileWriter *writer) {
     char name[PATH_BYTES];
     close(writer->handle);
     if (writer->kind != FILE_NAMED) return;
@@ -155,14 +139,12 @@ void file_writer_discard(FileWriter *writer)
     unlink(name);
 }
 
-static bool writer_failed(FileWriter *writer, const char *path, int reason, Error *err)
-{
+static bool writer_failed(FileWriter *writer, const char *path, int reason, Error *err) {
     file_writer_discard(writer);
     return output_error(path, "written", reason, err);
 }
 
-bool file_writer_add(FileWriter *writer, const void *bytes, size_t size, Error *err)
-{
+bool file_writer_add(FileWriter *writer, const void *bytes, size_t size, Error *err) {
     return write_all(writer->handle, bytes, size) ||
            writer_failed(writer, writer->path, errno, err);
 }
@@ -170,8 +152,7 @@ bool file_writer_add(FileWriter *writer, const void *bytes, size_t size, Error *
 /* Gives the unnamed file its name. A link cannot replace a file, a rename can: so where there
  * is one already the new file gets a name beside it first. Another process may do the same at
  * the same time, and take the name away: then again. */
-static bool link_unnamed(int handle, const char *path)
-{
+static bool link_unnamed(int handle, const char *path) {
     char proc[64], name[PATH_BYTES];
     snprintf(proc, sizeof proc, "/proc/self/fd/%d", handle);
     handover_name(path, name);
@@ -187,8 +168,7 @@ static bool link_unnamed(int handle, const char *path)
     return false;
 }
 
-static bool rename_own_name(const char *place, const char *path)
-{
+static bool rename_own_name(const char *place, const char *path) {
     char name[PATH_BYTES];
     own_name(place, name);
     return rename(name, path) == 0;
@@ -196,8 +176,7 @@ static bool rename_own_name(const char *place, const char *path)
 
 /* The new name is durable only when the folder is written too; a file system that cannot do
  * that for folders is not a reason to fail. */
-static void sync_folder(const char *path)
-{
+static void sync_folder(const char *path) {
     char folder[PATH_BYTES];
     folder_name(path, folder);
     int handle = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -206,8 +185,7 @@ static void sync_folder(const char *path)
     close(handle);
 }
 
-bool file_writer_commit_as(FileWriter *writer, const char *path, Error *err)
-{
+bool file_writer_commit_as(FileWriter *writer, const char *path, Error *err) {
     bool is_file = writer->kind != FILE_SPECIAL;
     if (is_file && (fsync(writer->handle) != 0 || is_protected(path)))
         return writer_failed(writer, path, errno, err);
@@ -215,27 +193,23 @@ bool file_writer_commit_as(FileWriter *writer, const char *path, Error *err)
         return writer_failed(writer, path, errno, err);
     if (writer->kind == FILE_NAMED && !rename_own_name(writer->path, path))
         return writer_failed(writer, path, errno, err);
-    if (close(writer->handle) != 0 && !is_file)
-        return output_error(path, "written", errno, err);
+    if (close(writer->handle) != 0 && !is_file) return output_error(path, "written", errno, err);
     if (is_file) sync_folder(path);
     return true;
 }
 
-bool file_writer_commit(FileWriter *writer, Error *err)
-{
+bool file_writer_commit(FileWriter *writer, Error *err) {
     return file_writer_commit_as(writer, writer->path, err);
 }
 
-bool file_write(const char *path, const void *bytes, size_t size, Error *err)
-{
+bool file_write(const char *path, const void *bytes, size_t size, Error *err) {
     FileWriter writer;
-    return file_writer_open(path, &writer, err) &&
-           file_writer_add(&writer, bytes, size, err) && file_writer_commit(&writer, err);
+    return file_writer_open(path, &writer, err) && file_writer_add(&writer, bytes, size, err) &&
+           file_writer_commit(&writer, err);
 }
 
-bool file_check_writable(const char *path, Error *err)
-{
-    FileWriter  writer;
+bool file_check_writable(const char *path, Error *err) {
+    FileWriter writer;
     struct stat info;
     if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
         return output_error(path, "written", EISDIR, err);
@@ -248,8 +222,7 @@ bool file_check_writable(const char *path, Error *err)
 }
 
 /* Looked at only after mkdir: a folder that was not there a moment ago may be by now. */
-bool folder_make(const char *path, Error *err)
-{
+bool folder_make(const char *path, Error *err) {
     struct stat info;
     if (mkdir(path, 0777) == 0) return true;
     int reason = errno;
@@ -257,8 +230,7 @@ bool folder_make(const char *path, Error *err)
     return output_error(path, "made", reason == EEXIST ? ENOTDIR : reason, err);
 }
 
-void file_remove(const char *path)
-{
+void file_remove(const char *path) {
     char name[PATH_BYTES];
     handover_name(path, name);
     unlink(path);
@@ -267,8 +239,7 @@ void file_remove(const char *path)
 
 /* ---- for a writer that needs a path of its own ------------------------------------------- */
 
-bool file_commit(const char *temporary, const char *path, Error *err)
-{
+bool file_commit(const char *temporary, const char *path, Error *err) {
     int file = open(temporary, O_RDWR | O_CLOEXEC);
     bool synced = file >= 0 && fsync(file) == 0;
     int reason = errno;
@@ -289,7 +260,6 @@ bool file_commit(const char *temporary, const char *path, Error *err)
     return output_error(path, "written", reason, err);
 }
 
-void file_discard(const char *temporary)
-{
+void file_discard(const char *temporary) {
     unlink(temporary);
 }

@@ -31,8 +31,8 @@ typedef enum FileKind { FILE_UNNAMED, FILE_NAMED, FILE_SPECIAL } FileKind;
 
 typedef struct FileWriter {
     const char *path;
-    int         handle;
-    FileKind    kind;
+    int handle;
+    FileKind kind;
 } FileWriter;
 
 bool file_writer_open(const char *path, FileWriter *out, Error *err);

@@ -7,9 +7,9 @@
 #include "base/arena.h"
 
 typedef struct Lines {
-    Arena       *arena;
+    Arena *arena;
     const char **list;
-    int          count, capacity;
+    int count, capacity;
 } Lines;
 
 /* As it is; it is not copied. */

@@ -36,13 +36,11 @@ double sin_d(double x);
 double cos_d(double x);
 double tan_d(double x); /* 3 ulp */
 
-static inline float sin_of(float x)
-{
+static inline float sin_of(float x) {
     return (float)sin_d((double)x);
 }
 
-static inline float cos_of(float x)
-{
+static inline float cos_of(float x) {
     return (float)cos_d((double)x);
 }
 

@@ -28,8 +28,8 @@ void parallel_for(int thread_count, int item_count, ParallelWork *work, void *co
 /* The same for items that may fail, each with an error of its own. When all are done, the
  * error of the first item that failed is returned. */
 typedef bool ParallelTry(void *context, int item, Error *err);
-bool parallel_try(int thread_count, int item_count, ParallelTry *work, void *context,
-                  Arena scratch, Error *err);
+bool parallel_try(int thread_count, int item_count, ParallelTry *work, void *context, Arena scratch,
+                  Error *err);
 
 /* How many threads the scheduler lets this process have (its affinity), at least 1. */
 int parallel_default_threads(void);

@@ -3,51 +3,44 @@
 
 #include <stdio.h>
 
-
-Problems problems_start(Arena *arena)
-{
+Problems problems_start(Arena *arena) {
     return (Problems){.arena = arena};
 }
 
 static void append(Problems *problems, Severity severity, const char *file, const char *path,
-                   const char *message)
-{
+                   const char *message) {
     Arena *arena = problems->arena;
     if (problems->count == problems->capacity) {
         problems->capacity = problems->capacity ? 2 * problems->capacity : 16;
-        problems->list = ARENA_GROW(arena, Problem, problems->list, problems->count,
-                                    problems->capacity);
+        problems->list =
+            ARENA_GROW(arena, Problem, problems->list, problems->count, problems->capacity);
     }
-    problems->list[problems->count++] = (Problem){
-        arena_printable(arena, file ? file : ""), arena_printable(arena, path ? path : ""),
-        arena_printable(arena, message), severity};
+    problems->list[problems->count++] = (Problem){arena_printable(arena, file ? file : ""),
+                                                  arena_printable(arena, path ? path : ""),
+                                                  arena_printable(arena, message), severity};
     problems->error_count += severity == SEVERITY_ERROR;
 }
 
-void problems_add_list(Problems *problems, Severity severity, const char *file,
-                       const char *path, const char *format, va_list list)
-{
+void problems_add_list(Problems *problems, Severity severity, const char *file, const char *path,
+                       const char *format, va_list list) {
     char message[1024];
     vsnprintf(message, sizeof message, format, list);
     append(problems, severity, file, path, message);
 }
 
 void problems_add(Problems *problems, Severity severity, const char *file, const char *path,
-                  const char *format, ...)
-{
+                  const char *format, ...) {
     va_list list;
     va_start(list, format);
     problems_add_list(problems, severity, file, path, format, list);
     va_end(list);
 }
 
-void problems_add_error(Problems *problems, const Error *error)
-{
+void problems_add_error(Problems *problems, const Error *error) {
     append(problems, SEVERITY_ERROR, error->file, error->path, error->text);
 }
 
-bool problems_verdict(const Problems *problems, Error *err)
-{
+bool problems_verdict(const Problems *problems, Error *err) {
     if (!problems->error_count) return true;
     const Problem *first = problems->list;
     while (first->severity != SEVERITY_ERROR) first++;

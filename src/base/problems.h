@@ -13,14 +13,14 @@ typedef enum Severity { SEVERITY_WARNING, SEVERITY_ERROR } Severity;
 
 typedef struct Problem {
     const char *file, *path, *message; /* path: JSON pointer or line, "" if none */
-    Severity    severity;
+    Severity severity;
 } Problem;
 
 typedef struct Problems {
-    Arena   *arena;
+    Arena *arena;
     Problem *list;
-    int      count, capacity;
-    int      error_count;
+    int count, capacity;
+    int error_count;
 } Problems;
 
 Problems problems_start(Arena *arena);
@@ -30,9 +30,8 @@ void problems_add(Problems *problems, Severity severity, const char *file, const
                   const char *format, ...) __attribute__((format(printf, 5, 6)));
 
 /* The same for a function that is itself like printf. */
-void problems_add_list(Problems *problems, Severity severity, const char *file,
-                       const char *path, const char *format, va_list list)
-    __attribute__((format(printf, 5, 0)));
+void problems_add_list(Problems *problems, Severity severity, const char *file, const char *path,
+                       const char *format, va_list list) __attribute__((format(printf, 5, 0)));
 
 /* An Error as an entry. */
 void problems_add_error(Problems *problems, const Error *error);

@@ -14,23 +14,26 @@
 
 typedef enum ProgressMode {
     PROGRESS_AUTO, /* a bar on a terminal, plain lines otherwise */
-    PROGRESS_BAR, PROGRESS_PLAIN, PROGRESS_JSON, PROGRESS_NONE
+    PROGRESS_BAR,
+    PROGRESS_PLAIN,
+    PROGRESS_JSON,
+    PROGRESS_NONE
 } ProgressMode;
 
 typedef struct Progress Progress;
 struct Progress {
-    ProgressMode mode;   /* never PROGRESS_AUTO once started */
-    const char  *what;   /* "render": a verb or a file's name */
-    const char  *unit;   /* what is counted, for the rate: "samples" */
-    double       total;  /* how much there is to do; may be changed between updates */
-    double       done;   /* as of the last update */
-    double       first;  /* done before it began: counts for the share, not for the rate */
-    double       begun_s, shown_s; /* seconds of the monotonic clock */
-    double       interval_s;       /* requested between two lines */
-    bool         has_colour;
-    int          shown_columns;    /* of the bar's longest line so far */
-    Progress    *outer;            /* this is a part of that; or NULL */
-    double       outer_from, outer_weight;
+    ProgressMode mode;       /* never PROGRESS_AUTO once started */
+    const char *what;        /* "render": a verb or a file's name */
+    const char *unit;        /* what is counted, for the rate: "samples" */
+    double total;            /* how much there is to do; may be changed between updates */
+    double done;             /* as of the last update */
+    double first;            /* done before it began: counts for the share, not for the rate */
+    double begun_s, shown_s; /* seconds of the monotonic clock */
+    double interval_s;       /* requested between two lines */
+    bool has_colour;
+    int shown_columns; /* of the bar's longest line so far */
+    Progress *outer;   /* this is a part of that; or NULL */
+    double outer_from, outer_weight;
 };
 
 /* what and unit must outlive the Progress. */

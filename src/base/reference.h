@@ -18,13 +18,13 @@
 #include "base/error.h"
 
 typedef struct ReferenceReach {
-    const char *root;       /* a folder whose files may be named as well; NULL: none */
-    bool        own_folder; /* of the file: its parent is out of reach */
+    const char *root; /* a folder whose files may be named as well; NULL: none */
+    bool own_folder;  /* of the file: its parent is out of reach */
 } ReferenceReach;
 
 /* `relative`, decoded, as it stands in the file `from`. */
-bool reference_resolve(const char *from, const char *relative, ReferenceReach reach,
-                       Arena *arena, const char **out, Error *err);
+bool reference_resolve(const char *from, const char *relative, ReferenceReach reach, Arena *arena,
+                       const char **out, Error *err);
 
 /* That the folder of --root is there. NULL is fine. */
 bool reference_check_root(const char *root, Error *err);

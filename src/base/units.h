@@ -12,12 +12,10 @@
 #define PI_F 3.14159265358979323846f
 #define INV_PI_F 0.31830988618379067154f
 
-static inline double radians_from_degrees(double degrees)
-{
+static inline double radians_from_degrees(double degrees) {
     return degrees * (PI / 180.0);
 }
 
-static inline double degrees_from_radians(double radians)
-{
+static inline double degrees_from_radians(double radians) {
     return radians * (180.0 / PI);
 }

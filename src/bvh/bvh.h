@@ -21,8 +21,8 @@ typedef struct Bvh Bvh;
  * "avx2" or "avx512". */
 bool bvh_create(const Scene *scene, int threads, const char *isa, Bvh **out, Error *err);
 /* The same with a progress line until it is done. */
-bool bvh_build(const Scene *scene, int threads, const char *isa, ProgressMode progress,
-               Bvh **out, Error *err);
+bool bvh_build(const Scene *scene, int threads, const char *isa, ProgressMode progress, Bvh **out,
+               Error *err);
 void bvh_destroy(Bvh *bvh);
 
 /* Number of threads that it was built with: other work before the first path may use them. */
@@ -52,9 +52,9 @@ void bvh_find_sheets(const Bvh *bvh, Ray ray, BvhPasses *asked, void *user);
 /* For measuring: every ray traced from now on is kept until the recorder is full, with whether
  * it was a shadow ray. One thread only. NULL: stop. */
 typedef struct BvhRecorder {
-    Ray    *rays;
-    bool   *is_shadow;
-    size_t  count, capacity;
+    Ray *rays;
+    bool *is_shadow;
+    size_t count, capacity;
 } BvhRecorder;
 void bvh_record(Bvh *bvh, BvhRecorder *recorder);
 

@@ -14,11 +14,11 @@
 
 typedef struct Camera {
     Transform world_from_camera; /* unit axes */
-    bool  is_perspective; /* rays from one point: of a fisheye, too */
+    bool is_perspective;         /* rays from one point: of a fisheye, too */
     Fisheye fisheye;
     float half_width, half_height; /* perspective: at distance 1; orthographic: metres; fisheye:
                                       radii of its circle */
-    int   width, height;           /* pixels */
+    int width, height;             /* pixels */
 } Camera;
 
 /* The vertical field of view (or magnification) is kept; the width follows width / height. A

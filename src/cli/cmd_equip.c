@@ -23,12 +23,11 @@
 typedef struct EquipWords {
     const char *output, *with, *root;
     const char *reach; /* the root, or where all lies that ships */
-    bool        overwrites;
-    Cli         cli;
+    bool overwrites;
+    Cli cli;
 } EquipWords;
 
-static bool parse(int argc, char **argv, Arena *arena, EquipWords *out, Error *err)
-{
+static bool parse(int argc, char **argv, Arena *arena, EquipWords *out, Error *err) {
     const Option options[] = {
         {"-o", OPTION_TEXT, "FILE", "the page (default: MODEL.equip.html), or the scene",
          &out->output, .file = OPTION_OUTPUT},
@@ -41,48 +40,49 @@ static bool parse(int argc, char **argv, Arena *arena, EquipWords *out, Error *e
          &out->root},
     };
     const CliCommand command = {
-        "equip", command_equip.summary,
+        "equip",
+        command_equip.summary,
         "MODEL.gltf|.glb [-o PAGE.html] | MODEL --with EQUIP.json -o NEW.gltf",
-        "parhelion equip scenes/cockpit.gltf -o equip.html", options, COUNT_OF(options), 1, 1};
+        "parhelion equip scenes/cockpit.gltf -o equip.html",
+        options,
+        COUNT_OF(options),
+        1,
+        1};
     return cli_parse(&command, argc, argv, arena, &out->cli, err);
 }
 
 /* ---- the page ---------------------------------------------------------------------------- */
 
-static bool print_page(const EquipWords *words, const char *page, const Scene *scene,
-                       Error *err)
-{
+static bool print_page(const EquipWords *words, const char *page, const Scene *scene, Error *err) {
     if (words->cli.json)
         return cli_print_json(json_pack("{s:o, s:I, s:i, s:i}", "page", json_text(page),
-                                        "triangles", (json_int_t)scene->triangle_count,
-                                        "parts", scene->part_count, "materials",
-                                        scene->material_count),
+                                        "triangles", (json_int_t)scene->triangle_count, "parts",
+                                        scene->part_count, "materials", scene->material_count),
                               err);
     print("%s: %u triangles in %d parts. Open it in a browser, click, and save.\n", page,
           scene->triangle_count, scene->part_count);
     return true;
 }
 
-static bool make_page(EquipWords *words, Arena *arena, Error *err)
-{
-    const char        *model = words->cli.arguments[0];
-    const SceneOptions options = {.paths = &model, .path_count = 1, .root = words->reach,
-                                  .own_folder = true};
-    const char        *name = path_name(model);
-    int                stem = (int)(strlen(name) - strlen(path_ending(name)));
-    const char        *page =
+static bool make_page(EquipWords *words, Arena *arena, Error *err) {
+    const char *model = words->cli.arguments[0];
+    const SceneOptions options = {
+        .paths = &model, .path_count = 1, .root = words->reach, .own_folder = true};
+    const char *name = path_name(model);
+    int stem = (int)(strlen(name) - strlen(path_ending(name)));
+    const char *page =
         words->output ? words->output : arena_format(arena, "%.*s.equip.html", stem, name);
     Problems problems = problems_start(arena);
-    Scene   *scene;
+    Scene *scene;
     if (!words->output) outputs_note(&words->cli.outputs, "-o", page);
     if (!file_check_writable(page, err) ||
         !scene_load_shown(&options, words->cli.progress, arena, &problems, &scene, err))
         return false;
     cli_print_warnings(&problems);
-    const char *root = words->root ? arena_format(arena, " --root %s",
-                                                  escape_shell(words->root, arena)) : "";
-    const char *command = arena_format(arena, "parhelion equip %s%s",
-                                       escape_shell(model, arena), root);
+    const char *root =
+        words->root ? arena_format(arena, " --root %s", escape_shell(words->root, arena)) : "";
+    const char *command =
+        arena_format(arena, "parhelion equip %s%s", escape_shell(model, arena), root);
     bool ok = outputs_spare(&words->cli.outputs, scene->inputs, scene->input_count, err) &&
               equip_page_write(scene, model, command, page, arena, err) &&
               print_page(words, page, scene, err);
@@ -95,28 +95,23 @@ static bool make_page(EquipWords *words, Arena *arena, Error *err)
 #define LOOK_LIGHT "constant:3183" /* 10,000 lx of even cloud, the ordinary day of its review */
 
 /* What the first eye sees, in a moment: the page draws the model without light. */
-static const char *look_command(const EquipResult *r, Arena *arena)
-{
+static const char *look_command(const EquipResult *r, Arena *arena) {
     return arena_format(arena,
                         "parhelion render %s --camera %s --environment " LOOK_LIGHT
                         " --preview -o look.exr --png look.png",
                         escape_shell(r->scene, arena), escape_shell(r->first_eye, arena));
 }
 
-static bool print_result(const EquipWords *words, const EquipResult *r, Arena *arena,
-                         Error *err)
-{
+static bool print_result(const EquipWords *words, const EquipResult *r, Arena *arena, Error *err) {
     if (words->cli.json)
         return cli_print_json(
             json_pack("{s:o, s:o, s:o, s:o, s:i, s:i, s:i, s:i, s:[f,f,f], s:b, s:o}", "scene",
-                      json_text(r->scene),
-                      "bin", json_text_or_null(r->bin), "review",
-                      json_text_or_null(r->review), "copies",
-                      json_texts(r->copies, r->copy_count), "displays", r->display_count,
-                      "eyes", r->eye_count, "materials", r->material_count, "without_data",
-                      r->without_data, "forward", r->forward[0], r->forward[1], r->forward[2],
-                      "forward_is_proposed", r->forward_is_proposed, "occupant",
-                      json_text_or_null(r->occupant)),
+                      json_text(r->scene), "bin", json_text_or_null(r->bin), "review",
+                      json_text_or_null(r->review), "copies", json_texts(r->copies, r->copy_count),
+                      "displays", r->display_count, "eyes", r->eye_count, "materials",
+                      r->material_count, "without_data", r->without_data, "forward", r->forward[0],
+                      r->forward[1], r->forward[2], "forward_is_proposed", r->forward_is_proposed,
+                      "occupant", json_text_or_null(r->occupant)),
             err);
     print("scene        %s: displays %d, eyes %d, materials %d\n", r->scene, r->display_count,
           r->eye_count, r->material_count);
@@ -138,15 +133,14 @@ static bool print_result(const EquipWords *words, const EquipResult *r, Arena *a
     return true;
 }
 
-static bool apply(const EquipWords *words, Arena *arena, Error *err)
-{
+static bool apply(const EquipWords *words, Arena *arena, Error *err) {
     const EquipOrder order = {words->cli.arguments[0], words->with, words->output, words->reach,
                               words->overwrites};
-    Problems    problems = problems_start(arena);
+    Problems problems = problems_start(arena);
     EquipResult result;
     if (!order.output || strcmp(path_ending(order.output), ".gltf") != 0)
-        return error_set(err, ERROR_USAGE, "-o NEW.gltf: %s%s%s",
-                         order.output ? "\"" : "", order.output ? order.output : "",
+        return error_set(err, ERROR_USAGE, "-o NEW.gltf: %s%s%s", order.output ? "\"" : "",
+                         order.output ? order.output : "",
                          order.output ? "\" does not end in .gltf, as what is written does"
                                       : "nothing says where the scene goes");
     if (!equip_apply(&order, arena, &problems, &result, err)) return false;
@@ -154,8 +148,7 @@ static bool apply(const EquipWords *words, Arena *arena, Error *err)
     return print_result(words, &result, arena, err);
 }
 
-static Outcome run_equip(int argc, char **argv, Arena *arena, Error *err)
-{
+static Outcome run_equip(int argc, char **argv, Arena *arena, Error *err) {
     EquipWords words = {0};
     if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
     if (words.cli.help_shown) return OUTCOME_DONE;

@@ -16,16 +16,13 @@
 #define SUMMARY "physically correct frames of dashboards with measured displays"
 
 /* A checkout has them two folders above the program that was built in it. */
-static bool find_scenes(char path[static PATH_MAX])
-{
-    const ProgramPart scenes = {"the folder of scenes", "../../scenes",
-                                INSTALLED_SHARE "/scenes"};
-    Error             none;
+static bool find_scenes(char path[static PATH_MAX]) {
+    const ProgramPart scenes = {"the folder of scenes", "../../scenes", INSTALLED_SHARE "/scenes"};
+    Error none;
     return program_find(&scenes, path, &none);
 }
 
-void cmd_help_print(FILE *out)
-{
+void cmd_help_print(FILE *out) {
     char scenes[PATH_MAX];
     print_to(out, "parhelion: " SUMMARY "\n\n"
                   "usage: parhelion COMMAND ... | help [NAME] | -h | -V\n\n");
@@ -35,28 +32,25 @@ void cmd_help_print(FILE *out)
                   "Guides, shown by parhelion help NAME:\n\n");
     for (int i = 0; i < guide_count; i++) {
         const char *title;
-        int         length = guide_title(&guide_table[i], &title);
+        int length = guide_title(&guide_table[i], &title);
         print_to(out, "  %-18s %.*s\n", guide_table[i].name, length, title);
     }
     print_to(out, "\nscenes/ of the examples: %s\n",
              find_scenes(scenes) ? scenes : "not installed (the package parhelion-scenes)");
 }
 
-static bool unknown_name(const char *name, Error *err)
-{
+static bool unknown_name(const char *name, Error *err) {
     const char *names[NAMES_MAX];
-    char        advice[700];
-    int         count = 0;
+    char advice[700];
+    int count = 0;
     for (int i = 0; i < command_count; i++) names[count++] = command_table[i]->name;
-    for (int i = 0; i < guide_count && count < NAMES_MAX; i++)
-        names[count++] = guide_table[i].name;
+    for (int i = 0; i < guide_count && count < NAMES_MAX; i++) names[count++] = guide_table[i].name;
     nearest_word_advice(name, names, count, advice, (int)sizeof advice);
     return error_set(err, ERROR_USAGE, "there is no command or guide %s — %s", name, advice);
 }
 
 /* `help panel fit` is `panel fit --help`; every word behind a command is one of its own. */
-static bool print_command(const Command *command, const Cli *cli, Arena *arena, Error *err)
-{
+static bool print_command(const Command *command, const Cli *cli, Arena *arena, Error *err) {
     char *line[] = {(char *)cli->arguments[0], (char *)"--help",
                     cli->json ? (char *)"--json" : NULL, NULL};
     for (int i = 1; i < cli->argument_count; i++) {
@@ -71,24 +65,23 @@ static bool print_command(const Command *command, const Cli *cli, Arena *arena, 
     return command->run(2 + cli->json, line, arena, err) == OUTCOME_DONE;
 }
 
-static bool print_guide(const Guide *guide, const Cli *cli, Error *err)
-{
+static bool print_guide(const Guide *guide, const Cli *cli, Error *err) {
     if (!cli->json) return print_own(stdout, guide->text), true;
     const char *title;
-    int         length = guide_title(guide, &title);
+    int length = guide_title(guide, &title);
     return cli_print_json(json_pack("{s:s, s:s%, s:s}", "name", guide->name, "title", title,
-                                    (size_t)length, "text", guide->text), err);
+                                    (size_t)length, "text", guide->text),
+                          err);
 }
 
-static bool print_json(Arena *arena, Error *err)
-{
-    char    scenes[PATH_MAX];
+static bool print_json(Arena *arena, Error *err) {
+    char scenes[PATH_MAX];
     json_t *guides = json_array();
     for (int i = 0; i < guide_count; i++) {
         const char *title;
-        int         length = guide_title(&guide_table[i], &title);
-        json_array_append_new(guides, json_pack("{s:s, s:s%}", "name", guide_table[i].name,
-                                                "title", title, (size_t)length));
+        int length = guide_title(&guide_table[i], &title);
+        json_array_append_new(guides, json_pack("{s:s, s:s%}", "name", guide_table[i].name, "title",
+                                                title, (size_t)length));
     }
     json_t *head = json_pack("{s:s, s:s, s:s, s:s?, s:o}", "name", "parhelion", "version",
                              PARHELION_VERSION, "summary", SUMMARY, "scenes",
@@ -96,15 +89,13 @@ static bool print_json(Arena *arena, Error *err)
     return help_json_group(head, command_table, command_count, arena, err);
 }
 
-static bool help(const Cli *cli, Arena *arena, Error *err)
-{
+static bool help(const Cli *cli, Arena *arena, Error *err) {
     if (!cli->argument_count && cli->json) return print_json(arena, err);
     if (!cli->argument_count) return cmd_help_print(stdout), true;
-    Error          no_command;
-    const char    *name = cli->arguments[0];
-    const Command *command =
-        command_find(command_table, command_count, NULL, name, &no_command);
-    const Guide   *guide = guide_named(name);
+    Error no_command;
+    const char *name = cli->arguments[0];
+    const Command *command = command_find(command_table, command_count, NULL, name, &no_command);
+    const Guide *guide = guide_named(name);
     if (command) return print_command(command, cli, arena, err);
     if (!guide) return unknown_name(name, err);
     if (cli->argument_count > 1)
@@ -112,11 +103,10 @@ static bool help(const Cli *cli, Arena *arena, Error *err)
     return print_guide(guide, cli, err);
 }
 
-static Outcome run_help(int argc, char **argv, Arena *arena, Error *err)
-{
+static Outcome run_help(int argc, char **argv, Arena *arena, Error *err) {
     const CliCommand command = {
-        "help", command_help.summary, "[COMMAND|GUIDE]",
-        "parhelion help comparing", NULL, 0, 0, WORDS_MAX};
+        "help",   command_help.summary, "[COMMAND|GUIDE]", "parhelion help comparing", NULL, 0, 0,
+        WORDS_MAX};
     Cli cli;
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     return outcome_of(cli.help_shown || help(&cli, arena, err));

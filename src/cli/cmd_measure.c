@@ -18,27 +18,31 @@
 /* ---- the command line -------------------------------------------------------------------- */
 
 typedef struct MeasureWords {
-    MeasureRequest  request;
+    MeasureRequest request;
     LuxmeterRequest luxmeter;
-    GlareWords      glare;
-    SceneWords      scene; /* of the luxmeter */
-    bool            has_samples;
-    Cli             cli;
+    GlareWords glare;
+    SceneWords scene; /* of the luxmeter */
+    bool has_samples;
+    Cli cli;
 } MeasureWords;
 
-static bool read_frame_request(const double region[4], MeasureWords *out, Error *err)
-{
+static bool read_frame_request(const double region[4], MeasureWords *out, Error *err) {
     MeasureRequest *r = &out->request;
-    const char     *of_scene = scene_options_given(&out->scene, &out->luxmeter.environment);
+    const char *of_scene = scene_options_given(&out->scene, &out->luxmeter.environment);
     if (of_scene)
-        return error_set(err, ERROR_USAGE, "%s changes the light of a scene, which is measured "
-                         "with --illuminance; a frame has its light", of_scene);
-    const char *of_points = out->luxmeter.wants_csv ? "--csv"
-                            : out->has_samples ? "--samples"
-                            : out->luxmeter.scene.root ? "--root" : NULL;
+        return error_set(err, ERROR_USAGE,
+                         "%s changes the light of a scene, which is measured "
+                         "with --illuminance; a frame has its light",
+                         of_scene);
+    const char *of_points = out->luxmeter.wants_csv    ? "--csv"
+                            : out->has_samples         ? "--samples"
+                            : out->luxmeter.scene.root ? "--root"
+                                                       : NULL;
     if (of_points)
-        return error_set(err, ERROR_USAGE, "%s goes with --illuminance: a frame has been "
-                         "rendered", of_points);
+        return error_set(err, ERROR_USAGE,
+                         "%s goes with --illuminance: a frame has been "
+                         "rendered",
+                         of_points);
     if (out->cli.argument_count > 1)
         return error_set(err, ERROR_USAGE, "%s: one frame at a time is measured",
                          out->cli.arguments[1]);
@@ -52,8 +56,7 @@ static bool read_frame_request(const double region[4], MeasureWords *out, Error 
     return true;
 }
 
-static bool read_luxmeter(MeasureWords *out, Arena *arena, Error *err)
-{
+static bool read_luxmeter(MeasureWords *out, Arena *arena, Error *err) {
     const MeasureRequest *r = &out->request;
     if (r->has_region || r->display)
         return error_set(err, ERROR_USAGE, "%s is of a frame, --illuminance of a scene",
@@ -61,8 +64,7 @@ static bool read_luxmeter(MeasureWords *out, Arena *arena, Error *err)
     return scene_options_read(&out->scene, &out->cli, arena, &out->luxmeter.scene, err);
 }
 
-static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error *err)
-{
+static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error *err) {
     MeasureRequest *r = &out->request;
     double region[4] = {0};
     const Option options[] = {
@@ -74,7 +76,8 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
          .out = &r->display},
         {"--illuminance", OPTION_TEXTS, "X,Y,Z,NX,NY,NZ|FILE.csv",
          "of a scene: lx at a point (m) on a plane that faces N; a file has such a row a line, "
-         "with blanks or commas", .out = &out->luxmeter.places},
+         "with blanks or commas",
+         .out = &out->luxmeter.places},
         {"--csv", OPTION_FLAG, NULL, "illuminances as comma-separated rows",
          .out = &out->luxmeter.wants_csv},
         {"--samples", OPTION_INTEGER, "N", "paths for --illuminance (default 262144)",
@@ -83,18 +86,23 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
         SCENE_OPTIONS(&out->scene, &out->luxmeter.scene, &out->luxmeter.environment),
     };
     const CliCommand command = {
-        "measure", command_measure.summary,
+        "measure",
+        command_measure.summary,
         "FRAME.exr|.hdr [--region X0,Y0,X1,Y1] [--display NAME] | FRAME.exr|.hdr --glare | "
         "SCENE... --illuminance ...",
         "parhelion measure frame.exr --display cluster --json",
-        options, COUNT_OF(options), 1, -1};
+        options,
+        COUNT_OF(options),
+        1,
+        -1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     if (!glare_words_check(&out->glare, err)) return false;
     if (out->glare.given && (out->luxmeter.places.count || r->has_region || r->display))
         return error_set(err, ERROR_USAGE, "--glare is of all that an eye sees: leave out %s",
                          out->luxmeter.places.count ? "--illuminance"
-                         : r->display ? "--display" : "--region");
+                         : r->display               ? "--display"
+                                                    : "--region");
     return out->luxmeter.places.count ? read_luxmeter(out, arena, err)
                                       : read_frame_request(region, out, err);
 }
@@ -103,8 +111,7 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
 
 #define INTERVAL_BYTES 4096 /* of its words */
 
-static void print_figure(const char *name, Measured figure, const char *unit)
-{
+static void print_figure(const char *name, Measured figure, const char *unit) {
     if (isnan(figure.value)) {
         print("%-12s undefined: there is no light\n", name);
         return;
@@ -114,14 +121,13 @@ static void print_figure(const char *name, Measured figure, const char *unit)
         return;
     }
     Arena scratch = arena_reserve(INTERVAL_BYTES);
-    print("%-12s %s%s\n", name,
-          interval_text(figure.value, figure.low, figure.high, &scratch), unit);
+    print("%-12s %s%s\n", name, interval_text(figure.value, figure.low, figure.high, &scratch),
+          unit);
     arena_release(&scratch);
 }
 
 /* Why there is no contrast of the content. */
-static const char *content_reason(ContentVerdict verdict)
-{
+static const char *content_reason(ContentVerdict verdict) {
     switch (verdict) {
     case CONTENT_FOUND: break;
     case CONTENT_TOO_SMALL: return "fewer than 16 pixels, or all alike";
@@ -131,8 +137,7 @@ static const char *content_reason(ContentVerdict verdict)
     return NULL;
 }
 
-static void print_content(const ContentContrast *c)
-{
+static void print_content(const ContentContrast *c) {
     const char *reason = content_reason(c->verdict);
     if (reason) {
         print("%-12s missing: %s\n", "content", reason);
@@ -149,8 +154,7 @@ static void print_content(const ContentContrast *c)
 }
 
 /* Of frames with the layer. */
-static void print_extrapolated(const FrameMeasurement *m)
-{
+static void print_extrapolated(const FrameMeasurement *m) {
     if (isnan(m->extrapolated_reflected)) return;
     print("  %.1f %% of the light that it reflects", 100 * m->extrapolated_reflected);
     if (!isnan(m->extrapolated_shown))
@@ -158,8 +162,7 @@ static void print_extrapolated(const FrameMeasurement *m)
     print(" by directions that were not measured\n");
 }
 
-static void print_display(const FrameMeasurement *m)
-{
+static void print_display(const FrameMeasurement *m) {
     print("  white %.6g, black %.6g, reflected %.6g cd/m2", m->white, m->black, m->reflected);
     if (!isnan(m->mirror)) print(": %.6g by the mirror", m->mirror);
     if (!isnan(m->lambertian)) print(", %.6g lambertian", m->lambertian);
@@ -169,8 +172,7 @@ static void print_display(const FrameMeasurement *m)
 }
 
 /* How a display's rim counts. */
-static void print_rim(const FrameMeasurement *m)
-{
+static void print_rim(const FrameMeasurement *m) {
     switch (m->rim) {
     case RIM_BY_COVERAGE:
         print("%-12s %ld of them, by their part: %.6g pixels in all\n", "  at the rim",
@@ -182,7 +184,8 @@ static void print_rim(const FrameMeasurement *m)
         break;
     case RIM_WHOLE:
         print("%-12s whole, with what is around: their part is not known (--layers "
-              "display)\n", "  at the rim");
+              "display)\n",
+              "  at the rim");
     }
     if (m->shared_pixels)
         print("%-12s %ld show two displays: they have no part in the contrast\n", "",
@@ -191,8 +194,7 @@ static void print_rim(const FrameMeasurement *m)
         print("%-12s %ld show more displays, and are left out\n", "", m->unknown_pixels);
 }
 
-static void print_text(const FrameMeasurement *m, bool is_display)
-{
+static void print_text(const FrameMeasurement *m, bool is_display) {
     print("%-12s %ld\n", "pixels", m->pixels);
     if (is_display) print_rim(m);
     if (m->nonfinite) print("%-12s %ld\n", "left out", m->nonfinite);
@@ -214,35 +216,31 @@ static void print_text(const FrameMeasurement *m, bool is_display)
         print("%-12s missing: no layer variance (--layers variance)\n", "intervals");
 }
 
-static void print_lights(const LightShares *lights, bool is_display)
-{
+static void print_lights(const LightShares *lights, bool is_display) {
     if (lights->count && is_display && !lights->pixels) {
         print("%-12s missing: no pixel shows the display alone\n", "by light");
         return;
     }
     for (int i = 0; i < lights->count; i++)
-        print("%-12s %.6g cd/m2 (%.1f %%) of %s\n", i ? "" : "by light",
-              lights->list[i].cd_m2, 100 * lights->list[i].share, lights->list[i].name);
+        print("%-12s %.6g cd/m2 (%.1f %%) of %s\n", i ? "" : "by light", lights->list[i].cd_m2,
+              100 * lights->list[i].share, lights->list[i].name);
 }
 
 /* ---- as JSON ----------------------------------------------------------------------------- */
 
 /* One without an upper end: of a contrast where nothing may be reflected on black. */
-static json_t *interval(Measured figure)
-{
+static json_t *interval(Measured figure) {
     if (!isfinite(figure.low) || !isfinite(figure.value)) return json_null();
     return json_pack("[o,o]", json_figure(figure.low), json_figure(figure.high));
 }
 
-static void set_pair(json_t *answer, const char *key, json_t *first, json_t *second)
-{
+static void set_pair(json_t *answer, const char *key, json_t *first, json_t *second) {
     json_object_set_new(answer, key, json_pack("[o,o]", first, second));
 }
 
-static void set_display(json_t *answer, const char *display, const FrameMeasurement *m)
-{
-    static const char *const RIMS[] = {[RIM_BY_COVERAGE] = "by coverage",
-                                       [RIM_LEFT_OUT] = "left out", [RIM_WHOLE] = "whole"};
+static void set_display(json_t *answer, const char *display, const FrameMeasurement *m) {
+    static const char *const RIMS[] = {
+        [RIM_BY_COVERAGE] = "by coverage", [RIM_LEFT_OUT] = "left out", [RIM_WHOLE] = "whole"};
     json_object_set_new(answer, "display", json_text(display));
     json_object_set_new(answer, "rim", json_string(RIMS[m->rim]));
     json_object_set_new(answer, "area_pixels", json_figure(m->area));
@@ -251,49 +249,42 @@ static void set_display(json_t *answer, const char *display, const FrameMeasurem
     json_object_set_new(answer, "unknown_pixels", json_integer(m->unknown_pixels));
 }
 
-static json_t *missing(const FrameMeasurement *m)
-{
+static json_t *missing(const FrameMeasurement *m) {
     json_t *list = json_array();
     if (!m->has_variance) json_array_append_new(list, json_string("variance"));
     if (!m->has_contrast) json_array_append_new(list, json_string("display"));
     return list;
 }
 
-static void set_figure(json_t *object, const char *key, const char *interval_key,
-                       Measured figure)
-{
+static void set_figure(json_t *object, const char *key, const char *interval_key, Measured figure) {
     json_object_set_new(object, key, json_figure(figure.value));
     json_object_set_new(object, interval_key, interval(figure));
 }
 
-static json_t *json_contrast(const FrameMeasurement *m)
-{
+static json_t *json_contrast(const FrameMeasurement *m) {
     if (!m->has_contrast) return json_null();
-    json_t *out = json_pack("{s:o, s:o, s:o, s:o, s:o, s:I}", "value",
-                            json_figure(m->contrast.value), "interval", interval(m->contrast),
-                            "white_cd_m2", json_figure(m->white), "black_cd_m2",
-                            json_figure(m->black), "reflected_cd_m2", json_figure(m->reflected),
-                            "pixels", (json_int_t)m->display_pixels);
+    json_t *out =
+        json_pack("{s:o, s:o, s:o, s:o, s:o, s:I}", "value", json_figure(m->contrast.value),
+                  "interval", interval(m->contrast), "white_cd_m2", json_figure(m->white),
+                  "black_cd_m2", json_figure(m->black), "reflected_cd_m2",
+                  json_figure(m->reflected), "pixels", (json_int_t)m->display_pixels);
     json_object_set_new(out, "mirror_cd_m2", json_figure(m->mirror));
     json_object_set_new(out, "scattered_cd_m2", json_figure(m->reflected - m->mirror));
-    json_object_set_new(out, "haze_cd_m2", json_figure(m->reflected - m->mirror -
-                                                       m->lambertian));
+    json_object_set_new(out, "haze_cd_m2", json_figure(m->reflected - m->mirror - m->lambertian));
     json_object_set_new(out, "lambertian_cd_m2", json_figure(m->lambertian));
     if (!isnan(m->extrapolated_reflected))
         json_object_set_new(out, "extrapolated_share", json_real(m->extrapolated_reflected));
     if (!isnan(m->extrapolated_shown))
-        json_object_set_new(out, "extrapolated_emitted_share",
-                            json_real(m->extrapolated_shown));
+        json_object_set_new(out, "extrapolated_emitted_share", json_real(m->extrapolated_shown));
     if (!isnan(m->shown)) json_object_set_new(out, "shown_cd_m2", json_figure(m->shown));
     return out;
 }
 
-static json_t *json_content(const ContentContrast *c)
-{
+static json_t *json_content(const ContentContrast *c) {
     const char *reason = content_reason(c->verdict);
-    json_t     *out = json_pack("{s:s?, s:o, s:o}", "missing", reason, "separability",
-                                json_figure(c->separability), "noise_sigmas",
-                                json_figure(c->noise_sigmas));
+    json_t *out =
+        json_pack("{s:s?, s:o, s:o}", "missing", reason, "separability",
+                  json_figure(c->separability), "noise_sigmas", json_figure(c->noise_sigmas));
     if (reason) return out;
     set_figure(out, "ratio", "ratio_interval", c->ratio);
     set_figure(out, "michelson", "michelson_interval", c->michelson);
@@ -306,14 +297,12 @@ static json_t *json_content(const ContentContrast *c)
     return out;
 }
 
-static json_t *json_lights(const LightShares *lights)
-{
+static json_t *json_lights(const LightShares *lights) {
     json_t *out = json_array();
     for (int i = 0; i < lights->count; i++) {
         const LightShare *light = &lights->list[i];
-        json_array_append_new(out, json_pack("{s:o, s:o, s:o, s:o}", "name",
-                                             json_text(light->name), "layer",
-                                             json_text(light->layer), "cd_m2",
+        json_array_append_new(out, json_pack("{s:o, s:o, s:o, s:o}", "name", json_text(light->name),
+                                             "layer", json_text(light->layer), "cd_m2",
                                              json_figure(light->cd_m2), "share",
                                              json_figure(light->share)));
     }
@@ -321,16 +310,15 @@ static json_t *json_lights(const LightShares *lights)
 }
 
 static bool print_json(const MeasureWords *typed, const FrameMeasurement *m,
-                       const LightShares *lights, Error *err)
-{
+                       const LightShares *lights, Error *err) {
     const MeasureRequest *r = &typed->request;
-    json_t *answer = json_pack(
-        "{s:o, s:I, s:I, s:[o,o,o], s:o, s:o, s:o, s:o}", "frame", json_text(r->frame_name),
-        "pixels", (json_int_t)m->pixels, "nonfinite_pixels", (json_int_t)m->nonfinite, "XYZ",
-        json_figure(m->xyz[0]), json_figure(m->xyz[1]), json_figure(m->xyz[2]),
-        "luminance_cd_m2", json_figure(m->luminance.value), "luminance_interval",
-        interval(m->luminance), "luminance_min_cd_m2", json_figure(m->least),
-        "luminance_max_cd_m2", json_figure(m->greatest));
+    json_t *answer =
+        json_pack("{s:o, s:I, s:I, s:[o,o,o], s:o, s:o, s:o, s:o}", "frame",
+                  json_text(r->frame_name), "pixels", (json_int_t)m->pixels, "nonfinite_pixels",
+                  (json_int_t)m->nonfinite, "XYZ", json_figure(m->xyz[0]), json_figure(m->xyz[1]),
+                  json_figure(m->xyz[2]), "luminance_cd_m2", json_figure(m->luminance.value),
+                  "luminance_interval", interval(m->luminance), "luminance_min_cd_m2",
+                  json_figure(m->least), "luminance_max_cd_m2", json_figure(m->greatest));
     set_pair(answer, "xy", json_figure(m->x.value), json_figure(m->y.value));
     set_pair(answer, "xy_interval", interval(m->x), interval(m->y));
     set_pair(answer, "uv", json_figure(m->u.value), json_figure(m->v.value));
@@ -344,18 +332,18 @@ static bool print_json(const MeasureWords *typed, const FrameMeasurement *m,
     json_object_set_new(answer, "missing_layers", missing(m));
     if (r->display) set_display(answer, r->display, m);
     if (r->has_region)
-        json_object_set_new(answer, "region", json_pack("[i,i,i,i]", r->region.x0, r->region.y0,
-                                                        r->region.x1, r->region.y1));
+        json_object_set_new(
+            answer, "region",
+            json_pack("[i,i,i,i]", r->region.x0, r->region.y0, r->region.x1, r->region.y1));
     return cli_print_json(answer, err);
 }
 
 /* ---- the command ------------------------------------------------------------------------- */
 
-static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
-{
-    LightFile        file;
+static bool measure(const MeasureWords *typed, Arena *arena, Error *err) {
+    LightFile file;
     FrameMeasurement measured;
-    Problems         problems = problems_start(arena);
+    Problems problems = problems_start(arena);
     if (typed->luxmeter.places.count)
         return luxmeter_run(&typed->cli, &typed->luxmeter, arena, err);
     const char *name = typed->request.frame_name;
@@ -364,16 +352,15 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
     if (typed->glare.given)
         return measure_glare(&typed->cli, &file.frame, &typed->glare, arena, err);
     if (!measure_frame(&file.frame, &typed->request, *arena, &measured, err)) return false;
-    LightShares lights = light_shares_measure(&file.frame, &typed->request,
-                                              measured.luminance.value, arena);
+    LightShares lights =
+        light_shares_measure(&file.frame, &typed->request, measured.luminance.value, arena);
     if (typed->cli.json) return print_json(typed, &measured, &lights, err);
     print_text(&measured, typed->request.display != NULL);
     print_lights(&lights, typed->request.display != NULL);
     return true;
 }
 
-static Outcome run_measure(int argc, char **argv, Arena *arena, Error *err)
-{
+static Outcome run_measure(int argc, char **argv, Arena *arena, Error *err) {
     MeasureWords typed = {.luxmeter = {.samples = 1 << 18}, .glare = GLARE_WORDS_DEFAULT};
     return outcome_of(parse(argc, argv, arena, &typed, err) &&
                       (typed.cli.help_shown || measure(&typed, arena, err)));

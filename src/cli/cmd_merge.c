@@ -24,39 +24,39 @@
 #include "text/text.h"
 
 typedef struct MergeRun {
-    Cli         cli;
+    Cli cli;
     const char *output;
-    bool        keeps_sums;   /* --part */
-    bool        is_of_reviews;
-    Arena      *arena;
-    const char **files;       /* the parts' */
-    int         count;
-    FilmPart   *parts;        /* one a file */
-    DealtPart  *dealt;        /* the same: what --part said of it */
-    FilmPart    whole;        /* what they make */
-    const char **lines;       /* their command lines */
-    const char *identity;     /* of the first; the others have the same */
-    FrameImage  common;       /* attributes that all parts have; no channels */
-    Film       *film;
-    FilmError   error;
-    double      seconds;
+    bool keeps_sums; /* --part */
+    bool is_of_reviews;
+    Arena *arena;
+    const char **files; /* the parts' */
+    int count;
+    FilmPart *parts;      /* one a file */
+    DealtPart *dealt;     /* the same: what --part said of it */
+    FilmPart whole;       /* what they make */
+    const char **lines;   /* their command lines */
+    const char *identity; /* of the first; the others have the same */
+    FrameImage common;    /* attributes that all parts have; no channels */
+    Film *film;
+    FilmError error;
+    double seconds;
 } MergeRun;
 
-static bool parse(int argc, char **argv, MergeRun *work, Error *err)
-{
+static bool parse(int argc, char **argv, MergeRun *work, Error *err) {
     const Option options[] = {
-        {"-o", OPTION_TEXT, "FRAME.exr",
-         "what is written; of reviews: DIR",
-         &work->output, .file = OPTION_OUTPUT},
-        {"--part", OPTION_FLAG, NULL,
-         "keep the exact sums, so that the frame can be merged again", &work->keeps_sums},
+        {"-o", OPTION_TEXT, "FRAME.exr", "what is written; of reviews: DIR", &work->output,
+         .file = OPTION_OUTPUT},
+        {"--part", OPTION_FLAG, NULL, "keep the exact sums, so that the frame can be merged again",
+         &work->keeps_sums},
     };
-    const CliCommand command = {
-        "merge",
-        command_merge.summary,
-        "PART.exr ... -o FRAME.exr | REVIEW_DIR ... -o DIR",
-        "parhelion merge part1.exr part2.exr -o frame.exr",
-        options, COUNT_OF(options), 1, -1};
+    const CliCommand command = {"merge",
+                                command_merge.summary,
+                                "PART.exr ... -o FRAME.exr | REVIEW_DIR ... -o DIR",
+                                "parhelion merge part1.exr part2.exr -o frame.exr",
+                                options,
+                                COUNT_OF(options),
+                                1,
+                                -1};
     if (!cli_parse(&command, argc, argv, work->arena, &work->cli, err)) return false;
     if (work->cli.help_shown) return true;
     work->files = work->cli.arguments;
@@ -76,22 +76,19 @@ static bool parse(int argc, char **argv, MergeRun *work, Error *err)
 
 /* ---- the parts' attributes --------------------------------------------------------------- */
 
-static bool same_attribute(const ExrAttribute *a, const ExrAttribute *b)
-{
+static bool same_attribute(const ExrAttribute *a, const ExrAttribute *b) {
     if (!b || a->kind != b->kind) return false;
     return a->kind == EXR_STRING ? !strcmp(a->text, b->text)
                                  : !memcmp(a->values, b->values, sizeof a->values);
 }
 
-static void set_attribute(FrameImage *frame, const ExrAttribute *a, Arena *arena)
-{
+static void set_attribute(FrameImage *frame, const ExrAttribute *a, Arena *arena) {
     if (a->kind == EXR_STRING) frame_set_string(frame, a->name, a->text, arena);
     else frame_set_values(frame, a->name, a->kind, a->values, arena);
 }
 
 /* Time is not the parts', but that of the merge. */
-static bool is_of_the_run(const char *name)
-{
+static bool is_of_the_run(const char *name) {
     return !strcmp(name, "capDate") || !strcmp(name, "utcOffset") ||
            !strcmp(name, "parhelion:commandLine") || !strcmp(name, "parhelion:parts") ||
            !strcmp(name, DEALT_PART_ATTRIBUTE);
@@ -99,8 +96,7 @@ static bool is_of_the_run(const char *name)
 
 /* The attribute of that name; files keep them sorted, so that it mostly stands at *place,
  * behind the one that was found before. */
-static const ExrAttribute *find_near(const ExrPicture *picture, const char *name, int *place)
-{
+static const ExrAttribute *find_near(const ExrPicture *picture, const char *name, int *place) {
     for (int i = 0; i < picture->attribute_count; i++) {
         int at = (*place + i) % picture->attribute_count;
         if (strcmp(picture->attributes[at].name, name) != 0) continue;
@@ -111,8 +107,7 @@ static const ExrAttribute *find_near(const ExrPicture *picture, const char *name
 }
 
 /* Keeps those common attributes that this part shares. */
-static void keep_common(FrameImage *common, const ExrPicture *picture)
-{
+static void keep_common(FrameImage *common, const ExrPicture *picture) {
     int kept = 0, place = 0;
     for (int i = 0; i < common->attribute_count; i++)
         if (same_attribute(&common->attributes[i],
@@ -121,18 +116,15 @@ static void keep_common(FrameImage *common, const ExrPicture *picture)
     common->attribute_count = kept;
 }
 
-static void copy_attributes(FrameImage *common, const ExrPicture *picture, Arena *arena)
-{
+static void copy_attributes(FrameImage *common, const ExrPicture *picture, Arena *arena) {
     *common = (FrameImage){.attribute_room = picture->attribute_count,
-                           .attributes = ARENA_NEW(arena, ExrAttribute,
-                                                   picture->attribute_count)};
+                           .attributes = ARENA_NEW(arena, ExrAttribute, picture->attribute_count)};
     for (int i = 0; i < picture->attribute_count; i++)
         if (!is_of_the_run(picture->attributes[i].name))
             set_attribute(common, &picture->attributes[i], arena);
 }
 
-static bool same_lights(const FilmLights *a, const FilmLights *b)
-{
+static bool same_lights(const FilmLights *a, const FilmLights *b) {
     if (a->count != b->count) return false;
     for (int i = 0; i < a->count; i++)
         if (strcmp(a->names[i], b->names[i]) != 0) return false;
@@ -140,11 +132,11 @@ static bool same_lights(const FilmLights *a, const FilmLights *b)
 }
 
 static bool check_identity(MergeRun *work, const FilmPart *part, const FilmPart *first,
-                           const char *identity, Error *err)
-{
+                           const char *identity, Error *err) {
     if (!identity)
-        return error_set(err, ERROR_INPUT, "does not say what it was rendered from "
-                                           "(parhelion:identity is missing)");
+        return error_set(err, ERROR_INPUT,
+                         "does not say what it was rendered from "
+                         "(parhelion:identity is missing)");
     if (!work->identity) work->identity = arena_string(work->arena, identity, strlen(identity));
     const char *difference = identity_difference(work->identity, identity, work->arena);
     if (difference && !identity_same_program(work->identity, identity))
@@ -169,8 +161,7 @@ static bool check_identity(MergeRun *work, const FilmPart *part, const FilmPart 
                      first->name);
 }
 
-static bool look_at(MergeRun *work, int i, Error *err)
-{
+static bool look_at(MergeRun *work, int i, Error *err) {
     FilmPartReader from;
     if (!film_part_open(work->files[i], work->arena, &from, err)) return false;
     const ExrPicture *picture = exr_reader_picture(from.file);
@@ -188,8 +179,7 @@ static bool look_at(MergeRun *work, int i, Error *err)
     return belongs;
 }
 
-static bool look_at_all(MergeRun *work, Error *err)
-{
+static bool look_at_all(MergeRun *work, Error *err) {
     int count = work->count;
     work->parts = ARENA_NEW(work->arena, FilmPart, count);
     work->dealt = ARENA_NEW(work->arena, DealtPart, count);
@@ -202,8 +192,7 @@ static bool look_at_all(MergeRun *work, Error *err)
 
 /* ---- adding up --------------------------------------------------------------------------- */
 
-static bool check_memory(const MergeRun *work, Error *err)
-{
+static bool check_memory(const MergeRun *work, Error *err) {
     const FilmPart *whole = &work->whole;
     double wanted = (double)film_bytes(whole->crop, whole->layers, whole->lights.count);
     double memory = (double)arena_left(work->arena);
@@ -211,25 +200,22 @@ static bool check_memory(const MergeRun *work, Error *err)
     return error_set(err, ERROR_MEMORY,
                      "the film of %dx%d pixels needs %.1f GB, there are %.1f GB — merge fewer "
                      "parts at a time",
-                     whole->crop.x1 - whole->crop.x0, whole->crop.y1 - whole->crop.y0,
-                     wanted / 1e9, memory / 1e9);
+                     whole->crop.x1 - whole->crop.x0, whole->crop.y1 - whole->crop.y0, wanted / 1e9,
+                     memory / 1e9);
 }
 
-static bool same_part(const FilmPart *a, const FilmPart *b)
-{
+static bool same_part(const FilmPart *a, const FilmPart *b) {
     return a->layers == b->layers && same_lights(&a->lights, &b->lights) &&
-           a->first_sample == b->first_sample &&
-           a->end_sample == b->end_sample && !memcmp(&a->crop, &b->crop, sizeof a->crop);
+           a->first_sample == b->first_sample && a->end_sample == b->end_sample &&
+           !memcmp(&a->crop, &b->crop, sizeof a->crop);
 }
 
-static double pixels_in(FilmRect rect)
-{
+static double pixels_in(FilmRect rect) {
     return (double)(rect.x1 - rect.x0) * (double)(rect.y1 - rect.y0);
 }
 
 /* *done: pixels of the parts before. */
-static bool add_part(MergeRun *work, int i, Progress *progress, double *done, Error *err)
-{
+static bool add_part(MergeRun *work, int i, Progress *progress, double *done, Error *err) {
     FilmPartReader from;
     if (!film_part_open(work->files[i], work->arena, &from, err)) return false;
     const FilmRect *crop = &from.part.crop;
@@ -245,10 +231,9 @@ static bool add_part(MergeRun *work, int i, Progress *progress, double *done, Er
     return ok;
 }
 
-static bool add_all(MergeRun *work, Error *err)
-{
+static bool add_all(MergeRun *work, Error *err) {
     const FilmPart *whole = &work->whole;
-    double          total = 0, done = 0;
+    double total = 0, done = 0;
     work->film = film_create(whole->width, whole->height, whole->crop, whole->layers,
                              &whole->lights, work->arena);
     if (!film_has_room(work->film, work->arena, err)) return false;
@@ -269,8 +254,7 @@ static bool add_all(MergeRun *work, Error *err)
 /* ---- the frame --------------------------------------------------------------------------- */
 
 /* The command of one run, when the parts' agree on it. */
-static const char *line_of_whole(const MergeRun *work, Arena *arena)
-{
+static const char *line_of_whole(const MergeRun *work, Arena *arena) {
     const char *first = NULL;
     for (int i = 0; i < work->count; i++) {
         const char *line = work->lines[i];
@@ -282,16 +266,14 @@ static const char *line_of_whole(const MergeRun *work, Arena *arena)
     return first;
 }
 
-static int compare_lines(const void *a, const void *b)
-{
+static int compare_lines(const void *a, const void *b) {
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
 /* Sorted: the order of the parts, and their names, decide nothing. */
-static const char *list_lines(const MergeRun *work, Arena *arena)
-{
-    int   count = work->count;
-    Text  list = {.arena = arena};
+static const char *list_lines(const MergeRun *work, Arena *arena) {
+    int count = work->count;
+    Text list = {.arena = arena};
     qsort(work->lines, (size_t)count, sizeof *work->lines, compare_lines);
     for (int i = 0; i < count; i++) {
         text_add(&list, work->lines[i]);
@@ -300,27 +282,25 @@ static const char *list_lines(const MergeRun *work, Arena *arena)
     return list.data;
 }
 
-static void set_lines(const MergeRun *work, FrameImage *frame, Arena *arena)
-{
+static void set_lines(const MergeRun *work, FrameImage *frame, Arena *arena) {
     const char *line = line_of_whole(work, arena);
     frame_set_string(frame, "parhelion:commandLine", line ? line : "parhelion merge", arena);
     if (!line) frame_set_string(frame, "parhelion:parts", list_lines(work, arena), arena);
 }
 
 /* Can no further part be added, as far as one can know? */
-static bool is_whole(const MergeRun *work)
-{
+static bool is_whole(const MergeRun *work) {
     const FilmPart *whole = &work->whole;
     return whole->first_sample == 0 && whole->crop.x0 == 0 && whole->crop.y0 == 0 &&
            whole->crop.x1 == whole->width && whole->crop.y1 == whole->height;
 }
 
-static bool write_frame(MergeRun *work, Error *err)
-{
-    Arena           *arena = work->arena;
-    const FilmPart  *whole = &work->whole;
+static bool write_frame(MergeRun *work, Error *err) {
+    Arena *arena = work->arena;
+    const FilmPart *whole = &work->whole;
     const FrameOutcome outcome = {.first_sample = whole->first_sample,
-                                  .end_sample = whole->end_sample, .complete = true,
+                                  .end_sample = whole->end_sample,
+                                  .complete = true,
                                   .relative_error = work->error.frame,
                                   .dropped_samples = film_dropped(work->film).count};
     FrameImage frame = film_to_frame(work->film, work->common.attribute_count + 8, arena);
@@ -336,50 +316,43 @@ static bool write_frame(MergeRun *work, Error *err)
 
 /* ---- the answer -------------------------------------------------------------------------- */
 
-static bool print_json(const MergeRun *work, Error *err)
-{
+static bool print_json(const MergeRun *work, Error *err) {
     const FilmPart *whole = &work->whole;
     json_t *answer = json_pack(
         "{s:o, s:i, s:[i,i], s:[i,i,i,i], s:[I,I], s:I, s:f, s:I, s:o, s:b, s:b}", "output",
-        json_text(work->output), "parts", work->count, "size", whole->width,
-        whole->height, "window", whole->crop.x0, whole->crop.y0, whole->crop.x1,
-        whole->crop.y1, "sample_range", (json_int_t)whole->first_sample,
-        (json_int_t)whole->end_sample, "samples",
+        json_text(work->output), "parts", work->count, "size", whole->width, whole->height,
+        "window", whole->crop.x0, whole->crop.y0, whole->crop.x1, whole->crop.y1, "sample_range",
+        (json_int_t)whole->first_sample, (json_int_t)whole->end_sample, "samples",
         (json_int_t)(whole->end_sample - whole->first_sample), "seconds", work->seconds,
         "nonfinite_samples", (json_int_t)whole->dropped.count, "relative_error",
         json_figure(work->error.frame), "complete", true, "is_part", work->keeps_sums);
-    json_object_set_new(answer, "rays",
-                        json_integer((json_int_t)(whole->camera_rays + whole->bounce_rays +
-                                                  whole->shadow_rays)));
+    json_object_set_new(
+        answer, "rays",
+        json_integer((json_int_t)(whole->camera_rays + whole->bounce_rays + whole->shadow_rays)));
     return cli_print_json(answer, err);
 }
 
-static void print_line(const MergeRun *work)
-{
+static void print_line(const MergeRun *work) {
     const FilmPart *whole = &work->whole;
     const FilmRect *crop = &whole->crop;
-    char            error[32];
+    char error[32];
     print("%s: %d part%s, pixels %d,%d,%d,%d of %dx%d, samples %u:%u, relative "
           "error %s%s\n",
-          work->output, work->count,
-          work->count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
-          crop->y1, whole->width, whole->height, whole->first_sample,
-          whole->end_sample, cli_relative_error(work->error.frame, error, sizeof error),
+          work->output, work->count, work->count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
+          crop->y1, whole->width, whole->height, whole->first_sample, whole->end_sample,
+          cli_relative_error(work->error.frame, error, sizeof error),
           work->keeps_sums ? ", with its sums" : "");
 }
 
-static bool check_dropped(const MergeRun *work, Error *err)
-{
+static bool check_dropped(const MergeRun *work, Error *err) {
     const char *line = line_of_whole(work, work->arena);
     const char *text = frame_dropped_warning(work->film, line, work->arena);
     if (!frame_check_dropped(work->film, line, *work->arena, err)) return false;
-    if (text)
-        print_to(stderr, "parhelion: warning: %s: %s\n", work->output, text);
+    if (text) print_to(stderr, "parhelion: warning: %s: %s\n", work->output, text);
     return true;
 }
 
-static bool merge(MergeRun *work, Error *err)
-{
+static bool merge(MergeRun *work, Error *err) {
     if (!look_at_all(work, err) || !check_memory(work, err) || !add_all(work, err) ||
         !check_dropped(work, err) || !write_frame(work, err))
         return false;
@@ -388,14 +361,12 @@ static bool merge(MergeRun *work, Error *err)
     return true;
 }
 
-static Outcome run_merge(int argc, char **argv, Arena *arena, Error *err)
-{
-    MergeRun  work = {.arena = arena};
+static Outcome run_merge(int argc, char **argv, Arena *arena, Error *err) {
+    MergeRun work = {.arena = arena};
     if (!parse(argc, argv, &work, err)) return OUTCOME_FAILED;
     if (work.cli.help_shown) return OUTCOME_DONE;
-    return work.is_of_reviews
-               ? cmd_review_merge(&work.cli, work.output, arena, err)
-               : outcome_of(merge(&work, err));
+    return work.is_of_reviews ? cmd_review_merge(&work.cli, work.output, arena, err)
+                              : outcome_of(merge(&work, err));
 }
 
 const Command command_merge = {

@@ -9,15 +9,13 @@
 #include "record/record_schema.h"
 #include "text/nearest_word.h"
 
-static void each_format(HelpRow *row, void *user)
-{
+static void each_format(HelpRow *row, void *user) {
     for (int i = 0; i < schema_count; i++) row(user, format_table[i].name, format_table[i].title);
 }
 
-static const NamedFormat *find(const char *name, Arena *arena, Error *err)
-{
+static const NamedFormat *find(const char *name, Arena *arena, Error *err) {
     const char **known = ARENA_NEW(arena, const char *, schema_count);
-    char         advice[256];
+    char advice[256];
     for (int i = 0; i < schema_count; i++) {
         known[i] = format_table[i].name;
         if (!strcmp(name, known[i])) return &format_table[i];
@@ -27,11 +25,12 @@ static const NamedFormat *find(const char *name, Arena *arena, Error *err)
     return NULL;
 }
 
-static Outcome run_schema(int argc, char **argv, Arena *arena, Error *err)
-{
-    const CliCommand command = {
-        "schema", command_schema.summary, "FORMAT",
-        "parhelion schema profile", NULL, 0, 1, 1, "formats", each_format};
+static Outcome run_schema(int argc, char **argv, Arena *arena, Error *err) {
+    const CliCommand command = {"schema",  command_schema.summary,
+                                "FORMAT",  "parhelion schema profile",
+                                NULL,      0,
+                                1,         1,
+                                "formats", each_format};
     Cli cli;
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;

@@ -24,38 +24,36 @@
 #include "spectrum/photometry.h"
 #include "text/json_text.h"
 
-#define LANE_SETS 8                    /* of 16 wavelengths: enough for smooth spectra */
-#define FIGURE_LINES 20                /* at most */
-#define PATH_STEPS 145                 /* every 10 minutes of a day */
+#define LANE_SETS 8     /* of 16 wavelengths: enough for smooth spectra */
+#define FIGURE_LINES 20 /* at most */
+#define PATH_STEPS 145  /* every 10 minutes of a day */
 
 /* One run of the command. */
 typedef struct SkyRun {
-    Cli               cli;
+    Cli cli;
     EnvironmentChange change;
-    const char       *output;
-    int               size[2]; /* of the EXR */
-    bool              is_dark, is_fisheye;
-    const char       *root; /* --root, or NULL */
-    Arena            *arena;
-    Problems          problems;
-    Scene            *scene;
-    Sky               sky;
-    double            turn; /* compass azimuth of the scene's -Z */
-    float            *rgb[3];
-    Wavelengths       lanes[LANE_SETS];
+    const char *output;
+    int size[2]; /* of the EXR */
+    bool is_dark, is_fisheye;
+    const char *root; /* --root, or NULL */
+    Arena *arena;
+    Problems problems;
+    Scene *scene;
+    Sky sky;
+    double turn; /* compass azimuth of the scene's -Z */
+    float *rgb[3];
+    Wavelengths lanes[LANE_SETS];
 } SkyRun;
 
 /* ---- the sky, direction by direction ----------------------------------------------------- */
 
 /* A direction of the compass in the scene. */
-static Vec3 scene_direction(const SkyRun *work, double azimuth, double elevation)
-{
+static Vec3 scene_direction(const SkyRun *work, double azimuth, double elevation) {
     double a = azimuth - work->turn, c = cos(elevation);
     return vec3((float)(c * sin(a)), (float)sin(elevation), (float)(-c * cos(a)));
 }
 
-static void sky_rgb(const SkyRun *work, Vec3 direction, float rgb[3])
-{
+static void sky_rgb(const SkyRun *work, Vec3 direction, float rgb[3]) {
     float xyz[3] = {0, 0, 0};
     for (int k = 0; k < LANE_SETS; k++) {
         SkySample seen = sky_seen(&work->sky, direction, direction, &work->lanes[k]);
@@ -66,9 +64,7 @@ static void sky_rgb(const SkyRun *work, Vec3 direction, float rgb[3])
 }
 
 /* False outside a fisheye's disc. */
-static bool pixel_direction(const SkyRun *work, int x, int y, double *azimuth,
-                            double *elevation)
-{
+static bool pixel_direction(const SkyRun *work, int x, int y, double *azimuth, double *elevation) {
     double u = (x + 0.5) / work->size[0], v = (y + 0.5) / work->size[1];
     if (!work->is_fisheye) {
         *azimuth = 2 * PI * u;
@@ -81,13 +77,12 @@ static bool pixel_direction(const SkyRun *work, int x, int y, double *azimuth,
     return r <= 1;
 }
 
-static void draw_row(void *context, int y, int worker)
-{
+static void draw_row(void *context, int y, int worker) {
     SkyRun *work = context;
     (void)worker;
     for (int x = 0; x < work->size[0]; x++) {
         double azimuth, elevation;
-        float  rgb[3] = {0, 0, 0};
+        float rgb[3] = {0, 0, 0};
         if (pixel_direction(work, x, y, &azimuth, &elevation))
             sky_rgb(work, scene_direction(work, azimuth, elevation), rgb);
         for (int i = 0; i < 3; i++)
@@ -95,14 +90,12 @@ static void draw_row(void *context, int y, int worker)
     }
 }
 
-static void choose_lanes(SkyRun *work)
-{
+static void choose_lanes(SkyRun *work) {
     for (int k = 0; k < LANE_SETS; k++)
         wavelengths_sample(((float)k + 0.5f) / LANE_SETS, &work->lanes[k]);
 }
 
-static void draw(SkyRun *work)
-{
+static void draw(SkyRun *work) {
     size_t count = (size_t)work->size[0] * (size_t)work->size[1];
     for (int i = 0; i < 3; i++) work->rgb[i] = ARENA_NEW(work->arena, float, count);
     parallel_for(work->cli.threads, work->size[1], draw_row, work);
@@ -111,13 +104,11 @@ static void draw(SkyRun *work)
 /* ---- figures ----------------------------------------------------------------------------- */
 
 /* The sky above the horizontal, for a picture or a constant sky, which have no model. */
-static double horizontal_lux(const SkyRun *work)
-{
+static double horizontal_lux(const SkyRun *work) {
     double sum = 0;
-    int    rows = 180, columns = 360;
+    int rows = 180, columns = 360;
     for (int j = 0; j < rows; j++) {
-        double low = PI / 2 * j / rows, high = PI / 2 * (j + 1) / rows,
-               middle = (low + high) / 2;
+        double low = PI / 2 * j / rows, high = PI / 2 * (j + 1) / rows, middle = (low + high) / 2;
         double weight = 0.5 * (sin(high) * sin(high) - sin(low) * sin(low)) * 2 * PI / columns;
         for (int i = 0; i < columns; i++) {
             float rgb[3];
@@ -128,8 +119,7 @@ static double horizontal_lux(const SkyRun *work)
     return sum;
 }
 
-static DaylightMetrics figures_of(const SkyRun *work)
-{
+static DaylightMetrics figures_of(const SkyRun *work) {
     float rgb[3];
     if (work->sky.model) return work->sky.model->daylight->metrics;
     DaylightMetrics f = {.diffuse_horizontal_lx = horizontal_lux(work)};
@@ -143,40 +133,35 @@ static DaylightMetrics figures_of(const SkyRun *work)
         f.sun_zenith_deg = 90 - f.sun_elevation_deg;
         f.direct_normal_lx = (double)environment->sun_illuminance_lx;
     }
-    f.global_horizontal_lx = f.diffuse_horizontal_lx +
-                             f.direct_normal_lx *
-                                 fmax(0, sin(radians_from_degrees(f.sun_elevation_deg)));
+    f.global_horizontal_lx =
+        f.diffuse_horizontal_lx +
+        f.direct_normal_lx * fmax(0, sin(radians_from_degrees(f.sun_elevation_deg)));
     return f;
 }
 
-static json_t *moon_json(const NightMetrics *m)
-{
+static json_t *moon_json(const NightMetrics *m) {
     if (!m->has_moon) return json_null();
     return json_pack("{s:f, s:f, s:b, s:b, s:f, s:f, s:f, s:f, s:f, s:f}", "azimuth_deg",
                      m->moon_azimuth_deg, "elevation_deg", m->moon_elevation_deg, "is_up",
-                     (int)m->is_moon_up, "is_in_light", (int)m->is_moon_lit,
-                     "illuminated_fraction", m->illuminated, "phase_angle_deg",
-                     m->phase_angle_deg, "elongation_deg", m->elongation_deg, "distance_km",
-                     m->moon_distance_km, "direct_normal_lx", m->moon_normal_lx,
-                     "diffuse_horizontal_lx", m->moon_sky_lx);
+                     (int)m->is_moon_up, "is_in_light", (int)m->is_moon_lit, "illuminated_fraction",
+                     m->illuminated, "phase_angle_deg", m->phase_angle_deg, "elongation_deg",
+                     m->elongation_deg, "distance_km", m->moon_distance_km, "direct_normal_lx",
+                     m->moon_normal_lx, "diffuse_horizontal_lx", m->moon_sky_lx);
 }
 
-static json_t *efficacy_number(double value)
-{
+static json_t *efficacy_number(double value) {
     return isfinite(value) ? json_real(value) : json_null();
 }
 
 /* null: a sky that has no measured irradiance. */
-static json_t *efficacy_json(const SkyRun *work, const DaylightMetrics *f)
-{
+static json_t *efficacy_json(const SkyRun *work, const DaylightMetrics *f) {
     const DaylightInput *in = &work->scene->environment.daylight;
     if (work->sky.kind != ENVIRONMENT_PEREZ) return json_null();
     json_t *document = json_pack(
         "{s:s, s:o, s:o, s:o}", "rule",
         weather_lux_text(in->has_lux ? WEATHER_LUX_FILE : WEATHER_LUX_PEREZ), "direct_lm_w",
-        efficacy_number(f->efficacy.direct), "diffuse_lm_w",
-        efficacy_number(f->efficacy.diffuse), "global_lm_w",
-        efficacy_number(f->efficacy.global));
+        efficacy_number(f->efficacy.direct), "diffuse_lm_w", efficacy_number(f->efficacy.diffuse),
+        "global_lm_w", efficacy_number(f->efficacy.global));
     if (in->has_lux) return document;
     json_object_set_new(document, "water_cm", json_real(in->water_cm));
     json_object_set_new(document, "water_source",
@@ -185,32 +170,29 @@ static json_t *efficacy_json(const SkyRun *work, const DaylightMetrics *f)
 }
 
 /* The relief of the cloud deck that is drawn, m; 0: none. */
-static double relief_of(const SkyRun *work)
-{
+static double relief_of(const SkyRun *work) {
     const Daylight *daylight = work->sky.model ? work->sky.model->daylight : NULL;
-    bool has_relief = daylight && daylight->input.kind == DAYLIGHT_CLEAR &&
-                      daylight->sunlight.atmosphere.relief;
+    bool has_relief =
+        daylight && daylight->input.kind == DAYLIGHT_CLEAR && daylight->sunlight.atmosphere.relief;
     return has_relief ? daylight->input.cloud_relief_m : 0;
 }
 
-static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err)
-{
+static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err) {
     json_t *sun = work->sky.model || work->sky.has_sun
                       ? json_pack("{s:f, s:f, s:f, s:f, s:b, s:f, s:f}", "azimuth_deg",
                                   f->sun_azimuth_deg, "zenith_deg", f->sun_zenith_deg,
                                   "elevation_deg", f->sun_elevation_deg, "distance_au",
-                                  f->distance_au, "is_up", (int)f->is_sun_up,
-                                  "true_elevation_deg", f->true_elevation_deg, "refraction_deg",
-                                  f->refraction_deg)
+                                  f->distance_au, "is_up", (int)f->is_sun_up, "true_elevation_deg",
+                                  f->true_elevation_deg, "refraction_deg", f->refraction_deg)
                       : json_null();
     json_t *document = json_pack(
         "{s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:[f,f], s:[f,f], s:f, s:f}", "sun", sun,
-        "direct_normal_lx", f->direct_normal_lx, "diffuse_horizontal_lx",
-        f->diffuse_horizontal_lx, "global_horizontal_lx", f->global_horizontal_lx,
-        "zenith_cd_m2", f->zenith_cd_m2, "direct_normal_w_m2", f->direct_normal_w_m2,
-        "diffuse_horizontal_w_m2", f->diffuse_horizontal_w_m2, "ground_cd_m2", f->floor_cd_m2,
-        "sun_xy", f->sun_xy[0], f->sun_xy[1], "zenith_xy", f->zenith_xy[0], f->zenith_xy[1],
-        "horizon_deg", f->horizon_deg, "air_mass", f->air_mass);
+        "direct_normal_lx", f->direct_normal_lx, "diffuse_horizontal_lx", f->diffuse_horizontal_lx,
+        "global_horizontal_lx", f->global_horizontal_lx, "zenith_cd_m2", f->zenith_cd_m2,
+        "direct_normal_w_m2", f->direct_normal_w_m2, "diffuse_horizontal_w_m2",
+        f->diffuse_horizontal_w_m2, "ground_cd_m2", f->floor_cd_m2, "sun_xy", f->sun_xy[0],
+        f->sun_xy[1], "zenith_xy", f->zenith_xy[0], f->zenith_xy[1], "horizon_deg", f->horizon_deg,
+        "air_mass", f->air_mass);
     json_object_set_new(document, "moon", moon_json(&f->night));
     json_object_set_new(document, "night_background_lx", json_real(f->night.background_lx));
     json_object_set_new(document, "luminous_efficacy", efficacy_json(work, f));
@@ -222,14 +204,12 @@ static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err)
 }
 
 /* Whole lux by day; a night is thousandths of one. */
-static const char *lux_line(const SkyRun *work, const char *name, double lux)
-{
+static const char *lux_line(const SkyRun *work, const char *name, double lux) {
     return arena_format(work->arena, lux >= 100 ? "%s|%.0f lx" : "%s|%.4g lx", name, lux);
 }
 
 /* At night only: by day its place stands in the JSON. */
-static int moon_lines(const SkyRun *work, const NightMetrics *m, const char **line)
-{
+static int moon_lines(const SkyRun *work, const NightMetrics *m, const char **line) {
     int n = 0;
     if (!(m->background_lx > 0)) return 0;
     if (m->has_moon) {
@@ -238,30 +218,27 @@ static int moon_lines(const SkyRun *work, const NightMetrics *m, const char **li
                                  m->moon_elevation_deg, m->is_moon_up ? "" : " (down)",
                                  100 * m->illuminated);
     }
-    if (m->moon_normal_lx > 0)
-        line[n++] = lux_line(work, "moon direct normal", m->moon_normal_lx);
+    if (m->moon_normal_lx > 0) line[n++] = lux_line(work, "moon direct normal", m->moon_normal_lx);
     line[n++] = lux_line(work, "night background", m->background_lx);
     return n;
 }
 
 /* What made lux of a Perez sky's irradiances. */
-static int efficacy_lines(const SkyRun *work, const DaylightMetrics *f, const char **line)
-{
+static int efficacy_lines(const SkyRun *work, const DaylightMetrics *f, const char **line) {
     const DaylightInput *in = &work->scene->environment.daylight;
     Arena *arena = work->arena;
     if (work->sky.kind != ENVIRONMENT_PEREZ) return 0;
-    const char *direct = in->direct_w_m2 > 0
-                             ? arena_format(arena, "direct %.1f, ", f->efficacy.direct) : "";
-    line[0] = arena_format(arena, "luminous efficacy|%sdiffuse %.1f lm/W", direct,
-                           f->efficacy.diffuse);
+    const char *direct =
+        in->direct_w_m2 > 0 ? arena_format(arena, "direct %.1f, ", f->efficacy.direct) : "";
+    line[0] =
+        arena_format(arena, "luminous efficacy|%sdiffuse %.1f lm/W", direct, f->efficacy.diffuse);
     line[1] = arena_format(arena, "lux by|%s", weather_light_rule_text(in, arena));
     return 2;
 }
 
-static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char **line)
-{
+static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char **line) {
     Arena *arena = work->arena;
-    int    n = 0;
+    int n = 0;
     if (work->sky.model || work->sky.has_sun) {
         line[n++] = arena_format(arena, "sun's azimuth|%.3f°", f->sun_azimuth_deg);
         line[n++] = arena_format(arena, "sun's elevation|%.3f°%s", f->sun_elevation_deg,
@@ -280,19 +257,18 @@ static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char
     if (f->direct_normal_w_m2 > 0)
         line[n++] = arena_format(arena, "direct normal|%.1f W/m²", f->direct_normal_w_m2);
     if (f->diffuse_horizontal_w_m2 > 0.05)
-        line[n++] = arena_format(arena, "diffuse horizontal|%.1f W/m²",
-                                 f->diffuse_horizontal_w_m2);
+        line[n++] = arena_format(arena, "diffuse horizontal|%.1f W/m²", f->diffuse_horizontal_w_m2);
     n += efficacy_lines(work, f, line + n);
     if (relief_of(work) > 0)
-        line[n++] = arena_format(arena, "cloud relief|%.0f m, synthetic, for pictures; the "
-                                 "deck's mean light stays", relief_of(work));
-    if (f->horizon_deg < -0.01)
-        line[n++] = arena_format(arena, "horizon|%.2f°", f->horizon_deg);
+        line[n++] = arena_format(arena,
+                                 "cloud relief|%.0f m, synthetic, for pictures; the "
+                                 "deck's mean light stays",
+                                 relief_of(work));
+    if (f->horizon_deg < -0.01) line[n++] = arena_format(arena, "horizon|%.2f°", f->horizon_deg);
     return n + moon_lines(work, &f->night, line + n);
 }
 
-static void print_lines(const char *const *line, int count)
-{
+static void print_lines(const char *const *line, int count) {
     for (int i = 0; i < count; i++) {
         const char *bar = strchr(line[i], '|');
         print("%-20.*s %s\n", (int)(bar - line[i]), line[i], bar + 1);
@@ -301,25 +277,25 @@ static void print_lines(const char *const *line, int count)
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
-static bool write_exr(const SkyRun *work, Error *err)
-{
-    ExrWindow  data = {0, 0, work->size[0], work->size[1]};
+static bool write_exr(const SkyRun *work, Error *err) {
+    ExrWindow data = {0, 0, work->size[0], work->size[1]};
     FrameImage frame = frame_create(work->size[0], work->size[1], data, 3, 8, work->arena);
     for (int i = 0; i < 3; i++) {
         char name[2] = {"RGB"[i], 0};
         memcpy(frame_add_channel(&frame, name, false, work->arena), work->rgb[i],
                sizeof(float) * frame_pixel_count(&frame));
     }
-    frame_set_string(&frame, "comments", work->is_fisheye
-                     ? "sky without the sun's disc, cd/m2; plan: north on top, east right, "
-                       "equidistant, the rim is the horizontal"
-                     : "sky without the sun's disc, cd/m2; equirectangular: left edge north, "
-                       "then east, as --environment hdri: takes it", work->arena);
+    frame_set_string(&frame, "comments",
+                     work->is_fisheye
+                         ? "sky without the sun's disc, cd/m2; plan: north on top, east right, "
+                           "equidistant, the rim is the horizontal"
+                         : "sky without the sun's disc, cd/m2; equirectangular: left edge north, "
+                           "then east, as --environment hdri: takes it",
+                     work->arena);
     return frame_write(work->output, &frame, err);
 }
 
-static const char *kind_text(const SkyRun *work)
-{
+static const char *kind_text(const SkyRun *work) {
     const DaylightInput *in = &work->scene->environment.daylight;
     switch (work->sky.kind) {
     case ENVIRONMENT_NONE: return "No sky";
@@ -336,23 +312,21 @@ static const char *kind_text(const SkyRun *work)
                : arena_format(work->arena, "Clear sky, turbidity %.2g", in->turbidity);
 }
 
-static const char *moment_text(const SkyRun *work)
-{
+static const char *moment_text(const SkyRun *work) {
     const DaylightInput *in = &work->scene->environment.daylight;
     if (work->sky.kind < ENVIRONMENT_CIE || !in->has_time) return "";
     double zone = fabs(in->when.zone_h);
     return arena_format(work->arena,
                         "%04d-%02d-%02d %02d:%02d UTC%c%02d:%02d  ·  latitude %.4f°, "
                         "longitude %.4f°, %.0f m",
-                        in->when.year, in->when.month, in->when.day, in->when.hour,
-                        in->when.minute, in->when.zone_h < 0 ? '-' : '+', (int)zone,
+                        in->when.year, in->when.month, in->when.day, in->when.hour, in->when.minute,
+                        in->when.zone_h < 0 ? '-' : '+', (int)zone,
                         (int)((zone - (int)zone) * 60 + 0.5), in->where.latitude_deg,
                         in->where.longitude_deg, in->where.altitude_m);
 }
 
 /* The sun through the day of the moment, on the clock of its zone. */
-static int sun_path(const SkyRun *work, SkyPlotSun *path)
-{
+static int sun_path(const SkyRun *work, SkyPlotSun *path) {
     const DaylightInput *in = &work->scene->environment.daylight;
     double pressure, celsius;
     if (work->sky.kind < ENVIRONMENT_CIE || !in->has_time) return 0;
@@ -362,9 +336,9 @@ static int sun_path(const SkyRun *work, SkyPlotSun *path)
     double day = sky_julian_day(&midnight);
     standard_atmosphere(in->where.altitude_m, &pressure, &celsius);
     for (int i = 0; i < PATH_STEPS; i++) {
-        double      now = day + i / 144.0;
+        double now = day + i / 144.0;
         SunPosition p = sun_position(now, sky_delta_t_s(now), &in->where);
-        double      lift = sun_refraction_deg(p.elevation_deg, pressure, celsius);
+        double lift = sun_refraction_deg(p.elevation_deg, pressure, celsius);
         path[i] = (SkyPlotSun){radians_from_degrees(p.azimuth_deg),
                                radians_from_degrees(p.elevation_deg + lift), NULL};
         if (i % 12 == 0 && i < 144) path[i].label = arena_format(work->arena, "%02d", i / 6);
@@ -372,17 +346,18 @@ static int sun_path(const SkyRun *work, SkyPlotSun *path)
     return PATH_STEPS;
 }
 
-static bool write_picture(const SkyRun *work, const DaylightMetrics *f, bool is_svg, Error *err)
-{
-    size_t      count = (size_t)work->size[0] * (size_t)work->size[1];
-    float      *luminance = ARENA_NEW(work->arena, float, count);
+static bool write_picture(const SkyRun *work, const DaylightMetrics *f, bool is_svg, Error *err) {
+    size_t count = (size_t)work->size[0] * (size_t)work->size[1];
+    float *luminance = ARENA_NEW(work->arena, float, count);
     const char *line[FIGURE_LINES];
-    SkyPlotSun  path[PATH_STEPS];
-    PlotBytes   bytes;
+    SkyPlotSun path[PATH_STEPS];
+    PlotBytes bytes;
     for (size_t i = 0; i < count; i++)
-        luminance[i] = luminance_from_rgb(
-            (float[3]){work->rgb[0][i], work->rgb[1][i], work->rgb[2][i]});
-    SkyPlot plot = {.luminance = luminance, .width = work->size[0], .height = work->size[1],
+        luminance[i] =
+            luminance_from_rgb((float[3]){work->rgb[0][i], work->rgb[1][i], work->rgb[2][i]});
+    SkyPlot plot = {.luminance = luminance,
+                    .width = work->size[0],
+                    .height = work->size[1],
                     .horizon = radians_from_degrees(f->horizon_deg),
                     .has_sun = f->is_sun_up,
                     .sun = {radians_from_degrees(f->sun_azimuth_deg),
@@ -390,12 +365,16 @@ static bool write_picture(const SkyRun *work, const DaylightMetrics *f, bool is_
                     .has_moon = f->night.moon_normal_lx > 0,
                     .moon = {radians_from_degrees(f->night.moon_azimuth_deg),
                              radians_from_degrees(f->night.moon_elevation_deg), NULL},
-                    .path = path, .path_count = sun_path(work, path),
-                    .has_heading = work->change.has_heading ||
-                                   work->scene->environment.heading != 0,
+                    .path = path,
+                    .path_count = sun_path(work, path),
+                    .has_heading =
+                        work->change.has_heading || work->scene->environment.heading != 0,
                     .heading = (double)work->scene->environment.heading,
-                    .title = kind_text(work), .subtitle = moment_text(work), .line = line,
-                    .line_count = figure_lines(work, f, line), .is_dark = work->is_dark};
+                    .title = kind_text(work),
+                    .subtitle = moment_text(work),
+                    .line = line,
+                    .line_count = figure_lines(work, f, line),
+                    .is_dark = work->is_dark};
     return sky_plot_draw(&plot, is_svg, 0, work->arena, &bytes, err) &&
            file_write(work->output, bytes.data, bytes.size, err);
 }
@@ -410,8 +389,7 @@ typedef enum OutputKind {
     OUTPUT_WRONG
 } OutputKind;
 
-static OutputKind output_kind(const char *path)
-{
+static OutputKind output_kind(const char *path) {
     static const char *const endings[] = {".exr", ".png", ".svg"};
     if (!path) return OUTPUT_NONE;
     for (int i = 0; i < 3; i++)
@@ -419,20 +397,18 @@ static OutputKind output_kind(const char *path)
     return OUTPUT_WRONG;
 }
 
-static bool build(SkyRun *work, Error *err)
-{
-    SceneOptions files = {.paths = work->cli.arguments, .path_count = work->cli.argument_count,
-                          .root = work->root};
-    Scene       *none = ARENA_NEW(work->arena, Scene, 1);
-    none->environment = (Environment){.color = {1, 1, 1}, .forward = vec3(0, 0, -1),
-                                      .hdri_scale = 1};
+static bool build(SkyRun *work, Error *err) {
+    SceneOptions files = {
+        .paths = work->cli.arguments, .path_count = work->cli.argument_count, .root = work->root};
+    Scene *none = ARENA_NEW(work->arena, Scene, 1);
+    none->environment =
+        (Environment){.color = {1, 1, 1}, .forward = vec3(0, 0, -1), .hdri_scale = 1};
     work->problems = problems_start(work->arena);
     work->scene = none;
     if (!reference_check_root(work->root, err)) return false;
     if (files.path_count &&
         (!scene_load(&files, work->arena, &work->problems, &work->scene, err) ||
-         !outputs_spare(&work->cli.outputs, work->scene->inputs, work->scene->input_count,
-                        err)))
+         !outputs_spare(&work->cli.outputs, work->scene->inputs, work->scene->input_count, err)))
         return false;
     if (!environment_change(&work->change, work->scene, work->arena, &work->problems, err))
         return false;
@@ -448,8 +424,7 @@ static bool build(SkyRun *work, Error *err)
     return sky_build(environment, work->arena, &work->sky, err);
 }
 
-static bool run(SkyRun *work, OutputKind kind, Error *err)
-{
+static bool run(SkyRun *work, OutputKind kind, Error *err) {
     const char *line[FIGURE_LINES];
     if (!build(work, err)) return false;
     if (kind != OUTPUT_EXR) work->is_fisheye = false;
@@ -467,27 +442,31 @@ static bool run(SkyRun *work, OutputKind kind, Error *err)
     return true;
 }
 
-static Outcome run_sky(int argc, char **argv, Arena *arena, Error *err)
-{
-    SkyRun  work = {.arena = arena, .size = {0, 0}};
-    int   projection = 0;
+static Outcome run_sky(int argc, char **argv, Arena *arena, Error *err) {
+    SkyRun work = {.arena = arena, .size = {0, 0}};
+    int projection = 0;
     const Option options[] = {
         {"-o", OPTION_TEXT, "SKY.exr|.png|.svg",
          "linear light in cd/m2, or a chart in false colours with the sun's way", &work.output,
          .file = OPTION_OUTPUT},
         ENVIRONMENT_OPTIONS(&work.change),
-        {"--projection", OPTION_CHOICE, "equirectangular|fisheye",
-         "of an EXR (charts show both)", &projection},
+        {"--projection", OPTION_CHOICE, "equirectangular|fisheye", "of an EXR (charts show both)",
+         &projection},
         {"--size", OPTION_SIZE, "WxH", "pixels of an EXR (default 1024x512, fisheye 1024x1024)",
          work.size},
         {"--dark", OPTION_FLAG, NULL, "a chart on a dark page", &work.is_dark},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &work.root},
     };
     const CliCommand command = {
-        "sky", command_sky.summary, "[SCENE.gltf ...] [-o SKY.exr|.png|.svg]",
+        "sky",
+        command_sky.summary,
+        "[SCENE.gltf ...] [-o SKY.exr|.png|.svg]",
         "parhelion sky --environment sky:clear --when 2026-06-21T08:30+02:00 "
         "--where 48.14,11.58,520 -o sky.png",
-        options, COUNT_OF(options), 0, -1};
+        options,
+        COUNT_OF(options),
+        0,
+        -1};
     if (!cli_parse(&command, argc, argv, arena, &work.cli, err)) return OUTCOME_FAILED;
     if (work.cli.help_shown) return OUTCOME_DONE;
     OutputKind kind = output_kind(work.output);
@@ -504,5 +483,5 @@ static Outcome run_sky(int argc, char **argv, Arena *arena, Error *err)
     return outcome_of(ok);
 }
 
-const Command command_sky = {
-    "sky", "draw the sky of a place and time, and print its figures", run_sky};
+const Command command_sky = {"sky", "draw the sky of a place and time, and print its figures",
+                             run_sky};

@@ -8,7 +8,7 @@
 #include "cli/review/cmd_review.h"
 
 const Command *const command_table[] = {
-    &command_render,  &command_develop, &command_panel,   &command_sky,  &command_check,
+    &command_render,  &command_develop, &command_panel,   &command_sky,    &command_check,
     &command_compare, &command_merge,   &command_measure, &command_review, &command_explain,
     &command_equip,   &command_schema,  &command_help,
 };

@@ -4,7 +4,7 @@
 #include "cli/options/command.h"
 
 extern const Command *const command_table[];
-extern const int            command_count;
+extern const int command_count;
 
 /* Those of this folder. */
 extern const Command command_check;

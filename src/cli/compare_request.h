@@ -11,20 +11,20 @@
 
 /* A line of --pairs: what goes for one pair of two folders. */
 typedef struct ComparePair {
-    const char    *name;  /* of the picture in both, with or without its ending */
-    const char    *place; /* "line 3" */
+    const char *name;  /* of the picture in both, with or without its ending */
+    const char *place; /* "line 3" */
     CompareOptions options;
 } ComparePair;
 
 typedef struct CompareRequest {
-    const char    *reference, *test; /* two files or two folders */
-    const char    *report, *junit, *answer; /* files; NULL: none */
-    bool           allow_extra;
+    const char *reference, *test;        /* two files or two folders */
+    const char *report, *junit, *answer; /* files; NULL: none */
+    bool allow_extra;
     CompareOptions options;
-    const char    *pairs_file; /* NULL: `options` go for every pair */
-    ComparePair   *pairs;
-    int            pair_count;
-    Cli            cli;
+    const char *pairs_file; /* NULL: `options` go for every pair */
+    ComparePair *pairs;
+    int pair_count;
+    Cli cli;
 } CompareRequest;
 
 /* True with cli.help_shown when only help was requested. */

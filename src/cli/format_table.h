@@ -4,11 +4,11 @@
 #include "record/record.h"
 
 typedef struct NamedFormat {
-    const char         *name, *title;
+    const char *name, *title;
     const RecordFormat *format;
 } NamedFormat;
 
 extern const NamedFormat format_table[];
-extern const int         format_count;
-extern const int         schema_count; /* with our extensions of glTF behind them, whose rows a
-                                          document is checked by (scene/check) */
+extern const int format_count;
+extern const int schema_count; /* with our extensions of glTF behind them, whose rows a
+                                  document is checked by (scene/check) */

@@ -9,10 +9,10 @@
 #include "cli/options/scene_options.h"
 
 typedef struct LuxmeterRequest {
-    CliTexts places;  /* of --illuminance: X,Y,Z,NX,NY,NZ or a file of such rows */
-    long     samples; /* of each */
-    bool     wants_csv;
-    SceneOptions      scene;
+    CliTexts places; /* of --illuminance: X,Y,Z,NX,NY,NZ or a file of such rows */
+    long samples;    /* of each */
+    bool wants_csv;
+    SceneOptions scene;
     EnvironmentChange environment;
 } LuxmeterRequest;
 

@@ -18,8 +18,7 @@
 #include "render/signals.h"
 #include "text/name_hint.h"
 
-static Outcome run_command(int argc, char **argv, Error *err)
-{
+static Outcome run_command(int argc, char **argv, Error *err) {
     const Command *command = command_find(command_table, command_count, NULL, argv[1], err);
     if (!command) return OUTCOME_FAILED;
     image_file_take_share();
@@ -30,8 +29,7 @@ static Outcome run_command(int argc, char **argv, Error *err)
     return outcome;
 }
 
-static bool has_word(int argc, char **argv, const char *word)
-{
+static bool has_word(int argc, char **argv, const char *word) {
     for (int i = 1; i < argc && strcmp(argv[i], "--"); i++)
         if (!strcmp(argv[i], word)) return true;
     return false;
@@ -39,8 +37,7 @@ static bool has_word(int argc, char **argv, const char *word)
 
 /* A reader who goes away and a limit on files' sizes are errors of the write, with a line and a
  * status, instead of a death that leaves hours of work nowhere. */
-static void ignore_deadly_signals(void)
-{
+static void ignore_deadly_signals(void) {
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
 }
@@ -48,10 +45,9 @@ static void ignore_deadly_signals(void)
 /* Where standard streams are closed, a frame that is opened must not become one of them. True:
  * stdout was open. If not it becomes one that refuses what is written: an answer that nobody
  * can have is reported, as on a full disk. */
-static bool fill_streams(void)
-{
+static bool fill_streams(void) {
     bool has_stdout = fcntl(STDOUT_FILENO, F_GETFD) >= 0;
-    int  handle;
+    int handle;
     do handle = open("/dev/null", has_stdout ? O_RDWR : O_RDONLY);
     while (handle >= 0 && handle <= STDERR_FILENO);
     if (handle > STDERR_FILENO) close(handle);
@@ -59,8 +55,7 @@ static bool fill_streams(void)
 }
 
 /* Reports output that was lost to a full disk or a closed pipe. */
-static bool check_stdout(Error *err)
-{
+static bool check_stdout(Error *err) {
     errno = 0;
     if (!fflush(stdout) && !ferror(stdout)) return true;
     return error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
@@ -68,8 +63,7 @@ static bool check_stdout(Error *err)
 }
 
 /* The path of a table that OpenColorIO did not find, of its message; else the error's file. */
-static const char *missing_file(const Error *err, char *buffer, size_t size)
-{
+static const char *missing_file(const Error *err, char *buffer, size_t size) {
     static const char words[] = "The following attempts were made: '";
     const char *tried = strstr(err->text, words);
     if (!tried) return err->file;
@@ -79,12 +73,11 @@ static const char *missing_file(const Error *err, char *buffer, size_t size)
 }
 
 /* Of an input that is not there, the one that may be meant. */
-static void add_hint(Error *err)
-{
-    char        buffer[sizeof err->text];
+static void add_hint(Error *err) {
+    char buffer[sizeof err->text];
     const char *path = missing_file(err, buffer, sizeof buffer);
     if (err->code != ERROR_INPUT || !path[0] || file_exists(path)) return;
-    Arena       arena = arena_reserve((size_t)1 << 30);
+    Arena arena = arena_reserve((size_t)1 << 30);
     const Error was = *err;
     const char *hint = name_hint(path, &arena);
     if (*hint && !strstr(err->text, hint))
@@ -92,24 +85,21 @@ static void add_hint(Error *err)
     arena_release(&arena);
 }
 
-static int report(Error *err, bool json)
-{
+static int report(Error *err, bool json) {
     add_hint(err);
     cli_report_error(err, json);
     return error_exit_status(err->code);
 }
 
-static int exit_status(Outcome outcome, const Error *err)
-{
+static int exit_status(Outcome outcome, const Error *err) {
     if (outcome == OUTCOME_STOPPED) return 128 + signals_stop_requested();
     return outcome == OUTCOME_FAILED ? error_exit_status(err->code) : outcome == OUTCOME_NO;
 }
 
-int main(int argc, char **argv)
-{
+int main(int argc, char **argv) {
     Error err = {0};
     ignore_deadly_signals();
-    bool    has_stdout = fill_streams();
+    bool has_stdout = fill_streams();
     Outcome outcome = OUTCOME_DONE;
     if (argc < 2) {
         cmd_help_print(stderr);
@@ -123,7 +113,6 @@ int main(int argc, char **argv)
     int status = exit_status(outcome, &err);
     if (outcome == OUTCOME_STOPPED) return status;
     /* what -o names is the answer; the line about it may go nowhere where none is read */
-    if (!has_stdout && !wants_json && has_word(argc, argv, "-o"))
-        return status;
+    if (!has_stdout && !wants_json && has_word(argc, argv, "-o")) return status;
     return check_stdout(&err) ? status : report(&err, false);
 }

@@ -8,15 +8,14 @@
 /* Two planes of one channel, and how to look at them. */
 typedef struct Pair {
     const float *values[2];
-    size_t       count;
-    int          row;         /* values in a row */
-    const FrameImage *frame;  /* NULL: value i is pixel i */
-    int          width;       /* pixels of a row of the display window */
-    bool         is_light, is_noise, excuses_rims;
+    size_t count;
+    int row;                 /* values in a row */
+    const FrameImage *frame; /* NULL: value i is pixel i */
+    int width;               /* pixels of a row of the display window */
+    bool is_light, is_noise, excuses_rims;
 } Pair;
 
-static bool is_one_of(const char *name, const char *const *layers, int count)
-{
+static bool is_one_of(const char *name, const char *const *layers, int count) {
     for (int i = 0; i < count; i++) {
         size_t length = strlen(layers[i]);
         if (!strncmp(name, layers[i], length) && (!name[length] || name[length] == '.'))
@@ -26,24 +25,20 @@ static bool is_one_of(const char *name, const char *const *layers, int count)
 }
 
 /* NaN is no fault in layers of the first surface: there may be none. */
-static bool is_surface_layer(const char *name)
-{
+static bool is_surface_layer(const char *name) {
     static const char *const LAYERS[] = {"display", "depth", "position", "normal",
                                          "albedo",  "uv",    "Z",        "ZBack"};
     return is_one_of(name, LAYERS, sizeof LAYERS / sizeof *LAYERS);
 }
 
-static bool is_noise_layer(const char *name)
-{
-    static const char *const LAYERS[] = {"variance", "halves", "display.halves",
-                                         "display.variance",
+static bool is_noise_layer(const char *name) {
+    static const char *const LAYERS[] = {"variance", "halves", "display.halves", "display.variance",
                                          "display.second.variance"};
     return is_one_of(name, LAYERS, sizeof LAYERS / sizeof *LAYERS);
 }
 
 /* Is there a value beside value i that is finite (or, wanting a gap, is not)? */
-static bool has_beside(const Pair *pair, const float *values, size_t i, bool wants_finite)
-{
+static bool has_beside(const Pair *pair, const float *values, size_t i, bool wants_finite) {
     int x = (int)(i % (size_t)pair->row), y = (int)(i / (size_t)pair->row);
     int rows = (int)(pair->count / (size_t)pair->row);
     for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < rows; v++)
@@ -55,22 +50,19 @@ static bool has_beside(const Pair *pair, const float *values, size_t i, bool wan
 
 /* The rim of a surface runs through or beside this pixel on either side: chance decides whether
  * a sample hits it. The inside of a surface that came or went is no rim. */
-static bool is_rim(const Pair *pair, size_t i)
-{
+static bool is_rim(const Pair *pair, size_t i) {
     int missing = isfinite(pair->values[0][i]) ? 1 : 0;
     return has_beside(pair, pair->values[missing], i, true) ||
            has_beside(pair, pair->values[1 - missing], i, false);
 }
 
 /* Or NaN both. */
-static bool same_gap(float a, float b)
-{
+static bool same_gap(float a, float b) {
     return isnan(a) ? isnan(b) : a == b;
 }
 
 /* A value that is not finite on some side; true when the pixel counts as different. */
-static bool add_gap(const Pair *pair, size_t i, long place, ChannelDifference *out)
-{
+static bool add_gap(const Pair *pair, size_t i, long place, ChannelDifference *out) {
     float a = pair->values[0][i], b = pair->values[1][i];
     if (pair->is_light) {
         for (int side = 0; side < 2; side++) {
@@ -88,14 +80,13 @@ static bool add_gap(const Pair *pair, size_t i, long place, ChannelDifference *o
 }
 
 static ChannelDifference compare_channel(const char *name, const Pair *pair,
-                                         const Selection *selection, ChannelDifferences *all)
-{
+                                         const Selection *selection, ChannelDifferences *all) {
     ChannelDifference out = {.name = name};
-    long              finite = 0;
+    long finite = 0;
     for (size_t i = 0; i < pair->count; i++) {
-        long  place = pair->frame ? selection_place(pair->frame, i) : (long)i;
+        long place = pair->frame ? selection_place(pair->frame, i) : (long)i;
         float a = pair->values[0][i], b = pair->values[1][i];
-        bool  is_finite = isfinite(a) && isfinite(b);
+        bool is_finite = isfinite(a) && isfinite(b);
         if (place < 0) {
             all->outside += !same_gap(a, b);
             continue;
@@ -121,23 +112,25 @@ static ChannelDifference compare_channel(const char *name, const Pair *pair,
 
 /* ---- the channels of frames and of pictures ---------------------------------------------- */
 
-static Pair frame_pair(const CompareInput *reference, const CompareInput *test,
-                       const char *name, const Structure *structure)
-{
+static Pair frame_pair(const CompareInput *reference, const CompareInput *test, const char *name,
+                       const Structure *structure) {
     const FrameImage *f = &reference->frame;
     return (Pair){{frame_channel(f, name), frame_channel(&test->frame, name)},
-                  frame_pixel_count(f), f->data.x1 - f->data.x0, f, reference->light.width,
-                  !is_surface_layer(name) && !is_noise_layer(name), is_noise_layer(name),
+                  frame_pixel_count(f),
+                  f->data.x1 - f->data.x0,
+                  f,
+                  reference->light.width,
+                  !is_surface_layer(name) && !is_noise_layer(name),
+                  is_noise_layer(name),
                   !structure->shares_paths};
 }
 
 static void compare_frames(const CompareInput *reference, const CompareInput *test,
                            const Structure *structure, const CompareRules *rules,
-                           const Selection *selection, ChannelDifferences *out)
-{
+                           const Selection *selection, ChannelDifferences *out) {
     for (int i = 0; i < reference->frame.channel_count; i++) {
         const char *name = reference->frame.channels[i].name;
-        Pair        pair = frame_pair(reference, test, name, structure);
+        Pair pair = frame_pair(reference, test, name, structure);
         if (!pair.values[1] || metadata_ignores(rules, name)) continue;
         out->list[out->count++] = compare_channel(name, &pair, selection, out);
     }
@@ -145,12 +138,12 @@ static void compare_frames(const CompareInput *reference, const CompareInput *te
 
 static void compare_codes(const CompareInput *reference, const CompareInput *test,
                           const CompareRules *rules, const Selection *selection,
-                          ChannelDifferences *out)
-{
+                          ChannelDifferences *out) {
     static const char *const NAMES[4] = {"R", "G", "B", "A"};
     for (int c = 0; c < 4; c++) {
         Pair pair = {.count = planes_pixel_count(&reference->codes),
-                     .row = reference->codes.width, .width = reference->codes.width,
+                     .row = reference->codes.width,
+                     .width = reference->codes.width,
                      .is_light = true};
         pair.values[0] = c < 3 ? reference->codes.rgb[c] : reference->alpha;
         pair.values[1] = c < 3 ? test->codes.rgb[c] : test->alpha;
@@ -161,37 +154,33 @@ static void compare_codes(const CompareInput *reference, const CompareInput *tes
 
 ChannelDifferences channels_compare(const CompareInput *reference, const CompareInput *test,
                                     const Structure *structure, const CompareRules *rules,
-                                    const Selection *selection, Arena *arena)
-{
-    size_t             pixels = planes_pixel_count(&reference->light);
+                                    const Selection *selection, Arena *arena) {
+    size_t pixels = planes_pixel_count(&reference->light);
     ChannelDifferences out = {.differs = ARENA_NEW(arena, unsigned char, pixels)};
-    bool               is_frame = reference->kind == INPUT_FRAME;
-    out.list = ARENA_NEW(arena, ChannelDifference,
-                         is_frame ? reference->frame.channel_count : 4);
-    if (is_frame)
-        compare_frames(reference, test, structure, rules, selection, &out);
-    else
-        compare_codes(reference, test, rules, selection, &out);
+    bool is_frame = reference->kind == INPUT_FRAME;
+    out.list = ARENA_NEW(arena, ChannelDifference, is_frame ? reference->frame.channel_count : 4);
+    if (is_frame) compare_frames(reference, test, structure, rules, selection, &out);
+    else compare_codes(reference, test, rules, selection, &out);
     for (size_t i = 0; i < pixels; i++) out.differing += out.differs[i];
     return out;
 }
 
-static void report_nonfinite(const ChannelDifference *c, Lines *reasons)
-{
+static void report_nonfinite(const ChannelDifference *c, Lines *reasons) {
     static const char *const SIDES[2] = {"reference", "test"};
     for (int side = 0; side < 2; side++)
         if (c->nonfinite[side])
-            lines_add(reasons, "channel %s has %ld values in the %s that are NaN or infinite, "
-                      "the first at pixel %d,%d", c->name, c->nonfinite[side], SIDES[side],
-                      c->first[side][0], c->first[side][1]);
+            lines_add(reasons,
+                      "channel %s has %ld values in the %s that are NaN or infinite, "
+                      "the first at pixel %d,%d",
+                      c->name, c->nonfinite[side], SIDES[side], c->first[side][0],
+                      c->first[side][1]);
 }
 
 /* All channels of a kind of surface have the same gaps: they are reported together. */
-static void report_gaps(const ChannelDifferences *channels, Lines *reasons)
-{
-    char   names[256] = "";
-    long   most = 0;
-    int    count = 0;
+static void report_gaps(const ChannelDifferences *channels, Lines *reasons) {
+    char names[256] = "";
+    long most = 0;
+    int count = 0;
     size_t length = 0;
     for (int i = 0; i < channels->count; i++) {
         const ChannelDifference *c = &channels->list[i];
@@ -203,19 +192,23 @@ static void report_gaps(const ChannelDifferences *channels, Lines *reasons)
         count++;
     }
     if (count)
-        lines_add(reasons, "%d channel%s NaN or infinite on one side only, in up to %ld "
-                  "pixels: %s", count, count > 1 ? "s are" : " is", most, names);
+        lines_add(reasons,
+                  "%d channel%s NaN or infinite on one side only, in up to %ld "
+                  "pixels: %s",
+                  count, count > 1 ? "s are" : " is", most, names);
 }
 
-void channels_report(const ChannelDifferences *channels, Lines *reasons, Lines *notes)
-{
+void channels_report(const ChannelDifferences *channels, Lines *reasons, Lines *notes) {
     for (int i = 0; i < channels->count; i++) report_nonfinite(&channels->list[i], reasons);
     report_gaps(channels, reasons);
     if (channels->outside)
-        lines_add(notes, "%ld values outside of the display window differ, which no figure "
-                  "counts", channels->outside);
+        lines_add(notes,
+                  "%ld values outside of the display window differ, which no figure "
+                  "counts",
+                  channels->outside);
     if (channels->left_out[0] || channels->left_out[1])
-        lines_add(notes, "%ld values of the reference and %ld of the test are NaN or infinite "
-                  "in pixels that do not count", channels->left_out[0],
-                  channels->left_out[1]);
+        lines_add(notes,
+                  "%ld values of the reference and %ld of the test are NaN or infinite "
+                  "in pixels that do not count",
+                  channels->left_out[0], channels->left_out[1]);
 }

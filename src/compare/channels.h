@@ -15,20 +15,20 @@
 
 typedef struct ChannelDifference {
     const char *name;
-    long   differing;     /* pixels whose values are not equal */
-    long   nonfinite[2];  /* of light: in the reference, in the test */
-    int    first[2][2];   /* x, y of the first of those, each side */
-    long   gaps;          /* NaN or infinity on one side only, which nothing excuses */
-    double max, mean;     /* of |test - reference| where both are finite */
+    long differing;    /* pixels whose values are not equal */
+    long nonfinite[2]; /* of light: in the reference, in the test */
+    int first[2][2];   /* x, y of the first of those, each side */
+    long gaps;         /* NaN or infinity on one side only, which nothing excuses */
+    double max, mean;  /* of |test - reference| where both are finite */
 } ChannelDifference;
 
 typedef struct ChannelDifferences {
     ChannelDifference *list;
-    int            count;
-    long           differing;    /* pixels of which some channel differs */
-    unsigned char *differs;      /* which: one byte a pixel of the display window */
-    long           left_out[2];  /* pixels without finite light that do not count: see mask */
-    long           outside;      /* values that differ outside of the display window */
+    int count;
+    long differing;         /* pixels of which some channel differs */
+    unsigned char *differs; /* which: one byte a pixel of the display window */
+    long left_out[2];       /* pixels without finite light that do not count: see mask */
+    long outside;           /* values that differ outside of the display window */
 } ChannelDifferences;
 
 /* Both sides have the same pixels. Only channels that both have are looked at. */

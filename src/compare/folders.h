@@ -20,7 +20,7 @@ typedef struct FolderPair {
 
 typedef struct FolderPairs {
     FolderPair *list; /* sorted by name */
-    int         count;
+    int count;
 } FolderPairs;
 
 bool is_folder(const char *path);

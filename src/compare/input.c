@@ -11,12 +11,11 @@
 
 #define MAX_FILE_BYTES ((size_t)4 << 30)
 
-static const char *const ENDINGS[] = {".exr", ".png",  ".jpg", ".jpeg", ".hdr", ".pic", ".tif",
-                                      ".tiff", ".webp", ".bmp", ".tga",  ".gif", ".dpx", ".pgm",
-                                      ".ppm"};
+static const char *const ENDINGS[] = {".exr", ".png", ".jpg",  ".jpeg", ".hdr",
+                                      ".pic", ".tif", ".tiff", ".webp", ".bmp",
+                                      ".tga", ".gif", ".dpx",  ".pgm",  ".ppm"};
 
-bool input_has_known_ending(const char *path)
-{
+bool input_has_known_ending(const char *path) {
     for (size_t i = 0; i < sizeof ENDINGS / sizeof *ENDINGS; i++)
         if (!strcasecmp(path_ending(path), ENDINGS[i])) return true;
     return false;
@@ -24,20 +23,18 @@ bool input_has_known_ending(const char *path)
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-bool input_view_light(CompareInput *input, Arena *arena, Error *err)
-{
+bool input_view_light(CompareInput *input, Arena *arena, Error *err) {
     LayerView view;
     if (!layer_view_find(&input->frame, NULL, arena, &view, err))
         return error_in_file(err, input->name);
-    input->light = (Planes){view.width, view.height,
-                              {view.planes[0], view.planes[1], view.planes[2]}};
+    input->light =
+        (Planes){view.width, view.height, {view.planes[0], view.planes[1], view.planes[2]}};
     return true;
 }
 
-static bool read_parts(FileBytes bytes, Arena *arena, CompareInput *input, Error *err)
-{
+static bool read_parts(FileBytes bytes, Arena *arena, CompareInput *input, Error *err) {
     ExrReader *reader;
-    bool       ok = true;
+    bool ok = true;
     if (!input->frame.more_parts) return true;
     if (!exr_reader_create(input->name, bytes.data, bytes.size, &reader, err))
         return error_in_file(err, input->name);
@@ -51,16 +48,14 @@ static bool read_parts(FileBytes bytes, Arena *arena, CompareInput *input, Error
     return ok || error_in_file(err, input->name);
 }
 
-static bool take_light(const LightFile *file, Arena *arena, CompareInput *input, Error *err)
-{
+static bool take_light(const LightFile *file, Arena *arena, CompareInput *input, Error *err) {
     input->kind = INPUT_FRAME;
     input->file = file->format;
     input->frame = file->frame;
     return input_view_light(input, arena, err);
 }
 
-static bool read_frame(FileBytes bytes, Arena *arena, CompareInput *input, Error *err)
-{
+static bool read_frame(FileBytes bytes, Arena *arena, CompareInput *input, Error *err) {
     LightFile file;
     return light_file_read_memory(bytes, input->name, arena, &input->problems, &file, err) &&
            take_light(&file, arena, input, err) && read_parts(bytes, arena, input, err);
@@ -68,16 +63,14 @@ static bool read_frame(FileBytes bytes, Arena *arena, CompareInput *input, Error
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
-static float code_at(const Image *image, size_t index)
-{
+static float code_at(const Image *image, size_t index) {
     if (image->format == IMAGE_RGBA8)
         return (float)((const uint8_t *)image->pixels)[index] / 255.0f;
     return (float)((const uint16_t *)image->pixels)[index] / 65535.0f;
 }
 
 /* count values of one channel from the first on, as codes and as light. */
-static void unpack_8(const uint8_t *packed, size_t count, float *codes, float *light)
-{
+static void unpack_8(const uint8_t *packed, size_t count, float *codes, float *light) {
     float table[256];
     for (int i = 0; i < 256; i++) table[i] = linear_from_srgb((float)i / 255.0f);
     for (size_t i = 0; i < count; i++) {
@@ -86,8 +79,7 @@ static void unpack_8(const uint8_t *packed, size_t count, float *codes, float *l
     }
 }
 
-static void unpack_16(const uint16_t *packed, size_t count, float *codes, float *light)
-{
+static void unpack_16(const uint16_t *packed, size_t count, float *codes, float *light) {
     for (size_t i = 0; i < count; i++) {
         codes[i] = (float)packed[4 * i] / 65535.0f;
         light[i] = linear_from_srgb(codes[i]);
@@ -95,19 +87,17 @@ static void unpack_16(const uint16_t *packed, size_t count, float *codes, float 
 }
 
 /* Negative codes for negative light, which other primaries can have. */
-static float extended_srgb(float light)
-{
+static float extended_srgb(float light) {
     return light < 0 ? -srgb_from_linear(-light) : srgb_from_linear(light);
 }
 
 /* Pixels from the first on whose codes are not sRGB's. */
 static void unpack_tagged(const CompareInput *input, size_t first, size_t count,
-                          float *const codes[3], float *const light[3])
-{
+                          float *const codes[3], float *const light[3]) {
     const Image *image = &input->packed;
     for (size_t i = 0; i < count; i++) {
         size_t at = 4 * (first + i);
-        float  rgb[3];
+        float rgb[3];
         for (size_t c = 0; c < 3; c++)
             rgb[c] = input->lights[c][image->format == IMAGE_RGBA8
                                           ? ((const uint8_t *)image->pixels)[at + c]
@@ -120,13 +110,12 @@ static void unpack_tagged(const CompareInput *input, size_t first, size_t count,
     }
 }
 
-CodeRows input_unpack(const CompareInput *input, int y0, int y1, Arena *arena)
-{
+CodeRows input_unpack(const CompareInput *input, int y0, int y1, Arena *arena) {
     const Image *image = &input->packed;
-    size_t       first = (size_t)y0 * (size_t)image->width;
-    size_t       count = (size_t)(y1 - y0) * (size_t)image->width;
-    CodeRows     rows = {.codes = {image->width, y1 - y0, {NULL}}};
-    float       *codes[3], *light[3];
+    size_t first = (size_t)y0 * (size_t)image->width;
+    size_t count = (size_t)(y1 - y0) * (size_t)image->width;
+    CodeRows rows = {.codes = {image->width, y1 - y0, {NULL}}};
+    float *codes[3], *light[3];
     rows.light = rows.codes;
     for (size_t c = 0; c < 3; c++) {
         rows.codes.rgb[c] = codes[c] = ARENA_NEW(arena, float, count);
@@ -134,9 +123,7 @@ CodeRows input_unpack(const CompareInput *input, int y0, int y1, Arena *arena)
         if (input->lights[0]) continue;
         if (image->format == IMAGE_RGBA8)
             unpack_8((const uint8_t *)image->pixels + 4 * first + c, count, codes[c], light[c]);
-        else
-            unpack_16((const uint16_t *)image->pixels + 4 * first + c, count, codes[c],
-                      light[c]);
+        else unpack_16((const uint16_t *)image->pixels + 4 * first + c, count, codes[c], light[c]);
     }
     if (input->lights[0]) unpack_tagged(input, first, count, codes, light);
     if (!input->has_alpha) return rows;
@@ -146,16 +133,14 @@ CodeRows input_unpack(const CompareInput *input, int y0, int y1, Arena *arena)
     return rows;
 }
 
-static bool has_alpha(const Image *image)
-{
+static bool has_alpha(const Image *image) {
     size_t count = (size_t)image->width * (size_t)image->height;
     for (size_t i = 0; i < count; i++)
         if (code_at(image, 4 * i + 3) != 1) return true;
     return false;
 }
 
-static void set_lights(Arena *arena, CompareInput *input)
-{
+static void set_lights(Arena *arena, CompareInput *input) {
     int count = input->bits == 8 ? 256 : 65536;
     if (input->tags.is_srgb || !input->tags.is_known) return;
     for (int c = 0; c < 3; c++) {
@@ -166,8 +151,7 @@ static void set_lights(Arena *arena, CompareInput *input)
     }
 }
 
-static void read_codes(const Image *image, long whole_pixels, Arena *arena, CompareInput *input)
-{
+static void read_codes(const Image *image, long whole_pixels, Arena *arena, CompareInput *input) {
     input->kind = INPUT_PICTURE;
     input->bits = image->format == IMAGE_RGBA8 ? 8 : 16;
     input->packed = picture_upright(image, input->tags.orientation, arena);
@@ -184,11 +168,9 @@ static void read_codes(const Image *image, long whole_pixels, Arena *arena, Comp
 }
 
 static bool read_picture(FileBytes bytes, long whole_pixels, Arena *arena, CompareInput *input,
-                         Error *err)
-{
+                         Error *err) {
     Image image;
-    if (!image_read_memory(bytes.data, bytes.size, input->name, arena, &image, err))
-        return false;
+    if (!image_read_memory(bytes.data, bytes.size, input->name, arena, &image, err)) return false;
     if (image.format == IMAGE_RGBA32F) {
         LightFile file = light_file_of_floats(&image, arena);
         return take_light(&file, arena, input, err);
@@ -200,24 +182,20 @@ static bool read_picture(FileBytes bytes, long whole_pixels, Arena *arena, Compa
 
 /* ---- both -------------------------------------------------------------------------------- */
 
-bool input_read(const char *path, long whole_pixels, Arena *arena, CompareInput *out,
-                Error *err)
-{
-    Arena        file = arena_reserve(MAX_FILE_BYTES + 4096);
-    FileBytes    bytes;
+bool input_read(const char *path, long whole_pixels, Arena *arena, CompareInput *out, Error *err) {
+    Arena file = arena_reserve(MAX_FILE_BYTES + 4096);
+    FileBytes bytes;
     CompareInput input = {.name = path, .problems = problems_start(arena)};
-    bool         ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err);
+    bool ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err);
     if (ok && light_file_recognise(bytes.data, bytes.size))
         ok = read_frame(bytes, arena, &input, err);
-    else if (ok)
-        ok = read_picture(bytes, whole_pixels, arena, &input, err);
+    else if (ok) ok = read_picture(bytes, whole_pixels, arena, &input, err);
     arena_release(&file);
     if (ok) *out = input;
     return ok;
 }
 
-bool input_check_kinds(const CompareInput *reference, const CompareInput *test, Error *err)
-{
+bool input_check_kinds(const CompareInput *reference, const CompareInput *test, Error *err) {
     if (reference->kind == test->kind) return true;
     const CompareInput *frame = reference->kind == INPUT_FRAME ? reference : test;
     const CompareInput *picture = frame == reference ? test : reference;

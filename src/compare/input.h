@@ -20,38 +20,36 @@ typedef enum InputKind { INPUT_FRAME, INPUT_PICTURE } InputKind;
 typedef struct CompareInput {
     const char *name; /* the file as the user named it */
     InputKind kind;
-    Planes      light; /* linear Rec.709: cd m^-2, or 0 .. 1; NaN outside a data window */
-    Planes      codes; /* sRGB codes 0 .. 1; of frames once they are developed */
-    LightFormat   file;         /* frames: of which kind */
-    FrameImage  frame;        /* frames: channels, windows, attributes */
-    ExrPart    *parts;        /* frames: further parts of the file, frame.more_parts of them */
-    Problems    problems;     /* of reading it */
-    int         bits;         /* pictures: 8 or 16 */
-    PictureTags tags;         /* pictures: what their file states */
-    const float *lights[3];   /* pictures that are not sRGB: the light of each of their codes */
-    bool        has_alpha;    /* pictures: it is not 1 everywhere */
-    const float *alpha;       /* pictures: 0 .. 1; NULL when all of it is 1 */
-    Image       packed;       /* pictures: as decoded, 4 or 8 bytes a pixel */
+    Planes light;           /* linear Rec.709: cd m^-2, or 0 .. 1; NaN outside a data window */
+    Planes codes;           /* sRGB codes 0 .. 1; of frames once they are developed */
+    LightFormat file;       /* frames: of which kind */
+    FrameImage frame;       /* frames: channels, windows, attributes */
+    ExrPart *parts;         /* frames: further parts of the file, frame.more_parts of them */
+    Problems problems;      /* of reading it */
+    int bits;               /* pictures: 8 or 16 */
+    PictureTags tags;       /* pictures: what their file states */
+    const float *lights[3]; /* pictures that are not sRGB: the light of each of their codes */
+    bool has_alpha;         /* pictures: it is not 1 everywhere */
+    const float *alpha;     /* pictures: 0 .. 1; NULL when all of it is 1 */
+    Image packed;           /* pictures: as decoded, 4 or 8 bytes a pixel */
 } CompareInput;
 
 /* A picture of more than so many pixels stays packed: its planes are sizes only. */
 #define INPUT_WHOLE_PIXELS (1L << 26)
 
 /* whole_pixels: 0 for INPUT_WHOLE_PIXELS. */
-bool input_read(const char *path, long whole_pixels, Arena *arena, CompareInput *out,
-                Error *err);
+bool input_read(const char *path, long whole_pixels, Arena *arena, CompareInput *out, Error *err);
 
 /* Takes a frame's light from its channels again. */
 bool input_view_light(CompareInput *input, Arena *arena, Error *err);
 
-static inline bool input_is_packed(const CompareInput *input)
-{
+static inline bool input_is_packed(const CompareInput *input) {
     return input->kind == INPUT_PICTURE && !input->codes.rgb[0];
 }
 
 /* Some rows of a picture, as planes of so many rows. */
 typedef struct CodeRows {
-    Planes       codes, light;
+    Planes codes, light;
     const float *alpha; /* NULL as above */
 } CodeRows;
 

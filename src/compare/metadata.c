@@ -7,14 +7,12 @@
 
 /* ---- what is left out and what decides --------------------------------------------------- */
 
-static bool begins_with_layer(const char *name, const char *layer)
-{
+static bool begins_with_layer(const char *name, const char *layer) {
     size_t length = strlen(layer);
     return !strncmp(name, layer, length) && (!name[length] || name[length] == '.');
 }
 
-bool metadata_ignores(const CompareRules *rules, const char *name)
-{
+bool metadata_ignores(const CompareRules *rules, const char *name) {
     static const char OWN[] = "parhelion:";
     const char *plain = strncmp(name, OWN, sizeof OWN - 1) ? name : name + sizeof OWN - 1;
     for (int i = 0; i < rules->ignored_count; i++)
@@ -27,19 +25,31 @@ bool metadata_ignores(const CompareRules *rules, const char *name)
 /* Attributes that decide the picture, by their whole names or, with a dot at the end,
  * prefixes. */
 static const char *const DECIDING[] = {
-    "adoptedNeutral",      "envmap",               "view",              "worldToCamera",
-    "worldToNDC",          "pixelAspectRatio",     "screenWindowWidth", "screenWindowCenter",
+    "adoptedNeutral",
+    "envmap",
+    "view",
+    "worldToCamera",
+    "worldToNDC",
+    "pixelAspectRatio",
+    "screenWindowWidth",
+    "screenWindowCenter",
     "parhelion:unit",
-    "parhelion:camera",    "parhelion:yfov_deg",   "parhelion:ymag_m",  "parhelion:maxBounces",
-    "parhelion:projection", "VIEW",
-    "parhelion:unbiased",  "parhelion:complete",   "parhelion:part.",   "parhelion:display.",
+    "parhelion:camera",
+    "parhelion:yfov_deg",
+    "parhelion:ymag_m",
+    "parhelion:maxBounces",
+    "parhelion:projection",
+    "VIEW",
+    "parhelion:unbiased",
+    "parhelion:complete",
+    "parhelion:part.",
+    "parhelion:display.",
 };
 
-static bool decides(const char *name)
-{
+static bool decides(const char *name) {
     for (size_t i = 0; i < sizeof DECIDING / sizeof *DECIDING; i++) {
         size_t length = strlen(DECIDING[i]);
-        bool   is_prefix = DECIDING[i][length - 1] == '.';
+        bool is_prefix = DECIDING[i][length - 1] == '.';
         if (!strncmp(name, DECIDING[i], length) && (is_prefix || !name[length])) return true;
     }
     return false;
@@ -47,8 +57,7 @@ static bool decides(const char *name)
 
 /* ---- values as text ---------------------------------------------------------------------- */
 
-static int value_count(ExrKind kind)
-{
+static int value_count(ExrKind kind) {
     switch (kind) {
     case EXR_STRING:
     case EXR_OTHER: return 0;
@@ -58,13 +67,11 @@ static int value_count(ExrKind kind)
     }
 }
 
-static bool has_text(const ExrAttribute *attribute)
-{
+static bool has_text(const ExrAttribute *attribute) {
     return attribute->kind == EXR_STRING || attribute->kind == EXR_OTHER;
 }
 
-static const char *value_text(const ExrAttribute *attribute, Arena *arena)
-{
+static const char *value_text(const ExrAttribute *attribute, Arena *arena) {
     if (!attribute) return NULL;
     if (has_text(attribute)) return attribute->text ? attribute->text : "";
     const char *text = "";
@@ -74,8 +81,7 @@ static const char *value_text(const ExrAttribute *attribute, Arena *arena)
 }
 
 /* Numbers by their bits, so that what prints alike and is not still differs. */
-static bool same_value(const ExrAttribute *a, const ExrAttribute *b)
-{
+static bool same_value(const ExrAttribute *a, const ExrAttribute *b) {
     if (!a || !b || a->kind != b->kind) return false;
     if (has_text(a)) return !strcmp(a->text ? a->text : "", b->text ? b->text : "");
     for (int i = 0; i < value_count(a->kind); i++) {
@@ -88,23 +94,20 @@ static bool same_value(const ExrAttribute *a, const ExrAttribute *b)
 /* Whether it has the value that a missing attribute stands for: such a one changes no picture.
  * What a file says of its light is applied when it is read, and these two are the same in all
  * frames; those that stand in their place explain (frame.h). */
-static bool is_default(const ExrAttribute *attribute)
-{
+static bool is_default(const ExrAttribute *attribute) {
     return !strcmp(attribute->name, "chromaticities") ||
            !strcmp(attribute->name, "whiteLuminance") ||
            (!strcmp(attribute->name, "pixelAspectRatio") && attribute->values[0] == 1);
 }
 
-static bool has_attributes(const FrameImage *frame, const char *prefix)
-{
+static bool has_attributes(const FrameImage *frame, const char *prefix) {
     for (int i = 0; i < frame->attribute_count; i++)
         if (!strncmp(frame->attributes[i].name, prefix, strlen(prefix))) return true;
     return false;
 }
 
 /* The names of a layer's numbers, which a frame without that layer lacks. */
-static bool names_missing_layer(const char *name, const FrameImage *other)
-{
+static bool names_missing_layer(const char *name, const FrameImage *other) {
     static const char *const PREFIXES[] = {"parhelion:part.", "parhelion:display."};
     for (int i = 0; i < COUNT_OF(PREFIXES); i++)
         if (!strncmp(name, PREFIXES[i], strlen(PREFIXES[i])))
@@ -113,21 +116,23 @@ static bool names_missing_layer(const char *name, const FrameImage *other)
 }
 
 static MetadataRow row_of(const char *name, const FrameImage *reference, const FrameImage *test,
-                          const CompareRules *rules, Arena *arena)
-{
+                          const CompareRules *rules, Arena *arena) {
     const ExrAttribute *a = frame_attribute(reference, name), *b = frame_attribute(test, name);
-    bool is_implied = (!a || !b) && (is_default(a ? a : b) ||
-                                     names_missing_layer(name, a ? test : reference));
-    return (MetadataRow){name, value_text(a, arena), value_text(b, arena), !same_value(a, b),
-                         decides(name) && !is_implied, metadata_ignores(rules, name)};
+    bool is_implied =
+        (!a || !b) && (is_default(a ? a : b) || names_missing_layer(name, a ? test : reference));
+    return (MetadataRow){name,
+                         value_text(a, arena),
+                         value_text(b, arena),
+                         !same_value(a, b),
+                         decides(name) && !is_implied,
+                         metadata_ignores(rules, name)};
 }
 
 MetadataRow *metadata_compare(const FrameImage *reference, const FrameImage *test,
-                              const CompareRules *rules, Arena *arena, int *count)
-{
-    MetadataRow *rows = ARENA_NEW(arena, MetadataRow,
-                                  reference->attribute_count + test->attribute_count);
-    int          n = 0;
+                              const CompareRules *rules, Arena *arena, int *count) {
+    MetadataRow *rows =
+        ARENA_NEW(arena, MetadataRow, reference->attribute_count + test->attribute_count);
+    int n = 0;
     for (int i = 0; i < reference->attribute_count; i++)
         rows[n++] = row_of(reference->attributes[i].name, reference, test, rules, arena);
     for (int i = 0; i < test->attribute_count; i++) {

@@ -8,7 +8,7 @@
 
 typedef struct CompareRules {
     const char *const *ignored; /* metadata keys, channels, layers: left out */
-    int  ignored_count;
+    int ignored_count;
     bool strict; /* every difference of metadata is a reason */
 } CompareRules;
 
@@ -16,7 +16,7 @@ typedef struct CompareRules {
 typedef struct MetadataRow {
     const char *name;
     const char *reference, *test; /* NULL where there is none */
-    bool        differs, decides, is_ignored;
+    bool differs, decides, is_ignored;
 } MetadataRow;
 
 /* Does one of the rules leave this channel or key out? A layer's name means all its channels,

@@ -13,25 +13,22 @@
 
 #define SILLY_STOPS 12 /* of HDR-FLIP's own range: only a sun is that far above the median */
 
-double ev_of_stops(double stops)
-{
+double ev_of_stops(double stops) {
     return exposure_ev_of_grey(MIDDLE_GREY / exp2_d(stops));
 }
 
-double stops_of_ev(double ev)
-{
+double stops_of_ev(double ev) {
     return log2_d(MIDDLE_GREY / exposure_grey_of_ev(ev));
 }
 
 /* ---- what is looked at ------------------------------------------------------------------- */
 
 /* Light with 0 for what is not finite on either side; such pixels leave the mask. */
-static void clean_light(Comparison *out, Arena *arena)
-{
-    const Planes  *from[2] = {&out->reference.light, &out->test.light};
-    size_t         count = planes_pixel_count(from[0]);
+static void clean_light(Comparison *out, Arena *arena) {
+    const Planes *from[2] = {&out->reference.light, &out->test.light};
+    size_t count = planes_pixel_count(from[0]);
     unsigned char *mask = ARENA_NEW(arena, unsigned char, count);
-    float         *to[2][3];
+    float *to[2][3];
     memcpy(mask, out->selection.counts, count);
     for (size_t i = 0; i < count; i++)
         for (int c = 0; c < 3; c++)
@@ -51,8 +48,7 @@ static void clean_light(Comparison *out, Arena *arena)
 }
 
 /* Interleaved codes as planes, cut off at black and white. */
-static Planes planes_of(const Picture *picture, Arena *arena)
-{
+static Planes planes_of(const Picture *picture, Arena *arena) {
     Planes planes = {picture->width, picture->height, {NULL}};
     size_t count = planes_pixel_count(&planes);
     for (size_t c = 0; c < 3; c++) {
@@ -67,11 +63,10 @@ static Planes planes_of(const Picture *picture, Arena *arena)
 }
 
 /* Both with the reference's exposure and view. */
-bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
-{
+bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *out, Error *err) {
     if (out->reference.kind != INPUT_FRAME) return true;
-    CompareInput       *sides[2] = {&out->reference, &out->test};
-    DevelopReport  report;
+    CompareInput *sides[2] = {&out->reference, &out->test};
+    DevelopReport report;
     DevelopOptions develop = {.exposure = options->exposure, .own_config = true};
     for (int side = 0; side < 2; side++) {
         Picture picture;
@@ -81,8 +76,8 @@ bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *ou
         sides[side]->codes = planes_of(&picture, arena);
         if (side == 0) {
             out->shown_ev = report.ev;
-            out->shown_with = arena_format(arena, "%s, %s, %s", report.display, report.view,
-                                           report.config);
+            out->shown_with =
+                arena_format(arena, "%s, %s, %s", report.display, report.view, report.config);
             develop.exposure = arena_format(arena, "%.17g", report.ev);
             develop.view = arena_format(arena, "%s", report.view);
         }
@@ -91,8 +86,7 @@ bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *ou
 }
 
 /* The display-referred linear light of codes. */
-static Planes shown_light(const Planes *codes, Arena *arena)
-{
+static Planes shown_light(const Planes *codes, Arena *arena) {
     Planes planes = *codes;
     size_t count = planes_pixel_count(codes);
     for (int c = 0; c < 3; c++) {
@@ -105,8 +99,7 @@ static Planes shown_light(const Planes *codes, Arena *arena)
 
 /* ---- what is kept ------------------------------------------------------------------------ */
 
-void metrics_set_errors(const PixelErrors *errors, unsigned groups, Comparison *out)
-{
+void metrics_set_errors(const PixelErrors *errors, unsigned groups, Comparison *out) {
     if (groups & GROUP_MSE) {
         out->value[METRIC_MSE] = errors->mse;
         out->value[METRIC_RELMSE] = errors->rel_mse;
@@ -120,16 +113,14 @@ void metrics_set_errors(const PixelErrors *errors, unsigned groups, Comparison *
     }
 }
 
-void metrics_set_flip(const MapSummary *flip, Comparison *out)
-{
+void metrics_set_flip(const MapSummary *flip, Comparison *out) {
     out->value[METRIC_FLIP] = flip->mean;
     out->value[METRIC_FLIP_MEDIAN] = flip->median;
     out->value[METRIC_FLIP_P95] = flip->p95;
     out->value[METRIC_FLIP_MAX] = flip->max;
 }
 
-void metrics_set_deltae(const MapSummary *deltae, Comparison *out)
-{
+void metrics_set_deltae(const MapSummary *deltae, Comparison *out) {
     out->value[METRIC_DELTAE_MEAN] = deltae->mean;
     out->value[METRIC_DELTAE_P95] = deltae->p95;
     out->value[METRIC_DELTAE_MAX] = deltae->max;
@@ -137,43 +128,41 @@ void metrics_set_deltae(const MapSummary *deltae, Comparison *out)
 
 /* ---- metrics ----------------------------------------------------------------------------- */
 
-static void measure_errors(unsigned groups, Arena scratch, Comparison *out)
-{
-    bool          is_frame = out->reference.kind == INPUT_FRAME;
+static void measure_errors(unsigned groups, Arena scratch, Comparison *out) {
+    bool is_frame = out->reference.kind == INPUT_FRAME;
     const Planes *a = is_frame ? &out->light[0] : &out->reference.codes;
     const Planes *b = is_frame ? &out->light[1] : &out->test.codes;
-    PixelErrors   e = pixel_errors_measure(a, b, out->mask, is_frame, scratch);
+    PixelErrors e = pixel_errors_measure(a, b, out->mask, is_frame, scratch);
     /* A mean of luminance is one of light. */
     if (!is_frame)
-        e.mean_shift = pixel_errors_measure(&out->light[0], &out->light[1], out->mask, 0,
-                                            scratch).mean_shift;
+        e.mean_shift =
+            pixel_errors_measure(&out->light[0], &out->light[1], out->mask, 0, scratch).mean_shift;
     metrics_set_errors(&e, groups, out);
 }
 
-static void note_silly_range(Comparison *out)
-{
+static void note_silly_range(Comparison *out) {
     const FlipExposures *e = &out->exposures;
     if (e->stop_ev - e->start_ev <= SILLY_STOPS) return;
-    lines_add(&out->notes, "HDR-FLIP went over %d exposures, EV %.1f to %.1f: something very "
+    lines_add(&out->notes,
+              "HDR-FLIP went over %d exposures, EV %.1f to %.1f: something very "
               "bright, a sun perhaps, decides the range; give one, such as "
-              "--exposure-range %.0f,%.0f, or leave it out with --mask", e->count,
-              ev_of_stops(e->stop_ev), ev_of_stops(e->start_ev), floor(out->shown_ev - 3),
+              "--exposure-range %.0f,%.0f, or leave it out with --mask",
+              e->count, ev_of_stops(e->stop_ev), ev_of_stops(e->start_ev), floor(out->shown_ev - 3),
               ceil(out->shown_ev + 3));
 }
 
-static void measure_flip(const CompareOptions *options, Arena *arena, Comparison *out)
-{
-    size_t      count = planes_pixel_count(&out->light[0]);
-    FlipOptions flip = {.threads = options->threads, .mask = out->mask,
-                        .has_range = options->has_range};
+static void measure_flip(const CompareOptions *options, Arena *arena, Comparison *out) {
+    size_t count = planes_pixel_count(&out->light[0]);
+    FlipOptions flip = {
+        .threads = options->threads, .mask = out->mask, .has_range = options->has_range};
     out->flip_map = ARENA_NEW(arena, float, count);
     if (options->has_range) {
         flip.start_ev = stops_of_ev(options->range_ev[1]);
         flip.stop_ev = stops_of_ev(options->range_ev[0]);
     }
     if (out->reference.kind == INPUT_FRAME) {
-        out->exposures = flip_hdr(&out->light[0], &out->light[1], &flip, *arena, out->flip_map,
-                                  NULL);
+        out->exposures =
+            flip_hdr(&out->light[0], &out->light[1], &flip, *arena, out->flip_map, NULL);
         if (!options->has_range) note_silly_range(out);
     } else {
         flip_ldr(&out->light[0], &out->light[1], &flip, *arena, out->flip_map);
@@ -182,11 +171,10 @@ static void measure_flip(const CompareOptions *options, Arena *arena, Comparison
     metrics_set_flip(&s, out);
 }
 
-static void measure_colour(Arena *arena, Comparison *out)
-{
+static void measure_colour(Arena *arena, Comparison *out) {
     bool is_frame = out->reference.kind == INPUT_FRAME;
     out->deltae_map = ARENA_NEW(arena, float, planes_pixel_count(&out->light[0]));
-    Arena  scratch = *arena;
+    Arena scratch = *arena;
     Planes a = is_frame ? shown_light(&out->reference.codes, &scratch) : out->light[0];
     Planes b = is_frame ? shown_light(&out->test.codes, &scratch) : out->light[1];
     MapSummary e = deltae_pictures(&a, &b, out->mask, out->deltae_map);
@@ -196,16 +184,14 @@ static void measure_colour(Arena *arena, Comparison *out)
 /* ---- displays ---------------------------------------------------------------------------- */
 
 /* The frame with NaN for the light of pixels that do not count: measure.h leaves those out. */
-static FrameImage masked_frame(const FrameImage *frame, PixelMask mask, Arena *arena)
-{
+static FrameImage masked_frame(const FrameImage *frame, PixelMask mask, Arena *arena) {
     FrameImage out = *frame;
-    size_t     count = frame_pixel_count(frame);
+    size_t count = frame_pixel_count(frame);
     out.channels = ARENA_NEW(arena, ExrChannel, frame->channel_count);
     for (int c = 0; c < frame->channel_count; c++) {
         const char *name = frame->channels[c].name;
         out.channels[c] = frame->channels[c];
-        if (strcmp(name, "R") != 0 && strcmp(name, "G") != 0 && strcmp(name, "B") != 0)
-            continue;
+        if (strcmp(name, "R") != 0 && strcmp(name, "G") != 0 && strcmp(name, "B") != 0) continue;
         float *plane = ARENA_NEW(arena, float, count);
         for (size_t i = 0; i < count; i++) {
             long place = selection_place(frame, i);
@@ -216,17 +202,15 @@ static FrameImage masked_frame(const FrameImage *frame, PixelMask mask, Arena *a
     return out;
 }
 
-static double relative(Measured measured)
-{
+static double relative(Measured measured) {
     return measured_half_width(measured) / measured.value;
 }
 
 static ContrastChange contrast_change(const char *display, const FrameImage frames[2],
-                                      Arena scratch)
-{
+                                      Arena scratch) {
     ContrastChange change = {.display = display};
     MeasureRequest request = {.display = display};
-    Error          unused;
+    Error unused;
     change.has = measure_frame(&frames[0], &request, scratch, &change.reference, &unused) &&
                  measure_frame(&frames[1], &request, scratch, &change.test, &unused) &&
                  change.reference.has_contrast && change.test.has_contrast;
@@ -237,12 +221,11 @@ static ContrastChange contrast_change(const char *display, const FrameImage fram
     return change;
 }
 
-static void measure_displays(Arena *arena, Comparison *out)
-{
+static void measure_displays(Arena *arena, Comparison *out) {
     static const char PREFIX[] = "parhelion:display.";
     const FrameImage *frame = &out->reference.frame;
     out->contrasts = ARENA_NEW(arena, ContrastChange, frame->attribute_count);
-    Arena      scratch = *arena;
+    Arena scratch = *arena;
     FrameImage frames[2] = {masked_frame(frame, out->mask, &scratch),
                             masked_frame(&out->test.frame, out->mask, &scratch)};
     double greatest = NAN;
@@ -252,8 +235,7 @@ static void measure_displays(Arena *arena, Comparison *out)
         ContrastChange change = contrast_change(a->text, frames, scratch);
         if (!change.has) continue;
         out->contrasts[out->contrast_count++] = change;
-        if (!(fabs(change.ratio.value - 1) <= fabs(greatest)))
-            greatest = change.ratio.value - 1;
+        if (!(fabs(change.ratio.value - 1) <= fabs(greatest))) greatest = change.ratio.value - 1;
     }
     out->value[METRIC_CONTRAST_CHANGE] = greatest;
 }
@@ -261,13 +243,11 @@ static void measure_displays(Arena *arena, Comparison *out)
 /* ---- the statistical test ---------------------------------------------------------------- */
 
 static bool measure_statistic(const CompareOptions *options, Arena *arena, Comparison *out,
-                              Error *err)
-{
-    Error                  why;
-    const StatisticOptions stat = {options->level, out->mask, out->reference.name,
-                                   out->test.name};
-    out->has_stat = statistic_compare(&out->reference.frame, &out->test.frame, &stat, arena,
-                                      &out->stat, &why);
+                              Error *err) {
+    Error why;
+    const StatisticOptions stat = {options->level, out->mask, out->reference.name, out->test.name};
+    out->has_stat =
+        statistic_compare(&out->reference.frame, &out->test.frame, &stat, arena, &out->stat, &why);
     if (out->has_stat) {
         out->value[METRIC_P_VALUE] = out->stat.p_value;
         out->value[METRIC_FRACTION_FAILED] = out->stat.fraction_failed;
@@ -283,16 +263,15 @@ static bool measure_statistic(const CompareOptions *options, Arena *arena, Compa
     return true;
 }
 
-bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *arena,
-                     Comparison *out, Error *err)
-{
+bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *arena, Comparison *out,
+                     Error *err) {
     bool is_frame = out->reference.kind == INPUT_FRAME;
     clean_light(out, arena);
     if (groups & (GROUP_MSE | GROUP_PSNR)) measure_errors(groups, *arena, out);
     if (groups & GROUP_FLIP) measure_flip(options, arena, out);
     if (groups & GROUP_SSIM)
-        out->value[METRIC_SSIM] = ssim_mean(&out->reference.codes, &out->test.codes, out->mask,
-                                            NULL, *arena);
+        out->value[METRIC_SSIM] =
+            ssim_mean(&out->reference.codes, &out->test.codes, out->mask, NULL, *arena);
     if (groups & GROUP_DELTAE) measure_colour(arena, out);
     if (is_frame && (groups & GROUP_CONTRAST)) measure_displays(arena, out);
     return !is_frame || !(groups & GROUP_STAT) || measure_statistic(options, arena, out, err);

@@ -16,8 +16,8 @@ bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *ou
 
 /* Fills light, mask, maps, values, contrasts and the statistic of `out`, whose sides have the
  * same pixels; adds notes. groups: GROUP_... bits. */
-bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *arena,
-                     Comparison *out, Error *err);
+bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *arena, Comparison *out,
+                     Error *err);
 
 /* Errors, FLIP and colour differences among the values of `out`, the groups' ones. */
 void metrics_set_errors(const PixelErrors *errors, unsigned groups, Comparison *out);

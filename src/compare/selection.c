@@ -8,18 +8,15 @@
 #include "image/layer_view.h"
 
 /* The pixels that the input has, as a window with its origin at the display window's. */
-static ExrWindow extent_of(const CompareInput *input)
-{
+static ExrWindow extent_of(const CompareInput *input) {
     ExrWindow whole = {0, 0, input->light.width, input->light.height};
     if (input->kind != INPUT_FRAME) return whole;
     const ExrWindow w = input->frame.display, d = input->frame.data;
     return (ExrWindow){d.x0 > w.x0 ? d.x0 - w.x0 : 0, d.y0 > w.y0 ? d.y0 - w.y0 : 0,
-                       d.x1 < w.x1 ? d.x1 - w.x0 : whole.x1,
-                       d.y1 < w.y1 ? d.y1 - w.y0 : whole.y1};
+                       d.x1 < w.x1 ? d.x1 - w.x0 : whole.x1, d.y1 < w.y1 ? d.y1 - w.y0 : whole.y1};
 }
 
-static void leave_out(const Planes *planes, ExrWindow inside, unsigned char *counts)
-{
+static void leave_out(const Planes *planes, ExrWindow inside, unsigned char *counts) {
     for (int y = 0; y < planes->height; y++)
         for (int x = 0; x < planes->width; x++)
             if (x < inside.x0 || x >= inside.x1 || y < inside.y0 || y >= inside.y1)
@@ -27,10 +24,9 @@ static void leave_out(const Planes *planes, ExrWindow inside, unsigned char *cou
 }
 
 static bool mark_region(const CompareInput *input, ExrWindow r, unsigned char *is_inside,
-                        Error *err)
-{
+                        Error *err) {
     ExrWindow e = extent_of(input);
-    int       left = 0, top = 0;
+    int left = 0, top = 0;
     if (input->kind == INPUT_FRAME) {
         left = input->frame.display.x0;
         top = input->frame.display.y0;
@@ -41,18 +37,17 @@ static bool mark_region(const CompareInput *input, ExrWindow r, unsigned char *i
         return error_set(err, ERROR_USAGE,
                          "--region %d,%d,%d,%d: required: X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
                          "inside the pixels %d,%d,%d,%d of %s",
-                         r.x0, r.y0, r.x1, r.y1, e.x0 + left, e.y0 + top, e.x1 + left,
-                         e.y1 + top, input->name);
+                         r.x0, r.y0, r.x1, r.y1, e.x0 + left, e.y0 + top, e.x1 + left, e.y1 + top,
+                         input->name);
     for (int y = in.y0; y < in.y1; y++)
         memset(is_inside + (size_t)y * (size_t)input->light.width + in.x0, 1,
                (size_t)(in.x1 - in.x0));
     return true;
 }
 
-static bool apply_regions(const CompareInput *input, const SelectionRequest *request,
-                          Arena scratch, unsigned char *counts, Error *err)
-{
-    size_t         count = planes_pixel_count(&input->light);
+static bool apply_regions(const CompareInput *input, const SelectionRequest *request, Arena scratch,
+                          unsigned char *counts, Error *err) {
+    size_t count = planes_pixel_count(&input->light);
     unsigned char *is_inside = ARENA_NEW(&scratch, unsigned char, count);
     for (int i = 0; i < request->region_count; i++)
         if (!mark_region(input, request->regions[i], is_inside, err)) return false;
@@ -61,27 +56,23 @@ static bool apply_regions(const CompareInput *input, const SelectionRequest *req
 }
 
 /* Any code above 0 in red, green or blue. */
-static bool is_lit(const Image *image, size_t i)
-{
+static bool is_lit(const Image *image, size_t i) {
     for (size_t c = 4 * i; c < 4 * i + 3; c++) {
         if (image->format == IMAGE_RGBA8 && ((const uint8_t *)image->pixels)[c]) return true;
         if (image->format == IMAGE_RGBA16 && ((const uint16_t *)image->pixels)[c]) return true;
-        if (image->format == IMAGE_RGBA32F && ((const float *)image->pixels)[c] > 0)
-            return true;
+        if (image->format == IMAGE_RGBA32F && ((const float *)image->pixels)[c] > 0) return true;
     }
     return false;
 }
 
 static bool apply_mask(const CompareInput *input, const char *path, Arena scratch,
-                       unsigned char *counts, Error *err)
-{
-    Image         image;
+                       unsigned char *counts, Error *err) {
+    Image image;
     const Planes *planes = &input->light;
     if (!image_read(path, &scratch, &image, err)) return false;
     if (image.width != planes->width || image.height != planes->height)
-        return error_at(err, ERROR_INPUT, path, "",
-                        "the mask has %d x %d pixels, %s has %d x %d", image.width,
-                        image.height, input->name, planes->width, planes->height);
+        return error_at(err, ERROR_INPUT, path, "", "the mask has %d x %d pixels, %s has %d x %d",
+                        image.width, image.height, input->name, planes->width, planes->height);
     for (size_t i = 0; i < planes_pixel_count(planes); i++)
         if (!is_lit(&image, i)) counts[i] = 0;
     return true;
@@ -92,11 +83,10 @@ static bool apply_mask(const CompareInput *input, const char *path, Arena scratc
 /* Parts of the display in a frame. */
 typedef struct DisplayParts {
     DisplayLayers layers;
-    int           id;
+    int id;
 } DisplayParts;
 
-static bool find_parts(const CompareInput *input, const char *display, DisplayParts *out)
-{
+static bool find_parts(const CompareInput *input, const char *display, DisplayParts *out) {
     if (input->kind != INPUT_FRAME) return false;
     out->id = frame_id_of(&input->frame, "display", display);
     return out->id >= 0 && display_layers_find(&input->frame, &out->layers);
@@ -104,8 +94,7 @@ static bool find_parts(const CompareInput *input, const char *display, DisplayPa
 
 /* Of the values of a channel, pixels in which either side sees some of it count. */
 static void leave_out_others(const FrameImage *frame, const DisplayParts parts[2],
-                             unsigned char *counts)
-{
+                             unsigned char *counts) {
     for (size_t i = 0; i < frame_pixel_count(frame); i++) {
         long place = selection_place(frame, i);
         if (place >= 0 && !(display_part(&parts[0].layers, i, parts[0].id).coverage > 0) &&
@@ -114,12 +103,11 @@ static void leave_out_others(const FrameImage *frame, const DisplayParts parts[2
     }
 }
 
-static bool apply_display(const CompareInput *const sides[2], const char *display,
-                          Arena scratch, unsigned char *counts, Error *err)
-{
+static bool apply_display(const CompareInput *const sides[2], const char *display, Arena scratch,
+                          unsigned char *counts, Error *err) {
     const CompareInput *reference = sides[0];
     DisplayParts parts[2];
-    LayerView    view;
+    LayerView view;
     if (reference->kind != INPUT_FRAME)
         return error_set(err, ERROR_USAGE, "--display %s: a picture does not tell its displays",
                          display);
@@ -143,8 +131,7 @@ static bool apply_display(const CompareInput *const sides[2], const char *displa
 }
 
 bool selection_take_display(CompareInput *const sides[2], const char *display, Arena *arena,
-                            Error *err)
-{
+                            Error *err) {
     DisplayParts parts[2];
     for (int s = 0; s < 2; s++)
         if (!find_parts(sides[s], display, &parts[s]))
@@ -153,19 +140,18 @@ bool selection_take_display(CompareInput *const sides[2], const char *display, A
                             "is around it at the rim (--layers display tells its part)",
                             display);
     for (int s = 0; s < 2; s++) {
-        sides[s]->frame = display_part_frame(&sides[s]->frame, &parts[s].layers, parts[s].id,
-                                             arena);
+        sides[s]->frame =
+            display_part_frame(&sides[s]->frame, &parts[s].layers, parts[s].id, arena);
         if (!input_view_light(sides[s], arena, err)) return false;
     }
     return true;
 }
 
 bool selection_make(const CompareInput *const sides[2], const SelectionRequest *request,
-                    Arena *arena, Selection *out, Error *err)
-{
+                    Arena *arena, Selection *out, Error *err) {
     const CompareInput *reference = sides[0];
-    Arena     kept = *arena;
-    size_t    count = planes_pixel_count(&reference->light);
+    Arena kept = *arena;
+    size_t count = planes_pixel_count(&reference->light);
     Selection made = {.counts = ARENA_NEW(&kept, unsigned char, count)};
     made.is_part = request->mask || request->region_count || request->display;
     memset(made.counts, 1, count);

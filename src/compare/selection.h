@@ -13,16 +13,16 @@
 #include "compare/input.h"
 
 typedef struct SelectionRequest {
-    const char *mask;    /* a picture's file: black is left out; NULL: none */
+    const char *mask;         /* a picture's file: black is left out; NULL: none */
     const ExrWindow *regions; /* half-open, pixels of the display window: those of any count */
-    int         region_count; /* 0: all */
-    const char *display; /* only what this display sends; NULL: all */
+    int region_count;         /* 0: all */
+    const char *display;      /* only what this display sends; NULL: all */
 } SelectionRequest;
 
 typedef struct Selection {
     unsigned char *counts;
-    long           pixels;  /* that count */
-    bool           is_part; /* some that the frames have are left out by request */
+    long pixels;  /* that count */
+    bool is_part; /* some that the frames have are left out by request */
 } Selection;
 
 /* Both sides have the same size and data window. */
@@ -36,8 +36,7 @@ bool selection_take_display(CompareInput *const sides[2], const char *display, A
 
 /* Pixels of the display window that the data window holds, for every value of a channel: where
  * channel value i lies, or -1 outside. */
-static inline long selection_place(const FrameImage *frame, size_t i)
-{
+static inline long selection_place(const FrameImage *frame, size_t i) {
     const ExrWindow d = frame->data, w = frame->display;
     long row = d.x1 - d.x0, x = d.x0 + (long)i % row, y = d.y0 + (long)i / row;
     if (x < w.x0 || x >= w.x1 || y < w.y0 || y >= w.y1) return -1;

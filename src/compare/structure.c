@@ -19,8 +19,7 @@
 /* ---- lists ------------------------------------------------------------------------------- */
 
 /* The first of a list with commas, and how many more there are. */
-static const char *joined(const Lines *list, int most)
-{
+static const char *joined(const Lines *list, int most) {
     const char *text = "";
     for (int i = 0; i < list->count && i < most; i++)
         text = arena_format(list->arena, "%s%s%s", text, i ? ", " : "", list->list[i]);
@@ -31,8 +30,7 @@ static const char *joined(const Lines *list, int most)
 /* ---- values ------------------------------------------------------------------------------ */
 
 /* The line of a text that begins at `at`, from `from` of its letters on, cut to what fits. */
-static void shorten(const char *at, size_t from, char out[SHOWN + 12])
-{
+static void shorten(const char *at, size_t from, char out[SHOWN + 12]) {
     size_t length = strcspn(at, "\n");
     if (from > length) from = length;
     while (from > 0 && ((unsigned char)at[from] & 0xc0) == 0x80) from--;
@@ -46,8 +44,7 @@ static void shorten(const char *at, size_t from, char out[SHOWN + 12])
 /* Both values where they begin to differ: the first such line, and of a long one the part from
  * shortly before. */
 static void shorten_both(const char *a, const char *b, char out_a[SHOWN + 12],
-                         char out_b[SHOWN + 12])
-{
+                         char out_b[SHOWN + 12]) {
     size_t line = 0, same = 0;
     while (a[same] && a[same] == b[same]) {
         if (a[same] == '\n') line = same + 1;
@@ -63,14 +60,13 @@ static void shorten_both(const char *a, const char *b, char out_a[SHOWN + 12],
 /* One line "HASH  PATH" of the list of inputs. */
 typedef struct InputLine {
     const char *hash, *name; /* name: behind the path's last slash */
-    int         hash_length, name_length;
+    int hash_length, name_length;
 } InputLine;
 
 /* The line at *list, which moves on to the next one; false at the end. */
-static bool next_input(const char **list, InputLine *out)
-{
+static bool next_input(const char **list, InputLine *out) {
     const char *line = *list;
-    size_t      length = strcspn(line, "\n"), hash = strcspn(line, " \n");
+    size_t length = strcspn(line, "\n"), hash = strcspn(line, " \n");
     if (!*line) return false;
     const char *end = line + length, *name = hash + 2 <= length ? line + hash + 2 : end;
     for (const char *mark = name; mark < end; mark++)
@@ -81,10 +77,9 @@ static bool next_input(const char **list, InputLine *out)
 }
 
 /* Whether the list has a file of this name, in any folder; *same: with these contents. */
-static bool has_input(const char *list, const InputLine *wanted, bool *same)
-{
+static bool has_input(const char *list, const InputLine *wanted, bool *same) {
     InputLine line;
-    bool      found = false;
+    bool found = false;
     *same = false;
     while (!*same && next_input(&list, &line)) {
         if (line.name_length != wanted->name_length ||
@@ -99,10 +94,9 @@ static bool has_input(const char *list, const InputLine *wanted, bool *same)
 
 /* Adds which input files changed, or are on one side only. Folders make no difference: two
  * checkouts of one scene have the same inputs. */
-static void add_inputs(const char *from, const char *other, bool is_reference, Lines *to)
-{
+static void add_inputs(const char *from, const char *other, bool is_reference, Lines *to) {
     InputLine line;
-    bool      same;
+    bool same;
     while (next_input(&from, &line))
         if (!has_input(other, &line, &same))
             lines_add(to, "%.*s is only in the %s", line.name_length, line.name,
@@ -111,14 +105,12 @@ static void add_inputs(const char *from, const char *other, bool is_reference, L
             lines_add(to, "%.*s has changed", line.name_length, line.name);
 }
 
-static bool is_inputs(const MetadataRow *row)
-{
+static bool is_inputs(const MetadataRow *row) {
     return !strcmp(row->name, "parhelion:inputs") && row->reference && row->test;
 }
 
 /* "" when only the folders differ. */
-static const char *inputs_text(const MetadataRow *row, int most, Arena *arena)
-{
+static const char *inputs_text(const MetadataRow *row, int most, Arena *arena) {
     Lines list = {.arena = arena};
     add_inputs(row->reference, row->test, true, &list);
     add_inputs(row->test, row->reference, false, &list);
@@ -127,17 +119,14 @@ static const char *inputs_text(const MetadataRow *row, int most, Arena *arena)
 
 /* ---- one row ----------------------------------------------------------------------------- */
 
-static const char *plain_name(const char *name)
-{
+static const char *plain_name(const char *name) {
     return strncmp(name, "parhelion:", 10) ? name : name + 10;
 }
 
 /* The only one: with both values. */
-static const char *whole_text(const MetadataRow *row, Arena *arena)
-{
+static const char *whole_text(const MetadataRow *row, Arena *arena) {
     char a[SHOWN + 12], b[SHOWN + 12];
-    if (is_inputs(row))
-        return arena_format(arena, "inputs: %s", inputs_text(row, NAMED, arena));
+    if (is_inputs(row)) return arena_format(arena, "inputs: %s", inputs_text(row, NAMED, arena));
     if (!row->reference || !row->test)
         return arena_format(arena, "metadata %s is missing in the %s", plain_name(row->name),
                             row->reference ? "test" : "reference");
@@ -146,17 +135,15 @@ static const char *whole_text(const MetadataRow *row, Arena *arena)
                         plain_name(row->name), a, b);
 }
 
-static bool is_short(const char *value)
-{
+static bool is_short(const char *value) {
     return strlen(value) <= SHOWN_SHORT && !strchr(value, '\n');
 }
 
 /* One among many: its values where they are short. */
-static const char *short_text(const MetadataRow *row, Arena *arena)
-{
+static const char *short_text(const MetadataRow *row, Arena *arena) {
     const char *name = plain_name(row->name);
-    if (is_inputs(row)) return arena_format(arena, "inputs (%s)",
-                            inputs_text(row, NAMED_INPUTS, arena));
+    if (is_inputs(row))
+        return arena_format(arena, "inputs (%s)", inputs_text(row, NAMED_INPUTS, arena));
     if (!row->reference || !row->test)
         return arena_format(arena, "%s (only in the %s)", name,
                             row->reference ? "reference" : "test");
@@ -167,23 +154,20 @@ static const char *short_text(const MetadataRow *row, Arena *arena)
 /* ---- all rows ---------------------------------------------------------------------------- */
 
 /* The letters of a name up to the number at its end; 0 without one. */
-static size_t stem_of(const char *name)
-{
+static size_t stem_of(const char *name) {
     size_t length = strlen(name), stem = length;
     while (stem > 0 && isdigit((unsigned char)name[stem - 1])) stem--;
     return stem < length && stem > 0 && name[stem - 1] == '.' ? stem : 0;
 }
 
 /* Rows of the list with the same stem, row i among them; *is_first: none stands before it. */
-static int kin_of(const MetadataRow *const *rows, int count, int i, bool *is_first)
-{
+static int kin_of(const MetadataRow *const *rows, int count, int i, bool *is_first) {
     size_t stem = stem_of(rows[i]->name);
-    int    kin = 0;
+    int kin = 0;
     *is_first = true;
     if (!stem) return 1;
     for (int k = 0; k < count; k++) {
-        if (stem_of(rows[k]->name) != stem ||
-            strncmp(rows[k]->name, rows[i]->name, stem) != 0)
+        if (stem_of(rows[k]->name) != stem || strncmp(rows[k]->name, rows[i]->name, stem) != 0)
             continue;
         if (k < i) *is_first = false;
         kin++;
@@ -191,73 +175,64 @@ static int kin_of(const MetadataRow *const *rows, int count, int i, bool *is_fir
     return kin;
 }
 
-static const char *rows_text(const MetadataRow *const *rows, int count, Arena *arena)
-{
+static const char *rows_text(const MetadataRow *const *rows, int count, Arena *arena) {
     Lines list = {.arena = arena};
     for (int i = 0; i < count; i++) {
-        bool        is_first;
-        int         kin = kin_of(rows, count, i, &is_first);
+        bool is_first;
+        int kin = kin_of(rows, count, i, &is_first);
         const char *name = plain_name(rows[i]->name);
         if (!is_first) continue;
-        if (kin > 1)
-            lines_add(&list, "%.*s* (%d of them)", (int)stem_of(name), name, kin);
-        else
-            lines_add(&list, "%s", short_text(rows[i], arena));
+        if (kin > 1) lines_add(&list, "%.*s* (%d of them)", (int)stem_of(name), name, kin);
+        else lines_add(&list, "%s", short_text(rows[i], arena));
     }
     return joined(&list, NAMED);
 }
 
-static bool is_listed(const MetadataRow *row, bool decides, Arena scratch)
-{
+static bool is_listed(const MetadataRow *row, bool decides, Arena scratch) {
     if (!row->differs || row->is_ignored || row->decides != decides) return false;
     return !is_inputs(row) || inputs_text(row, NAMED, &scratch)[0];
 }
 
-static void report(const MetadataRow *rows, int count, bool decides, const char *why,
-                   Lines *to)
-{
-    Arena              *arena = to->arena;
+static void report(const MetadataRow *rows, int count, bool decides, const char *why, Lines *to) {
+    Arena *arena = to->arena;
     const MetadataRow **listed = ARENA_NEW(arena, const MetadataRow *, count);
-    int                 n = 0;
+    int n = 0;
     for (int i = 0; i < count; i++)
         if (is_listed(&rows[i], decides, *arena)) listed[n++] = &rows[i];
     if (n == 1) lines_add(to, "%s%s", whole_text(listed[0], arena), why);
     if (n > 1)
         lines_add(to, "metadata differs in %d keys%s: %s%s; all values: --json or --report", n,
-                  decides ? " that decide what the picture shows" : "",
-                  rows_text(listed, n, arena), why);
+                  decides ? " that decide what the picture shows" : "", rows_text(listed, n, arena),
+                  why);
 }
 
 /* One reason for all rows that decide what the picture shows, one note (with `strict` a
  * reason) for all that explain it. A single row is reported with both values; of several, the
  * names, some values and their number. */
 static void metadata_report(const MetadataRow *rows, int count, bool strict, Lines *reasons,
-                            Lines *notes)
-{
+                            Lines *notes) {
     report(rows, count, true, "", reasons);
     report(rows, count, false, strict ? " (--strict)" : "", strict ? reasons : notes);
 }
 
 /* ---- sizes and windows ------------------------------------------------------------------- */
 
-static bool same_window(ExrWindow a, ExrWindow b)
-{
+static bool same_window(ExrWindow a, ExrWindow b) {
     return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1;
 }
 
-static bool compare_window(const char *what, ExrWindow a, ExrWindow b, Lines *reasons)
-{
+static bool compare_window(const char *what, ExrWindow a, ExrWindow b, Lines *reasons) {
     if (same_window(a, b)) return true;
-    lines_add(reasons, "the %s windows differ: %d,%d,%d,%d in the reference, %d,%d,%d,%d in "
-              "the test", what, a.x0, a.y0, a.x1, a.y1, b.x0, b.y0, b.x1, b.y1);
+    lines_add(reasons,
+              "the %s windows differ: %d,%d,%d,%d in the reference, %d,%d,%d,%d in "
+              "the test",
+              what, a.x0, a.y0, a.x1, a.y1, b.x0, b.y0, b.x1, b.y1);
     return false;
 }
 
-static bool compare_sizes(const CompareInput *reference, const CompareInput *test,
-                          Lines *reasons)
-{
+static bool compare_sizes(const CompareInput *reference, const CompareInput *test, Lines *reasons) {
     const Planes *a = &reference->light, *b = &test->light;
-    bool          ok = a->width == b->width && a->height == b->height;
+    bool ok = a->width == b->width && a->height == b->height;
     if (!ok)
         lines_add(reasons, "the sizes differ: %dx%d pixels in the reference, %dx%d in the test",
                   a->width, a->height, b->width, b->height);
@@ -270,8 +245,7 @@ static bool compare_sizes(const CompareInput *reference, const CompareInput *tes
 
 /* ---- channels ---------------------------------------------------------------------------- */
 
-static bool has_beginning(const FrameImage *frame, const char *beginning, size_t length)
-{
+static bool has_beginning(const FrameImage *frame, const char *beginning, size_t length) {
     for (int i = 0; i < frame->channel_count; i++)
         if (!strncmp(frame->channels[i].name, beginning, length)) return true;
     return false;
@@ -279,8 +253,7 @@ static bool has_beginning(const FrameImage *frame, const char *beginning, size_t
 
 /* The letters of what the other frame has nothing of: "light", or "light.sun" when it has other
  * lights, or the whole name. */
-static size_t missing_length(const char *channel, const FrameImage *other)
-{
+static size_t missing_length(const char *channel, const FrameImage *other) {
     for (const char *dot = strchr(channel, '.'); dot; dot = strchr(dot + 1, '.')) {
         size_t length = (size_t)(dot - channel);
         if (!has_beginning(other, channel, length + 1)) return length;
@@ -291,8 +264,7 @@ static size_t missing_length(const char *channel, const FrameImage *other)
 /* Names of `from` that `other` lacks, with commas, "" when there is none: layers, or channels
  * of the picture itself, which have no dot. */
 static const char *missing(const FrameImage *from, const FrameImage *other, bool wants_layers,
-                           const CompareRules *rules, Arena *arena)
-{
+                           const CompareRules *rules, Arena *arena) {
     const char *names = "", *last = "";
     for (int i = 0; i < from->channel_count; i++) {
         const char *name = from->channels[i].name;
@@ -307,8 +279,7 @@ static const char *missing(const FrameImage *from, const FrameImage *other, bool
 }
 
 static void compare_layers(const CompareInput *reference, const CompareInput *test,
-                           const CompareRules *rules, Arena *arena, Lines *to)
-{
+                           const CompareRules *rules, Arena *arena, Lines *to) {
     const char *gone = missing(&reference->frame, &test->frame, true, rules, arena);
     const char *more = missing(&test->frame, &reference->frame, true, rules, arena);
     if (!gone[0] && !more[0]) return;
@@ -318,8 +289,7 @@ static void compare_layers(const CompareInput *reference, const CompareInput *te
 }
 
 static void compare_channels(const CompareInput *reference, const CompareInput *test,
-                             const CompareRules *rules, Arena *arena, Lines *reasons)
-{
+                             const CompareRules *rules, Arena *arena, Lines *reasons) {
     const char *gone = missing(&reference->frame, &test->frame, false, rules, arena);
     const char *more = missing(&test->frame, &reference->frame, false, rules, arena);
     if (gone[0]) lines_add(reasons, "channels are missing in the test: %s", gone);
@@ -327,32 +297,32 @@ static void compare_channels(const CompareInput *reference, const CompareInput *
 }
 
 /* Codes are compared as light where their files say which they mean. */
-static void compare_tags(const CompareInput *reference, const CompareInput *test,
-                         Lines *reasons, Lines *notes)
-{
+static void compare_tags(const CompareInput *reference, const CompareInput *test, Lines *reasons,
+                         Lines *notes) {
     const PictureTags *a = &reference->tags, *b = &test->tags;
-    const char        *texts[2] = {picture_tags_text(a, notes->arena),
-                            picture_tags_text(b, notes->arena)};
+    const char *texts[2] = {picture_tags_text(a, notes->arena), picture_tags_text(b, notes->arena)};
     for (int side = 0; side < 2; side++)
         if (texts[side][0])
             lines_add(notes, "the %s states %s", side ? "test" : "reference", texts[side]);
     if (a->is_known && b->is_known) return;
     if (a->digest == b->digest)
         lines_add(notes, "both state the same of their codes, which is not read: they are "
-                  "taken for sRGB");
+                         "taken for sRGB");
     else
-        lines_add(reasons, "what the %s states of its codes is not read (%s): required: sRGB, "
-                           "a profile of a matrix and curves, gAMA and cHRM",
+        lines_add(reasons,
+                  "what the %s states of its codes is not read (%s): required: sRGB, "
+                  "a profile of a matrix and curves, gAMA and cHRM",
                   a->is_known ? "test" : "reference", a->is_known ? b->words : a->words);
 }
 
 static void compare_pictures(const CompareInput *reference, const CompareInput *test,
-                             const CompareRules *rules, Lines *reasons, Lines *notes)
-{
+                             const CompareRules *rules, Lines *reasons, Lines *notes) {
     compare_tags(reference, test, reasons, notes);
     if (reference->bits != test->bits)
-        lines_add(notes, "the reference has %d bits, the test %d: codes are compared as "
-                  "fractions", reference->bits, test->bits);
+        lines_add(notes,
+                  "the reference has %d bits, the test %d: codes are compared as "
+                  "fractions",
+                  reference->bits, test->bits);
     if (reference->has_alpha != test->has_alpha && !metadata_ignores(rules, "A"))
         lines_add(reasons, "only the %s is transparent in places (--ignore A leaves that out)",
                   reference->has_alpha ? "reference" : "test");
@@ -360,32 +330,30 @@ static void compare_pictures(const CompareInput *reference, const CompareInput *
 
 /* ---- files of light ---------------------------------------------------------------------- */
 
-static const ExrPart *part_of(const CompareInput *input, const char *name)
-{
+static const ExrPart *part_of(const CompareInput *input, const char *name) {
     for (int i = 0; i < input->frame.more_parts; i++)
         if (!strcmp(input->parts[i].name, name)) return &input->parts[i];
     return NULL;
 }
 
 /* Pixels are those of the first parts. Of others it is known whether they are the same. */
-static void compare_part(const char *name, const ExrPart *a, const ExrPart *b, Lines *reasons)
-{
+static void compare_part(const char *name, const ExrPart *a, const ExrPart *b, Lines *reasons) {
     char text[256];
     snprintf(text, sizeof text, "(--ignore %s leaves it out)", name);
     if (!a || !b)
-        lines_add(reasons, "part %s is missing in the %s %s", name, a ? "test" : "reference",
-                  text);
+        lines_add(reasons, "part %s is missing in the %s %s", name, a ? "test" : "reference", text);
     else if (!a->is_flat || !b->is_flat)
-        lines_add(reasons, "part %s is deep, or has channels coarser than its pixels, and is "
-                  "not compared %s", name, text);
-    else if (a->digest != b->digest)
-        lines_add(reasons, "part %s differs: pixels are compared of the first part alone %s",
+        lines_add(reasons,
+                  "part %s is deep, or has channels coarser than its pixels, and is "
+                  "not compared %s",
                   name, text);
+    else if (a->digest != b->digest)
+        lines_add(reasons, "part %s differs: pixels are compared of the first part alone %s", name,
+                  text);
 }
 
 static void compare_parts(const CompareInput *reference, const CompareInput *test,
-                          const CompareRules *rules, Lines *reasons)
-{
+                          const CompareRules *rules, Lines *reasons) {
     for (int i = 0; i < reference->frame.more_parts; i++) {
         const char *name = reference->parts[i].name;
         if (!metadata_ignores(rules, name))
@@ -398,16 +366,14 @@ static void compare_parts(const CompareInput *reference, const CompareInput *tes
     }
 }
 
-static void note_problems(const Problems *problems, Lines *notes)
-{
+static void note_problems(const Problems *problems, Lines *notes) {
     for (int i = 0; i < problems->count; i++) {
         const Problem *p = &problems->list[i];
         lines_add(notes, "%s: %s%s%s", p->file, p->path, p->path[0] ? ": " : "", p->message);
     }
 }
 
-static void note_kinds(const CompareInput *reference, const CompareInput *test, Lines *notes)
-{
+static void note_kinds(const CompareInput *reference, const CompareInput *test, Lines *notes) {
     note_problems(&reference->problems, notes);
     note_problems(&test->problems, notes);
     if (reference->file == LIGHT_FILE_FLOATS || test->file == LIGHT_FILE_FLOATS)
@@ -420,16 +386,13 @@ static void note_kinds(const CompareInput *reference, const CompareInput *test, 
 
 /* ---- both ------------------------------------------------------------------------------- */
 
-static bool same_string(const FrameImage *a, const FrameImage *b, const char *name)
-{
+static bool same_string(const FrameImage *a, const FrameImage *b, const char *name) {
     const char *one = frame_string(a, name), *other = frame_string(b, name);
     return one && other ? !strcmp(one, other) : one == other;
 }
 
 Structure structure_compare(const CompareInput *reference, const CompareInput *test,
-                            const CompareRules *rules, Arena *arena, Lines *reasons,
-                            Lines *notes)
-{
+                            const CompareRules *rules, Arena *arena, Lines *reasons, Lines *notes) {
     Structure out = {.same_pixels = compare_sizes(reference, test, reasons)};
     if (reference->kind == INPUT_PICTURE) {
         compare_pictures(reference, test, rules, reasons, notes);
@@ -442,8 +405,8 @@ Structure structure_compare(const CompareInput *reference, const CompareInput *t
                        same_string(&reference->frame, &test->frame, "software");
     compare_parts(reference, test, rules, reasons);
     if (reference->file == test->file && reference->file != LIGHT_FILE_FLOATS) {
-        out.metadata = metadata_compare(&reference->frame, &test->frame, rules, arena,
-                                        &out.metadata_count);
+        out.metadata =
+            metadata_compare(&reference->frame, &test->frame, rules, arena, &out.metadata_count);
         metadata_report(out.metadata, out.metadata_count, rules->strict, reasons, notes);
     }
     note_kinds(reference, test, notes);

@@ -14,13 +14,12 @@
 #include "compare/metadata.h"
 
 typedef struct Structure {
-    bool         same_pixels; /* one size, and frames one data window */
-    bool         shares_paths; /* frames of one seed, the same samples, instructions and
-                                  program: their paths are the same where the scene is */
+    bool same_pixels;  /* one size, and frames one data window */
+    bool shares_paths; /* frames of one seed, the same samples, instructions and
+                          program: their paths are the same where the scene is */
     MetadataRow *metadata;
-    int          metadata_count;
+    int metadata_count;
 } Structure;
 
 Structure structure_compare(const CompareInput *reference, const CompareInput *test,
-                            const CompareRules *rules, Arena *arena, Lines *reasons,
-                            Lines *notes);
+                            const CompareRules *rules, Arena *arena, Lines *reasons, Lines *notes);

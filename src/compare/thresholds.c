@@ -12,8 +12,7 @@ static const MetricInfo METRICS[METRIC_COUNT] = {
     [METRIC_PSNR] = {"psnr", GROUP_PSNR, true, false, "PSNR", "dB"},
     [METRIC_SSIM] = {"ssim", GROUP_SSIM, true, false, "SSIM", ""},
     [METRIC_DELTAE_MEAN] = {"deltae_mean", GROUP_DELTAE, false, false, "ΔE2000, mean", ""},
-    [METRIC_DELTAE_P95] = {"deltae_p95", GROUP_DELTAE, false, false, "ΔE2000, 95th percentile",
-                           ""},
+    [METRIC_DELTAE_P95] = {"deltae_p95", GROUP_DELTAE, false, false, "ΔE2000, 95th percentile", ""},
     [METRIC_DELTAE_MAX] = {"deltae_max", GROUP_DELTAE, false, false, "ΔE2000, greatest", ""},
     [METRIC_MSE] = {"mse", GROUP_MSE, false, false, "mean squared error", "light^2"},
     [METRIC_RELMSE] = {"relmse", GROUP_MSE, false, false, "relative mean squared error", ""},
@@ -30,34 +29,33 @@ static const MetricInfo METRICS[METRIC_COUNT] = {
                                 "greatest change of a display's contrast", "%"},
 };
 
-static const struct { const char *name; unsigned group; } GROUPS[] = {
-    {"flip", GROUP_FLIP},     {"mse", GROUP_MSE},   {"psnr", GROUP_PSNR},
-    {"ssim", GROUP_SSIM},     {"deltae", GROUP_DELTAE}, {"stat", GROUP_STAT},
+static const struct {
+    const char *name;
+    unsigned group;
+} GROUPS[] = {
+    {"flip", GROUP_FLIP},         {"mse", GROUP_MSE},       {"psnr", GROUP_PSNR},
+    {"ssim", GROUP_SSIM},         {"deltae", GROUP_DELTAE}, {"stat", GROUP_STAT},
     {"contrast", GROUP_CONTRAST},
 };
 
-const MetricInfo *metric_info(Metric metric)
-{
+const MetricInfo *metric_info(Metric metric) {
     return &METRICS[metric];
 }
 
-Metric metric_find(const char *name)
-{
+Metric metric_find(const char *name) {
     int i = 0;
     while (i < METRIC_COUNT && strcmp(name, METRICS[i].name) != 0) i++;
     return (Metric)i;
 }
 
-unsigned metric_group_find(const char *name)
-{
+unsigned metric_group_find(const char *name) {
     for (size_t i = 0; i < sizeof GROUPS / sizeof *GROUPS; i++)
         if (!strcmp(name, GROUPS[i].name)) return GROUPS[i].group;
     Metric metric = metric_find(name);
     return metric < METRIC_COUNT ? METRICS[metric].group : 0;
 }
 
-bool threshold_holds(Threshold threshold, double value)
-{
+bool threshold_holds(Threshold threshold, double value) {
     const MetricInfo *info = &METRICS[threshold.metric];
     if (info->is_min) return value >= threshold.limit;
     return (info->is_change ? fabs(value) : value) <= threshold.limit;

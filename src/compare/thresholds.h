@@ -30,17 +30,23 @@ typedef enum Metric {
 
 /* Groups of metrics that are computed together. */
 enum {
-    GROUP_FLIP = 1, GROUP_PSNR = 2, GROUP_SSIM = 4, GROUP_DELTAE = 8, GROUP_MSE = 16,
-    GROUP_STAT = 32, GROUP_CONTRAST = 64, GROUP_ALL = 127
+    GROUP_FLIP = 1,
+    GROUP_PSNR = 2,
+    GROUP_SSIM = 4,
+    GROUP_DELTAE = 8,
+    GROUP_MSE = 16,
+    GROUP_STAT = 32,
+    GROUP_CONTRAST = 64,
+    GROUP_ALL = 127
 };
 
 typedef struct MetricInfo {
-    const char *name;   /* as typed, and the key in JSON */
-    unsigned    group;  /* 0: always computed */
-    bool        is_min; /* greater is better: --min */
-    bool        is_change; /* limits its absolute value */
-    const char *label;  /* for people */
-    const char *unit;   /* "" none; "light": cd/m2, or a share of the codes' range; "light^2" */
+    const char *name;  /* as typed, and the key in JSON */
+    unsigned group;    /* 0: always computed */
+    bool is_min;       /* greater is better: --min */
+    bool is_change;    /* limits its absolute value */
+    const char *label; /* for people */
+    const char *unit;  /* "" none; "light": cd/m2, or a share of the codes' range; "light^2" */
 } MetricInfo;
 
 const MetricInfo *metric_info(Metric metric);

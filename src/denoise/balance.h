@@ -37,7 +37,7 @@ typedef struct BalanceLight {
 } BalanceLight;
 
 typedef struct BalancePicture {
-    int   width, height;
+    int width, height;
     void *user;
     /* Both are called by several threads, for one pixel by one at a time. */
     void (*light)(void *user, size_t pixel, BalanceLight *out);

@@ -17,12 +17,11 @@ enum { VECTORS = CONVOLUTION_GROUP / LANES };
 typedef float Lanes __attribute__((vector_size(4 * LANES)));
 
 /* PIXELS neighbours from x on; those beyond the row are computed, but not stored. */
-static inline void convolve_pixels(const ConvolutionRow *row, int x)
-{
+static inline void convolve_pixels(const ConvolutionRow *row, int x) {
     const float *const rows[3] = {row->above, row->here, row->below};
-    const float       *weights = row->weights;
-    const size_t       inputs = (size_t)row->inputs;
-    Lanes              sums[PIXELS][VECTORS];
+    const float *weights = row->weights;
+    const size_t inputs = (size_t)row->inputs;
+    Lanes sums[PIXELS][VECTORS];
     for (int p = 0; p < PIXELS; p++)
         for (int v = 0; v < VECTORS; v++)
             sums[p][v] = *(const Lanes *)(const void *)(row->biases + LANES * v);
@@ -31,8 +30,7 @@ static inline void convolve_pixels(const ConvolutionRow *row, int x)
         for (size_t i = 0; i < inputs; i++, weights += CONVOLUTION_GROUP)
             for (int v = 0; v < VECTORS; v++) {
                 const Lanes weight = *(const Lanes *)(const void *)(weights + LANES * v);
-                for (int p = 0; p < PIXELS; p++)
-                    sums[p][v] += weight * in[(size_t)p * inputs + i];
+                for (int p = 0; p < PIXELS; p++) sums[p][v] += weight * in[(size_t)p * inputs + i];
             }
     }
     for (int p = 0; p < PIXELS && x + p < row->width; p++) {
@@ -43,8 +41,7 @@ static inline void convolve_pixels(const ConvolutionRow *row, int x)
     }
 }
 
-void convolve(const ConvolutionRow *row)
-{
+void convolve(const ConvolutionRow *row) {
     for (int x = 0; x < row->width; x += PIXELS) convolve_pixels(row, x);
 }
 
@@ -55,8 +52,7 @@ void convolve(const ConvolutionRow *row)
 Convolve convolve_avx2, convolve_avx512;
 #endif
 
-int convolution_builds(Convolve *out[CONVOLUTION_BUILDS])
-{
+int convolution_builds(Convolve *out[CONVOLUTION_BUILDS]) {
     int count = 0;
 #ifdef PARHELION_KERNELS
     const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&

@@ -24,9 +24,9 @@ enum {
 typedef struct ConvolutionRow {
     const float *above, *here, *below; /* of the input, from the pixel of zeros on */
     const float *weights, *biases;     /* of the group */
-    float       *out;                  /* the group's first output of the first pixel */
-    int          width;                /* pixels */
-    int          inputs, outputs;      /* channels of a pixel */
+    float *out;                        /* the group's first output of the first pixel */
+    int width;                         /* pixels */
+    int inputs, outputs;               /* channels of a pixel */
 } ConvolutionRow;
 
 /* One group of outputs. */

@@ -20,28 +20,31 @@ typedef struct Layers {
 
 typedef struct LayerRow {
     const char *name, *channels[3];
-    size_t      offset;
-    bool        may_miss;
+    size_t offset;
+    bool may_miss;
 } LayerRow;
 
 static const LayerRow layer_rows[] = {
     {"R, G, B", {"R", "G", "B"}, offsetof(Layers, light), false},
     {"normal", {"normal.X", "normal.Y", "normal.Z"}, offsetof(Layers, normal), false},
     {"albedo", {"albedo.R", "albedo.G", "albedo.B"}, offsetof(Layers, albedo), false},
-    {"display.emitted", {"display.emitted.R", "display.emitted.G", "display.emitted.B"},
-     offsetof(Layers, emitted), false},
+    {"display.emitted",
+     {"display.emitted.R", "display.emitted.G", "display.emitted.B"},
+     offsetof(Layers, emitted),
+     false},
     {"display.coverage", {"display.coverage"}, offsetof(Layers, coverage), false},
-    {"display.fine", {"display.fine.R", "display.fine.G", "display.fine.B"},
-     offsetof(Layers, fine), true},
+    {"display.fine",
+     {"display.fine.R", "display.fine.G", "display.fine.B"},
+     offsetof(Layers, fine),
+     true},
     {"emitted", {"emitted.R", "emitted.G", "emitted.B"}, offsetof(Layers, lamps), true},
 };
 
 enum { LAYER_ROWS = sizeof layer_rows / sizeof *layer_rows };
 
-static bool find_layer(const FrameImage *frame, const LayerRow *row, Layers *out)
-{
+static bool find_layer(const FrameImage *frame, const LayerRow *row, Layers *out) {
     const float **planes = (const float **)(void *)((char *)out + row->offset);
-    bool          is_there = true;
+    bool is_there = true;
     for (int c = 0; c < 3 && row->channels[c]; c++) {
         planes[c] = frame_channel(frame, row->channels[c]);
         is_there = is_there && planes[c];
@@ -50,56 +53,50 @@ static bool find_layer(const FrameImage *frame, const LayerRow *row, Layers *out
     return is_there || row->may_miss;
 }
 
-static bool find_layers(const FrameImage *frame, Arena scratch, Layers *out, Error *err)
-{
+static bool find_layers(const FrameImage *frame, Arena scratch, Layers *out, Error *err) {
     const char *missing = "";
     for (int i = 0; i < LAYER_ROWS; i++)
         if (!find_layer(frame, &layer_rows[i], out))
-            missing = arena_format(&scratch, "%s%s%s", missing, *missing ? ", " : "",
-                                   layer_rows[i].name);
+            missing =
+                arena_format(&scratch, "%s%s%s", missing, *missing ? ", " : "", layer_rows[i].name);
     return !*missing ||
-           error_set(err, ERROR_INPUT,
-                     "lacks what --denoise requires (missing: %s) — render it with --layers "
-                     DENOISE_LAYERS, missing);
+           error_set(
+               err, ERROR_INPUT,
+               "lacks what --denoise requires (missing: %s) — render it with --layers " DENOISE_LAYERS,
+               missing);
 }
 
 /* ---- one pixel --------------------------------------------------------------------------- */
 
-static bool are_finite(const float *const planes[3], size_t i)
-{
+static bool are_finite(const float *const planes[3], size_t i) {
     return isfinite(planes[0][i]) && isfinite(planes[1][i]) && isfinite(planes[2][i]);
 }
 
-static float luminance_of(const float rgb[3])
-{
+static float luminance_of(const float rgb[3]) {
     return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
 }
 
 /* What the pixel's own samples saw of what displays emit. */
-static void display_light(const Layers *layers, size_t i, float out[3])
-{
+static void display_light(const Layers *layers, size_t i, float out[3]) {
     const float coverage = layers->coverage[0][i];
-    const bool  shows = coverage > 0 && are_finite(layers->emitted, i);
+    const bool shows = coverage > 0 && are_finite(layers->emitted, i);
     for (int c = 0; c < 3; c++) out[c] = shows ? layers->emitted[c][i] * coverage : 0;
 }
 
 /* And of what lamps do. */
-static void add_lamps(const Layers *layers, size_t i, float out[3])
-{
+static void add_lamps(const Layers *layers, size_t i, float out[3]) {
     if (!layers->lamps[0] || !are_finite(layers->lamps, i)) return;
     for (int c = 0; c < 3; c++) out[c] += layers->lamps[c][i];
 }
 
 /* What sources send to the eye themselves: not filtered. */
-static void own_light(const Layers *layers, size_t i, float out[3])
-{
+static void own_light(const Layers *layers, size_t i, float out[3]) {
     display_light(layers, i, out);
     add_lamps(layers, i, out);
 }
 
 /* The rest, which is filtered; nothing where a pixel is not finite. */
-static void other_light(const Layers *layers, size_t i, float out[3])
-{
+static void other_light(const Layers *layers, size_t i, float out[3]) {
     float own[3];
     own_light(layers, i, own);
     for (int c = 0; c < 3; c++)
@@ -108,8 +105,7 @@ static void other_light(const Layers *layers, size_t i, float out[3])
 
 /* What is put back: of displays the mean emission by more camera rays than the pixel's
  * samples, where the frame has it. */
-static void shown_light(const Layers *layers, size_t i, float out[3])
-{
+static void shown_light(const Layers *layers, size_t i, float out[3]) {
     const bool has_fine = layers->fine[0] && layers->coverage[0][i] > 0;
     display_light(layers, i, out);
     for (int c = 0; c < 3 && has_fine && are_finite(layers->fine, i); c++)
@@ -121,18 +117,17 @@ static void shown_light(const Layers *layers, size_t i, float out[3])
 
 typedef struct Filtering {
     const Layers *layers;
-    int           width, height;
-    float         exposure; /* relative light per cd m^-2 */
-    float        *out[3];
-    long         *left; /* pixels of each row that were not filtered */
+    int width, height;
+    float exposure; /* relative light per cd m^-2 */
+    float *out[3];
+    long *left; /* pixels of each row that were not filtered */
 } Filtering;
 
 /* Pixels that show a surface, as far as the network's range goes. The others, the sky, suns and
  * what is not finite, stay as they are. */
-static bool is_filtered(const Filtering *work, size_t i)
-{
+static bool is_filtered(const Filtering *work, size_t i) {
     const Layers *layers = work->layers;
-    const float   most = TRANSFER_MOST / work->exposure;
+    const float most = TRANSFER_MOST / work->exposure;
     if (!are_finite(layers->light, i)) return false;
     for (int c = 0; c < 3; c++)
         if (!(layers->light[c][i] < most)) return false;
@@ -140,13 +135,12 @@ static bool is_filtered(const Filtering *work, size_t i)
            (are_finite(layers->normal, i) && are_finite(layers->albedo, i));
 }
 
-static void fill_row(void *user, int y, float *row)
-{
+static void fill_row(void *user, int y, float *row) {
     const Filtering *work = user;
-    const Layers    *layers = work->layers;
+    const Layers *layers = work->layers;
     for (int x = 0; x < work->width; x++, row += NETWORK_STRIDE) {
         const size_t i = (size_t)y * (size_t)work->width + (size_t)x;
-        float        light[3];
+        float light[3];
         other_light(layers, i, light);
         for (int c = 0; c < 3; c++) {
             const float exposed = fminf(light[c] * work->exposure, TRANSFER_MOST);
@@ -158,15 +152,14 @@ static void fill_row(void *user, int y, float *row)
     }
 }
 
-static void take_row(void *user, int y, const float *row)
-{
+static void take_row(void *user, int y, const float *row) {
     const Filtering *work = user;
-    const Layers    *layers = work->layers;
+    const Layers *layers = work->layers;
     for (int x = 0; x < work->width; x++, row += NETWORK_STRIDE) {
         const size_t i = (size_t)y * (size_t)work->width + (size_t)x;
-        const float  light[3] = {layers->light[0][i], layers->light[1][i], layers->light[2][i]};
-        float        rgb[3], shown[3];
-        const bool   filtered = is_filtered(work, i);
+        const float light[3] = {layers->light[0][i], layers->light[1][i], layers->light[2][i]};
+        float rgb[3], shown[3];
+        const bool filtered = is_filtered(work, i);
         shown_light(layers, i, shown);
         for (int c = 0; c < 3; c++) {
             const float decoded = transfer_decode(fminf(row[c], 1)) / work->exposure;
@@ -179,12 +172,11 @@ static void take_row(void *user, int y, const float *row)
 
 /* ---- the light that the network took ----------------------------------------------------- */
 
-static void light_of_pixel(void *user, size_t i, BalanceLight *out)
-{
+static void light_of_pixel(void *user, size_t i, BalanceLight *out) {
     const Filtering *work = user;
-    const Layers    *layers = work->layers;
-    const float      light[3] = {layers->light[0][i], layers->light[1][i], layers->light[2][i]};
-    float            before[3], after[3], shown[3];
+    const Layers *layers = work->layers;
+    const float light[3] = {layers->light[0][i], layers->light[1][i], layers->light[2][i]};
+    float before[3], after[3], shown[3];
     *out = (BalanceLight){0, 0, are_finite(layers->light, i) ? luminance_of(light) : 0};
     if (!is_filtered(work, i)) return;
     other_light(layers, i, before);
@@ -194,20 +186,16 @@ static void light_of_pixel(void *user, size_t i, BalanceLight *out)
     out->after = luminance_of(after);
 }
 
-static void scale_pixel(void *user, size_t i, float gain)
-{
+static void scale_pixel(void *user, size_t i, float gain) {
     const Filtering *work = user;
-    float            shown[3];
+    float shown[3];
     if (!(gain < 1 || gain > 1)) return;
     shown_light(work->layers, i, shown);
-    for (int c = 0; c < 3; c++)
-        work->out[c][i] = shown[c] + gain * (work->out[c][i] - shown[c]);
+    for (int c = 0; c < 3; c++) work->out[c][i] = shown[c] + gain * (work->out[c][i] - shown[c]);
 }
 
-static double give_back(Filtering *work, int threads, Arena scratch)
-{
-    const BalancePicture picture = {work->width, work->height, work, light_of_pixel,
-                                    scale_pixel};
+static double give_back(Filtering *work, int threads, Arena scratch) {
+    const BalancePicture picture = {work->width, work->height, work, light_of_pixel, scale_pixel};
     return balance_run(&picture, threads, scratch);
 }
 
@@ -216,11 +204,10 @@ static double give_back(Filtering *work, int threads, Arena scratch)
 enum { BLOCK = 16 };
 
 /* Mean luminance of a block of the filtered light. */
-static double block_mean(const Filtering *work, int x0, int y0)
-{
+static double block_mean(const Filtering *work, int x0, int y0) {
     const int x1 = x0 + BLOCK < work->width ? x0 + BLOCK : work->width;
     const int y1 = y0 + BLOCK < work->height ? y0 + BLOCK : work->height;
-    double    sum = 0;
+    double sum = 0;
     for (int y = y0; y < y1; y++)
         for (int x = x0; x < x1; x++) {
             float light[3];
@@ -234,10 +221,9 @@ static double block_mean(const Filtering *work, int x0, int y0)
 #define KEY 0.18           /* what the geometric mean of the blocks becomes */
 
 /* As in the network's training. */
-static float exposure_of(const Filtering *work)
-{
+static float exposure_of(const Filtering *work) {
     double sum = 0;
-    long   count = 0;
+    long count = 0;
     for (int y = 0; y < work->height; y += BLOCK)
         for (int x = 0; x < work->width; x += BLOCK) {
             const double mean = block_mean(work, x, y);
@@ -253,56 +239,50 @@ static float exposure_of(const Filtering *work)
 #define WEIGHTS "assets/denoise/rt_hdr_alb_nrm.tza"
 enum { WEIGHTS_BYTES_MAX = 64 << 20 };
 
-static bool find_weights(char path[PATH_MAX], Error *err)
-{
-    static const ProgramPart part = {"the denoiser's file of weights",
-                                     "../../" WEIGHTS, INSTALLED_SHARE "/" WEIGHTS};
+static bool find_weights(char path[PATH_MAX], Error *err) {
+    static const ProgramPart part = {"the denoiser's file of weights", "../../" WEIGHTS,
+                                     INSTALLED_SHARE "/" WEIGHTS};
     return program_find(&part, path, err) || error_in_file(err, path_name(WEIGHTS));
 }
 
-bool denoise_check(Error *err)
-{
+bool denoise_check(Error *err) {
     char path[PATH_MAX];
     return find_weights(path, err);
 }
 
-static bool read_weights(Arena *arena, Network *out, Error *err)
-{
-    char      path[PATH_MAX];
+static bool read_weights(Arena *arena, Network *out, Error *err) {
+    char path[PATH_MAX];
     FileBytes bytes;
-    return find_weights(path, err) &&
-           file_read(path, WEIGHTS_BYTES_MAX, arena, &bytes, err) &&
+    return find_weights(path, err) && file_read(path, WEIGHTS_BYTES_MAX, arena, &bytes, err) &&
            network_read(&(WeightFile){bytes.data, bytes.size, path}, arena, out, err);
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static DenoiseReport report_of(const Filtering *work, double block_error)
-{
+static DenoiseReport report_of(const Filtering *work, double block_error) {
     const float *const *light = work->layers->light;
-    const size_t        count = (size_t)work->width * (size_t)work->height;
-    double              before = 0, after = 0, left = 0;
+    const size_t count = (size_t)work->width * (size_t)work->height;
+    double before = 0, after = 0, left = 0;
     for (size_t i = 0; i < count; i++) {
         if (!are_finite(light, i)) continue;
         before += (double)luminance_of((float[]){light[0][i], light[1][i], light[2][i]});
-        after += (double)luminance_of(
-            (float[]){work->out[0][i], work->out[1][i], work->out[2][i]});
+        after += (double)luminance_of((float[]){work->out[0][i], work->out[1][i], work->out[2][i]});
     }
     for (int y = 0; y < work->height; y++) left += (double)work->left[y];
     return (DenoiseReport){before > 0 ? after / before : 1, block_error, left / (double)count};
 }
 
 bool denoise_frame(const FrameImage *frame, int threads, Arena *arena, FrameImage *out,
-                   DenoiseReport *report, Error *err)
-{
-    Layers    layers = {.fine = {NULL}};
-    Network   network;
-    Filtering work = {.layers = &layers, .width = frame->data.x1 - frame->data.x0,
+                   DenoiseReport *report, Error *err) {
+    Layers layers = {.fine = {NULL}};
+    Network network;
+    Filtering work = {.layers = &layers,
+                      .width = frame->data.x1 - frame->data.x0,
                       .height = frame->data.y1 - frame->data.y0};
     if (!find_layers(frame, *arena, &layers, err)) return false;
     for (int c = 0; c < 3; c++) work.out[c] = ARENA_NEW(arena, float, frame_pixel_count(frame));
     FrameImage made = frame_with_rgb(frame, work.out, arena);
-    Arena      scratch = *arena;
+    Arena scratch = *arena;
     if (!read_weights(&scratch, &network, err)) return false;
     work.left = ARENA_NEW(&scratch, long, (size_t)work.height);
     work.exposure = exposure_of(&work);

@@ -16,16 +16,38 @@ typedef enum NodeKind {
 } NodeKind;
 
 typedef struct Node {
-    const char *name;     /* of a convolution's weights */
-    NodeKind    kind;
-    int         from, beside;
-    int         channels; /* of the trained network */
+    const char *name; /* of a convolution's weights */
+    NodeKind kind;
+    int from, beside;
+    int channels; /* of the trained network */
 } Node;
 
 enum {
     INPUT,
-    CONV0, CONV1, POOL1, CONV2, POOL2, CONV3, POOL3, CONV4, POOL4, CONV5A, CONV5B,
-    JOIN4, DEC4A, DEC4B, JOIN3, DEC3A, DEC3B, JOIN2, DEC2A, DEC2B, JOIN1, DEC1A, DEC1B, DEC0,
+    CONV0,
+    CONV1,
+    POOL1,
+    CONV2,
+    POOL2,
+    CONV3,
+    POOL3,
+    CONV4,
+    POOL4,
+    CONV5A,
+    CONV5B,
+    JOIN4,
+    DEC4A,
+    DEC4B,
+    JOIN3,
+    DEC3A,
+    DEC3B,
+    JOIN2,
+    DEC2A,
+    DEC2B,
+    JOIN1,
+    DEC1A,
+    DEC1B,
+    DEC0,
     NODES
 };
 
@@ -61,10 +83,9 @@ static const Node nodes[NODES] = {
  * multiples of COARSEST. */
 enum { LEVELS = 4, COARSEST = 1 << LEVELS };
 
-bool network_read(const WeightFile *file, Arena *arena, Network *out, Error *err)
-{
+bool network_read(const WeightFile *file, Arena *arena, Network *out, Error *err) {
     WeightShape shapes[NETWORK_CONVOLUTIONS];
-    int         count = 0;
+    int count = 0;
     for (int n = 0; n < NODES; n++)
         if (nodes[n].kind == NODE_CONVOLVE)
             shapes[count++] =
@@ -75,55 +96,49 @@ bool network_read(const WeightFile *file, Arena *arena, Network *out, Error *err
 /* ---- the rows of a node ------------------------------------------------------------------ */
 
 typedef struct Rows {
-    int    width, height; /* of the whole node */
-    int    channels;      /* of a pixel in memory: filled up to whole groups */
-    int    room;          /* rows that are kept: row y lies at y % room */
-    int    begin, end;    /* begin: the next row that is made; end: where this step stops */
+    int width, height; /* of the whole node */
+    int channels;      /* of a pixel in memory: filled up to whole groups */
+    int room;          /* rows that are kept: row y lies at y % room */
+    int begin, end;    /* begin: the next row that is made; end: where this step stops */
     size_t row_floats;
     float *values;
 } Rows;
 
 typedef struct NetworkRun {
     const NetworkPicture *picture;
-    Convolve             *convolve;
-    Rows                  rows[NODES];
-    const float          *nothing; /* a row of zeros, as long as the longest */
-    int                   node;    /* that is being computed */
-    const Weights        *weights; /* its weights */
+    Convolve *convolve;
+    Rows rows[NODES];
+    const float *nothing;   /* a row of zeros, as long as the longest */
+    int node;               /* that is being computed */
+    const Weights *weights; /* its weights */
 } NetworkRun;
 
 /* A row from its pixel of zeros on. */
-static float *row_at(const Rows *rows, int y)
-{
+static float *row_at(const Rows *rows, int y) {
     return rows->values + (size_t)(y % rows->room) * rows->row_floats;
 }
 
 /* Its first pixel. */
-static float *pixels_at(const Rows *rows, int y)
-{
+static float *pixels_at(const Rows *rows, int y) {
     return row_at(rows, y) + rows->channels;
 }
 
 /* How many rows of a node can be made of what its inputs have up to now. */
-static int makeable(const Rows rows[NODES], int n)
-{
+static int makeable(const Rows rows[NODES], int n) {
     const Node *node = &nodes[n];
     const Rows *from = &rows[node->from], *beside = &rows[node->beside];
-    int         end;
+    int end;
     switch (node->kind) {
     case NODE_CONVOLVE:
         return from->end == from->height || from->end == 0 ? from->end : from->end - 1;
     case NODE_POOL: return from->end / 2;
-    case NODE_JOIN:
-        end = 2 * from->end;
-        return end < beside->end ? end : beside->end;
+    case NODE_JOIN: end = 2 * from->end; return end < beside->end ? end : beside->end;
     default: return rows[n].end;
     }
 }
 
 /* The first row of an input that a node needs, when its next row is y. */
-static int oldest_needed(const Node *node, int input, int y)
-{
+static int oldest_needed(const Node *node, int input, int y) {
     if (node->kind == NODE_POOL) return 2 * y;
     if (node->kind == NODE_JOIN) return input == node->from ? y / 2 : y;
     return y > 0 ? y - 1 : 0;
@@ -132,8 +147,7 @@ static int oldest_needed(const Node *node, int input, int y)
 enum { STEP = 32 }; /* rows of the picture that are taken in at once */
 
 /* Every node's next rows: false when all of them are made. */
-static bool plan_step(Rows rows[NODES])
-{
+static bool plan_step(Rows rows[NODES]) {
     if (rows[NODES - 1].end == rows[NODES - 1].height) return false;
     for (int n = 0; n < NODES; n++) rows[n].begin = rows[n].end;
     int end = rows[INPUT].end + STEP;
@@ -143,15 +157,13 @@ static bool plan_step(Rows rows[NODES])
 }
 
 /* Keeps as many rows of an input as lie between what is made and what is still needed. */
-static void make_room(Rows rows[NODES], int n, int input)
-{
+static void make_room(Rows rows[NODES], int n, int input) {
     int needed = rows[input].end - oldest_needed(&nodes[n], input, rows[n].begin);
     if (needed > rows[input].room) rows[input].room = needed;
 }
 
 /* Runs through the picture without a number. */
-static void find_room(Rows rows[NODES])
-{
+static void find_room(Rows rows[NODES]) {
     while (plan_step(rows))
         for (int n = 0; n < NODES; n++) {
             if (rows[n].end - rows[n].begin > rows[n].room)
@@ -162,35 +174,30 @@ static void find_room(Rows rows[NODES])
     for (int n = 0; n < NODES; n++) rows[n].begin = rows[n].end = 0;
 }
 
-static int halvings(int n)
-{
+static int halvings(int n) {
     if (nodes[n].kind == NODE_INPUT) return 0;
     if (nodes[n].kind == NODE_JOIN) return halvings(nodes[n].from) - 1;
     return halvings(nodes[n].from) + (nodes[n].kind == NODE_POOL);
 }
 
-static int filled_up(int size, int unit)
-{
+static int filled_up(int size, int unit) {
     return (size + unit - 1) / unit * unit;
 }
 
-static void allocate(NetworkRun *run, Arena *arena)
-{
+static void allocate(NetworkRun *run, Arena *arena) {
     size_t longest = 0;
     for (int n = 0; n < NODES; n++) {
         Rows *rows = &run->rows[n];
         rows->width = filled_up(run->picture->width, COARSEST) >> halvings(n);
         rows->height = filled_up(run->picture->height, COARSEST) >> halvings(n);
         rows->channels = filled_up(nodes[n].channels, CONVOLUTION_GROUP);
-        rows->row_floats = (size_t)(rows->width + 2 + CONVOLUTION_SLACK) *
-                           (size_t)rows->channels;
+        rows->row_floats = (size_t)(rows->width + 2 + CONVOLUTION_SLACK) * (size_t)rows->channels;
         if (rows->row_floats > longest) longest = rows->row_floats;
     }
     find_room(run->rows);
     for (int n = 0; n < NODES; n++) {
         Rows *rows = &run->rows[n];
-        rows->values = arena_alloc(arena, sizeof(float), 64,
-                                   (size_t)rows->room * rows->row_floats);
+        rows->values = arena_alloc(arena, sizeof(float), 64, (size_t)rows->room * rows->row_floats);
     }
     run->nothing = arena_alloc(arena, sizeof(float), 64, longest);
 }
@@ -198,39 +205,36 @@ static void allocate(NetworkRun *run, Arena *arena)
 /* ---- making them ------------------------------------------------------------------------- */
 
 /* Sides are filled up by the picture's last row and column. */
-static void fill_row(const NetworkRun *run, int y)
-{
+static void fill_row(const NetworkRun *run, int y) {
     const NetworkPicture *picture = run->picture;
-    const int             last = picture->height - 1;
-    float                *row = pixels_at(&run->rows[INPUT], y);
+    const int last = picture->height - 1;
+    float *row = pixels_at(&run->rows[INPUT], y);
     picture->fill(picture->user, y < last ? y : last, row);
     for (int x = picture->width; x < run->rows[INPUT].width; x++)
         memcpy(row + (size_t)x * NETWORK_STRIDE, row + (size_t)(x - 1) * NETWORK_STRIDE,
                NETWORK_STRIDE * sizeof *row);
 }
 
-static void convolve_row(const NetworkRun *run, int y, int group)
-{
-    const Rows  *in = &run->rows[nodes[run->node].from], *out = &run->rows[run->node];
+static void convolve_row(const NetworkRun *run, int y, int group) {
+    const Rows *in = &run->rows[nodes[run->node].from], *out = &run->rows[run->node];
     const size_t first = (size_t)group * CONVOLUTION_GROUP;
-    run->convolve(&(ConvolutionRow){
-        .above = y > 0 ? row_at(in, y - 1) : run->nothing,
-        .here = row_at(in, y),
-        .below = y + 1 < in->height ? row_at(in, y + 1) : run->nothing,
-        .weights = run->weights->weights + first * 9 * (size_t)in->channels,
-        .biases = run->weights->biases + first,
-        .out = pixels_at(out, y) + first,
-        .width = out->width,
-        .inputs = in->channels,
-        .outputs = out->channels});
+    run->convolve(
+        &(ConvolutionRow){.above = y > 0 ? row_at(in, y - 1) : run->nothing,
+                          .here = row_at(in, y),
+                          .below = y + 1 < in->height ? row_at(in, y + 1) : run->nothing,
+                          .weights = run->weights->weights + first * 9 * (size_t)in->channels,
+                          .biases = run->weights->biases + first,
+                          .out = pixels_at(out, y) + first,
+                          .width = out->width,
+                          .inputs = in->channels,
+                          .outputs = out->channels});
 }
 
-static void pool_row(const NetworkRun *run, int y)
-{
-    const Rows  *in = &run->rows[nodes[run->node].from], *out = &run->rows[run->node];
+static void pool_row(const NetworkRun *run, int y) {
+    const Rows *in = &run->rows[nodes[run->node].from], *out = &run->rows[run->node];
     const float *upper = pixels_at(in, 2 * y), *lower = pixels_at(in, 2 * y + 1);
-    float       *to = pixels_at(out, y);
-    const int    channels = out->channels;
+    float *to = pixels_at(out, y);
+    const int channels = out->channels;
     for (int x = 0; x < out->width; x++, upper += 2 * channels, lower += 2 * channels)
         for (int c = 0; c < channels; c++) {
             float a = upper[c] > upper[c + channels] ? upper[c] : upper[c + channels];
@@ -239,12 +243,11 @@ static void pool_row(const NetworkRun *run, int y)
         }
 }
 
-static void join_row(const NetworkRun *run, int y)
-{
-    const Rows  *coarse = &run->rows[nodes[run->node].from], *out = &run->rows[run->node];
-    const Rows  *beside = &run->rows[nodes[run->node].beside];
+static void join_row(const NetworkRun *run, int y) {
+    const Rows *coarse = &run->rows[nodes[run->node].from], *out = &run->rows[run->node];
+    const Rows *beside = &run->rows[nodes[run->node].beside];
     const float *above = pixels_at(coarse, y / 2), *skipped = pixels_at(beside, y);
-    float       *to = pixels_at(out, y);
+    float *to = pixels_at(out, y);
     for (int x = 0; x < out->width; x++, to += out->channels) {
         size_t at = (size_t)(x / 2) * (size_t)coarse->channels;
         memcpy(to, above + at, (size_t)coarse->channels * sizeof *to);
@@ -254,17 +257,15 @@ static void join_row(const NetworkRun *run, int y)
 }
 
 /* Items are the rows of a step; of a convolution, a row for each group of outputs. */
-static int groups_of(const NetworkRun *run)
-{
+static int groups_of(const NetworkRun *run) {
     return nodes[run->node].kind == NODE_CONVOLVE
                ? run->rows[run->node].channels / CONVOLUTION_GROUP
                : 1;
 }
 
-static void make_item(void *context, int item, int worker)
-{
+static void make_item(void *context, int item, int worker) {
     const NetworkRun *run = context;
-    const int  groups = groups_of(run), y = run->rows[run->node].begin + item / groups;
+    const int groups = groups_of(run), y = run->rows[run->node].begin + item / groups;
     (void)worker;
     switch (nodes[run->node].kind) {
     case NODE_INPUT: fill_row(run, y); break;
@@ -274,19 +275,17 @@ static void make_item(void *context, int item, int worker)
     }
 }
 
-static void take_item(void *context, int item, int worker)
-{
+static void take_item(void *context, int item, int worker) {
     const NetworkRun *run = context;
-    const int  y = run->rows[DEC0].begin + item;
+    const int y = run->rows[DEC0].begin + item;
     (void)worker;
     if (y < run->picture->height)
         run->picture->take(run->picture->user, y, pixels_at(&run->rows[DEC0], y));
 }
 
 void network_run(const Network *network, const NetworkPicture *picture, int threads,
-                 Arena scratch)
-{
-    Convolve  *builds[CONVOLUTION_BUILDS];
+                 Arena scratch) {
+    Convolve *builds[CONVOLUTION_BUILDS];
     NetworkRun run = {.picture = picture};
     convolution_builds(builds);
     run.convolve = builds[0];

@@ -24,7 +24,7 @@ bool network_read(const WeightFile *file, Arena *arena, Network *out, Error *err
 enum { NETWORK_STRIDE = 16 }; /* numbers from one pixel of a row to the next, in and out */
 
 typedef struct NetworkPicture {
-    int   width, height;
+    int width, height;
     void *user;
     /* Fills the first NETWORK_INPUTS numbers of each pixel of a row; called by several
      * threads, for the last row perhaps more than once. Numbers that are not finite spread over
@@ -34,5 +34,4 @@ typedef struct NetworkPicture {
     void (*take)(void *user, int y, const float *row);
 } NetworkPicture;
 
-void network_run(const Network *network, const NetworkPicture *picture, int threads,
-                 Arena scratch);
+void network_run(const Network *network, const NetworkPicture *picture, int threads, Arena scratch);

@@ -16,8 +16,8 @@
 
 /* A convolution of 3x3 that the network requires. */
 typedef struct WeightShape {
-    const char *name;            /* "enc_conv0": NAME.weight and NAME.bias */
-    int         inputs, outputs;
+    const char *name; /* "enc_conv0": NAME.weight and NAME.bias */
+    int inputs, outputs;
 } WeightShape;
 
 typedef struct Weights {
@@ -28,7 +28,7 @@ typedef struct Weights {
 
 typedef struct WeightFile {
     const void *bytes;
-    size_t      size;
+    size_t size;
     const char *name; /* for messages */
 } WeightFile;
 

@@ -15,20 +15,20 @@
 
 typedef struct EquipOrder {
     const char *model, *with, *output;
-    const char *root;       /* whose files it may name besides its own folder's; NULL: none */
-    bool        overwrites; /* files with the outputs' names */
+    const char *root; /* whose files it may name besides its own folder's; NULL: none */
+    bool overwrites;  /* files with the outputs' names */
 } EquipOrder;
 
 typedef struct EquipResult {
-    const char  *scene, *bin, *review; /* NULL: no .bin; no display shows content to read */
-    const char  *occupant;             /* NULL: nobody sits there */
-    const char **copies;               /* beside the scene */
-    int          copy_count;
-    int          display_count, eye_count, material_count;
-    const char  *first_eye;  /* a camera of the scene */
-    double       forward[3]; /* where the vehicle points */
-    bool         forward_is_proposed;  /* from where the first eye looks */
-    int          without_data; /* materials that still have none */
+    const char *scene, *bin, *review; /* NULL: no .bin; no display shows content to read */
+    const char *occupant;             /* NULL: nobody sits there */
+    const char **copies;              /* beside the scene */
+    int copy_count;
+    int display_count, eye_count, material_count;
+    const char *first_eye;    /* a camera of the scene */
+    double forward[3];        /* where the vehicle points */
+    bool forward_is_proposed; /* from where the first eye looks */
+    int without_data;         /* materials that still have none */
 } EquipResult;
 
 /* Warnings of the new scene go to *problems. */

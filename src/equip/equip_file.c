@@ -12,15 +12,15 @@
 #include "scene/check/display_frame.h"
 
 #define METRES_MAX 1e6
-#define LEAST_M 0.001   /* a display's side of any size */
+#define LEAST_M 0.001 /* a display's side of any size */
 #define MOST_M 100.0
 #define LEVEL_MAX 100.0
-#define NEAR_M 0.001    /* an eye that is nearer looks nowhere */
-#define SQUARE 1e-3     /* of two unit vectors' product */
+#define NEAR_M 0.001 /* an eye that is nearer looks nowhere */
+#define SQUARE 1e-3  /* of two unit vectors' product */
 #define MATERIALS_MAX 10000
-#define VERTICAL 1e-6   /* of a unit vector's level part */
+#define VERTICAL 1e-6 /* of a unit vector's level part */
 
-#define POSITION(key, flag, member, words)                                                     \
+#define POSITION(key, flag, member, words) \
     VECTOR(key, flag, member, 3, -METRES_MAX, METRES_MAX, words)
 
 /* ---- displays ---------------------------------------------------------------------------- */
@@ -36,8 +36,7 @@ static const RecordRow SYMBOL[] = {
     {0}};
 #undef OWNER
 
-static bool check_symbol(const JsonView *view, void *item, Error *err)
-{
+static bool check_symbol(const JsonView *view, void *item, Error *err) {
     const double *uv = ((const EquipSymbol *)item)->uv;
     return (uv[0] < uv[2] && uv[1] < uv[3]) ||
            record_fails(view, "uv", err,
@@ -60,31 +59,28 @@ static const RecordRow MESH[] = {
 #undef OWNER
 
 /* From numbers to items of so many. */
-static bool divide(const JsonView *view, const char *key, int each, int *count, Error *err)
-{
+static bool divide(const JsonView *view, const char *key, int each, int *count, Error *err) {
     if (*count % each)
-        return record_fails(view, key, err, "has %d numbers, required: a multiple of %d",
-                            *count, each);
+        return record_fails(view, key, err, "has %d numbers, required: a multiple of %d", *count,
+                            each);
     *count /= each;
     return true;
 }
 
-static bool check_mesh(const JsonView *view, void *item, Error *err)
-{
+static bool check_mesh(const JsonView *view, void *item, Error *err) {
     EquipMesh *mesh = item;
     if (!divide(view, "positions_m", 3, &mesh->vertex_count, err) ||
         !divide(view, "uv", 2, &mesh->uv_count, err) ||
         !divide(view, "triangles", 3, &mesh->triangle_count, err))
         return false;
     if (mesh->uv_count != mesh->vertex_count)
-        return record_fails(view, "uv", err,
-                            "has %d pairs, required: one of each of %d positions",
+        return record_fails(view, "uv", err, "has %d pairs, required: one of each of %d positions",
                             mesh->uv_count, mesh->vertex_count);
     for (int i = 0; i < 3 * mesh->triangle_count; i++)
         if (mesh->triangles[i] >= mesh->vertex_count)
             return record_fails(view, "triangles", err,
-                                "holds %g, required: whole numbers below %d",
-                                mesh->triangles[i], mesh->vertex_count);
+                                "holds %g, required: whole numbers below %d", mesh->triangles[i],
+                                mesh->vertex_count);
     return true;
 }
 
@@ -107,30 +103,25 @@ static const RecordRow DISPLAY[] = {
            "So far before the face the display is laid."),
     TEXT("panel", MUST | RECORD_FILLED, panel,
          "A shipped panel's name, or a path as seen from the model."),
-    TEXT("content", RECORD_FILLED, content,
-         "Likewise a picture; without it the display is white."),
+    TEXT("content", RECORD_FILLED, content, "Likewise a picture; without it the display is white."),
     NUMBER("max_level", 0, max_level, 1, LEVEL_MAX, "How far the panel can be driven."),
-    NUMBER("level", 0, level, 0, LEVEL_MAX,
-           "1 is as measured; above it only up to max_level."),
+    NUMBER("level", 0, level, 0, LEVEL_MAX, "1 is as measured; above it only up to max_level."),
     LIST("symbols", 0, symbols, symbol_count, 0, EQUIP_SYMBOLS_MAX, symbol_format,
          "What is read of it; empty: nothing. Left out, a review looks for text itself."),
     OBJECT("mesh", 0, mesh, mesh_format, NULL),
     {0}};
 #undef OWNER
 
-static void start_display(void *item)
-{
+static void start_display(void *item) {
     *(EquipDisplay *)item = (EquipDisplay){.before_m = 0.5e-3, .level = 1, .max_level = 1};
 }
 
 /* Rounding leaves them a little off: up is made square again. */
-static bool square(const JsonView *view, EquipDisplay *display, Error *err)
-{
+static bool square(const JsonView *view, EquipDisplay *display, Error *err) {
     double *r = display->right, *u = display->up;
-    double  along = r[0] * u[0] + r[1] * u[1] + r[2] * u[2], length = 0;
+    double along = r[0] * u[0] + r[1] * u[1] + r[2] * u[2], length = 0;
     if (fabs(along) > SQUARE)
-        return record_fails(view, "up", err,
-                            "stands at %.4g degrees to \"right\", required: 90",
+        return record_fails(view, "up", err, "stands at %.4g degrees to \"right\", required: 90",
                             acos(along) * 180 / M_PI);
     for (int i = 0; i < 3; i++) u[i] -= along * r[i];
     for (int i = 0; i < 3; i++) length += u[i] * u[i];
@@ -138,9 +129,8 @@ static bool square(const JsonView *view, EquipDisplay *display, Error *err)
     return true;
 }
 
-static bool check_side(const JsonView *view, const EquipDisplay *display, const char *key,
-                       double m, Error *err)
-{
+static bool check_side(const JsonView *view, const EquipDisplay *display, const char *key, double m,
+                       Error *err) {
     return display->any_size || display_side_is_plausible(m) ||
            record_fails(view, key, err,
                         "is %.4g m, required: %g to %g m: is the model in metres? If it is "
@@ -149,8 +139,7 @@ static bool check_side(const JsonView *view, const EquipDisplay *display, const 
 }
 
 /* 25 is meant as 25 %: a level above what was measured has to say so. */
-static bool check_level(const JsonView *view, const EquipDisplay *display, Error *err)
-{
+static bool check_level(const JsonView *view, const EquipDisplay *display, Error *err) {
     return display->level <= display->max_level ||
            record_fails(view, "level", err,
                         "is %g, required: a level from 0 to %g: 1 is as measured, 0.25 a "
@@ -159,8 +148,7 @@ static bool check_level(const JsonView *view, const EquipDisplay *display, Error
                         display->level, display->max_level);
 }
 
-static bool check_display(const JsonView *view, void *item, Error *err)
-{
+static bool check_display(const JsonView *view, void *item, Error *err) {
     EquipDisplay *display = item;
     display->place = view->path;
     display->has_symbols = record_has(view, "symbols");
@@ -177,7 +165,11 @@ static bool check_display(const JsonView *view, void *item, Error *err)
 }
 
 static const RecordFormat display_format = {
-    "display", sizeof(EquipDisplay), DISPLAY, start_display, check_display,
+    "display",
+    sizeof(EquipDisplay),
+    DISPLAY,
+    start_display,
+    check_display,
     .rules = "{'allOf': [{'if': {'not': {'required': ['max_level']}}, "
              "'then': {'properties': {'level': {'maximum': 1}}}}, "
              "{'if': {'not': {'required': ['any_size']}}, 'then': {'properties': {"
@@ -204,39 +196,37 @@ static const RecordRow EYE[] = {
     {0}};
 #undef OWNER
 
-static void start_eye(void *item)
-{
+static void start_eye(void *item) {
     *(EquipEye *)item = (EquipEye){.target_m = {NAN}, .display_id = NO_ID};
 }
 
 /* What the page writes of an eye whose place somebody typed, or of an older file's. */
 static const char *const GIVEN[] = {"", "set by hand", "as it was saved"};
 
-static bool check_eye(const JsonView *view, void *item, Error *err)
-{
+static bool check_eye(const JsonView *view, void *item, Error *err) {
     const Equip *equip = view->whole;
-    EquipEye    *eye = item;
-    bool         has_target = !isnan(eye->target_m[0]);
-    double       way = 0;
+    EquipEye *eye = item;
+    bool has_target = !isnan(eye->target_m[0]);
+    double way = 0;
     eye->place = view->path;
     for (int i = 0; eye->proposed_from && i < COUNT_OF(GIVEN); i++)
         if (!strcmp(eye->proposed_from, GIVEN[i])) eye->proposed_from = NULL;
-    if (eye->display_id == NO_ID && !has_target)
-        return record_misses(view, "target_m", err);
+    if (eye->display_id == NO_ID && !has_target) return record_misses(view, "target_m", err);
     if (eye->display_id != NO_ID && has_target)
         return record_fails(view, "target_m", err,
                             "stands beside \"looks_at\", required: one of the two");
     if (!has_target)
         memcpy(eye->target_m, equip->displays[eye->display_id].centre_m, sizeof eye->target_m);
     for (int k = 0; k < 3; k++) way += pow(eye->target_m[k] - eye->position_m[k], 2);
-    return sqrt(way) >= NEAR_M ||
-           record_fails(view, "position_m", err, "is where it looks at, required: another "
-                                                 "place");
+    return sqrt(way) >= NEAR_M || record_fails(view, "position_m", err,
+                                               "is where it looks at, required: another "
+                                               "place");
 }
 
 static const RecordFormat eye_format = {
-    "eye", sizeof(EquipEye), EYE, start_eye, check_eye,
-    .rules = "{'oneOf': [{'required': ['looks_at']}, {'required': ['target_m']}]}"};
+    "eye",     sizeof(EquipEye),
+    EYE,       start_eye,
+    check_eye, .rules = "{'oneOf': [{'required': ['looks_at']}, {'required': ['target_m']}]}"};
 
 /* ---- materials --------------------------------------------------------------------------- */
 
@@ -244,11 +234,10 @@ static const RecordFormat eye_format = {
 #define USUAL .words = &usual_materials[0].name, .stride = sizeof(UsualMaterial)
 
 /* Its figures; those beside it are read after them. */
-static bool read_usual(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    int            id;
+static bool read_usual(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    int id;
     EquipMaterial *out = item;
-    RecordRow      choice = {row->key, RECORD_CHOICE, USUAL};
+    RecordRow choice = {row->key, RECORD_CHOICE, USUAL};
     if (!record_read_value(view, &choice, &id, err)) return false;
     const UsualMaterial *usual = &usual_materials[id];
     out->as = usual->name;
@@ -273,21 +262,23 @@ static const RecordRow MATERIAL[] = {
     {0}};
 #undef OWNER
 
-static void start_material(void *item)
-{
-    *(EquipMaterial *)item = (EquipMaterial){.name = "", .base_color = {NAN}, .roughness = 0.6,
-                                             .ior = 1.5};
+static void start_material(void *item) {
+    *(EquipMaterial *)item =
+        (EquipMaterial){.name = "", .base_color = {NAN}, .roughness = 0.6, .ior = 1.5};
 }
 
-static bool check_material(const JsonView *view, void *item, Error *err)
-{
+static bool check_material(const JsonView *view, void *item, Error *err) {
     EquipMaterial *material = item;
     material->place = view->path;
     return !isnan(material->base_color[0]) || record_misses(view, "base_color", err);
 }
 
 static const RecordFormat material_format = {
-    "material", sizeof(EquipMaterial), MATERIAL, start_material, check_material,
+    "material",
+    sizeof(EquipMaterial),
+    MATERIAL,
+    start_material,
+    check_material,
     .rules = "{'anyOf': [{'required': ['as']}, {'required': ['base_color']}]}",
     .doc = "A material of the model is replaced; figures beside `as` change the usual ones."};
 
@@ -298,13 +289,11 @@ static const RecordRow PLACE[] = {
     VECTOR("where", MUST, where, 3, -1000, 10000,
            "Latitude and longitude in degrees, altitude in metres."),
     WHOLE("year", 0, year, 1950, 2100, NULL),
-    FIGURES("headings_deg", 0, headings_deg, heading_count, 1, EQUIP_HEADINGS_MAX, 0, 360,
-            NULL),
+    FIGURES("headings_deg", 0, headings_deg, heading_count, 1, EQUIP_HEADINGS_MAX, 0, 360, NULL),
     {0}};
 #undef OWNER
 
-static bool check_place(const JsonView *view, void *item, Error *err)
-{
+static bool check_place(const JsonView *view, void *item, Error *err) {
     const double *where = ((const ReviewPlace *)item)->where;
     return (fabs(where[0]) <= 90 && fabs(where[1]) <= 180) ||
            record_fails(view, "where", err,
@@ -314,7 +303,10 @@ static bool check_place(const JsonView *view, void *item, Error *err)
 }
 
 static const RecordFormat place_format = {
-    "place", sizeof(ReviewPlace), PLACE, .check = check_place,
+    "place",
+    sizeof(ReviewPlace),
+    PLACE,
+    .check = check_place,
     .rules = "{'allOf': [{'properties': {'where': {'prefixItems': ["
              "{'minimum': -90, 'maximum': 90}, {'minimum': -180, 'maximum': 180}]}}}]}",
     .doc = "Noon and a year of the review are there."};
@@ -323,15 +315,13 @@ static const RecordFormat place_format = {
 static const char *const SHIRTS[] = {"white", "grey", "black", NULL};
 static const char *const SHIRT_SCENES[] = {"occupant", "occupant_grey", "occupant_dark"};
 
-static const RecordRow OCCUPANT[] = {
-    {"eye", RECORD_REFER, MUST, RECORD_AT(OWNER, eye_id), .among = &EYE_NAMES,
-     .doc = "An eye's name."},
-    CHOICE("shirt", 0, shirt_id, SHIRTS, NULL),
-    {0}};
+static const RecordRow OCCUPANT[] = {{"eye", RECORD_REFER, MUST, RECORD_AT(OWNER, eye_id),
+                                      .among = &EYE_NAMES, .doc = "An eye's name."},
+                                     CHOICE("shirt", 0, shirt_id, SHIRTS, NULL),
+                                     {0}};
 #undef OWNER
 
-static bool check_occupant(const JsonView *view, void *item, Error *err)
-{
+static bool check_occupant(const JsonView *view, void *item, Error *err) {
     EquipOccupant *occupant = item;
     (void)err;
     occupant->scene = SHIRT_SCENES[occupant->shirt_id];
@@ -363,24 +353,23 @@ static const RecordRow EQUIP[] = {
     {0}};
 #undef OWNER
 
-static void start(void *item)
-{
+static void start(void *item) {
     static const double headings[] = {0, 45, 90, 135, 180, 225, 270, 315};
     *(Equip *)item = (Equip){
-        .profile = "iso-15008", .forward = {NAN},
+        .profile = "iso-15008",
+        .forward = {NAN},
         .place = {.year = 2026, .headings_deg = headings, .heading_count = COUNT_OF(headings)},
         .occupant.eye_id = NO_ID};
 }
 
 /* A display and an eye go by different names. */
-static bool check_names(const JsonView *root, Error *err)
-{
+static bool check_names(const JsonView *root, Error *err) {
     const char **displays, **eyes;
     int display_count = record_names(root, &DISPLAY_NAMES, &displays);
     int count = display_count + record_names(root, &EYE_NAMES, &eyes);
     for (int i = 0; i < count; i++)
         for (int k = 0; k < i; k++) {
-            int         at = i - display_count;
+            int at = i - display_count;
             const char *name = at < 0 ? displays[i] : eyes[at];
             if (strcmp(name, k < display_count ? displays[k] : eyes[k - display_count]) != 0)
                 continue;
@@ -392,51 +381,51 @@ static bool check_names(const JsonView *root, Error *err)
     return true;
 }
 
-static bool check_indices(const JsonView *root, const Equip *equip, Error *err)
-{
+static bool check_indices(const JsonView *root, const Equip *equip, Error *err) {
     const EquipMaterial *list = equip->materials;
     for (int i = 0; i < equip->material_count; i++)
         for (int k = 0; k < i; k++)
             if (list[k].index == list[i].index)
-                return record_fails(root, arena_format(root->arena, "materials/%d/index", i),
-                                    err, "is %d once more, required: each once",
-                                    list[i].index);
+                return record_fails(root, arena_format(root->arena, "materials/%d/index", i), err,
+                                    "is %d once more, required: each once", list[i].index);
     return true;
 }
 
 /* The axis nearest to where the first eye looks; of one that looks straight down, -Z. */
-static void propose_forward(Equip *out)
-{
+static void propose_forward(Equip *out) {
     const EquipEye *eye = &out->eyes[0];
-    double          x = eye->target_m[0] - eye->position_m[0];
-    double          z = eye->target_m[2] - eye->position_m[2];
-    bool            is_x = fabs(x) > fabs(z);
+    double x = eye->target_m[0] - eye->position_m[0];
+    double z = eye->target_m[2] - eye->position_m[2];
+    bool is_x = fabs(x) > fabs(z);
     out->forward[0] = is_x ? copysign(1, x) : 0;
     out->forward[2] = is_x ? 0 : z > 0 ? 1 : -1;
 }
 
-static bool check(const JsonView *root, void *item, Error *err)
-{
+static bool check(const JsonView *root, void *item, Error *err) {
     Equip *equip = item;
     if (!check_names(root, err)) return false;
     equip->forward_is_proposed = isnan(equip->forward[0]);
     if (equip->forward_is_proposed) propose_forward(equip);
     if (!(hypot_d(equip->forward[0], equip->forward[2]) > VERTICAL))
-        return record_fails(root, "forward", err, "is vertical, required: where the vehicle "
-                                                  "points");
+        return record_fails(root, "forward", err,
+                            "is vertical, required: where the vehicle "
+                            "points");
     return check_indices(root, equip, err);
 }
 
 const RecordFormat equip_format = {
-    "equip", sizeof(Equip), EQUIP, start, check,
+    "equip",
+    sizeof(Equip),
+    EQUIP,
+    start,
+    check,
     .doc = "Saved by the page of `parhelion equip MODEL`, applied by --with. Metres and "
            "degrees, in the model's world. A display, an eye and whatever the model has go by "
            "different names."};
 
-bool equip_file_read(const char *file, Arena *arena, Equip *out, Error *err)
-{
+bool equip_file_read(const char *file, Arena *arena, Equip *out, Error *err) {
     JsonView root;
-    Equip    equip;
+    Equip equip;
     start(&equip);
     equip.file = file;
     if (!json_view_open(file, arena, &root, err)) return false;

@@ -22,8 +22,8 @@
 
 typedef struct EquipCopy {
     const char *source, *name; /* absolute; beside the new file */
-    bool        is_there;      /* the same bytes already */
-    bool        is_written;
+    bool is_there;             /* the same bytes already */
+    bool is_written;
 } EquipCopy;
 
 typedef struct EquipFiles {
@@ -31,9 +31,9 @@ typedef struct EquipFiles {
     const Scene *decoded;              /* the model as it was loaded; NULL: it ships, and is
                                           trusted */
     const char *folder;                /* the new file's, absolute: "/a/b/" */
-    EquipCopy  *copies;
-    int         count, capacity;
-    Arena      *arena;
+    EquipCopy *copies;
+    int count, capacity;
+    Arena *arena;
 } EquipFiles;
 
 /* model, output: as the user named them; they must outlive it. */

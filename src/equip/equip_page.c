@@ -18,23 +18,21 @@
 /* Debian's three.js, and its notice beside this file; the build embeds both. */
 extern const char THREE_NOTICE[], THREE_SCRIPT[];
 
-#define STEPS 16777215.0 /* of a coordinate over the model's size: three bytes */
+#define STEPS 16777215.0             /* of a coordinate over the model's size: three bytes */
 #define DATA_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
-#define GRID 12          /* of places where a texture is sampled for its mean */
-#define GLASS_ALPHA 0.25 /* what lets light through is drawn so */
+#define GRID 12                      /* of places where a texture is sampled for its mean */
+#define GLASS_ALPHA 0.25             /* what lets light through is drawn so */
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
 /* The largest power of two that is no larger: what WebGL repeats. */
-static int power_of_two(int size)
-{
+static int power_of_two(int size) {
     int power = 1;
     while (2 * power <= size && 2 * power <= THUMB_PIXELS) power *= 2;
     return power;
 }
 
-static bool is_worn(const Scene *scene, int texture)
-{
+static bool is_worn(const Scene *scene, int texture) {
     bool found = false;
     for (int i = 0; i < scene->material_count && !found; i++)
         found = scene->materials[i].base_color_texture.texture_id == texture;
@@ -42,18 +40,16 @@ static bool is_worn(const Scene *scene, int texture)
 }
 
 /* One a texture of the scene; null for those that are no base colour. */
-static json_t *textures_json(const Scene *scene, Arena scratch)
-{
+static json_t *textures_json(const Scene *scene, Arena scratch) {
     json_t *list = json_array();
     for (int i = 0; i < scene->texture_count; i++) {
         const Image *image = &scene->textures[i].image;
-        json_t      *picture = is_worn(scene, i)
-                                   ? equip_picture_json(image, equip_picture_box(image),
-                                                        (PixelSize){
-                                                            power_of_two(image->width),
-                                                            power_of_two(image->height)},
-                                                        scratch)
-                                   : NULL;
+        json_t *picture =
+            is_worn(scene, i)
+                ? equip_picture_json(
+                      image, equip_picture_box(image),
+                      (PixelSize){power_of_two(image->width), power_of_two(image->height)}, scratch)
+                : NULL;
         json_array_append_new(list, picture ? picture : json_null());
     }
     return list;
@@ -62,8 +58,7 @@ static json_t *textures_json(const Scene *scene, Arena scratch)
 /* ---- what is known of the model ---------------------------------------------------------- */
 
 /* Linear; alpha too. */
-static void mean_colour(const Scene *scene, const Material *m, double out[4])
-{
+static void mean_colour(const Scene *scene, const Material *m, double out[4]) {
     double sum[4] = {1, 1, 1, 1};
     if (m->base_color_texture.texture_id != NO_ID) {
         const Texture *texture = &scene->textures[m->base_color_texture.texture_id];
@@ -79,29 +74,25 @@ static void mean_colour(const Scene *scene, const Material *m, double out[4])
 }
 
 /* A picture with holes is glass only when most of it is hole. */
-static bool is_glass(const Material *m, double mean_alpha)
-{
-    bool is_clear = m->alpha_mode != ALPHA_OPAQUE &&
-                    (m->base_color[3] < 0.95f || mean_alpha < 0.6);
+static bool is_glass(const Material *m, double mean_alpha) {
+    bool is_clear = m->alpha_mode != ALPHA_OPAQUE && (m->base_color[3] < 0.95f || mean_alpha < 0.6);
     return m->glazing || m->transmission > 0 || is_clear;
 }
 
-static json_t *material_json(const Scene *scene, const Material *m, bool is_missing)
-{
+static json_t *material_json(const Scene *scene, const Material *m, bool is_missing) {
     double colour[4];
     mean_colour(scene, m, colour);
-    return json_pack("{s:o, s:[f,f,f], s:[f,f,f], s:i, s:f, s:b, s:b}", "name",
-                     json_text(m->name), "color", colour[0], colour[1], colour[2], "factor",
-                     (double)m->base_color[0], (double)m->base_color[1],
-                     (double)m->base_color[2], "texture", m->base_color_texture.texture_id,
-                     "alpha", is_glass(m, colour[3]) ? GLASS_ALPHA : 1.0, "missing", is_missing,
-                     "display", m->display_id != NO_ID);
+    return json_pack("{s:o, s:[f,f,f], s:[f,f,f], s:i, s:f, s:b, s:b}", "name", json_text(m->name),
+                     "color", colour[0], colour[1], colour[2], "factor", (double)m->base_color[0],
+                     (double)m->base_color[1], (double)m->base_color[2], "texture",
+                     m->base_color_texture.texture_id, "alpha",
+                     is_glass(m, colour[3]) ? GLASS_ALPHA : 1.0, "missing", is_missing, "display",
+                     m->display_id != NO_ID);
 }
 
-static json_t *materials_json(const Scene *scene, Arena scratch)
-{
-    int     count;
-    int    *missing = scene_without_data(scene, &count, &scratch);
+static json_t *materials_json(const Scene *scene, Arena scratch) {
+    int count;
+    int *missing = scene_without_data(scene, &count, &scratch);
     json_t *list = json_array();
     for (int i = 0, k = 0; i < scene->material_count; i++) {
         bool is_missing = k < count && missing[k] == i;
@@ -111,40 +102,34 @@ static json_t *materials_json(const Scene *scene, Arena scratch)
     return list;
 }
 
-static json_t *parts_json(const Scene *scene)
-{
+static json_t *parts_json(const Scene *scene) {
     json_t *list = json_array();
     for (int i = 0; i < scene->part_count; i++) {
         const Part *p = &scene->parts[i];
-        json_array_append_new(list, json_pack("{s:o, s:o, s:i, s:I, s:I}", "name",
-                                              json_text(p->name), "mesh",
-                                              json_text(p->mesh_name), "material",
-                                              p->material_id, "first",
-                                              (json_int_t)p->first_triangle, "count",
-                                              (json_int_t)p->triangle_count));
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:i, s:I, s:I}", "name", json_text(p->name), "mesh",
+                            json_text(p->mesh_name), "material", p->material_id, "first",
+                            (json_int_t)p->first_triangle, "count", (json_int_t)p->triangle_count));
     }
     return list;
 }
 
-static json_t *cameras_json(const Scene *scene)
-{
+static json_t *cameras_json(const Scene *scene) {
     json_t *list = json_array();
     for (int i = 0; i < scene->camera_count; i++) {
         const SceneCamera *c = &scene->cameras[i];
         const char *name = c->node_name[0] ? c->node_name : c->camera_name;
-        json_array_append_new(
-            list, json_pack("{s:o, s:b, s:o, s:o}", "name", json_text(name), "perspective",
-                            c->is_perspective, "position",
-                            json_vector(c->world_from_camera.origin), "ahead",
-                            json_vector(vec3_neg(c->world_from_camera.z))));
+        json_array_append_new(list, json_pack("{s:o, s:b, s:o, s:o}", "name", json_text(name),
+                                              "perspective", c->is_perspective, "position",
+                                              json_vector(c->world_from_camera.origin), "ahead",
+                                              json_vector(vec3_neg(c->world_from_camera.z))));
     }
     return list;
 }
 
 /* ---- what lies with the program ---------------------------------------------------------- */
 
-static json_t *profiles_json(void)
-{
+static json_t *profiles_json(void) {
     json_t *list = json_array();
     for (int i = 0; i < profile_count; i++)
         json_array_append_new(list, json_string(profile_table[i].name));
@@ -153,21 +138,18 @@ static json_t *profiles_json(void)
 
 /* ---- the page ---------------------------------------------------------------------------- */
 
-static int index_bytes(const Scene *scene)
-{
+static int index_bytes(const Scene *scene) {
     return scene->vertex_count > 0xffffff ? 4 : 3;
 }
 
-static json_t *data_json(const Scene *scene, const char *model, const char *command,
-                         Arena *arena)
-{
-    int          panel_count;
+static json_t *data_json(const Scene *scene, const char *model, const char *command, Arena *arena) {
+    int panel_count;
     const char **panels = equip_shipped_names(&shipped_panels, &panel_count, arena);
-    json_t      *data = json_pack(
-        "{s:o, s:o, s:I, s:I, s:i, s:o, s:o}", "model", json_text(path_name(model)), "command",
-        json_text(command), "vertices", (json_int_t)scene->vertex_count, "triangles",
-        (json_int_t)scene->triangle_count, "index_bytes", index_bytes(scene), "low",
-        json_vector(scene->bounds_min), "high", json_vector(scene->bounds_max));
+    json_t *data =
+        json_pack("{s:o, s:o, s:I, s:I, s:i, s:o, s:o}", "model", json_text(path_name(model)),
+                  "command", json_text(command), "vertices", (json_int_t)scene->vertex_count,
+                  "triangles", (json_int_t)scene->triangle_count, "index_bytes", index_bytes(scene),
+                  "low", json_vector(scene->bounds_min), "high", json_vector(scene->bounds_max));
     json_object_set_new(data, "origin", json_world_point(scene->origin));
     json_object_set_new(data, "parts", parts_json(scene));
     json_object_set_new(data, "materials", materials_json(scene, *arena));
@@ -181,12 +163,10 @@ static json_t *data_json(const Scene *scene, const char *model, const char *comm
 }
 
 /* Inside a script element nothing may look like its end. Takes the data. */
-static json_t *script_text(json_t *data)
-{
+static json_t *script_text(json_t *data) {
     Arena own = arena_reserve(DATA_BYTES), more = arena_reserve(DATA_BYTES);
-    Text  text = {.arena = &own}, script = {.arena = &more};
-    if (!json_dump_text(&text, data, JSON_COMPACT | JSON_REAL_PRECISION(9)))
-        text_add(&text, "{}");
+    Text text = {.arena = &own}, script = {.arena = &more};
+    if (!json_dump_text(&text, data, JSON_COMPACT | JSON_REAL_PRECISION(9))) text_add(&text, "{}");
     for (const char *c = text.data; *c;) {
         size_t plain = strcspn(c, "<");
         text_add_bytes(&script, c, plain);
@@ -202,20 +182,17 @@ static json_t *script_text(json_t *data)
 }
 
 /* False: there are none. */
-static bool set_packed(json_t *to, const char *name, const char *numbers)
-{
+static bool set_packed(json_t *to, const char *name, const char *numbers) {
     return !json_object_set_new(to, name, json_string(numbers));
 }
 
-static float coordinate(Vec3 v, int axis)
-{
+static float coordinate(Vec3 v, int axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-static bool add_positions(json_t *list, const Scene *scene, int axis, Arena scratch, Error *err)
-{
-    double    low = (double)coordinate(scene->bounds_min, axis);
-    double    size = (double)coordinate(scene->bounds_max, axis) - low;
+static bool add_positions(json_t *list, const Scene *scene, int axis, Arena scratch, Error *err) {
+    double low = (double)coordinate(scene->bounds_min, axis);
+    double size = (double)coordinate(scene->bounds_max, axis) - low;
     uint32_t *steps = ARENA_NEW(&scratch, uint32_t, scene->vertex_count);
     for (uint32_t i = 0; i < scene->vertex_count; i++) {
         double at = ((double)coordinate(scene->positions[i], axis) - low) / size;
@@ -227,14 +204,13 @@ static bool add_positions(json_t *list, const Scene *scene, int axis, Arena scra
 }
 
 /* u or v of a base colour's texture, of all vertices; who has none stays 0. */
-static float *coordinates(const Scene *scene, bool is_v, Arena *arena)
-{
+static float *coordinates(const Scene *scene, bool is_v, Arena *arena) {
     float *out = ARENA_NEW(arena, float, scene->vertex_count);
     for (int p = 0; p < scene->part_count; p++) {
-        const Part        *part = &scene->parts[p];
+        const Part *part = &scene->parts[p];
         const TextureSlot *slot = &scene->materials[part->material_id].base_color_texture;
-        const float       *row = slot->uv_from_uv + (is_v ? 3 : 0);
-        uint32_t           end = part->first_triangle + part->triangle_count;
+        const float *row = slot->uv_from_uv + (is_v ? 3 : 0);
+        uint32_t end = part->first_triangle + part->triangle_count;
         if (slot->texture_id == NO_ID) continue;
         for (uint32_t t = part->first_triangle; t < end; t++)
             for (int k = 0; k < 3; k++) {
@@ -247,9 +223,8 @@ static float *coordinates(const Scene *scene, bool is_v, Arena *arena)
 
 /* Like a position, with its range. */
 static bool add_coordinates(json_t *list, const Scene *scene, bool is_v, Arena scratch,
-                            Error *err)
-{
-    float    *uv = coordinates(scene, is_v, &scratch), low = 0, high = 0;
+                            Error *err) {
+    float *uv = coordinates(scene, is_v, &scratch), low = 0, high = 0;
     uint32_t *steps = ARENA_NEW(&scratch, uint32_t, scene->vertex_count);
     for (uint32_t i = 0; i < scene->vertex_count; i++)
         low = fminf(low, uv[i]), high = fmaxf(high, uv[i]);
@@ -263,30 +238,27 @@ static bool add_coordinates(json_t *list, const Scene *scene, bool is_v, Arena s
     return set_packed(to, "steps", page_packed(steps, scene->vertex_count, 3, &scratch, err));
 }
 
-static bool set_triangles(json_t *to, const Scene *scene, Arena scratch, Error *err)
-{
+static bool set_triangles(json_t *to, const Scene *scene, Arena scratch, Error *err) {
     uint32_t *index = ARENA_NEW(&scratch, uint32_t, 3 * (size_t)scene->triangle_count);
     for (uint32_t t = 0; t < scene->triangle_count; t++)
         memcpy(index + 3 * (size_t)t, scene->triangles[t].vertex, 3 * sizeof *index);
-    return set_packed(to, "triangles", page_packed(index, 3 * (size_t)scene->triangle_count,
-                                                   index_bytes(scene), &scratch, err));
+    return set_packed(
+        to, "triangles",
+        page_packed(index, 3 * (size_t)scene->triangle_count, index_bytes(scene), &scratch, err));
 }
 
-static bool set_geometry(json_t *to, const Scene *scene, Arena scratch, Error *err)
-{
+static bool set_geometry(json_t *to, const Scene *scene, Arena scratch, Error *err) {
     json_t *axes = json_array(), *textured = json_array();
-    bool    ok = true;
+    bool ok = true;
     json_object_set_new(to, "axes", axes);
     json_object_set_new(to, "textured", textured);
-    for (int axis = 0; axis < 3 && ok; axis++)
-        ok = add_positions(axes, scene, axis, scratch, err);
+    for (int axis = 0; axis < 3 && ok; axis++) ok = add_positions(axes, scene, axis, scratch, err);
     for (int axis = 0; axis < 2 && ok; axis++)
         ok = add_coordinates(textured, scene, axis == 1, scratch, err);
     return ok && set_triangles(to, scene, scratch, err);
 }
 
-static bool check_size(const Scene *scene, const char *model, Error *err)
-{
+static bool check_size(const Scene *scene, const char *model, Error *err) {
     if (!scene->triangle_count)
         return error_at(err, ERROR_INPUT, model, "", "has no triangles, so no face to click");
     return scene->triangle_count <= EQUIP_TRIANGLES_MAX ||
@@ -296,12 +268,11 @@ static bool check_size(const Scene *scene, const char *model, Error *err)
                     scene->triangle_count, EQUIP_TRIANGLES_MAX);
 }
 
-bool equip_page_write(const Scene *scene, const char *model, const char *command,
-                      const char *path, Arena *arena, Error *err)
-{
+bool equip_page_write(const Scene *scene, const char *model, const char *command, const char *path,
+                      Arena *arena, Error *err) {
     if (!check_size(scene, model, err)) return false;
     json_t *values = json_object();
-    Text    three = {.arena = arena};
+    Text three = {.arena = arena};
     text_add(&three, THREE_NOTICE);
     text_add(&three, THREE_SCRIPT);
     const PageHead head = {.title = arena_format(arena, "%s: equip", path_name(model)),

@@ -14,5 +14,5 @@
 #define EQUIP_TRIANGLES_MAX 4000000 /* some 60 MB of page, and a browser's patience */
 
 /* model: as the user named it. command: what makes the page. */
-bool equip_page_write(const Scene *scene, const char *model, const char *command,
-                      const char *path, Arena *arena, Error *err);
+bool equip_page_write(const Scene *scene, const char *model, const char *command, const char *path,
+                      Arena *arena, Error *err);

@@ -4,10 +4,9 @@
 #include "image/picture.h"
 #include "text/base64.h"
 
-static void mean_codes(const Image *image, PixelBox box, float out[3])
-{
+static void mean_codes(const Image *image, PixelBox box, float out[3]) {
     const uint8_t *codes = image->pixels;
-    double         sum[3] = {0};
+    double sum[3] = {0};
     for (int y = box.top; y < box.bottom; y++)
         for (int x = box.left; x < box.right; x++)
             for (int c = 0; c < 3; c++)
@@ -17,10 +16,9 @@ static void mean_codes(const Image *image, PixelBox box, float out[3])
 }
 
 /* Every pixel of the small one is the mean of those it covers. */
-static Picture shrink(const Image *image, PixelBox part, PixelSize size, Arena *arena)
-{
+static Picture shrink(const Image *image, PixelBox part, PixelSize size, Arena *arena) {
     Picture small = picture_create(size.width, size.height, arena);
-    long    wide = part.right - part.left, high = part.bottom - part.top;
+    long wide = part.right - part.left, high = part.bottom - part.top;
     for (int y = 0; y < size.height; y++)
         for (int x = 0; x < size.width; x++) {
             const PixelBox box = {part.left + (int)(x * wide / size.width),
@@ -32,16 +30,14 @@ static Picture shrink(const Image *image, PixelBox part, PixelSize size, Arena *
     return small;
 }
 
-PixelBox equip_picture_box(const Image *image)
-{
+PixelBox equip_picture_box(const Image *image) {
     return (PixelBox){0, 0, image->width, image->height};
 }
 
-json_t *equip_picture_json(const Image *image, PixelBox part, PixelSize size, Arena scratch)
-{
-    FileBytes   bytes;
+json_t *equip_picture_json(const Image *image, PixelBox part, PixelSize size, Arena scratch) {
+    FileBytes bytes;
     const char *kind;
-    Error       none;
+    Error none;
     if (image->format != IMAGE_RGBA8) return NULL;
     Picture small = shrink(image, part, size, &scratch);
     if (!picture_encode_small(&small, &scratch, &bytes, &kind, &none)) return NULL;

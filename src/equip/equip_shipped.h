@@ -20,8 +20,8 @@ extern const ShippedKind shipped_panels, shipped_contents, shipped_scenes;
 bool equip_shipped_is_name(const char *text);
 
 /* The file of that name. */
-bool equip_shipped_find(const ShippedKind *kind, const char *name, Arena *arena,
-                        const char **path, Error *err);
+bool equip_shipped_find(const ShippedKind *kind, const char *name, Arena *arena, const char **path,
+                        Error *err);
 
 /* The folder of all that ships, which any model may name; NULL where it is missing. */
 const char *equip_shipped_assets(Arena *arena);

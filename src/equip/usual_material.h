@@ -11,9 +11,9 @@
 
 typedef struct UsualMaterial {
     const char *name;
-    double      base_color[3], roughness, metallic;
-    double      transmission; /* 0 or 1 */
-    double      ior;          /* above 1 */
+    double base_color[3], roughness, metallic;
+    double transmission; /* 0 or 1 */
+    double ior;          /* above 1 */
     const char *source;
 } UsualMaterial;
 

@@ -21,13 +21,13 @@
 typedef struct EstimateSums {
     double batch[ESTIMATE_BATCHES]; /* of each batch's paths */
     BrightSamples bright;           /* path by path */
-    int    batches; /* 2 .. ESTIMATE_BATCHES */
-    long   paths;   /* of all batches; which get them in turn, */
-    int    piece;   /* so many at once: paths is a multiple */
-    double share;   /* of paths that count, above 0: the mean is over these; as a rule 1 */
-    double unmet;   /* light that may be there although no path met it: what the mean of the
-                       truth may have of it, at most (estimate_unmet) */
-    double unseen;  /* likewise, but by a bound that paths do not lessen */
+    int batches;                    /* 2 .. ESTIMATE_BATCHES */
+    long paths;                     /* of all batches; which get them in turn, */
+    int piece;                      /* so many at once: paths is a multiple */
+    double share;  /* of paths that count, above 0: the mean is over these; as a rule 1 */
+    double unmet;  /* light that may be there although no path met it: what the mean of the
+                      truth may have of it, at most (estimate_unmet) */
+    double unseen; /* likewise, but by a bound that paths do not lessen */
 } EstimateSums;
 
 typedef struct Estimate {

@@ -12,13 +12,13 @@
 #include <stdbool.h>
 
 typedef struct EstimatePlan {
-    long  pilot;       /* its paths, at first */
-    long  least, most; /* that are reported: least, doubled as often as it takes, up to most */
-    int   reach;       /* the pilot grows until it requires no more than so many times its own:
-                          the number that a shorter one finds is too uncertain, a longer one
-                          costs more than it saves */
+    long pilot;       /* its paths, at first */
+    long least, most; /* that are reported: least, doubled as often as it takes, up to most */
+    int reach;        /* the pilot grows until it requires no more than so many times its own:
+                         the number that a shorter one finds is too uncertain, a longer one
+                         costs more than it saves */
     void *user;
-    void (*read_pilot)(void *user, long paths);      /* on, to so many in all */
+    void (*read_pilot)(void *user, long paths);          /* on, to so many in all */
     bool (*will_do)(void *user, long pilot, long paths); /* would so many fresh ones, by what
                                                         the pilot of so many found? */
 } EstimatePlan;

@@ -11,27 +11,23 @@
 
 /* ---- layout ------------------------------------------------------------------------------ */
 
-static size_t pixel_bytes(unsigned layers, int light_count)
-{
+static size_t pixel_bytes(unsigned layers, int light_count) {
     size_t numbers = layers & LAYER_LIGHT ? 3 * (size_t)light_count : 0;
     for (int i = 0; i < SUMS_COUNT; i++)
         if (layers & sums_rows[i].users) numbers += (size_t)sums_rows[i].size;
     return sizeof(PixelSums) + numbers * sizeof(Fixed);
 }
 
-static size_t pixel_count(FilmRect crop)
-{
+static size_t pixel_count(FilmRect crop) {
     return (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
 }
 
-size_t film_bytes(FilmRect crop, unsigned layers, int light_count)
-{
+size_t film_bytes(FilmRect crop, unsigned layers, int light_count) {
     return sizeof(Film) + pixel_count(crop) * pixel_bytes(layers, light_count);
 }
 
-Film *film_create(int width, int height, FilmRect crop, unsigned layers,
-                  const FilmLights *lights, Arena *arena)
-{
+Film *film_create(int width, int height, FilmRect crop, unsigned layers, const FilmLights *lights,
+                  Arena *arena) {
     assert(crop.x0 >= 0 && crop.x0 < crop.x1 && crop.x1 <= width);
     assert(crop.y0 >= 0 && crop.y0 < crop.y1 && crop.y1 <= height);
     Film *film = ARENA_NEW(arena, Film, 1);
@@ -60,35 +56,30 @@ Film *film_create(int width, int height, FilmRect crop, unsigned layers,
     return film;
 }
 
-void film_set_blind(Film *film)
-{
+void film_set_blind(Film *film) {
     film->has_blind = true;
 }
 
 /* ---- adding ------------------------------------------------------------------------------ */
 
 /* Nearest step; scaled: the value in steps. Halves go away from zero. */
-static inline Fixed fixed_from_scaled(double scaled)
-{
+static inline Fixed fixed_from_scaled(double scaled) {
     double moved = scaled + (scaled < 0 ? -0.5 : 0.5);
     return fabs(moved) < 0x1p62 ? (Fixed)(int64_t)moved : (Fixed)moved;
 }
 
-static inline Fixed fixed_from_float(float value)
-{
+static inline Fixed fixed_from_float(float value) {
     return fixed_from_scaled((double)value * 0x1p48);
 }
 
 /* Also false for NaN. */
-static bool in_range(const float *values, int count)
-{
+static bool in_range(const float *values, int count) {
     for (int i = 0; i < count; i++)
         if (!(fabsf(values[i]) <= VALUE_LIMIT)) return false;
     return true;
 }
 
-static void drop_sample(Film *film, int x, int y, uint32_t sample)
-{
+static void drop_sample(Film *film, int x, int y, uint32_t sample) {
     const FilmDropped dropped = {.count = 1, .kept = 1, .first = {{sample, x, y}}};
     pthread_mutex_lock(&film->lock);
     film_add_dropped(film, &dropped);
@@ -96,44 +87,37 @@ static void drop_sample(Film *film, int x, int y, uint32_t sample)
 }
 
 /* The square of linear Rec.709 R, G or B, made in double precision. */
-static double square_of(const float xyz[3], int i)
-{
+static double square_of(const float xyz[3], int i) {
     const float *row = rgb_from_xyz_matrix + 3 * i;
-    double       value = (double)row[0] * (double)xyz[0] + (double)row[1] * (double)xyz[1] +
+    double value = (double)row[0] * (double)xyz[0] + (double)row[1] * (double)xyz[1] +
                    (double)row[2] * (double)xyz[2];
     return value * value;
 }
 
 /* The sums the variance needs. squares: small and large ones of R, then of G and B. */
-static void add_squares(Fixed *squares, const float xyz[3])
-{
+static void add_squares(Fixed *squares, const float xyz[3]) {
     for (int i = 0; i < 3; i++) {
         double square = square_of(xyz, i);
-        if (square < SQUARE_SPLIT)
-            squares[2 * i] += fixed_from_scaled(square * 0x1p61);
-        else
-            squares[2 * i + 1] += fixed_from_scaled(square * 0x1p-5);
+        if (square < SQUARE_SPLIT) squares[2 * i] += fixed_from_scaled(square * 0x1p61);
+        else squares[2 * i + 1] += fixed_from_scaled(square * 0x1p-5);
     }
 }
 
-static void add_layer(const Film *film, PixelSums *sums, LayerSums layer, const float *values)
-{
+static void add_layer(const Film *film, PixelSums *sums, LayerSums layer, const float *values) {
     int first = film->first[layer];
     for (int i = 0; i < sums_rows[layer].size; i++)
         sums->layers[first + i] += fixed_from_float(values[i]);
 }
 
 /* The sample's values that these sums add as they are; NULL: none, or the film has none. */
-static const float *values_of(const Film *film, LayerSums layer, const FilmSample *sample)
-{
+static const float *values_of(const Film *film, LayerSums layer, const FilmSample *sample) {
     size_t member = sums_rows[layer].member;
     if (film->first[layer] < 0 || member == NO_MEMBER) return NULL;
     return (const float *)(const void *)((const char *)sample + member);
 }
 
 static bool layers_in_range(const Film *film, LayerSums first, LayerSums end,
-                            const FilmSample *sample)
-{
+                            const FilmSample *sample) {
     for (LayerSums i = first; i < end; i++) {
         const float *values = values_of(film, i, sample);
         if (values && !in_range(values, sums_rows[i].size)) return false;
@@ -142,8 +126,7 @@ static bool layers_in_range(const Film *film, LayerSums first, LayerSums end,
 }
 
 static void add_layers(const Film *film, PixelSums *sums, LayerSums first, LayerSums end,
-                       const FilmSample *sample)
-{
+                       const FilmSample *sample) {
     for (LayerSums i = first; i < end; i++) {
         const float *values = values_of(film, i, sample);
         if (values) add_layer(film, sums, i, values);
@@ -151,15 +134,13 @@ static void add_layers(const Film *film, PixelSums *sums, LayerSums first, Layer
 }
 
 /* An id times its light is a sum, too. */
-static bool shared_in_range(const FilmSample *sample)
-{
+static bool shared_in_range(const FilmSample *sample) {
     const float most = VALUE_LIMIT / (1 + (float)sample->display_id);
     return fabsf(sample->xyz[0]) <= most && fabsf(sample->xyz[1]) <= most &&
            fabsf(sample->xyz[2]) <= most;
 }
 
-static bool display_in_range(const Film *film, const FilmSample *sample)
-{
+static bool display_in_range(const Film *film, const FilmSample *sample) {
     return layers_in_range(film, SUMS_FIRST_DISPLAY, SUMS_COUNT, sample) &&
            (film->first[SUMS_REFLECTED] < 0 || in_range(sample->emitted, 3)) &&
            (film->first[SUMS_SHARED] < 0 || shared_in_range(sample)) &&
@@ -167,26 +148,22 @@ static bool display_in_range(const Film *film, const FilmSample *sample)
             (fabsf(sample->theta) <= 4 && fabsf(sample->phi) <= 8));
 }
 
-static bool is_odd(const FilmSample *sample)
-{
+static bool is_odd(const FilmSample *sample) {
     return sample->sample_index / BLOCK_SAMPLES % 2;
 }
 
-static void add_reflected(const Film *film, PixelSums *sums, const FilmSample *sample)
-{
+static void add_reflected(const Film *film, PixelSums *sums, const FilmSample *sample) {
     int first = film->first[SUMS_REFLECTED], odd = film->first[SUMS_ODD];
     if (first < 0) return;
     for (int i = 0; i < 3; i++) {
-        Fixed reflected =
-            fixed_from_float(sample->xyz[i]) - fixed_from_float(sample->emitted[i]);
+        Fixed reflected = fixed_from_float(sample->xyz[i]) - fixed_from_float(sample->emitted[i]);
         sums->layers[first + i] += reflected;
         if (odd >= 0 && is_odd(sample)) sums->layers[odd + i] += reflected;
     }
     if (odd >= 0 && is_odd(sample)) sums->layers[odd + 3] += fixed_from_float(1);
 }
 
-static void add_shared(PixelSums *sums, int first, const FilmSample *sample)
-{
+static void add_shared(PixelSums *sums, int first, const FilmSample *sample) {
     Fixed id = sample->display_id, power = 1;
     for (int i = 0; i < 3; i++) sums->layers[first + i] += power *= id;
     for (int i = 0; i < 3; i++) {
@@ -198,8 +175,7 @@ static void add_shared(PixelSums *sums, int first, const FilmSample *sample)
     }
 }
 
-static void add_display(const Film *film, PixelSums *sums, const FilmSample *sample)
-{
+static void add_display(const Film *film, PixelSums *sums, const FilmSample *sample) {
     if (!display_in_range(film, sample)) return;
     sums->display_hits++;
     if (sample->sample_index < sums->display_sample) {
@@ -221,8 +197,7 @@ static void add_display(const Film *film, PixelSums *sums, const FilmSample *sam
     }
 }
 
-static void add_features(const Film *film, PixelSums *sums, const FilmSample *sample)
-{
+static void add_features(const Film *film, PixelSums *sums, const FilmSample *sample) {
     if (sample->display_id >= 0) add_display(film, sums, sample);
     if (!layers_in_range(film, SUMS_DEPTH, SUMS_FIRST_DISPLAY, sample)) return;
     sums->hits++;
@@ -235,15 +210,13 @@ static void add_features(const Film *film, PixelSums *sums, const FilmSample *sa
 
 /* ---- groups of lights -------------------------------------------------------------------- */
 
-static bool lights_in_range(const FilmSample *sample)
-{
+static bool lights_in_range(const FilmSample *sample) {
     for (int i = 0; i < sample->light_count; i++)
         if (!in_range(sample->lights[i].xyz, 3)) return false;
     return true;
 }
 
-static const FilmLight *brightest_light(const FilmSample *sample)
-{
+static const FilmLight *brightest_light(const FilmSample *sample) {
     const FilmLight *most = sample->lights;
     for (int i = 1; i < sample->light_count; i++)
         if (sample->lights[i].xyz[1] > most->xyz[1]) most = &sample->lights[i];
@@ -252,15 +225,14 @@ static const FilmLight *brightest_light(const FilmSample *sample)
 
 /* The brightest group gets what the others leave of the sample, so that all add up to it;
  * where one of them is out of range, it gets everything. */
-static void add_lights(const Film *film, PixelSums *sums, const FilmSample *sample)
-{
+static void add_lights(const Film *film, PixelSums *sums, const FilmSample *sample) {
     const FilmLight *most = brightest_light(sample);
-    bool             is_good = lights_in_range(sample);
-    Fixed            left[3];
+    bool is_good = lights_in_range(sample);
+    Fixed left[3];
     for (int i = 0; i < 3; i++) left[i] = fixed_from_float(sample->xyz[i]);
     for (int k = 0; k < sample->light_count && is_good; k++) {
         const FilmLight *light = &sample->lights[k];
-        Fixed           *to = sums->layers + film->first_light + 3 * light->group;
+        Fixed *to = sums->layers + film->first_light + 3 * light->group;
         for (int i = 0; i < 3 && light != most; i++) {
             Fixed steps = fixed_from_float(light->xyz[i]);
             to[i] += steps;
@@ -271,8 +243,7 @@ static void add_lights(const Film *film, PixelSums *sums, const FilmSample *samp
     for (int i = 0; i < 3; i++) to[i] += left[i];
 }
 
-void film_add_sample(Film *film, int x, int y, const FilmSample *sample)
-{
+void film_add_sample(Film *film, int x, int y, const FilmSample *sample) {
     if (!in_range(sample->xyz, 3)) {
         drop_sample(film, x, y, sample->sample_index);
         return;
@@ -294,15 +265,13 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample)
     if (sample->hit) add_features(film, sums, sample);
 }
 
-FilmDropped film_dropped(const Film *film)
-{
+FilmDropped film_dropped(const Film *film) {
     return film->dropped;
 }
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-uint64_t film_kept_samples(const Film *film)
-{
+uint64_t film_kept_samples(const Film *film) {
     FilmRect crop = film->crop;
     uint64_t kept = 0;
     for (int y = crop.y0; y < crop.y1; y++)
@@ -310,10 +279,9 @@ uint64_t film_kept_samples(const Film *film)
     return kept;
 }
 
-FilmPixel film_pixel(const Film *film, int x, int y)
-{
+FilmPixel film_pixel(const Film *film, int x, int y) {
     const PixelSums *sums = film_sums(film, x, y);
-    FilmPixel        pixel = {.samples = sums->samples, .display_id = sums->display_id};
+    FilmPixel pixel = {.samples = sums->samples, .display_id = sums->display_id};
     for (int i = 0; i < 3 && sums->samples; i++)
         pixel.mean_xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS) / (double)sums->samples;
     pixel_variance(sums, pixel.variance_rgb);
@@ -323,9 +291,8 @@ FilmPixel film_pixel(const Film *film, int x, int y)
 }
 
 /* Half the geometric mean of the luminances above zero, cd m^-2. */
-static double lowest_luminance(const Film *film)
-{
-    double  log_sum = 0;
+static double lowest_luminance(const Film *film) {
+    double log_sum = 0;
     int64_t count = 0;
     for (int y = film->crop.y0; y < film->crop.y1; y++)
         for (int x = film->crop.x0; x < film->crop.x1; x++) {
@@ -338,20 +305,17 @@ static double lowest_luminance(const Film *film)
     return count ? 0.5 * (double)exp_f((float)(log_sum / (double)count)) : 0;
 }
 
-static double pixel_error(const FilmPixel *pixel, double lowest)
-{
+static double pixel_error(const FilmPixel *pixel, double lowest) {
     if (pixel->samples < 2) return 1;
     double luminance = pixel->mean_xyz[1] > lowest ? pixel->mean_xyz[1] : lowest;
     return luminance > 0 ? pixel->sigma_y / luminance : 0;
 }
 
-static bool is_seen(const Film *film, const FilmPixel *pixel)
-{
+static bool is_seen(const Film *film, const FilmPixel *pixel) {
     return pixel->samples || !film->has_blind;
 }
 
-static bool shows(const FilmPixel *pixel, int display)
-{
+static bool shows(const FilmPixel *pixel, int display) {
     if (display == FILM_ALL_PIXELS) return true;
     return display == FILM_ANY_DISPLAY ? pixel->display_id >= 0 : pixel->display_id == display;
 }
@@ -359,11 +323,10 @@ static bool shows(const FilmPixel *pixel, int display)
 /* One pixel's figure, given Y_low. */
 typedef double PixelFigure(const FilmPixel *pixel, double lowest);
 
-static double mean_of(const Film *film, FilmArea area, double lowest, PixelFigure *figure)
-{
+static double mean_of(const Film *film, FilmArea area, double lowest, PixelFigure *figure) {
     FilmRect crop = film->crop, rect = area.rect;
-    double   sum = 0;
-    int64_t  count = 0;
+    double sum = 0;
+    int64_t count = 0;
     for (int y = rect.y0 > crop.y0 ? rect.y0 : crop.y0; y < rect.y1 && y < crop.y1; y++)
         for (int x = rect.x0 > crop.x0 ? rect.x0 : crop.x0; x < rect.x1 && x < crop.x1; x++) {
             FilmPixel pixel = film_pixel(film, x, y);
@@ -374,47 +337,40 @@ static double mean_of(const Film *film, FilmArea area, double lowest, PixelFigur
     return count ? sum / (double)count : (double)NAN;
 }
 
-static double mean_error(const Film *film, FilmArea area, double lowest)
-{
+static double mean_error(const Film *film, FilmArea area, double lowest) {
     return mean_of(film, area, lowest, pixel_error);
 }
 
-double film_area_error(const Film *film, FilmArea area)
-{
+double film_area_error(const Film *film, FilmArea area) {
     return mean_error(film, area, lowest_luminance(film));
 }
 
-static double pixel_spike(const FilmPixel *pixel, double lowest)
-{
+static double pixel_spike(const FilmPixel *pixel, double lowest) {
     double s = sqrt(pixel->square_y), others = fmax(pixel->mean_xyz[1] - s, lowest);
-    bool   is_spike = pixel->samples > 1 && s > FILM_SPIKE * pixel->mean_xyz[1] && others > 0;
+    bool is_spike = pixel->samples > 1 && s > FILM_SPIKE * pixel->mean_xyz[1] && others > 0;
     return is_spike ? s / others : 0;
 }
 
-static double pixel_spike_square(const FilmPixel *pixel, double lowest)
-{
+static double pixel_spike_square(const FilmPixel *pixel, double lowest) {
     double spike = pixel_spike(pixel, lowest);
     return spike * spike;
 }
 
-FilmSpikes film_area_spikes(const Film *film, FilmArea area)
-{
+FilmSpikes film_area_spikes(const Film *film, FilmArea area) {
     double lowest = lowest_luminance(film);
     return (FilmSpikes){mean_of(film, area, lowest, pixel_spike),
                         mean_of(film, area, lowest, pixel_spike_square)};
 }
 
-FilmError film_relative_error(const Film *film)
-{
+FilmError film_relative_error(const Film *film) {
     double lowest = lowest_luminance(film);
-    return (FilmError){
-        .frame = mean_error(film, (FilmArea){film->crop, FILM_ALL_PIXELS}, lowest),
-        .displays = mean_error(film, (FilmArea){film->crop, FILM_ANY_DISPLAY}, lowest)};
+    return (FilmError){.frame = mean_error(film, (FilmArea){film->crop, FILM_ALL_PIXELS}, lowest),
+                       .displays =
+                           mean_error(film, (FilmArea){film->crop, FILM_ANY_DISPLAY}, lowest)};
 }
 
 /* Puts a pixel where it belongs among the `kept` worst; returns how many are kept then. */
-static int keep_worst(FilmWorst *worst, int kept, int most, FilmWorst pixel)
-{
+static int keep_worst(FilmWorst *worst, int kept, int most, FilmWorst pixel) {
     int place = kept;
     while (place > 0 && pixel.error > worst[place - 1].error) place--;
     if (place == most) return kept;
@@ -424,10 +380,9 @@ static int keep_worst(FilmWorst *worst, int kept, int most, FilmWorst pixel)
     return kept;
 }
 
-int film_worst_pixels(const Film *film, int count, FilmWorst *out)
-{
+int film_worst_pixels(const Film *film, int count, FilmWorst *out) {
     double lowest = lowest_luminance(film);
-    int    kept = 0;
+    int kept = 0;
     for (int y = film->crop.y0; y < film->crop.y1; y++)
         for (int x = film->crop.x0; x < film->crop.x1; x++) {
             FilmPixel pixel = film_pixel(film, x, y);

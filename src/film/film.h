@@ -27,8 +27,8 @@
 /* width, height: the whole frame, at least 1; crop: the part that is kept, not empty and
  * inside the frame; layers: a set of FilmLayer bits; lights: the groups of LAYER_LIGHT, whose
  * names must live as long as the film; NULL: none. */
-Film *film_create(int width, int height, FilmRect crop, unsigned layers,
-                  const FilmLights *lights, Arena *arena);
+Film *film_create(int width, int height, FilmRect crop, unsigned layers, const FilmLights *lights,
+                  Arena *arena);
 
 /* Pixels that have no sample are out of view (a fisheye's corners): they count in no error. */
 void film_set_blind(Film *film);
@@ -44,13 +44,13 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample);
 
 /* One pixel as it stands. */
 typedef struct FilmPixel {
-    uint32_t samples;         /* kept ones */
-    double   mean_xyz[3];     /* cd m^-2; 0 without samples */
-    double   variance_rgb[3]; /* of the mean, (cd m^-2)^2, as if samples were independent; NaN
-                                 below two */
-    double   sigma_y;         /* standard error of Y; right in the mean over many pixels */
-    double   square_y;        /* its square, right in the mean: the variance of Y */
-    int      display_id;      /* of the lowest sample index that saw a display; -1: none did */
+    uint32_t samples;       /* kept ones */
+    double mean_xyz[3];     /* cd m^-2; 0 without samples */
+    double variance_rgb[3]; /* of the mean, (cd m^-2)^2, as if samples were independent; NaN
+                               below two */
+    double sigma_y;         /* standard error of Y; right in the mean over many pixels */
+    double square_y;        /* its square, right in the mean: the variance of Y */
+    int display_id;         /* of the lowest sample index that saw a display; -1: none did */
 } FilmPixel;
 
 FilmPixel film_pixel(const Film *film, int x, int y);
@@ -81,7 +81,7 @@ uint64_t film_kept_samples(const Film *film);
  * that show the one of this id. */
 typedef struct FilmArea {
     FilmRect rect;
-    int      display;
+    int display;
 } FilmArea;
 
 /* The same mean over an area; NaN where it has no pixel. */
@@ -101,7 +101,7 @@ FilmSpikes film_area_spikes(const Film *film, FilmArea area);
 /* One pixel's share in it. One sigma of few halves is itself uncertain: the worst of a million
  * pixels of equal noise is some seven times their mean by chance. */
 typedef struct FilmWorst {
-    int    x, y;
+    int x, y;
     double luminance; /* cd m^-2 */
     double error;     /* sigma / max(Y, Y_low) */
 } FilmWorst;

@@ -5,18 +5,15 @@
 
 /* ---- overlap ----------------------------------------------------------------------------- */
 
-static int larger(int a, int b)
-{
+static int larger(int a, int b) {
     return a > b ? a : b;
 }
 
-static int smaller(int a, int b)
-{
+static int smaller(int a, int b) {
     return a < b ? a : b;
 }
 
-static bool check_overlap(const FilmPart *a, const FilmPart *b, Error *err)
-{
+static bool check_overlap(const FilmPart *a, const FilmPart *b, Error *err) {
     FilmRect both = {larger(a->crop.x0, b->crop.x0), larger(a->crop.y0, b->crop.y0),
                      smaller(a->crop.x1, b->crop.x1), smaller(a->crop.y1, b->crop.y1)};
     uint32_t first = a->first_sample > b->first_sample ? a->first_sample : b->first_sample;
@@ -31,8 +28,7 @@ static bool check_overlap(const FilmPart *a, const FilmPart *b, Error *err)
 /* ---- gaps -------------------------------------------------------------------------------- */
 
 /* The pixels and samples that all parts together must fill. */
-static FilmPart hull(const FilmPart *parts, int count)
-{
+static FilmPart hull(const FilmPart *parts, int count) {
     FilmPart all = parts[0];
     all.dropped = (FilmDropped){0};
     all.paths = all.camera_rays = all.bounce_rays = all.shadow_rays = 0;
@@ -53,14 +49,12 @@ static FilmPart hull(const FilmPart *parts, int count)
     return all;
 }
 
-static int compare_ints(const void *a, const void *b)
-{
+static int compare_ints(const void *a, const void *b) {
     return *(const int *)a < *(const int *)b ? -1 : *(const int *)a > *(const int *)b;
 }
 
 /* Sorts the edges and leaves out repeated ones; returns how many are left. */
-static int sort_edges(int *edges, int count)
-{
+static int sort_edges(int *edges, int count) {
     int kept = 0;
     qsort(edges, (size_t)count, sizeof *edges, compare_ints);
     for (int i = 0; i < count; i++)
@@ -68,22 +62,18 @@ static int sort_edges(int *edges, int count)
     return kept;
 }
 
-static int compare_first_samples(const void *a, const void *b)
-{
+static int compare_first_samples(const void *a, const void *b) {
     const FilmPart *const *p = a, *const *q = b;
-    return (*p)->first_sample < (*q)->first_sample ? -1
-                                                   : (*p)->first_sample > (*q)->first_sample;
+    return (*p)->first_sample<(*q)->first_sample ? -1 : (*p)->first_sample>(*q)->first_sample;
 }
 
-static bool holds(const FilmPart *part, FilmRect rect)
-{
+static bool holds(const FilmPart *part, FilmRect rect) {
     return part->crop.x0 <= rect.x0 && part->crop.x1 >= rect.x1 && part->crop.y0 <= rect.y0 &&
            part->crop.y1 >= rect.y1;
 }
 
 /* The first samples that no part has of a rectangle that no part's edge cuts. */
-static bool find_gap(const FilmPart *const *sorted, int count, FilmRect rect, FilmPart *gap)
-{
+static bool find_gap(const FilmPart *const *sorted, int count, FilmRect rect, FilmPart *gap) {
     uint32_t at = gap->first_sample;
     for (int i = 0; i < count; i++) {
         const FilmPart *part = sorted[i];
@@ -99,8 +89,7 @@ static bool find_gap(const FilmPart *const *sorted, int count, FilmRect rect, Fi
     return at < gap->end_sample;
 }
 
-static bool report_gap(const FilmPart *parts, int count, const FilmPart *gap, Error *err)
-{
+static bool report_gap(const FilmPart *parts, int count, const FilmPart *gap, Error *err) {
     for (int i = 0; i < count; i++) {
         const FilmPart *part = &parts[i];
         if (part->asked_end > part->end_sample && holds(part, gap->crop) &&
@@ -114,16 +103,15 @@ static bool report_gap(const FilmPart *parts, int count, const FilmPart *gap, Er
     return error_set(err, ERROR_INPUT,
                      "no part has samples %u:%u of pixels %d,%d,%d,%d — add what `render "
                      "--samples %u:%u --crop %d,%d,%d,%d` makes",
-                     gap->first_sample, gap->end_sample, gap->crop.x0, gap->crop.y0,
-                     gap->crop.x1, gap->crop.y1, gap->first_sample, gap->end_sample,
-                     gap->crop.x0, gap->crop.y0, gap->crop.x1, gap->crop.y1);
+                     gap->first_sample, gap->end_sample, gap->crop.x0, gap->crop.y0, gap->crop.x1,
+                     gap->crop.y1, gap->first_sample, gap->end_sample, gap->crop.x0, gap->crop.y0,
+                     gap->crop.x1, gap->crop.y1);
 }
 
 /* Looks at every rectangle between neighbouring edges: there are few, and it is only done when
  * something is known to be missing. */
 static bool name_gap(const FilmPart *parts, int count, const FilmPart *all, Arena scratch,
-                     Error *err)
-{
+                     Error *err) {
     int *xs = ARENA_NEW(&scratch, int, 2 * count), *ys = ARENA_NEW(&scratch, int, 2 * count);
     const FilmPart **sorted = ARENA_NEW(&scratch, const FilmPart *, count);
     for (int i = 0; i < count; i++) {
@@ -144,9 +132,7 @@ static bool name_gap(const FilmPart *parts, int count, const FilmPart *all, Aren
     return true;
 }
 
-bool film_merge_check(const FilmPart *parts, int count, Arena scratch, FilmPart *out,
-                      Error *err)
-{
+bool film_merge_check(const FilmPart *parts, int count, Arena scratch, FilmPart *out, Error *err) {
     FilmPart all = hull(parts, count);
     uint64_t volume = 0;
     for (int i = 0; i < count; i++) {

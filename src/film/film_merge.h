@@ -11,5 +11,4 @@
  * dropped.
  * The error names the two parts that overlap, or the first pixels and samples that are
  * missing, and the part that was stopped before it came to them. */
-bool film_merge_check(const FilmPart *parts, int count, Arena scratch, FilmPart *out,
-                      Error *err);
+bool film_merge_check(const FilmPart *parts, int count, Arena scratch, FilmPart *out, Error *err);

@@ -16,30 +16,34 @@
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "words are named by their weight");
 
-uint64_t film_part_volume(const FilmPart *part)
-{
-    return (uint64_t)(part->crop.x1 - part->crop.x0) *
-           (uint64_t)(part->crop.y1 - part->crop.y0) *
+uint64_t film_part_volume(const FilmPart *part) {
+    return (uint64_t)(part->crop.x1 - part->crop.x0) * (uint64_t)(part->crop.y1 - part->crop.y0) *
            (part->end_sample - part->first_sample);
 }
 
-FilmPart film_part_of(const Film *film, uint32_t first_sample, uint32_t end_sample)
-{
-    return (FilmPart){.name = "", .width = film->width, .height = film->height,
-                      .crop = film->crop, .layers = film->layers, .lights = film->lights,
-                      .first_sample = first_sample, .end_sample = end_sample,
-                      .asked_end = end_sample, .dropped = film->dropped};
+FilmPart film_part_of(const Film *film, uint32_t first_sample, uint32_t end_sample) {
+    return (FilmPart){.name = "",
+                      .width = film->width,
+                      .height = film->height,
+                      .crop = film->crop,
+                      .layers = film->layers,
+                      .lights = film->lights,
+                      .first_sample = first_sample,
+                      .end_sample = end_sample,
+                      .asked_end = end_sample,
+                      .dropped = film->dropped};
 }
 
 /* ---- names of the words ------------------------------------------------------------------ */
 
 /* The members of PixelSums as they lie in memory. */
-static const char *const sum_names[] = {
-    "xyz.X", "xyz.Y", "xyz.Z", "squares.R.low", "squares.R.high", "squares.G.low",
-    "squares.G.high", "squares.B.low", "squares.B.high", "odd.X", "odd.Y", "odd.Z"};
-static const char *const count_names[] = {
-    "samples", "hits", "displayHits", "part.sample", "part.id", "display.sample", "display.id",
-    "odd.samples"};
+static const char *const sum_names[] = {"xyz.X",          "xyz.Y",          "xyz.Z",
+                                        "squares.R.low",  "squares.R.high", "squares.G.low",
+                                        "squares.G.high", "squares.B.low",  "squares.B.high",
+                                        "odd.X",          "odd.Y",          "odd.Z"};
+static const char *const count_names[] = {"samples",     "hits",       "displayHits",
+                                          "part.sample", "part.id",    "display.sample",
+                                          "display.id",  "odd.samples"};
 
 #define SUM_NAMES (sizeof sum_names / sizeof *sum_names)
 #define COUNT_NAMES (sizeof count_names / sizeof *count_names)
@@ -49,34 +53,31 @@ _Static_assert(SUM_NAMES * sizeof(Fixed) == offsetof(PixelSums, samples) &&
 
 typedef struct NameList {
     const char **names;
-    int          count;
-    Arena       *arena;
+    int count;
+    Arena *arena;
 } NameList;
 
-static void add_name(NameList *list, const char *name)
-{
+static void add_name(NameList *list, const char *name) {
     list->names[list->count++] = name;
 }
 
-static void add_sum(NameList *list, const char *name)
-{
+static void add_sum(NameList *list, const char *name) {
     for (int word = 0; word < 4; word++)
         add_name(list, arena_format(list->arena, "%s.%d", name, word));
 }
 
 /* Names of a pixel's words in their order; the room is that of all layers. */
-static ExrWords name_words(const FilmPart *part, Arena *arena)
-{
+static ExrWords name_words(const FilmPart *part, Arena *arena) {
     unsigned layers = part->layers;
-    size_t   sums = SUM_NAMES + 4 * SUMS_COUNT + 3 * (size_t)part->lights.count;
-    size_t   most = 4 * sums + COUNT_NAMES;
+    size_t sums = SUM_NAMES + 4 * SUMS_COUNT + 3 * (size_t)part->lights.count;
+    size_t most = 4 * sums + COUNT_NAMES;
     NameList list = {ARENA_NEW(arena, const char *, most), 0, arena};
     for (size_t i = 0; i < SUM_NAMES; i++) add_sum(&list, sum_names[i]);
     for (size_t i = 0; i < COUNT_NAMES; i++) add_name(&list, count_names[i]);
     for (int i = 0; i < SUMS_COUNT; i++)
         for (int k = 0; (layers & sums_rows[i].users) && k < sums_rows[i].size; k++)
-            add_sum(&list, arena_format(arena, "%s.%c", sums_rows[i].name,
-                                        sums_rows[i].letters[k]));
+            add_sum(&list,
+                    arena_format(arena, "%s.%c", sums_rows[i].name, sums_rows[i].letters[k]));
     for (int i = 0; i < 3 * part->lights.count; i++)
         add_sum(&list, arena_format(arena, "light.%d.%c", i / 3, "XYZ"[i % 3]));
     return (ExrWords){.name = PART_NAME, .count = list.count, .names = list.names};
@@ -85,22 +86,20 @@ static ExrWords name_words(const FilmPart *part, Arena *arena)
 /* ---- attributes -------------------------------------------------------------------------- */
 
 /* The meaning of the sums: those of another program are refused when it differs. */
-static const char *layout_text(Arena *arena)
-{
-    return arena_format(arena, "1: sums in steps of 2^%d, squares of 2^%d and from %a on 2^%d, "
-                               "blocks of %d samples",
+static const char *layout_text(Arena *arena) {
+    return arena_format(arena,
+                        "1: sums in steps of 2^%d, squares of 2^%d and from %a on 2^%d, "
+                        "blocks of %d samples",
                         -FIXED_BITS, -SQUARE_LOW_BITS, SQUARE_SPLIT, -SQUARE_HIGH_BITS,
                         BLOCK_SAMPLES);
 }
 
-static const char *range_text(uint32_t first, uint32_t end, Arena *arena)
-{
+static const char *range_text(uint32_t first, uint32_t end, Arena *arena) {
     return arena_format(arena, "%u:%u", first, end);
 }
 
 /* "COUNT SAMPLE,X,Y SAMPLE,X,Y ..." */
-static const char *dropped_text(const FilmDropped *dropped, Arena *arena)
-{
+static const char *dropped_text(const FilmDropped *dropped, Arena *arena) {
     const char *text = arena_format(arena, "%llu", (unsigned long long)dropped->count);
     for (int i = 0; i < dropped->kept; i++)
         text = arena_format(arena, "%s %u,%d,%d", text, dropped->first[i].sample_index,
@@ -108,8 +107,7 @@ static const char *dropped_text(const FilmDropped *dropped, Arena *arena)
     return text;
 }
 
-static const char *cost_text(const FilmPart *part, Arena *arena)
-{
+static const char *cost_text(const FilmPart *part, Arena *arena) {
     return arena_format(arena, "%llu paths, %llu camera, %llu bounce, %llu shadow rays",
                         (unsigned long long)part->paths, (unsigned long long)part->camera_rays,
                         (unsigned long long)part->bounce_rays,
@@ -117,30 +115,25 @@ static const char *cost_text(const FilmPart *part, Arena *arena)
 }
 
 /* One name a line. */
-static const char *lights_text(const FilmLights *lights, Arena *arena)
-{
+static const char *lights_text(const FilmLights *lights, Arena *arena) {
     const char *text = "";
     for (int i = 0; i < lights->count; i++)
         text = arena_format(arena, "%s%s\n", text, lights->names[i]);
     return text;
 }
 
-enum {
-    TEXT_LAYOUT, TEXT_SAMPLES, TEXT_ASKED, TEXT_DROPPED, TEXT_COST, TEXT_LIGHTS, TEXT_COUNT
-};
+enum { TEXT_LAYOUT, TEXT_SAMPLES, TEXT_ASKED, TEXT_DROPPED, TEXT_COST, TEXT_LIGHTS, TEXT_COUNT };
 
-static const char *const text_names[TEXT_COUNT] = {
-    "parhelion:sums", "parhelion:samples", "parhelion:askedSamples", "parhelion:dropped",
-    "parhelion:cost", "parhelion:lights"};
+static const char *const text_names[TEXT_COUNT] = {"parhelion:sums",         "parhelion:samples",
+                                                   "parhelion:askedSamples", "parhelion:dropped",
+                                                   "parhelion:cost",         "parhelion:lights"};
 
 /* Only a part with LAYER_LIGHT has the last. */
-static int text_count(const FilmPart *part)
-{
+static int text_count(const FilmPart *part) {
     return part->layers & LAYER_LIGHT ? TEXT_COUNT : TEXT_LIGHTS;
 }
 
-static void make_texts(const FilmPart *part, const char *texts[TEXT_COUNT], Arena *arena)
-{
+static void make_texts(const FilmPart *part, const char *texts[TEXT_COUNT], Arena *arena) {
     texts[TEXT_LAYOUT] = layout_text(arena);
     texts[TEXT_SAMPLES] = range_text(part->first_sample, part->end_sample, arena);
     texts[TEXT_ASKED] = range_text(part->first_sample, part->asked_end, arena);
@@ -152,8 +145,7 @@ static void make_texts(const FilmPart *part, const char *texts[TEXT_COUNT], Aren
 /* ---- the checksum ------------------------------------------------------------------------ */
 
 /* Checksum of the attributes; those of the rows are added to it, in any order. */
-static uint64_t checksum_of_texts(const FilmPart *part, const char *const texts[TEXT_COUNT])
-{
+static uint64_t checksum_of_texts(const FilmPart *part, const char *const texts[TEXT_COUNT]) {
     uint64_t checksum = part->layers;
     for (int i = 0; i < text_count(part); i++)
         checksum = XXH3_64bits_withSeed(texts[i], strlen(texts[i]), checksum);
@@ -161,8 +153,7 @@ static uint64_t checksum_of_texts(const FilmPart *part, const char *const texts[
 }
 
 /* rows: `count` rows of `bytes` bytes each, the first is row y of the frame. */
-static uint64_t checksum_of_rows(const char *rows, size_t bytes, int y, int count)
-{
+static uint64_t checksum_of_rows(const char *rows, size_t bytes, int y, int count) {
     uint64_t checksum = 0;
     for (int i = 0; i < count; i++)
         checksum += XXH3_64bits_withSeed(rows + (size_t)i * bytes, bytes, (uint64_t)(y + i));
@@ -171,27 +162,27 @@ static uint64_t checksum_of_rows(const char *rows, size_t bytes, int y, int coun
 
 /* ---- into a file ------------------------------------------------------------------------- */
 
-static size_t row_bytes(const FilmPart *part, size_t pixel_bytes)
-{
+static size_t row_bytes(const FilmPart *part, size_t pixel_bytes) {
     return (size_t)(part->crop.x1 - part->crop.x0) * pixel_bytes;
 }
 
-void film_part_attach(FrameImage *frame, const Film *film, const FilmPart *part, Arena *arena)
-{
-    ExrWords     *words = ARENA_NEW(arena, ExrWords, 1);
+void film_part_attach(FrameImage *frame, const Film *film, const FilmPart *part, Arena *arena) {
+    ExrWords *words = ARENA_NEW(arena, ExrWords, 1);
     ExrAttribute *attributes = ARENA_NEW(arena, ExrAttribute, TEXT_COUNT + 2);
-    const char   *texts[TEXT_COUNT];
-    int           count = text_count(part);
+    const char *texts[TEXT_COUNT];
+    int count = text_count(part);
     make_texts(part, texts, arena);
     for (int i = 0; i < count; i++)
         attributes[i] = (ExrAttribute){text_names[i], EXR_STRING, texts[i], {0}};
     uint64_t checksum = checksum_of_texts(part, texts) +
-                        checksum_of_rows(film->pixels, row_bytes(part, film->stride),
-                                         part->crop.y0, part->crop.y1 - part->crop.y0);
+                        checksum_of_rows(film->pixels, row_bytes(part, film->stride), part->crop.y0,
+                                         part->crop.y1 - part->crop.y0);
     attributes[count] = (ExrAttribute){"parhelion:layers", EXR_INT, "", {part->layers}};
-    attributes[count + 1] = (ExrAttribute){
-        "parhelion:checksum", EXR_STRING,
-        arena_format(arena, "%016llx", (unsigned long long)checksum), {0}};
+    attributes[count + 1] =
+        (ExrAttribute){"parhelion:checksum",
+                       EXR_STRING,
+                       arena_format(arena, "%016llx", (unsigned long long)checksum),
+                       {0}};
     *words = name_words(part, arena);
     words->values = film->pixels;
     words->attribute_count = count + 2;
@@ -202,15 +193,13 @@ void film_part_attach(FrameImage *frame, const Film *film, const FilmPart *part,
 
 /* ---- and back ---------------------------------------------------------------------------- */
 
-static bool read_range(const char *text, uint32_t *first, uint32_t *end)
-{
+static bool read_range(const char *text, uint32_t *first, uint32_t *end) {
     return sscanf(text, "%u:%u", first, end) == 2 && *first <= *end && *end <= FILM_SAMPLES_MAX;
 }
 
-static bool read_dropped(const char *text, FilmDropped *dropped)
-{
+static bool read_dropped(const char *text, FilmDropped *dropped) {
     unsigned long long count;
-    int                length;
+    int length;
     if (sscanf(text, "%llu%n", &count, &length) != 1) return false;
     dropped->count = count;
     for (text += length; *text; text += length) {
@@ -224,8 +213,7 @@ static bool read_dropped(const char *text, FilmDropped *dropped)
     return (uint64_t)dropped->kept <= dropped->count;
 }
 
-static bool read_cost(const char *text, FilmPart *part)
-{
+static bool read_cost(const char *text, FilmPart *part) {
     unsigned long long n[4];
     if (sscanf(text, "%llu paths, %llu camera, %llu bounce, %llu shadow", &n[0], &n[1], &n[2],
                &n[3]) != 4)
@@ -239,16 +227,14 @@ static bool read_cost(const char *text, FilmPart *part)
 
 #define LIGHT_BYTES_MAX 96 /* of a name */
 
-static bool is_there(const char *name, const FilmLights *lights)
-{
+static bool is_there(const char *name, const FilmLights *lights) {
     for (int i = 0; i < lights->count; i++)
         if (!strcmp(name, lights->names[i])) return true;
     return false;
 }
 
 /* One name a line, none twice. */
-static bool read_lights(const char *text, Arena *arena, FilmLights *out)
-{
+static bool read_lights(const char *text, Arena *arena, FilmLights *out) {
     const char **names = ARENA_NEW(arena, const char *, FILM_LIGHTS_MAX);
     *out = (FilmLights){0, names};
     for (size_t length; *text; text += length + (text[length] == '\n')) {
@@ -262,17 +248,15 @@ static bool read_lights(const char *text, Arena *arena, FilmLights *out)
     return true;
 }
 
-static bool damaged(const char *what, Error *err)
-{
+static bool damaged(const char *what, Error *err) {
     return error_set(err, ERROR_INPUT, "damaged sums: %s cannot be read", what);
 }
 
 /* Everything is written again and compared, so that only what we write is read. */
-static bool read_texts(const FrameImage *words, FilmPart *part, uint64_t *checksum,
-                       Arena scratch, Error *err)
-{
+static bool read_texts(const FrameImage *words, FilmPart *part, uint64_t *checksum, Arena scratch,
+                       Error *err) {
     const char *texts[TEXT_COUNT], *again[TEXT_COUNT];
-    uint32_t    asked_first;
+    uint32_t asked_first;
     for (int i = 0; i < text_count(part); i++) {
         texts[i] = frame_string(words, text_names[i]);
         if (!texts[i]) return damaged(text_names[i], err);
@@ -296,15 +280,14 @@ static bool read_texts(const FrameImage *words, FilmPart *part, uint64_t *checks
     return true;
 }
 
-static bool describe(FilmPartReader *from, const ExrWords *found, Arena *arena, Error *err)
-{
+static bool describe(FilmPartReader *from, const ExrWords *found, Arena *arena, Error *err) {
     const ExrPicture *picture = exr_reader_picture(from->file);
-    const FrameImage  words = {.attribute_count = found->attribute_count,
-                               .attributes = (ExrAttribute *)found->attributes};
+    const FrameImage words = {.attribute_count = found->attribute_count,
+                              .attributes = (ExrAttribute *)found->attributes};
     const ExrAttribute *layers = frame_attribute(&words, "parhelion:layers");
-    const char         *checksum = frame_string(&words, "parhelion:checksum");
-    unsigned long long  wanted;
-    FilmPart           *part = &from->part;
+    const char *checksum = frame_string(&words, "parhelion:checksum");
+    unsigned long long wanted;
+    FilmPart *part = &from->part;
     if (!layers || layers->kind != EXR_INT ||
         ((unsigned)layers->values[0] & ~(unsigned)LAYER_EVERY))
         return damaged("parhelion:layers", err);
@@ -316,26 +299,23 @@ static bool describe(FilmPartReader *from, const ExrWords *found, Arena *arena, 
         return damaged("the windows", err);
     part->width = picture->display.x1;
     part->height = picture->display.y1;
-    part->crop = (FilmRect){picture->data.x0, picture->data.y0, picture->data.x1,
-                            picture->data.y1};
+    part->crop = (FilmRect){picture->data.x0, picture->data.y0, picture->data.x1, picture->data.y1};
     part->layers = (unsigned)layers->values[0];
     const char *lights = frame_string(&words, text_names[TEXT_LIGHTS]);
     if ((part->layers & LAYER_LIGHT) && (!lights || !read_lights(lights, arena, &part->lights)))
         return damaged(text_names[TEXT_LIGHTS], err);
     Arena scratch = *arena;
-    int   words_wanted = name_words(part, &scratch).count;
+    int words_wanted = name_words(part, &scratch).count;
     if (words_wanted != found->count)
-        return error_set(err, ERROR_INPUT,
-                         "damaged sums: %d words a pixel, its layers have %d", found->count,
-                         words_wanted);
+        return error_set(err, ERROR_INPUT, "damaged sums: %d words a pixel, its layers have %d",
+                         found->count, words_wanted);
     from->wanted_checksum = wanted;
     from->next_y = part->crop.y0;
     return read_texts(&words, part, &from->checksum, scratch, err);
 }
 
-bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *err)
-{
-    FilmPartReader  from = {.part.name = path};
+bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *err) {
+    FilmPartReader from = {.part.name = path};
     const ExrWords *found = NULL;
     if (!exr_reader_open(path, &from.file, err)) return false;
     bool done = exr_reader_words(from.file, PART_NAME, &found, err) &&
@@ -349,26 +329,23 @@ bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *
     return done;
 }
 
-static bool check_checksum(const FilmPartReader *from, Error *err)
-{
+static bool check_checksum(const FilmPartReader *from, Error *err) {
     if (from->checksum == from->wanted_checksum) return true;
     return error_set(err, ERROR_INPUT,
                      "damaged sums: their checksum is %016llx, the file says %016llx",
-                     (unsigned long long)from->checksum,
-                     (unsigned long long)from->wanted_checksum);
+                     (unsigned long long)from->checksum, (unsigned long long)from->wanted_checksum);
 }
 
-bool film_part_add_band(FilmPartReader *from, Film *to, Arena scratch, Error *err)
-{
+bool film_part_add_band(FilmPartReader *from, Film *to, Arena scratch, Error *err) {
     const FilmPart *part = &from->part;
-    size_t          row = row_bytes(part, to->stride);
-    int             rows = (int)(BAND_BYTES / row) / CHUNK_ROWS * CHUNK_ROWS;
-    int             left = part->crop.y1 - from->next_y;
+    size_t row = row_bytes(part, to->stride);
+    int rows = (int)(BAND_BYTES / row) / CHUNK_ROWS * CHUNK_ROWS;
+    int left = part->crop.y1 - from->next_y;
     if (rows < CHUNK_ROWS) rows = CHUNK_ROWS;
     if (rows > left) rows = left;
     FilmRect rect = {part->crop.x0, from->next_y, part->crop.x1, from->next_y + rows};
     ExrWords words = name_words(part, &scratch);
-    char    *values = arena_alloc(&scratch, row, _Alignof(PixelSums), (size_t)rows);
+    char *values = arena_alloc(&scratch, row, _Alignof(PixelSums), (size_t)rows);
     assert(part->layers == to->layers);
     if (!exr_reader_read_words(from->file, &words, rect.y0, rect.y1, values, err) ||
         !film_add_pixels(to, rect, values, part->end_sample - part->first_sample, err))
@@ -380,8 +357,7 @@ bool film_part_add_band(FilmPartReader *from, Film *to, Arena scratch, Error *er
     return check_checksum(from, err);
 }
 
-void film_part_close(FilmPartReader *from)
-{
+void film_part_close(FilmPartReader *from) {
     exr_reader_destroy(from->file);
     from->file = NULL;
 }

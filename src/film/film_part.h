@@ -37,16 +37,16 @@
 #include "image/frame.h"
 
 typedef struct FilmPart {
-    const char *name;       /* of the file, for messages; not in the file */
-    int         width, height; /* of the whole frame */
-    FilmRect    crop;
-    unsigned    layers;
-    FilmLights  lights;
-    uint32_t    first_sample, end_sample; /* half-open, of the frame: of these
-                                             every pixel has had its share */
-    uint32_t    asked_end;  /* where the run was to end: above end_sample when it was stopped */
+    const char *name;  /* of the file, for messages; not in the file */
+    int width, height; /* of the whole frame */
+    FilmRect crop;
+    unsigned layers;
+    FilmLights lights;
+    uint32_t first_sample, end_sample; /* half-open, of the frame: of these
+                                          every pixel has had its share */
+    uint32_t asked_end; /* where the run was to end: above end_sample when it was stopped */
     FilmDropped dropped;
-    uint64_t    paths, camera_rays, bounce_rays, shadow_rays; /* what the samples cost */
+    uint64_t paths, camera_rays, bounce_rays, shadow_rays; /* what the samples cost */
 } FilmPart;
 
 /* Pixels times samples. */
@@ -64,13 +64,13 @@ void film_part_attach(FrameImage *frame, const Film *film, const FilmPart *part,
 /* A file that is read band by band. */
 typedef struct FilmPartReader {
     ExrReader *file;
-    FilmPart   part;
-    uint64_t   checksum, wanted_checksum;
-    int        next_y; /* the row that comes next; part.crop.y1: all is read */
+    FilmPart part;
+    uint64_t checksum, wanted_checksum;
+    int next_y; /* the row that comes next; part.crop.y1: all is read */
 } FilmPartReader;
 
-/* Refuses frames that carry no sums, and sums that this program does not know (ERROR_MACHINE). The names of
- * lights are the arena's. */
+/* Refuses frames that carry no sums, and sums that this program does not know (ERROR_MACHINE). The
+ * names of lights are the arena's. */
 bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *err);
 
 /* Adds the next band of rows to a film of the same layers whose crop holds the part's. With

@@ -10,49 +10,41 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the lower bytes come first");
 
 /* Numbers of a pixel with all layers. */
-#define MOST_NUMBERS                                                                           \
-    (sizeof(PixelSums) / sizeof(Fixed) + 4 * SUMS_COUNT + 3 * FILM_LIGHTS_MAX)
+#define MOST_NUMBERS (sizeof(PixelSums) / sizeof(Fixed) + 4 * SUMS_COUNT + 3 * FILM_LIGHTS_MAX)
 
 __extension__ typedef unsigned __int128 Bits;
 
-size_t film_pixel_bytes(const Film *film)
-{
+size_t film_pixel_bytes(const Film *film) {
     return film->stride;
 }
 
-static size_t number_count(const Film *film)
-{
+static size_t number_count(const Film *film) {
     return film->stride / sizeof(Fixed);
 }
 
-static size_t row_pixels(const Film *film)
-{
+static size_t row_pixels(const Film *film) {
     return (size_t)(film->crop.x1 - film->crop.x0);
 }
 
-size_t film_packed_bytes_max(const Film *film)
-{
+size_t film_packed_bytes_max(const Film *film) {
     return number_count(film) + row_pixels(film) * film->stride;
 }
 
-static const Fixed *row_begin(const Film *film, int y)
-{
+static const Fixed *row_begin(const Film *film, int y) {
     return (const Fixed *)(const void *)film_sums(film, film->crop.x0, y);
 }
 
 /* ---- packing ----------------------------------------------------------------------------- */
 
 /* Bytes that hold a number whose bits differ from its sign only in those of `bits`. */
-static int width_of(Bits bits)
-{
+static int width_of(Bits bits) {
     int width = 1;
     while (width < 16 && bits >> (8 * width - 1)) width++;
     return width;
 }
 
 /* For every number of a pixel: its width in this row. */
-static void find_widths(const Fixed *row, size_t pixels, size_t numbers, unsigned char *widths)
-{
+static void find_widths(const Fixed *row, size_t pixels, size_t numbers, unsigned char *widths) {
     for (size_t n = 0; n < numbers; n++) {
         Bits magnitude = 0, any = 0;
         for (size_t i = 0; i < pixels; i++) {
@@ -64,20 +56,18 @@ static void find_widths(const Fixed *row, size_t pixels, size_t numbers, unsigne
     }
 }
 
-size_t film_packed_bytes(const Film *film, int y)
-{
+size_t film_packed_bytes(const Film *film, int y) {
     unsigned char widths[MOST_NUMBERS];
-    size_t        numbers = number_count(film), pixels = row_pixels(film), bytes = numbers;
+    size_t numbers = number_count(film), pixels = row_pixels(film), bytes = numbers;
     assert(numbers <= MOST_NUMBERS);
     find_widths(row_begin(film, y), pixels, numbers, widths);
     for (size_t n = 0; n < numbers; n++) bytes += widths[n] * pixels;
     return bytes;
 }
 
-size_t film_pack_row(const Film *film, int y, unsigned char *out)
-{
-    size_t         numbers = number_count(film), pixels = row_pixels(film);
-    const Fixed   *row = row_begin(film, y);
+size_t film_pack_row(const Film *film, int y, unsigned char *out) {
+    size_t numbers = number_count(film), pixels = row_pixels(film);
+    const Fixed *row = row_begin(film, y);
     unsigned char *next = out + numbers;
     find_widths(row, pixels, numbers, out);
     for (size_t n = 0; n < numbers; n++)
@@ -88,13 +78,11 @@ size_t film_pack_row(const Film *film, int y, unsigned char *out)
 
 /* ---- and back ---------------------------------------------------------------------------- */
 
-static bool damaged(int y, Error *err)
-{
+static bool damaged(int y, Error *err) {
     return error_set(err, ERROR_INPUT, "damaged sums: row %d is not as a film packs it", y);
 }
 
-static Fixed number_of(const unsigned char *bytes, int width)
-{
+static Fixed number_of(const unsigned char *bytes, int width) {
     Bits value = 0;
     if (!width) return 0;
     memcpy(&value, bytes, (size_t)width);
@@ -103,8 +91,7 @@ static Fixed number_of(const unsigned char *bytes, int width)
 }
 
 bool film_unpack_row(Film *film, int y, PackedRow packed, uint32_t most_samples, Arena scratch,
-                     Error *err)
-{
+                     Error *err) {
     const unsigned char *widths = packed.bytes;
     size_t numbers = number_count(film), pixels = row_pixels(film), wanted = numbers;
     if (packed.size < numbers) return damaged(y, err);
@@ -113,7 +100,7 @@ bool film_unpack_row(Film *film, int y, PackedRow packed, uint32_t most_samples,
         wanted += widths[n] * pixels;
     }
     if (packed.size != wanted) return damaged(y, err);
-    Fixed               *row = ARENA_NEW(&scratch, Fixed, numbers * pixels);
+    Fixed *row = ARENA_NEW(&scratch, Fixed, numbers * pixels);
     const unsigned char *next = widths + numbers;
     for (size_t n = 0; n < numbers; n++)
         for (size_t i = 0; i < pixels; i++, next += widths[n])

@@ -32,7 +32,7 @@ size_t film_pack_row(const Film *film, int y, unsigned char *out);
 
 typedef struct PackedRow {
     const unsigned char *bytes;
-    size_t               size;
+    size_t size;
 } PackedRow;
 
 /* Adds a packed row, which came from a film of the same crop and layers, to an empty row.

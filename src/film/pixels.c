@@ -7,7 +7,7 @@
 
 #define AT(member) offsetof(FilmSample, member)
 #define OWN NO_MEMBER
-#define SUMS_ROW(NAME, name, letters, users, member)                                           \
+#define SUMS_ROW(NAME, name, letters, users, member) \
     {name, letters, sizeof letters - 1, users, member},
 
 const SumsRow sums_rows[SUMS_COUNT] = {FILM_SUMS(SUMS_ROW)};
@@ -15,27 +15,23 @@ const SumsRow sums_rows[SUMS_COUNT] = {FILM_SUMS(SUMS_ROW)};
 /* (sum of squares - (sum)^2 / n) / (n - 1) / n for each of R, G, B, of sums of XYZ and of
  * squares of RGB. */
 static void variance_of(const double xyz[3], const double squares[3], double n,
-                        double variance[3])
-{
+                        double variance[3]) {
     for (int i = 0; i < 3; i++) {
         const float *row = rgb_from_xyz_matrix + 3 * i;
-        double       sum = (double)row[0] * xyz[0] + (double)row[1] * xyz[1] +
-                     (double)row[2] * xyz[2];
+        double sum = (double)row[0] * xyz[0] + (double)row[1] * xyz[1] + (double)row[2] * xyz[2];
         double spread = squares[i] - sum * sum / n;
         variance[i] = n < 2 ? (double)NAN : spread > 0 ? spread / (n - 1) / n : 0;
     }
 }
 
 /* from: small and large ones of R, then of G and B. */
-static void squares_of(const Fixed *from, int low_bits, double squares[3])
-{
+static void squares_of(const Fixed *from, int low_bits, double squares[3]) {
     for (int i = 0; i < 3; i++)
         squares[i] = double_from_fixed(from[2 * i], low_bits) +
                      double_from_fixed(from[2 * i + 1], SQUARE_HIGH_BITS);
 }
 
-void pixel_variance(const PixelSums *sums, double variance[3])
-{
+void pixel_variance(const PixelSums *sums, double variance[3]) {
     double xyz[3], squares[3];
     for (int i = 0; i < 3; i++) xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS);
     squares_of(&sums->squares[0][0], SQUARE_LOW_BITS, squares);
@@ -44,13 +40,11 @@ void pixel_variance(const PixelSums *sums, double variance[3])
 
 /* ---- displays ---------------------------------------------------------------------------- */
 
-static Fixed light_of(const DisplaySums *sums, int i)
-{
+static Fixed light_of(const DisplaySums *sums, int i) {
     return sums->emitted[i] + sums->reflected[i];
 }
 
-void pixel_display_variance(const DisplaySums *sums, double variance[3])
-{
+void pixel_display_variance(const DisplaySums *sums, double variance[3]) {
     double xyz[3], squares[3];
     for (int i = 0; i < 3; i++) xyz[i] = double_from_fixed(light_of(sums, i), FIXED_BITS);
     squares_of(sums->squares, SQUARE_LOW_BITS, squares);
@@ -59,8 +53,7 @@ void pixel_display_variance(const DisplaySums *sums, double variance[3])
 
 #define SAME_DISPLAY 1e-12 /* of Q^2: less than other displays make with 10^12 samples */
 
-SecondDisplay pixel_second_display(const DisplaySums *sums, int first)
-{
+SecondDisplay pixel_second_display(const DisplaySums *sums, int first) {
     SecondDisplay none = {.id = NO_SECOND}, several = {.id = SEVERAL};
     double hits = sums->hits, d = first, powers[3];
     for (int i = 0; i < 3; i++) powers[i] = (double)sums->shared[i];
@@ -86,9 +79,8 @@ SecondDisplay pixel_second_display(const DisplaySums *sums, int first)
 }
 
 /* odd: samples of sum_odd, of n. */
-static bool halves_of(const Fixed sum[3], const Fixed sum_odd[3], double n, double odd,
-                      int least, double xyz[3])
-{
+static bool halves_of(const Fixed sum[3], const Fixed sum_odd[3], double n, double odd, int least,
+                      double xyz[3]) {
     double even = n - odd;
     if (odd < least || even < least) return false;
     for (int i = 0; i < 3; i++) {
@@ -99,43 +91,37 @@ static bool halves_of(const Fixed sum[3], const Fixed sum_odd[3], double n, doub
     return true;
 }
 
-bool pixel_halves(const PixelSums *sums, int least, double xyz[3])
-{
+bool pixel_halves(const PixelSums *sums, int least, double xyz[3]) {
     return halves_of(sums->xyz, sums->odd_xyz, (double)sums->samples, (double)sums->odd_samples,
                      least, xyz);
 }
 
 bool pixel_display_halves(const PixelSums *sums, const Fixed reflected[3], const Fixed odd[4],
-                          int least, double xyz[3])
-{
+                          int least, double xyz[3]) {
     return halves_of(reflected, odd, (double)sums->display_hits,
                      double_from_fixed(odd[3], FIXED_BITS), least, xyz);
 }
 
 /* From the samples' spread, as if they were independent: the most it can be. */
-static double sigma_of_spread(const double variance_rgb[3])
-{
+static double sigma_of_spread(const double variance_rgb[3]) {
     return 0.2126 * sqrt(variance_rgb[0]) + 0.7152 * sqrt(variance_rgb[1]) +
            0.0722 * sqrt(variance_rgb[2]);
 }
 
 /* One difference d of two normal means gives sigma only in the mean over pixels, where E|d| =
  * sqrt(2 / pi) sigma_d. */
-static double sigma_of_halves(double difference)
-{
+static double sigma_of_halves(double difference) {
     return 1.2533141373155003 * fabs(difference);
 }
 
-double pixel_sigma_y(const PixelSums *sums)
-{
+double pixel_sigma_y(const PixelSums *sums) {
     double variance_rgb[3], halves[3];
     if (pixel_halves(sums, BLOCK_SAMPLES, halves)) return sigma_of_halves(halves[1]);
     pixel_variance(sums, variance_rgb);
     return sigma_of_spread(variance_rgb);
 }
 
-double pixel_square_y(const PixelSums *sums)
-{
+double pixel_square_y(const PixelSums *sums) {
     double halves[3], sigma;
     if (pixel_halves(sums, BLOCK_SAMPLES, halves)) return halves[1] * halves[1];
     sigma = pixel_sigma_y(sums);

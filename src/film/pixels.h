@@ -13,11 +13,11 @@
 
 __extension__ typedef __int128 Fixed;
 
-#define FIXED_BITS 48          /* a step is 2^-48: XYZ and layers */
-#define SQUARE_LOW_BITS 61     /* a step is 2^-61: squares below SQUARE_SPLIT */
-#define SQUARE_HIGH_BITS (-5)  /* a step is 2^5: the others */
+#define FIXED_BITS 48         /* a step is 2^-48: XYZ and layers */
+#define SQUARE_LOW_BITS 61    /* a step is 2^-61: squares below SQUARE_SPLIT */
+#define SQUARE_HIGH_BITS (-5) /* a step is 2^5: the others */
 #define SQUARE_SPLIT 0x1p34
-#define SHARED_LOW_BITS 45     /* so that ids of 16 bits stay in range */
+#define SHARED_LOW_BITS 45 /* so that ids of 16 bits stay in range */
 #define VALUE_LIMIT ((float)FILM_MOST_CD_M2)
 #define NO_SAMPLE 0xffffffffu
 #define BLOCK_SAMPLES 16 /* consecutive samples that are well spread among themselves */
@@ -29,38 +29,38 @@ typedef enum LayerSums { FILM_SUMS(SUMS_ID) SUMS_COUNT } LayerSums;
 #define SUMS_FIRST_DISPLAY SUMS_EMITTED
 
 typedef struct PixelSums {
-    Fixed    xyz[3];
-    Fixed    squares[3][2]; /* of linear Rec.709 R, G, B: [0] small, [1] large squares */
-    Fixed    odd_xyz[3];   /* of the samples in every second block of BLOCK_SAMPLES */
+    Fixed xyz[3];
+    Fixed squares[3][2]; /* of linear Rec.709 R, G, B: [0] small, [1] large squares */
+    Fixed odd_xyz[3];    /* of the samples in every second block of BLOCK_SAMPLES */
     uint32_t samples, hits, display_hits;
-    uint32_t part_sample;    /* lowest sample index that hit; NO_SAMPLE: none */
-    int32_t  part_id;
+    uint32_t part_sample; /* lowest sample index that hit; NO_SAMPLE: none */
+    int32_t part_id;
     uint32_t display_sample; /* lowest sample index that saw a display */
-    int32_t  display_id;
-    uint32_t odd_samples;  /* how many odd_xyz holds */
-    Fixed    layers[];
+    int32_t display_id;
+    uint32_t odd_samples; /* how many odd_xyz holds */
+    Fixed layers[];
 } PixelSums;
 
 struct Film {
-    int      width, height;
+    int width, height;
     FilmRect crop;
     unsigned layers;
-    bool     has_blind; /* pixels without samples are out of view */
-    int      first[SUMS_COUNT]; /* index into PixelSums.layers, -1: not kept */
-    FilmLights lights;          /* none without LAYER_LIGHT */
-    int      first_light;       /* where those of the first group stand */
-    size_t   stride;            /* bytes a pixel */
-    char    *pixels;
-    pthread_mutex_t lock;       /* guards dropped: taken only when a sample is lost */
-    FilmDropped     dropped;
+    bool has_blind;        /* pixels without samples are out of view */
+    int first[SUMS_COUNT]; /* index into PixelSums.layers, -1: not kept */
+    FilmLights lights;     /* none without LAYER_LIGHT */
+    int first_light;       /* where those of the first group stand */
+    size_t stride;         /* bytes a pixel */
+    char *pixels;
+    pthread_mutex_t lock; /* guards dropped: taken only when a sample is lost */
+    FilmDropped dropped;
 };
 
 /* One of FILM_SUMS. */
 typedef struct SumsRow {
     const char *name, *letters; /* one number a letter */
-    int         size;
-    unsigned    users;
-    size_t      member; /* offset in FilmSample; NO_MEMBER: film.c computes it */
+    int size;
+    unsigned users;
+    size_t member; /* offset in FilmSample; NO_MEMBER: film.c computes it */
 } SumsRow;
 
 #define NO_MEMBER ((size_t)-1)
@@ -84,9 +84,9 @@ void pixel_variance(const PixelSums *sums, double variance[3]);
 
 /* Sums over the samples that saw a display. */
 typedef struct DisplaySums {
-    double       hits;
-    const Fixed *emitted, *reflected;  /* XYZ */
-    const Fixed *squares, *shared;     /* of SUMS_SQUARES, SUMS_SHARED */
+    double hits;
+    const Fixed *emitted, *reflected; /* XYZ */
+    const Fixed *squares, *shared;    /* of SUMS_SQUARES, SUMS_SHARED */
 } DisplaySums;
 
 /* The same of the light of displays alone, over the samples that saw one. */
@@ -94,9 +94,9 @@ void pixel_display_variance(const DisplaySums *sums, double variance[3]);
 
 /* A second display of a pixel. */
 typedef struct SecondDisplay {
-    int    id;      /* NO_SECOND: there is none; SEVERAL: more, which are not told apart */
-    double samples; /* that saw it */
-    double xyz[3];  /* mean over these, cd m^-2 */
+    int id;             /* NO_SECOND: there is none; SEVERAL: more, which are not told apart */
+    double samples;     /* that saw it */
+    double xyz[3];      /* mean over these, cd m^-2 */
     double variance[3]; /* of the mean's R, G, B; NaN below two samples */
 } SecondDisplay;
 
@@ -114,24 +114,21 @@ double pixel_sigma_y(const PixelSums *sums);
 double pixel_square_y(const PixelSums *sums);
 
 /* index: row by row of the crop. */
-static inline PixelSums *film_sums_at(const Film *film, size_t index)
-{
+static inline PixelSums *film_sums_at(const Film *film, size_t index) {
     return (PixelSums *)(void *)(film->pixels + index * film->stride);
 }
 
-static inline PixelSums *film_sums(const Film *film, int x, int y)
-{
+static inline PixelSums *film_sums(const Film *film, int x, int y) {
     size_t index = (size_t)(y - film->crop.y0) * (size_t)(film->crop.x1 - film->crop.x0) +
                    (size_t)(x - film->crop.x0);
     return film_sums_at(film, index);
 }
 
 /* bits: a step is 2^-bits, of the size of a double's exponent. */
-static inline double double_from_fixed(Fixed value, int bits)
-{
+static inline double double_from_fixed(Fixed value, int bits) {
     union {
         uint64_t bits;
-        double   value;
+        double value;
     } step = {(uint64_t)(1023 - bits) << 52};
     return (double)value * step.value;
 }

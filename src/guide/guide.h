@@ -37,22 +37,22 @@ typedef uint16_t GuideRow __attribute__((vector_size(2 * GUIDE_SIDE), aligned(32
 typedef struct GuideLamps {
     int32_t count; /* 0: the cell knows of none */
     int32_t id[GUIDE_LAMPS];
-    float   arrives[GUIDE_LAMPS]; /* share, in (0, 1]; 0 of those not used */
-    float   others; /* share of the samples that go to all other lamps */
+    float arrives[GUIDE_LAMPS]; /* share, in (0, 1]; 0 of those not used */
+    float others;               /* share of the samples that go to all other lamps */
 } GuideLamps;
 
 typedef struct GuideCell {
     GuideRow light[GUIDE_AIMS][GUIDE_SIDE]; /* through each bin, in any unit: lane x of row y */
-    float    asked[GUIDE_LIGHTS]; /* with which probability a surface samples each set */
+    float asked[GUIDE_LIGHTS];              /* with which probability a surface samples each set */
     GuideLamps lamps;
-    float    is_lit;              /* 1: it was trained; else 0 */
+    float is_lit; /* 1: it was trained; else 0 */
 } GuideCell;
 
 /* An inner node parts its box at `plane` along `axis`; its children stand at child and
  * behind it. */
 typedef struct GuideNode {
-    float    plane;
-    int      axis;
+    float plane;
+    int axis;
     uint32_t child; /* 0: a leaf, whose cell this is: */
     uint32_t cell;
 } GuideNode;
@@ -62,16 +62,16 @@ typedef struct GuideNode {
 typedef struct LightGuide {
     GuideNode *nodes; /* the first is the root */
     GuideCell *cells;
-    uint32_t   node_count, cell_count;
-    bool       asks; /* the cells know how often to sample the lights */
-    Spectrum   bin[3][GUIDE_SIDE]; /* x, y, z of every bin's middle, a unit vector */
+    uint32_t node_count, cell_count;
+    bool asks;                   /* the cells know how often to sample the lights */
+    Spectrum bin[3][GUIDE_SIDE]; /* x, y, z of every bin's middle, a unit vector */
 } LightGuide;
 
 /* Directions to choose from. */
 typedef struct GuideChoice {
     Spectrum weight[GUIDE_SIDE]; /* of every bin */
     Spectrum column;             /* their sums */
-    float    sum;                /* 0: there are none */
+    float sum;                   /* 0: there are none */
 } GuideChoice;
 
 /* The guide as one surface sees it. */
@@ -84,9 +84,9 @@ uint32_t guide_cell_at(const LightGuide *guide, Vec3 position);
 
 /* A simplified surface and the eye's direction: its light from every direction to wo. */
 typedef struct GuideSurface {
-    Vec3  ns, wo;          /* unit, world, on the same side */
-    float diffuse;         /* Lambert's albedo */
-    float f0, f90, alpha;  /* of GGX facets */
+    Vec3 ns, wo;          /* unit, world, on the same side */
+    float diffuse;        /* Lambert's albedo */
+    float f0, f90, alpha; /* of GGX facets */
 } GuideSurface;
 
 void guide_view(const LightGuide *guide, uint32_t cell, const GuideSurface *surface,

@@ -20,9 +20,9 @@ bool guide_write(const char *path, const LightGuide *guide, Arena scratch, Error
 /* Lights of the scene: cells must sample them now and then. */
 typedef struct GuideScene {
     bool has[GUIDE_LIGHTS]; /* lights of the set */
-    int  light_count;       /* ids of lamps are below this, */
-    int  lamp_count;        /* and so many of them give any light */
+    int light_count;        /* ids of lamps are below this, */
+    int lamp_count;         /* and so many of them give any light */
 } GuideScene;
 
-bool guide_read(const char *path, const GuideScene *scene, Arena *arena,
-                const LightGuide **out, Error *err);
+bool guide_read(const char *path, const GuideScene *scene, Arena *arena, const LightGuide **out,
+                Error *err);

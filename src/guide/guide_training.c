@@ -11,14 +11,12 @@
 
 /* ---- the tree ---------------------------------------------------------------------------- */
 
-static float coordinate(const GuidePlace *place, int axis)
-{
+static float coordinate(const GuidePlace *place, int axis) {
     return axis == 0 ? place->position.x : axis == 1 ? place->position.y : place->position.z;
 }
 
 /* The axis along which the places are spread most. */
-static int widest(const GuidePlace *places, uint32_t count)
-{
+static int widest(const GuidePlace *places, uint32_t count) {
     double variance[3];
     for (int axis = 0; axis < 3; axis++) {
         double sum = 0, squares = 0;
@@ -30,12 +28,12 @@ static int widest(const GuidePlace *places, uint32_t count)
         variance[axis] = squares / count - sum / count * (sum / count);
     }
     return variance[0] >= variance[1] && variance[0] >= variance[2] ? 0
-           : variance[1] >= variance[2] ? 1 : 2;
+           : variance[1] >= variance[2]                             ? 1
+                                                                    : 2;
 }
 
 /* Puts places below `plane` first; returns how many they are. Keeps no order. */
-static uint32_t below(GuidePlace *places, uint32_t count, int axis, float plane)
-{
+static uint32_t below(GuidePlace *places, uint32_t count, int axis, float plane) {
     uint32_t low = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (!(coordinate(&places[i], axis) < plane)) continue;
@@ -47,15 +45,14 @@ static uint32_t below(GuidePlace *places, uint32_t count, int axis, float plane)
 }
 
 /* The median, by halving the range of values. */
-static float median(const GuidePlace *places, uint32_t count, int axis)
-{
+static float median(const GuidePlace *places, uint32_t count, int axis) {
     float low = coordinate(&places[0], axis), high = low;
     for (uint32_t i = 1; i < count; i++) {
         low = fminf(low, coordinate(&places[i], axis));
         high = fmaxf(high, coordinate(&places[i], axis));
     }
     for (int step = 0; step < 24; step++) {
-        float    middle = 0.5f * (low + high);
+        float middle = 0.5f * (low + high);
         uint32_t smaller = 0;
         for (uint32_t i = 0; i < count; i++) smaller += coordinate(&places[i], axis) < middle;
         if (smaller * 2 <= count) low = middle;
@@ -65,18 +62,17 @@ static float median(const GuidePlace *places, uint32_t count, int axis)
 }
 
 typedef struct TreeBuild {
-    LightGuide    *guide;
+    LightGuide *guide;
     uint32_t *first_place;
-    uint32_t  most;
+    uint32_t most;
     const GuidePlace *all;
 } TreeBuild;
 
 /* Cells come in the order of their places. */
-static void part(TreeBuild *build, uint32_t node, GuidePlace *places, uint32_t count)
-{
-    LightGuide   *guide = build->guide;
-    int      axis = 0;
-    float    plane = 0;
+static void part(TreeBuild *build, uint32_t node, GuidePlace *places, uint32_t count) {
+    LightGuide *guide = build->guide;
+    int axis = 0;
+    float plane = 0;
     uint32_t low = 0;
     if (count > build->most) {
         axis = widest(places, count);
@@ -98,15 +94,13 @@ static void part(TreeBuild *build, uint32_t node, GuidePlace *places, uint32_t c
 
 /* Medians leave cells of more than half of `most`: were there more of those than the guide
  * holds, the places that come last would share one. */
-static uint32_t most_a_cell(uint32_t count, uint32_t most)
-{
+static uint32_t most_a_cell(uint32_t count, uint32_t most) {
     uint32_t least = 2 * (count / GUIDE_CELLS_MAX + 1);
     return most > least || count <= GUIDE_CELLS_MAX ? most : least;
 }
 
 GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t most,
-                                    Arena *arena)
-{
+                                    Arena *arena) {
     GuideTraining *training = ARENA_NEW(arena, GuideTraining, 1);
     LightGuide *guide = &training->guide;
     guide->nodes = ARENA_NEW(arena, GuideNode, NODES_MAX);
@@ -129,8 +123,7 @@ GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t
 
 /* ---- training passes --------------------------------------------------------------------- */
 
-void guide_training_choose(GuideTraining *training, int round)
-{
+void guide_training_choose(GuideTraining *training, int round) {
     for (uint32_t cell = 0; cell < training->guide.cell_count; cell++) {
         CellTraining *own = &training->cells[cell];
         uint32_t first = training->first_place[cell];
@@ -149,8 +142,7 @@ typedef struct BinFinds {
     double sum[GUIDE_BINS], count[GUIDE_BINS];
 } BinFinds;
 
-static void add_finds(const CellTraining *own, GuideAim aim, BinFinds *finds)
-{
+static void add_finds(const CellTraining *own, GuideAim aim, BinFinds *finds) {
     for (int i = 0; i < GUIDE_BINS; i++) {
         finds->sum[i] += (double)own->sums[aim][i];
         finds->count[i] += own->counts[i];
@@ -160,8 +152,7 @@ static void add_finds(const CellTraining *own, GuideAim aim, BinFinds *finds)
 /* Few rays of its own find a small light by luck: those of neighbours, which see much the
  * same, count a little, too. */
 static void with_neighbours(const GuideTraining *training, uint32_t cell, GuideAim aim,
-                            BinFinds *finds)
-{
+                            BinFinds *finds) {
     uint32_t first = cell > NEIGHBOURS ? cell - NEIGHBOURS : 0;
     uint32_t end = cell + NEIGHBOURS + 1;
     BinFinds all = {.count = {0}};
@@ -175,26 +166,23 @@ static void with_neighbours(const GuideTraining *training, uint32_t cell, GuideA
 }
 
 /* The mean luminance of a bin times its solid angle, up to a factor. */
-static double bin_light(const LightGuide *guide, const BinFinds *finds, int bin)
-{
-    int    row = bin / GUIDE_SIDE, lane = bin % GUIDE_SIDE;
+static double bin_light(const LightGuide *guide, const BinFinds *finds, int bin) {
+    int row = bin / GUIDE_SIDE, lane = bin % GUIDE_SIDE;
     double taxicab = 0;
     for (int k = 0; k < 3; k++) taxicab += fabs((double)guide->bin[k][row][lane]);
-    return finds->count[bin] > 0
-           ? finds->sum[bin] / finds->count[bin] * taxicab * taxicab * taxicab : 0;
+    return finds->count[bin] > 0 ? finds->sum[bin] / finds->count[bin] * taxicab * taxicab * taxicab
+                                 : 0;
 }
 
 /* A little is left everywhere: what the training pass did not find may be there all the
  * same. */
 static bool update_aim(const GuideTraining *training, uint32_t cell, GuideAim aim,
-                       GuideRow out[GUIDE_SIDE])
-{
+                       GuideRow out[GUIDE_SIDE]) {
     BinFinds finds = {.count = {0}};
-    double   light[GUIDE_BINS], total = 0, most = 0;
+    double light[GUIDE_BINS], total = 0, most = 0;
     add_finds(&training->cells[cell], aim, &finds);
     with_neighbours(training, cell, aim, &finds);
-    for (int i = 0; i < GUIDE_BINS; i++)
-        total += light[i] = bin_light(&training->guide, &finds, i);
+    for (int i = 0; i < GUIDE_BINS; i++) total += light[i] = bin_light(&training->guide, &finds, i);
     for (int i = 0; i < GUIDE_BINS && total > 0; i++) {
         light[i] = (1 - LEAST) * light[i] / total + LEAST / GUIDE_BINS;
         most = fmax(most, light[i]);
@@ -204,8 +192,7 @@ static bool update_aim(const GuideTraining *training, uint32_t cell, GuideAim ai
     return total > 0;
 }
 
-void guide_training_update(GuideTraining *training, uint32_t cell)
-{
+void guide_training_update(GuideTraining *training, uint32_t cell) {
     GuideCell *out = &training->guide.cells[cell];
     bool has_light = update_aim(training, cell, GUIDE_LIGHT, out->light[GUIDE_LIGHT]);
     bool has_sky = update_aim(training, cell, GUIDE_SKY, out->light[GUIDE_SKY]);
@@ -213,12 +200,11 @@ void guide_training_update(GuideTraining *training, uint32_t cell)
 }
 
 /* A plane's illuminance by bins of this light, up to a factor. */
-static double illuminance(const LightGuide *guide, const float light[GUIDE_BINS], Vec3 normal)
-{
-    float  lane[GUIDE_SIDE] = {0};
+static double illuminance(const LightGuide *guide, const float light[GUIDE_BINS], Vec3 normal) {
+    float lane[GUIDE_SIDE] = {0};
     double sum = 0;
     for (int i = 0; i < GUIDE_BINS; i++) {
-        int   row = i / GUIDE_SIDE, x = i % GUIDE_SIDE;
+        int row = i / GUIDE_SIDE, x = i % GUIDE_SIDE;
         float cosine = normal.x * guide->bin[0][row][x] + normal.y * guide->bin[1][row][x] +
                        normal.z * guide->bin[2][row][x];
         lane[x] += light[i] * fmaxf(cosine, 0);
@@ -227,15 +213,13 @@ static double illuminance(const LightGuide *guide, const float light[GUIDE_BINS]
     return sum;
 }
 
-double guide_training_illuminance(const GuideTraining *training, uint32_t cell)
-{
+double guide_training_illuminance(const GuideTraining *training, uint32_t cell) {
     uint32_t first = training->first_place[cell], end = training->first_place[cell + 1];
     BinFinds finds = {.count = {0}};
-    float    light[GUIDE_BINS];
-    double   sum = 0;
+    float light[GUIDE_BINS];
+    double sum = 0;
     add_finds(&training->cells[cell], GUIDE_LIGHT, &finds);
-    for (int i = 0; i < GUIDE_BINS; i++)
-        light[i] = (float)bin_light(&training->guide, &finds, i);
+    for (int i = 0; i < GUIDE_BINS; i++) light[i] = (float)bin_light(&training->guide, &finds, i);
     for (uint32_t p = first; p < end; p++)
         sum += illuminance(&training->guide, light, training->places[p].normal);
     return end > first ? sum * 4 / GUIDE_BINS / (double)(end - first) : 0;

@@ -21,15 +21,15 @@ typedef struct GuidePlace {
 /* Points of one cell that a round traces from, and what was found. */
 typedef struct CellTraining {
     GuidePlace points[GUIDE_POINTS];
-    int        point_count;
-    float     *sums[GUIDE_AIMS]; /* of luminances, one a bin, over all rounds */
-    uint32_t  *counts;
+    int point_count;
+    float *sums[GUIDE_AIMS]; /* of luminances, one a bin, over all rounds */
+    uint32_t *counts;
 } CellTraining;
 
 typedef struct GuideTraining {
-    LightGuide    guide;
-    GuidePlace   *places;
-    uint32_t     *first_place; /* of every cell; and behind the last */
+    LightGuide guide;
+    GuidePlace *places;
+    uint32_t *first_place; /* of every cell; and behind the last */
     CellTraining *cells;
 } GuideTraining;
 
@@ -41,8 +41,7 @@ GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t
 
 /* HOT. A ray of the cell's training pass into a bin found these luminances, cd m^-2. */
 static inline void guide_training_add(const CellTraining *own, int bin,
-                                      const float cd_m2[GUIDE_AIMS])
-{
+                                      const float cd_m2[GUIDE_AIMS]) {
     for (int aim = 0; aim < GUIDE_AIMS; aim++) own->sums[aim][bin] += cd_m2[aim];
     own->counts[bin]++;
 }

@@ -41,16 +41,16 @@ typedef struct GeodesicRatios {
 
 /* Tables that depend on the level only, shared by every tree of this level or less. */
 typedef struct Geodesic {
-    int                   level; /* of the finest triangles */
-    const GeodesicEdges  *edges[GEODESIC_MAX_LEVEL + 1];  /* levels < level: 4^level each */
+    int level;                                            /* of the finest triangles */
+    const GeodesicEdges *edges[GEODESIC_MAX_LEVEL + 1];   /* levels < level: 4^level each */
     const GeodesicRatios *ratios[GEODESIC_MAX_LEVEL + 1]; /* levels < level: 4^level each */
-    const float          *areas[GEODESIC_MAX_LEVEL + 1];  /* every level: 4^level areas, sr */
+    const float *areas[GEODESIC_MAX_LEVEL + 1];           /* every level: 4^level areas, sr */
 } Geodesic;
 
 /* Where a direction lies: the triangle and the coordinates in its corners. */
 typedef struct GeodesicPoint {
-    uint32_t id;       /* triangle of the level requested, all octants */
-    float    weight[3]; /* barycentric in the plane of the three unit corners; sum to 1 */
+    uint32_t id;     /* triangle of the level requested, all octants */
+    float weight[3]; /* barycentric in the plane of the three unit corners; sum to 1 */
 } GeodesicPoint;
 
 typedef struct GeodesicTriangle {
@@ -58,8 +58,7 @@ typedef struct GeodesicTriangle {
 } GeodesicTriangle;
 
 /* Triangles of a level: 4^(level+1). */
-static inline uint32_t geodesic_count(int level)
-{
+static inline uint32_t geodesic_count(int level) {
     return 4u << 2 * level;
 }
 
@@ -69,30 +68,27 @@ const Geodesic *geodesic_create(int level, Arena *arena);
 /* HOT. One descent, level by level, for queries that stop early or do more on the way. */
 typedef struct GeodesicWalk {
     uint32_t octant;
-    uint32_t place;    /* of the triangle inside its octant, 0 .. 4^level - 1 */
-    float    weight[3]; /* direction = sum of weight * corner, up to a common factor */
+    uint32_t place;  /* of the triangle inside its octant, 0 .. 4^level - 1 */
+    float weight[3]; /* direction = sum of weight * corner, up to a common factor */
 } GeodesicWalk;
 
 /* The octant of a direction. */
-static inline GeodesicWalk geodesic_walk_start(Vec3 d)
-{
+static inline GeodesicWalk geodesic_walk_start(Vec3 d) {
     return (GeodesicWalk){.octant = (d.x < 0 ? 1u : 0u) | (d.y < 0 ? 2u : 0u),
                           .weight = {fabsf(d.x), fabsf(d.y), d.z > 0 ? d.z : 0.0f}};
 }
 
 /* From a triangle of `level` to its child; returns which one, 0..3. The child is as good as
  * random: all four outcomes and a look-up take half the time of mispredicted branches. */
-static inline uint32_t geodesic_walk_down(const Geodesic *geodesic, int level,
-                                          GeodesicWalk *walk)
-{
+static inline uint32_t geodesic_walk_down(const Geodesic *geodesic, int level, GeodesicWalk *walk) {
     const float *k = geodesic->edges[level][walk->place].half_cos;
-    float        u = walk->weight[0], v = walk->weight[1], w = walk->weight[2];
-    float        half = 0.5f * (u + v + w);
+    float u = walk->weight[0], v = walk->weight[1], w = walk->weight[2];
+    float half = 0.5f * (u + v + w);
     float p = half - u, q = half - v, r = half - w; /* of bc, ca, ab; one below 0 at most */
-    uint32_t     child = (p < 0 ? 1u : 0u) + (q < 0 ? 2u : 0u) + (r < 0 ? 3u : 0u);
-    const float  a[4] = {p * k[0], -p, u * k[2], u * k[1]};
-    const float  b[4] = {q * k[1], v * k[2], -q, v * k[0]};
-    const float  c[4] = {r * k[2], w * k[1], w * k[0], -r};
+    uint32_t child = (p < 0 ? 1u : 0u) + (q < 0 ? 2u : 0u) + (r < 0 ? 3u : 0u);
+    const float a[4] = {p * k[0], -p, u * k[2], u * k[1]};
+    const float b[4] = {q * k[1], v * k[2], -q, v * k[0]};
+    const float c[4] = {r * k[2], w * k[1], w * k[0], -r};
     child &= 3;
     walk->weight[0] = a[child];
     walk->weight[1] = b[child];
@@ -102,8 +98,7 @@ static inline uint32_t geodesic_walk_down(const Geodesic *geodesic, int level,
 }
 
 /* Id and normalised weights after `level` steps down. */
-static inline GeodesicPoint geodesic_walk_point(const GeodesicWalk *walk, int level)
-{
+static inline GeodesicPoint geodesic_walk_point(const GeodesicWalk *walk, int level) {
     float u = walk->weight[0], v = walk->weight[1], w = walk->weight[2];
     float sum = u + v + w, scale = sum > 0 ? 1 / sum : 0.0f;
     return (GeodesicPoint){walk->octant << 2 * level | walk->place,
@@ -136,8 +131,8 @@ uint32_t geodesic_neighbour(int level, uint32_t id, int corner);
 
 /* Constants of a spherical triangle for sampling it. area: of the triangle, sr. */
 typedef struct GeodesicSampler {
-    Vec3  a, b;   /* corners 0 and 1 */
-    Vec3  across; /* unit, from corner 0 along the arc to corner 2 */
+    Vec3 a, b;    /* corners 0 and 1 */
+    Vec3 across;  /* unit, from corner 0 along the arc to corner 2 */
     float area;   /* sr */
     float volume; /* |a . (b - a) x across| */
     float span;   /* 1 + a . b */

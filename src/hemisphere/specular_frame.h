@@ -17,8 +17,8 @@
 #include "base/vec.h"
 
 typedef struct SpecularFrame {
-    float offset;    /* |d0|, theta_i / 90deg */
-    float exponent;  /* k */
+    float offset;   /* |d0|, theta_i / 90deg */
+    float exponent; /* k */
 } SpecularFrame;
 
 /* theta_i in radians, clamped to 0..89 degrees; k at least 1. */

@@ -28,8 +28,8 @@ typedef struct SurfaceAxes {
 
 typedef struct SurfaceFrame {
     SurfaceAxes axes, inverse; /* inverse: of the axes */
-    float       scale;         /* 1 / asinh reach */
-    bool        is_cosine;
+    float scale;               /* 1 / asinh reach */
+    bool is_cosine;
 } SurfaceFrame;
 
 /* axes: positive definite; reach: the longest x there is, above 0. */

@@ -37,19 +37,19 @@ typedef enum TreeRowFormat {
 typedef struct TreeReport {
     uint32_t leaves;      /* leaves of the source */
     uint32_t stored_rows; /* octant means and details */
-    size_t   stored_values; /* numbers in these */
+    size_t stored_values; /* numbers in these */
     uint32_t nodes;
-    size_t   bytes;        /* of the blob */
-    float    max_error;
-    float    rms_error;      /* area-weighted over the sphere's part, mean over components */
+    size_t bytes; /* of the blob */
+    float max_error;
+    float rms_error; /* area-weighted over the sphere's part, mean over components */
 } TreeReport;
 
 typedef struct TreeHeader {
     uint32_t magic, version;
     uint64_t size; /* bytes of the whole blob */
-    uint8_t  level, octants, weights, rows;
+    uint8_t level, octants, weights, rows;
     uint32_t components;
-    uint32_t node_count, row_count; /* row_count: details only */
+    uint32_t node_count, row_count;                     /* row_count: details only */
     uint32_t means_offset, scales_offset, nodes_offset; /* bytes from the blob's start */
     uint32_t byte_level; /* rows of fathers of this level and finer have 8 bits; 0: none */
     uint64_t rows_offset;
@@ -68,35 +68,35 @@ typedef enum TreeBasis { TREE_HAAR = 0, TREE_VERTEX = 1 } TreeBasis;
 /* A checked blob, ready for queries. Plain views into the blob and the geodesic. */
 typedef struct Tree {
     const Geodesic *geodesic;
-    TreeBasis       basis;
-    int             level, octants, components;
+    TreeBasis basis;
+    int level, octants, components;
 
     /* Vertex trees only (vertex_tree.h). */
-    int                        base_level, level_count, depth_level, plane_level;
-    uint32_t                   base_bytes;  /* of a base row */
-    float                      base_factor; /* 2^base_exponent */
-    const float               *scale;       /* of each component */
-    const struct VertexLevel  *levels;
+    int base_level, level_count, depth_level, plane_level;
+    uint32_t base_bytes; /* of a base row */
+    float base_factor;   /* 2^base_exponent */
+    const float *scale;  /* of each component */
+    const struct VertexLevel *levels;
     const struct VertexFormat *formats;
-    const uint32_t            *words;
-    const uint16_t            *ranks;
-    const uint8_t             *depths, *block_formats;
-    const uint64_t            *blocks;
-    const uint8_t             *details; /* all rows */
-    uint32_t                   block_count;
-    const int16_t             *unpacked; /* the same rows (vertex_unpack.h), or NULL */
-    const uint32_t            *unpacked_rows; /* each block's first one */
-    int                        unpacked_stride; /* numbers from row to row, a multiple of 8 */
+    const uint32_t *words;
+    const uint16_t *ranks;
+    const uint8_t *depths, *block_formats;
+    const uint64_t *blocks;
+    const uint8_t *details; /* all rows */
+    uint32_t block_count;
+    const int16_t *unpacked;       /* the same rows (vertex_unpack.h), or NULL */
+    const uint32_t *unpacked_rows; /* each block's first one */
+    int unpacked_stride;           /* numbers from row to row, a multiple of 8 */
 
     /* Haar trees only. */
     const TreeNode *nodes;
-    const float    *means;  /* octants x components */
-    const float    *scales; /* level x components, integer rows only; else NULL */
-    const void     *rows;   /* 16-bit rows before 8-bit rows */
-    bool            has_area_weights;
-    TreeRowFormat   format;
-    uint32_t        row_count, node_count;
-    uint32_t        byte_row; /* the first row of 8 bits, row_count if there is none */
+    const float *means;  /* octants x components */
+    const float *scales; /* level x components, integer rows only; else NULL */
+    const void *rows;    /* 16-bit rows before 8-bit rows */
+    bool has_area_weights;
+    TreeRowFormat format;
+    uint32_t row_count, node_count;
+    uint32_t byte_row; /* the first row of 8 bits, row_count if there is none */
 } Tree;
 
 /* Three rows for each of the at most 11 triangles of a level around a leaf's two corners; one
@@ -107,16 +107,15 @@ typedef struct Tree {
  * places in bytes (indices, where the tree is unpacked), levels are formats, and weights hold
  * the powers of two that integers are multiplied by. */
 typedef struct TreeTaps {
-    int      count;
-    float    mean_weight[4]; /* of the octant means */
+    int count;
+    float mean_weight[4]; /* of the octant means */
     uint32_t row[TREE_MAX_TAPS];
-    float    weight[TREE_MAX_TAPS];
-    uint8_t  level[TREE_MAX_TAPS]; /* of the row's father, for the scales */
+    float weight[TREE_MAX_TAPS];
+    uint8_t level[TREE_MAX_TAPS]; /* of the row's father, for the scales */
 } TreeTaps;
 
 /* Where a row of TREE_ROWS_INT16 starts, in bytes from tree->rows. */
-static inline size_t tree_row_offset(const Tree *tree, uint32_t row)
-{
+static inline size_t tree_row_offset(const Tree *tree, uint32_t row) {
     size_t components = (size_t)tree->components;
     return row < tree->byte_row ? 2 * components * row
                                 : components * ((size_t)tree->byte_row + row);

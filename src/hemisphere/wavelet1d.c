@@ -14,12 +14,11 @@ static const double CDF97[4] = {-1.586134342059924, -0.052980118572961, 0.882911
 typedef struct Split {
     double even[(WAVELET_MAX_COUNT + 1) / 2];
     double odd[WAVELET_MAX_COUNT / 2];
-    int    even_count, odd_count; /* equal, or one even more */
+    int even_count, odd_count; /* equal, or one even more */
 } Split;
 
 /* odd += factor * (its two even neighbours), mirrored at the last. */
-static void lift_odd(Split *s, double factor)
-{
+static void lift_odd(Split *s, double factor) {
     for (int i = 0; i < s->odd_count; i++) {
         int next = i + 1 < s->even_count ? i + 1 : i;
         s->odd[i] += factor * (s->even[i] + s->even[next]);
@@ -27,8 +26,7 @@ static void lift_odd(Split *s, double factor)
 }
 
 /* even += factor * (its two odd neighbours), mirrored at the first and the last. */
-static void lift_even(Split *s, double factor)
-{
+static void lift_even(Split *s, double factor) {
     for (int i = 0; i < s->even_count; i++) {
         int before = i > 0 ? i - 1 : 0, after = i < s->odd_count ? i : s->odd_count - 1;
         s->even[i] += factor * (s->odd[before] + s->odd[after]);
@@ -36,20 +34,17 @@ static void lift_even(Split *s, double factor)
 }
 
 /* Haar: the detail is the difference of the pair, the approximation its mean. */
-static void haar_step(Split *s, int sign)
-{
+static void haar_step(Split *s, int sign) {
     for (int i = 0; i < s->odd_count && sign > 0; i++) s->odd[i] -= s->even[i];
     for (int i = 0; i < s->odd_count; i++) s->even[i] += sign * 0.5 * s->odd[i];
     for (int i = 0; i < s->odd_count && sign < 0; i++) s->odd[i] += s->even[i];
 }
 
-static void scale_even(Split *s, double factor)
-{
+static void scale_even(Split *s, double factor) {
     for (int i = 0; i < s->even_count; i++) s->even[i] *= factor;
 }
 
-static void analyse(WaveletKind kind, Split *s)
-{
+static void analyse(WaveletKind kind, Split *s) {
     if (kind == WAVELET_HAAR) {
         haar_step(s, 1);
     } else if (kind == WAVELET_CDF53) {
@@ -64,8 +59,7 @@ static void analyse(WaveletKind kind, Split *s)
     }
 }
 
-static void synthesise(WaveletKind kind, Split *s)
-{
+static void synthesise(WaveletKind kind, Split *s) {
     if (kind == WAVELET_HAAR) {
         haar_step(s, -1);
     } else if (kind == WAVELET_CDF53) {
@@ -80,8 +74,7 @@ static void synthesise(WaveletKind kind, Split *s)
     }
 }
 
-void wavelet1d_forward(WaveletKind kind, float *values, int count)
-{
+void wavelet1d_forward(WaveletKind kind, float *values, int count) {
     Split s;
     for (; count > 1; count = s.even_count) {
         s.even_count = (count + 1) / 2;
@@ -94,8 +87,7 @@ void wavelet1d_forward(WaveletKind kind, float *values, int count)
     }
 }
 
-static void inverse_step(WaveletKind kind, float *values, int count)
-{
+static void inverse_step(WaveletKind kind, float *values, int count) {
     Split s = {.even_count = (count + 1) / 2, .odd_count = count / 2};
     for (int i = 0; i < s.even_count; i++) s.even[i] = (double)values[i];
     for (int i = 0; i < s.odd_count; i++) s.odd[i] = (double)values[s.even_count + i];
@@ -104,15 +96,13 @@ static void inverse_step(WaveletKind kind, float *values, int count)
     for (int i = 0; i < s.odd_count; i++) values[2 * i + 1] = (float)s.odd[i];
 }
 
-void wavelet1d_inverse(WaveletKind kind, float *values, int count)
-{
+void wavelet1d_inverse(WaveletKind kind, float *values, int count) {
     int counts[16], steps = 0;
     for (; count > 1; count = (count + 1) / 2) counts[steps++] = count;
     while (steps > 0) inverse_step(kind, values, counts[--steps]);
 }
 
-void wavelet1d_norms(WaveletKind kind, int count, float *norms)
-{
+void wavelet1d_norms(WaveletKind kind, int count, float *norms) {
     float row[WAVELET_MAX_COUNT];
     for (int i = 0; i < count; i++) {
         memset(row, 0, sizeof row);

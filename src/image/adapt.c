@@ -5,26 +5,24 @@
 
 #include "base/mathf.h"
 
-#define EDGE_STOPS 0.3f  /* surroundings that vary by more have an edge inside */
+#define EDGE_STOPS 0.3f   /* surroundings that vary by more have an edge inside */
 #define SIDE_SHARE 12     /* the window reaches a twelfth of the shorter side */
 #define STOPS_LEAST -8.0f /* deeper shadows do not count as deeper */
 #define LN2 0.69314718f
 
-float adapt_stops(float stops)
-{
+float adapt_stops(float stops) {
     return stops > 0 ? ADAPT_SOFTNESS * log_f(1 + stops / ADAPT_SOFTNESS) : stops;
 }
 
 /* One picture, and how far the squares around its pixels reach. */
 typedef struct GuideSquares {
-    int    width, height, reach;
+    int width, height, reach;
     size_t count;
     float *line; /* scratch of one column */
 } GuideSquares;
 
 /* The sum of the `reach` values on both sides of each of `count`, and itself. */
-static void sum_line(const float *from, size_t step, int count, int reach, float *to)
-{
+static void sum_line(const float *from, size_t step, int count, int reach, float *to) {
     double sum = 0;
     for (int i = 0; i < count + reach; i++) {
         if (i < count) sum += (double)from[(size_t)i * step];
@@ -34,8 +32,7 @@ static void sum_line(const float *from, size_t step, int count, int reach, float
 }
 
 /* Sums over squares, in place. */
-static void sum_squares(const GuideSquares *p, float *plane)
-{
+static void sum_squares(const GuideSquares *p, float *plane) {
     size_t width = (size_t)p->width;
     for (int y = 0; y < p->height; y++) {
         float *row = plane + (size_t)y * width;
@@ -53,8 +50,7 @@ static void sum_squares(const GuideSquares *p, float *plane)
  * square has an edge and near 0 where it has none; a pixel takes the mean of the lines of all
  * squares that it lies in. */
 static float *surroundings(const GuideSquares *p, const float *stops, const float *known,
-                           Arena *arena)
-{
+                           Arena *arena) {
     float *plane[4]; /* how many are known, v, v^2; then a and b */
     for (int k = 0; k < 4; k++) plane[k] = ARENA_NEW(arena, float, p->count);
     for (size_t i = 0; i < p->count; i++) {
@@ -79,13 +75,12 @@ static float *surroundings(const GuideSquares *p, const float *stops, const floa
     return plane[1];
 }
 
-float *adapt_gains(const float *luminance, int width, int height, float grey, Arena *arena)
-{
+float *adapt_gains(const float *luminance, int width, int height, float grey, Arena *arena) {
     size_t count = (size_t)width * (size_t)height;
-    int    shorter = width < height ? width : height, longer = width + height - shorter;
+    int shorter = width < height ? width : height, longer = width + height - shorter;
     float *gains = ARENA_NEW(arena, float, count);
-    Arena  scratch = *arena;
-    int     reach = shorter / SIDE_SHARE > 1 ? shorter / SIDE_SHARE : 1;
+    Arena scratch = *arena;
+    int reach = shorter / SIDE_SHARE > 1 ? shorter / SIDE_SHARE : 1;
     GuideSquares squares = {width, height, reach, count, ARENA_NEW(&scratch, float, longer)};
     float *stops = ARENA_NEW(&scratch, float, count);
     float *known = ARENA_NEW(&scratch, float, count);

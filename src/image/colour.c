@@ -1,18 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "image/colour.h"
 
-static double determinant(const ColourMatrix *a)
-{
+static double determinant(const ColourMatrix *a) {
     const double(*m)[3] = a->m;
     return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
            m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-ColourMatrix colour_inverse(const ColourMatrix *a)
-{
+ColourMatrix colour_inverse(const ColourMatrix *a) {
     const double(*m)[3] = a->m;
-    double       d = determinant(a);
+    double d = determinant(a);
     ColourMatrix out = {{{0}}};
     if (fabs(d) < 1e-12) return out;
     for (int i = 0; i < 3; i++) {
@@ -24,8 +22,7 @@ ColourMatrix colour_inverse(const ColourMatrix *a)
     return out;
 }
 
-ColourMatrix colour_product(const ColourMatrix *a, const ColourMatrix *b)
-{
+ColourMatrix colour_product(const ColourMatrix *a, const ColourMatrix *b) {
     ColourMatrix out = {{{0}}};
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -35,8 +32,7 @@ ColourMatrix colour_product(const ColourMatrix *a, const ColourMatrix *b)
 
 /* SMPTE RP 177: the columns are the primaries' (x, y, z), scaled so that (1,1,1) is the white
  * with Y = 1. */
-ColourMatrix xyz_from_primaries(const double c[8])
-{
+ColourMatrix xyz_from_primaries(const double c[8]) {
     ColourMatrix out = {{{0}}}, columns;
     for (int k = 0; k < 3; k++) {
         columns.m[0][k] = c[2 * k];
@@ -44,7 +40,7 @@ ColourMatrix xyz_from_primaries(const double c[8])
         columns.m[2][k] = 1 - c[2 * k] - c[2 * k + 1];
     }
     ColourMatrix from_xyz = colour_inverse(&columns);
-    double       white[3] = {c[6] / c[7], 1, (1 - c[6] - c[7]) / c[7]};
+    double white[3] = {c[6] / c[7], 1, (1 - c[6] - c[7]) / c[7]};
     for (int k = 0; k < 3; k++) {
         double scale = 0;
         for (int j = 0; j < 3; j++) scale += from_xyz.m[k][j] * white[j];
@@ -53,16 +49,14 @@ ColourMatrix xyz_from_primaries(const double c[8])
     return out;
 }
 
-ColourMatrix rec709_from_primaries(const double chromaticities[8])
-{
+ColourMatrix rec709_from_primaries(const double chromaticities[8]) {
     ColourMatrix xyz = xyz_from_primaries(chromaticities);
     ColourMatrix rec709 = xyz_from_primaries(REC709_CHROMATICITIES);
     ColourMatrix from_xyz = colour_inverse(&rec709);
     return colour_product(&from_xyz, &xyz);
 }
 
-bool chromaticities_are_usable(const double c[8])
-{
+bool chromaticities_are_usable(const double c[8]) {
     for (int k = 0; k < 8; k++)
         if (!(fabs(c[k]) < 100)) return false;
     if (!(fabs(c[7]) > 1e-6)) return false;
@@ -70,8 +64,7 @@ bool chromaticities_are_usable(const double c[8])
     return fabs(determinant(&xyz)) > 1e-9;
 }
 
-bool chromaticities_are_rec709(const double c[8])
-{
+bool chromaticities_are_rec709(const double c[8]) {
     for (int k = 0; k < 8; k++)
         if (!(fabs(c[k] - REC709_CHROMATICITIES[k]) <= 0.001)) return false;
     return true;

@@ -14,8 +14,7 @@ typedef struct ColourMatrix {
 } ColourMatrix;
 
 /* x, y of red, green, blue and white D65: ITU-R BT.709-6. */
-static const double REC709_CHROMATICITIES[8] = {0.64, 0.33, 0.30, 0.60,
-                                                0.15, 0.06, 0.3127, 0.3290};
+static const double REC709_CHROMATICITIES[8] = {0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290};
 
 /* All 0 for a singular matrix. */
 ColourMatrix colour_inverse(const ColourMatrix *matrix);
@@ -35,8 +34,7 @@ bool chromaticities_are_usable(const double chromaticities[8]);
 /* True within the 0.001 that files round to. */
 bool chromaticities_are_rec709(const double chromaticities[8]);
 
-static inline void colour_apply(const ColourMatrix *matrix, const float in[3], float out[3])
-{
+static inline void colour_apply(const ColourMatrix *matrix, const float in[3], float out[3]) {
     float a = in[0], b = in[1], c = in[2];
     for (int i = 0; i < 3; i++)
         out[i] = (float)(matrix->m[i][0] * (double)a + matrix->m[i][1] * (double)b +

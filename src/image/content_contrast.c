@@ -6,23 +6,22 @@
 
 #include "base/sort.h"
 
-#define SIGMAS_95 1.959964    /* of the normal distribution */
-#define LEAST_PIXELS 16       /* of a region, and of the inside of a half */
+#define SIGMAS_95 1.959964 /* of the normal distribution */
+#define LEAST_PIXELS 16    /* of a region, and of the inside of a half */
 #define LEAST_SEPARABILITY 0.8
-#define LEAST_DISTANCE 6.0    /* standard errors of a pixel, between the halves */
-#define OUTLIERS 0.005        /* at either end */
+#define LEAST_DISTANCE 6.0 /* standard errors of a pixel, between the halves */
+#define OUTLIERS 0.005     /* at either end */
 
 /* Sums over the pixels of one half. */
 typedef struct Half {
     double sum, variance, noise; /* variance: of the sum; noise: edges included */
-    long   pixels, counted;
+    long pixels, counted;
 } Half;
 
 /* ---- the split --------------------------------------------------------------------------- */
 
 /* The luminances that there are, in order. */
-static long sorted_values(const ContentPixels *pixels, float *values)
-{
+static long sorted_values(const ContentPixels *pixels, float *values) {
     long count = 0, all = (long)pixels->width * pixels->height;
     for (long i = 0; i < all; i++)
         if (isfinite(pixels->luminance[i])) values[count++] = pixels->luminance[i];
@@ -31,8 +30,7 @@ static long sorted_values(const ContentPixels *pixels, float *values)
 }
 
 /* Outliers become the values that all but they have. */
-static void clip(float *values, long count)
-{
+static void clip(float *values, long count) {
     long cut = (long)(OUTLIERS * (double)count);
     for (long i = 0; i < cut; i++) {
         values[i] = values[cut];
@@ -41,10 +39,9 @@ static void clip(float *values, long count)
 }
 
 /* The variance of a pixel's noise, as a mean over the region; 0 where it is not known. */
-static double noise_variance(const ContentPixels *pixels)
-{
+static double noise_variance(const ContentPixels *pixels) {
     double sum = 0;
-    long   count = 0, all = (long)pixels->width * pixels->height;
+    long count = 0, all = (long)pixels->width * pixels->height;
     for (long i = 0; i < all && pixels->variance; i++) {
         if (!isfinite(pixels->luminance[i])) continue;
         sum += (double)pixels->variance[i];
@@ -55,8 +52,7 @@ static double noise_variance(const ContentPixels *pixels)
 
 /* The variance between the halves is w0 w1 (m1 - m0)^2: its greatest share of the whole one,
  * without the noise's. */
-static void split(const float *values, long count, double noise, ContentContrast *out)
-{
+static void split(const float *values, long count, double noise, ContentContrast *out) {
     double n = (double)count, sum = 0, squares = 0, below = 0, most = 0;
     for (long i = 0; i < count; i++) sum += (double)values[i];
     for (long i = 0; i < count; i++) {
@@ -78,16 +74,14 @@ static void split(const float *values, long count, double noise, ContentContrast
 /* ---- the halves -------------------------------------------------------------------------- */
 
 /* 1 above the threshold, 0 below, -1: no pixel of the region. */
-static int half_of(const ContentPixels *pixels, double threshold, int x, int y)
-{
+static int half_of(const ContentPixels *pixels, double threshold, int x, int y) {
     if (x < 0 || y < 0 || x >= pixels->width || y >= pixels->height) return -1;
     float value = pixels->luminance[(size_t)y * (size_t)pixels->width + (size_t)x];
     return isfinite(value) ? (double)value > threshold : -1;
 }
 
 /* No neighbour is of the other half. */
-static bool is_inside(const ContentPixels *pixels, double threshold, int x, int y)
-{
+static bool is_inside(const ContentPixels *pixels, double threshold, int x, int y) {
     int own = half_of(pixels, threshold, x, y);
     for (int j = -1; j <= 1; j++)
         for (int i = -1; i <= 1; i++)
@@ -95,8 +89,7 @@ static bool is_inside(const ContentPixels *pixels, double threshold, int x, int 
     return true;
 }
 
-static void add_pixel(const ContentPixels *pixels, size_t i, bool counts, Half *half)
-{
+static void add_pixel(const ContentPixels *pixels, size_t i, bool counts, Half *half) {
     double variance = pixels->variance ? (double)pixels->variance[i] : 0;
     half->pixels++;
     half->noise += variance;
@@ -107,8 +100,7 @@ static void add_pixel(const ContentPixels *pixels, size_t i, bool counts, Half *
 }
 
 static void add_halves(const ContentPixels *pixels, double threshold, bool only_inside,
-                       Half halves[2])
-{
+                       Half halves[2]) {
     for (int y = 0; y < pixels->height; y++) {
         for (int x = 0; x < pixels->width; x++) {
             int half = half_of(pixels, threshold, x, y);
@@ -121,55 +113,48 @@ static void add_halves(const ContentPixels *pixels, double threshold, bool only_
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
-static Measured mean_of(const Half *half, bool has_variance)
-{
+static Measured mean_of(const Half *half, bool has_variance) {
     double n = (double)half->counted;
     return measured_about(half->sum / n,
                           has_variance ? SIGMAS_95 * sqrt(half->variance) / n : (double)NAN);
 }
 
 /* First order: the halves' errors are independent. */
-static Measured derived(double value, Measured a, double slope_a, Measured b, double slope_b)
-{
+static Measured derived(double value, Measured a, double slope_a, Measured b, double slope_b) {
     double of_a = slope_a * measured_half_width(a), of_b = slope_b * measured_half_width(b);
     return measured_about(value, sqrt(of_a * of_a + of_b * of_b));
 }
 
-static void set_figures(Measured low, Measured high, ContentContrast *out)
-{
+static void set_figures(Measured low, Measured high, ContentContrast *out) {
     Measured c = out->characters, g = out->ground;
-    double   sum = low.value + high.value;
+    double sum = low.value + high.value;
     out->ratio = derived(high.value / low.value, high, 1 / low.value, low,
                          high.value / (low.value * low.value));
-    out->michelson = derived((high.value - low.value) / sum, high, 2 * low.value / (sum * sum),
-                             low, 2 * high.value / (sum * sum));
-    out->weber = derived((c.value - g.value) / g.value, c, 1 / g.value, g,
-                         c.value / (g.value * g.value));
+    out->michelson = derived((high.value - low.value) / sum, high, 2 * low.value / (sum * sum), low,
+                             2 * high.value / (sum * sum));
+    out->weber =
+        derived((c.value - g.value) / g.value, c, 1 / g.value, g, c.value / (g.value * g.value));
 }
 
-static bool is_too_noisy(const Half halves[2], double distance, ContentContrast *out)
-{
+static bool is_too_noisy(const Half halves[2], double distance, ContentContrast *out) {
     double sigma = 0;
     for (int k = 0; k < 2; k++) sigma += 0.5 * sqrt(halves[k].noise / (double)halves[k].pixels);
     out->noise_sigmas = distance / sigma;
     return out->noise_sigmas < LEAST_DISTANCE;
 }
 
-static ContentVerdict measure_halves(const ContentPixels *pixels, ContentContrast *out)
-{
+static ContentVerdict measure_halves(const ContentPixels *pixels, ContentContrast *out) {
     Half halves[2];
     memset(halves, 0, sizeof halves);
     add_halves(pixels, out->threshold, true, halves);
-    out->edges_left_out =
-        halves[0].counted >= LEAST_PIXELS && halves[1].counted >= LEAST_PIXELS;
+    out->edges_left_out = halves[0].counted >= LEAST_PIXELS && halves[1].counted >= LEAST_PIXELS;
     if (!out->edges_left_out) {
         memset(halves, 0, sizeof halves);
         add_halves(pixels, out->threshold, false, halves);
     }
     Measured low = mean_of(&halves[0], pixels->variance);
     Measured high = mean_of(&halves[1], pixels->variance);
-    if (pixels->variance && is_too_noisy(halves, high.value - low.value, out))
-        return CONTENT_NOISY;
+    if (pixels->variance && is_too_noisy(halves, high.value - low.value, out)) return CONTENT_NOISY;
     if (out->separability < LEAST_SEPARABILITY) return CONTENT_NOT_TWO;
     bool bright = halves[1].pixels <= halves[0].pixels; /* characters on a darker ground */
     out->characters = bright ? high : low;
@@ -180,12 +165,11 @@ static ContentVerdict measure_halves(const ContentPixels *pixels, ContentContras
     return CONTENT_FOUND;
 }
 
-ContentContrast content_contrast(const ContentPixels *pixels, Arena scratch)
-{
+ContentContrast content_contrast(const ContentPixels *pixels, Arena scratch) {
     ContentContrast out = {.verdict = CONTENT_TOO_SMALL, .noise_sigmas = (double)NAN};
     size_t all = (size_t)pixels->width * (size_t)pixels->height;
     float *values = ARENA_NEW(&scratch, float, all);
-    long   count = sorted_values(pixels, values);
+    long count = sorted_values(pixels, values);
     if (count < LEAST_PIXELS || values[0] == values[count - 1]) return out;
     clip(values, count);
     split(values, count, noise_variance(pixels), &out);

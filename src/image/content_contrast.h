@@ -25,13 +25,11 @@ typedef struct Measured {
     double value, low, high;
 } Measured;
 
-static inline Measured measured_about(double value, double half_width)
-{
+static inline Measured measured_about(double value, double half_width) {
     return (Measured){value, value - half_width, value + half_width};
 }
 
-static inline double measured_half_width(Measured figure)
-{
+static inline double measured_half_width(Measured figure) {
     return 0.5 * (figure.high - figure.low);
 }
 
@@ -51,13 +49,13 @@ typedef enum ContentVerdict {
 
 typedef struct ContentContrast {
     ContentVerdict verdict;
-    double   separability; /* the share of the variance, less the noise's, that the split
-                              explains */
-    double   threshold;    /* cd m^-2 */
-    double   noise_sigmas; /* the halves' distance; NaN without variances */
+    double separability; /* the share of the variance, less the noise's, that the split
+                            explains */
+    double threshold;    /* cd m^-2 */
+    double noise_sigmas; /* the halves' distance; NaN without variances */
     /* the rest where the verdict is CONTENT_FOUND */
-    long     character_pixels, ground_pixels; /* of each half */
-    bool     edges_left_out; /* the figures are of pixels inside the halves */
+    long character_pixels, ground_pixels; /* of each half */
+    bool edges_left_out;                  /* the figures are of pixels inside the halves */
     Measured characters, ground;
     Measured ratio;     /* brighter / darker */
     Measured michelson; /* (brighter - darker) / (brighter + darker) */

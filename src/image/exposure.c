@@ -17,25 +17,21 @@
 #define GUARD_RATIO 16.0
 #define GUARD_NIGHT_CD_M2 300.0
 
-double exposure_grey_of_ev(double ev)
-{
+double exposure_grey_of_ev(double ev) {
     return EXPOSURE_METER_CD_M2 * exp2(ev);
 }
 
-double exposure_ev_of_grey(double grey_cd_m2)
-{
+double exposure_ev_of_grey(double grey_cd_m2) {
     return log2(grey_cd_m2 / EXPOSURE_METER_CD_M2);
 }
 
-static bool parse_number(const char *text, double *out)
-{
+static bool parse_number(const char *text, double *out) {
     char *end;
     *out = strtod(text, &end);
     return end != text && !*end && isfinite(*out);
 }
 
-bool exposure_parse(const char *text, ExposureRequest *out, Error *err)
-{
+bool exposure_parse(const char *text, ExposureRequest *out, Error *err) {
     ExposureRequest request = {EXPOSURE_AUTO, 0};
     bool ok = !strcmp(text, "auto");
     if (!strncmp(text, "white:", 6)) {
@@ -48,7 +44,8 @@ bool exposure_parse(const char *text, ExposureRequest *out, Error *err)
     if (!ok)
         return error_set(err, ERROR_USAGE,
                          "--exposure %s: required: auto, an exposure value (-60 to 60), or "
-                         "white:CD_M2 with a luminance above 0", text);
+                         "white:CD_M2 with a luminance above 0",
+                         text);
     *out = request;
     return true;
 }
@@ -61,8 +58,7 @@ typedef struct Histogram {
     double total;
 } Histogram;
 
-static Histogram *histogram_of(const float *luminance, size_t count, Arena *arena)
-{
+static Histogram *histogram_of(const float *luminance, size_t count, Arena *arena) {
     Histogram *h = ARENA_NEW(arena, Histogram, 1);
     for (size_t i = 0; i < count; i++) {
         if (!(luminance[i] > 0) || !isfinite(luminance[i])) continue;
@@ -76,8 +72,7 @@ static Histogram *histogram_of(const float *luminance, size_t count, Arena *aren
 }
 
 /* Mean of log2 over the ranks between two fractions; a bin that is cut counts in part. */
-static double mean_log2(const Histogram *h, double low, double high)
-{
+static double mean_log2(const Histogram *h, double low, double high) {
     double from = low * h->total, to = high * h->total, before = 0, sum = 0, weight = 0;
     for (int i = 0; i < BIN_COUNT; i++) {
         double after = before + h->count[i];
@@ -91,8 +86,7 @@ static double mean_log2(const Histogram *h, double low, double high)
     return sum / weight;
 }
 
-static double percentile(const Histogram *h, double at)
-{
+static double percentile(const Histogram *h, double at) {
     return exp2(mean_log2(h, at - 0.005, at + 0.005));
 }
 
@@ -109,8 +103,7 @@ static double percentile(const Histogram *h, double at)
  *         within four stops above middle grey at night, six to seven by day.
  *
  * Not finite and not positive values do not count; without any other the answer is 1. */
-static double auto_grey(const float *luminance_cd_m2, size_t count, Arena scratch)
-{
+static double auto_grey(const float *luminance_cd_m2, size_t count, Arena scratch) {
     const Histogram *h = histogram_of(luminance_cd_m2, count, &scratch);
     if (h->total == 0) return 1;
     double key = exp2(mean_log2(h, KEY_LOW, KEY_HIGH));
@@ -121,16 +114,14 @@ static double auto_grey(const float *luminance_cd_m2, size_t count, Arena scratc
 }
 
 double exposure_bright_stops(const float *luminance_cd_m2, size_t count, double grey_cd_m2,
-                             Arena scratch)
-{
+                             Arena scratch) {
     const Histogram *h = histogram_of(luminance_cd_m2, count, &scratch);
     if (h->total == 0) return 0;
     return log2(percentile(h, BRIGHT_PERCENTILE) / grey_cd_m2);
 }
 
 double exposure_grey(ExposureRequest request, const float *luminance_cd_m2, size_t count,
-                     Arena scratch)
-{
+                     Arena scratch) {
     switch (request.kind) {
     case EXPOSURE_EV: return exposure_grey_of_ev(request.value);
     case EXPOSURE_WHITE: return request.value * MIDDLE_GREY;

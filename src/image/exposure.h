@@ -24,8 +24,8 @@ typedef enum ExposureKind { EXPOSURE_AUTO, EXPOSURE_EV, EXPOSURE_WHITE } Exposur
 
 typedef struct ExposureRequest {
     ExposureKind kind;
-    double       value; /* EV, or the luminance that becomes 1.0: white in a view that keeps
-                         * what is linear (untonemapped), light grey in others */
+    double value; /* EV, or the luminance that becomes 1.0: white in a view that keeps
+                   * what is linear (untonemapped), light grey in others */
 } ExposureRequest;
 
 /* "auto", a number of EV, or "white:CD_M2". */

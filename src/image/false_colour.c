@@ -17,8 +17,7 @@ static const float INK[3] = {0.92f, 0.92f, 0.92f};
 /* ---- colours ------------------------------------------------------------------------- */
 
 /* OKLab to linear sRGB: the cube of the cone responses, then Ottosson's matrix. */
-static void linear_from_oklab(float l, float a, float b, float rgb[3])
-{
+static void linear_from_oklab(float l, float a, float b, float rgb[3]) {
     float p = l + 0.3963377774f * a + 0.2158037573f * b;
     float q = l - 0.1055613458f * a - 0.0638541728f * b;
     float r = l - 0.0894841775f * a - 1.2914855480f * b;
@@ -30,16 +29,14 @@ static void linear_from_oklab(float l, float a, float b, float rgb[3])
     rgb[2] = -0.0041960863f * p - 0.7034186147f * q + 1.7076147010f * r;
 }
 
-static bool is_inside(const float rgb[3])
-{
+static bool is_inside(const float rgb[3]) {
     for (int c = 0; c < 3; c++)
         if (!(rgb[c] >= 0 && rgb[c] <= 1)) return false;
     return true;
 }
 
 /* CIE 1976 lightness L* above 8 to luminance. */
-static float luminance_from_lightness(float lightness)
-{
+static float luminance_from_lightness(float lightness) {
     float f = (lightness + 16) / 116;
     return f * f * f;
 }
@@ -47,8 +44,7 @@ static float luminance_from_lightness(float lightness)
 /* Finds the colour of this luminance among those of one hue (its cosine and sine) and
  * chroma. */
 static void colour_of_luminance(float luminance, float cosine, float sine, float chroma,
-                                float rgb[3])
-{
+                                float rgb[3]) {
     float low = 0, high = 1;
     for (int i = 0; i < 22; i++) {
         float l = (low + high) / 2;
@@ -59,8 +55,7 @@ static void colour_of_luminance(float luminance, float cosine, float sine, float
     }
 }
 
-void false_colour_of(float t, float srgb[3])
-{
+void false_colour_of(float t, float srgb[3]) {
     float luminance = luminance_from_lightness(8 + 88 * t), sine, cosine, rgb[3];
     sincos_turns((200 + 265 * t) / 360, &sine, &cosine); /* teal, blue .. red .. yellow */
     for (float chroma = 0.20f; chroma > 0; chroma -= 0.004f) {
@@ -73,8 +68,7 @@ void false_colour_of(float t, float srgb[3])
 /* ---- the range ----------------------------------------------------------------------- */
 
 /* 1, 2 or 5 times a power of ten, the next one at or above (below) value > 0. */
-static float round_number(float value, bool up)
-{
+static float round_number(float value, bool up) {
     static const double STEPS[] = {1, 2, 5, 10};
     double decade = pow(10, floor(log10((double)value) + 1e-6)), best = decade;
     for (int i = 0; i < 4; i++) {
@@ -85,8 +79,7 @@ static float round_number(float value, bool up)
     return (float)(up ? 10 * decade : best);
 }
 
-static ScaleRange log_range(const float *sorted, size_t count)
-{
+static ScaleRange log_range(const float *sorted, size_t count) {
     if (count == 0) return (ScaleRange){0.1f, 1000, true};
     float high = round_number(sorted[(size_t)((double)(count - 1) * 0.999)], true);
     float low = round_number(sorted[(size_t)((double)(count - 1) * 0.05)], false);
@@ -95,8 +88,7 @@ static ScaleRange log_range(const float *sorted, size_t count)
     return (ScaleRange){low, high, true};
 }
 
-static ScaleRange linear_range(const float *sorted, size_t count)
-{
+static ScaleRange linear_range(const float *sorted, size_t count) {
     if (count == 0) return (ScaleRange){0, 1, false};
     float low = sorted[0], high = sorted[(size_t)((double)(count - 1) * 0.999)];
     if (low > 0 && low < high / 2) low = 0;
@@ -106,8 +98,7 @@ static ScaleRange linear_range(const float *sorted, size_t count)
     return (ScaleRange){low, high, false};
 }
 
-ScaleRange scale_range_of(const float *values, size_t count, bool is_log, Arena scratch)
-{
+ScaleRange scale_range_of(const float *values, size_t count, bool is_log, Arena scratch) {
     float *sorted = ARENA_NEW(&scratch, float, count);
     size_t kept = 0;
     for (size_t i = 0; i < count; i++)
@@ -116,8 +107,7 @@ ScaleRange scale_range_of(const float *values, size_t count, bool is_log, Arena 
     return is_log ? log_range(sorted, kept) : linear_range(sorted, kept);
 }
 
-float scale_position(ScaleRange range, float value)
-{
+float scale_position(ScaleRange range, float value) {
     float t = range.is_log ? log_f(value / range.low) / log_f(range.high / range.low)
                            : (value - range.low) / (range.high - range.low);
     return t > 0 ? (t < 1 ? t : 1.0f) : 0.0f;
@@ -127,14 +117,13 @@ float scale_position(ScaleRange range, float value)
 
 typedef struct ScaleLayout {
     StrokeFont font;
-    int       left, right, top, bottom; /* the coloured bar, half-open */
-    int       width;                    /* of the whole strip beside the values */
+    int left, right, top, bottom; /* the coloured bar, half-open */
+    int width;                    /* of the whole strip beside the values */
 } ScaleLayout;
 
-static ScaleLayout lay_out(int width, int height)
-{
+static ScaleLayout lay_out(int width, int height) {
     float letter = clampf((float)height / 45, 8, 40);
-    int   margin = (int)(letter * 1.2f);
+    int margin = (int)(letter * 1.2f);
     return (ScaleLayout){
         .font = {letter, {INK[0], INK[1], INK[2]}},
         .left = width + margin,
@@ -145,15 +134,13 @@ static ScaleLayout lay_out(int width, int height)
     };
 }
 
-static void fill(Picture *picture, int x0, int y0, int x1, int y1, const float colour[3])
-{
+static void fill(Picture *picture, int x0, int y0, int x1, int y1, const float colour[3]) {
     for (int y = y0 < 0 ? 0 : y0; y < y1 && y < picture->height; y++)
         for (int x = x0 < 0 ? 0 : x0; x < x1 && x < picture->width; x++)
             memcpy(picture_pixel(picture, x, y), colour, 3 * sizeof *colour);
 }
 
-static void draw_bar(Picture *picture, const ScaleLayout *s)
-{
+static void draw_bar(Picture *picture, const ScaleLayout *s) {
     for (int y = s->top; y < s->bottom; y++) {
         float colour[3];
         false_colour_of(1 - ((float)(y - s->top) + 0.5f) / (float)(s->bottom - s->top), colour);
@@ -161,37 +148,32 @@ static void draw_bar(Picture *picture, const ScaleLayout *s)
     }
 }
 
-static float position_y(const ScaleLayout *s, ScaleRange range, float value)
-{
+static float position_y(const ScaleLayout *s, ScaleRange range, float value) {
     float t = scale_position(range, value);
     return (float)s->bottom - t * (float)(s->bottom - s->top);
 }
 
 static void draw_tick(Picture *picture, const ScaleLayout *s, float y, bool is_labelled,
-                      float value)
-{
+                      float value) {
     float letter = s->font.height;
-    int   thick = letter > 14 ? 2 : 1, row = (int)(y - (float)thick * 0.5f + 0.5f);
-    int   length = (int)(letter * (is_labelled ? 0.7f : 0.4f));
+    int thick = letter > 14 ? 2 : 1, row = (int)(y - (float)thick * 0.5f + 0.5f);
+    int length = (int)(letter * (is_labelled ? 0.7f : 0.4f));
     fill(picture, s->right, row, s->right + length, row + thick, INK);
     if (!is_labelled) return;
     char text[32];
-    int  decade = value > 0 ? (int)floor(log10((double)value) + 1e-4) : 0;
+    int decade = value > 0 ? (int)floor(log10((double)value) + 1e-4) : 0;
     bool is_long = decade > 5 || decade < -4;
-    if (is_long)
-        snprintf(text, sizeof text, "%.0fe%d", (double)value / pow(10, decade), decade);
-    else
-        snprintf(text, sizeof text, decade > 3 ? "%.0f" : "%.4g", (double)value);
+    if (is_long) snprintf(text, sizeof text, "%.0fe%d", (double)value / pow(10, decade), decade);
+    else snprintf(text, sizeof text, decade > 3 ? "%.0f" : "%.4g", (double)value);
     stroke_font_draw(picture, s->font, (float)s->right + letter, y, text);
 }
 
 /* Decades are labelled; 2 and 5 as well where there is room; 3 to 9 are marked. */
-static void draw_log_ticks(Picture *picture, const ScaleLayout *s, ScaleRange range)
-{
+static void draw_log_ticks(Picture *picture, const ScaleLayout *s, ScaleRange range) {
     float decades = log_f(range.high / range.low) / 2.302585f;
     float room = (float)(s->bottom - s->top) / decades; /* pixels a decade */
-    bool  all = room > 8 * s->font.height;
-    int   first = (int)floor(log10((double)range.low) - 0.01);
+    bool all = room > 8 * s->font.height;
+    int first = (int)floor(log10((double)range.low) - 0.01);
     for (int e = first; e < first + 9; e++) {
         for (int m = 1; m < 10; m++) {
             float value = (float)(m * pow(10, e));
@@ -203,17 +185,15 @@ static void draw_log_ticks(Picture *picture, const ScaleLayout *s, ScaleRange ra
     }
 }
 
-static void draw_linear_ticks(Picture *picture, const ScaleLayout *s, ScaleRange range)
-{
+static void draw_linear_ticks(Picture *picture, const ScaleLayout *s, ScaleRange range) {
     float span = range.high - range.low;
     float step = round_number(span / 6, true);
-    int   first = (int)ceilf(range.low / step - 1e-3f);
+    int first = (int)ceilf(range.low / step - 1e-3f);
     for (int i = first; (float)i * step <= range.high + 1e-3f * step; i++)
         draw_tick(picture, s, position_y(s, range, (float)i * step), true, (float)i * step);
 }
 
-static void draw_scale(Picture *picture, int width, ScaleRange range, const char *unit)
-{
+static void draw_scale(Picture *picture, int width, ScaleRange range, const char *unit) {
     ScaleLayout s = lay_out(width, picture->height);
     fill(picture, width, 0, picture->width, picture->height, GROUND);
     stroke_font_draw(picture, s.font, (float)s.left, s.font.height * 1.7f, unit);
@@ -224,8 +204,7 @@ static void draw_scale(Picture *picture, int width, ScaleRange range, const char
 }
 
 Picture false_colour_picture(const float *values, int width, int height, ScaleRange range,
-                             const char *unit, Arena *arena)
-{
+                             const char *unit, Arena *arena) {
     enum { STEPS = 512 };
     float table[STEPS + 1][3];
     for (int i = 0; i <= STEPS; i++) false_colour_of((float)i / STEPS, table[i]);

@@ -16,7 +16,7 @@ void false_colour_of(float t, float srgb[3]);
 
 typedef struct ScaleRange {
     float low, high; /* low < high; both above 0 when logarithmic */
-    bool  is_log;
+    bool is_log;
 } ScaleRange;
 
 /* A range with round ends that holds nearly all the finite values: logarithmic from the 5th

@@ -17,14 +17,12 @@
 
 typedef enum Fisheye { FISHEYE_NONE, FISHEYE_EQUIDISTANT, FISHEYE_EQUISOLID } Fisheye;
 
-static inline const char *fisheye_name(Fisheye kind)
-{
+static inline const char *fisheye_name(Fisheye kind) {
     return kind == FISHEYE_EQUISOLID ? "equisolid" : "equidistant";
 }
 
 /* Unit; right^2 + up^2 <= 1, equidistant <= 4. */
-static inline Vec3 fisheye_direction(Fisheye kind, float right, float up)
-{
+static inline Vec3 fisheye_direction(Fisheye kind, float right, float up) {
     float square = right * right + up * up, radius = sqrtf(square);
     float sine, cosine, per_radius;
     if (kind == FISHEYE_EQUISOLID) {

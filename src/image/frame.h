@@ -62,14 +62,12 @@ typedef ExrPicture FrameImage;
 /* An empty frame of width x height pixels whose data window is `data`, with room for some
  * channels and attributes; more may be added. It carries the chromaticities of Rec.709 and
  * whiteLuminance 1 already. */
-FrameImage frame_create(int width, int height, ExrWindow data, int channel_room,
-                        int attribute_room, Arena *arena);
+FrameImage frame_create(int width, int height, ExrWindow data, int channel_room, int attribute_room,
+                        Arena *arena);
 
 /* Pixels in the data window. */
-static inline size_t frame_pixel_count(const FrameImage *frame)
-{
-    return (size_t)(frame->data.x1 - frame->data.x0) *
-           (size_t)(frame->data.y1 - frame->data.y0);
+static inline size_t frame_pixel_count(const FrameImage *frame) {
+    return (size_t)(frame->data.x1 - frame->data.x0) * (size_t)(frame->data.y1 - frame->data.y0);
 }
 
 /* Adds a channel and returns its zeroed values, one for each pixel of the data window. The
@@ -87,9 +85,9 @@ void frame_set_values(FrameImage *frame, const char *name, ExrKind kind, const d
                       Arena *arena);
 
 /* NULL when there is none. */
-const float        *frame_channel(const FrameImage *frame, const char *name);
+const float *frame_channel(const FrameImage *frame, const char *name);
 const ExrAttribute *frame_attribute(const FrameImage *frame, const char *name);
-const char         *frame_string(const FrameImage *frame, const char *name);
+const char *frame_string(const FrameImage *frame, const char *name);
 
 /* The R, G, B channels of a layer ("" is the frame itself); false when one is missing. */
 bool frame_rgb(const FrameImage *frame, const char *layer, const float *rgb[3]);

@@ -16,13 +16,13 @@
 #include "image/frame.h"
 
 typedef struct FrameView {
-    bool    is_perspective; /* rays from one point: of a fisheye, too */
+    bool is_perspective; /* rays from one point: of a fisheye, too */
     Fisheye fisheye;
-    double  half_width, half_height; /* perspective: at distance 1; orthographic: m; fisheye:
-                                        radii of its circle */
-    double  shift[2]; /* of the middle, right and up, in pictures (Radiance's -vs, -vl) */
-    int     width, height; /* pixels */
-    double  eye[3], right[3], up[3], ahead[3]; /* m, world; unit */
+    double half_width, half_height; /* perspective: at distance 1; orthographic: m; fisheye:
+                                       radii of its circle */
+    double shift[2];   /* of the middle, right and up, in pictures (Radiance's -vs, -vl) */
+    int width, height; /* pixels */
+    double eye[3], right[3], up[3], ahead[3]; /* m, world; unit */
 } FrameView;
 
 /* The frame's attribute for frame_view_find and frame_fisheye. */

@@ -12,42 +12,36 @@ enum { HEADER_BYTES = 128, TAG_COUNT = 10, MAX_BYTES = 1400 };
 static const double D50[3] = {0.9642, 1.0, 0.8249}; /* ICC.1, 7.2.16 */
 
 /* Cone responses of XYZ (Lam 1985, as ICC.1 annex E has it). */
-static const ColourMatrix BRADFORD = {{{0.8951, 0.2664, -0.1614},
-                                       {-0.7502, 1.7135, 0.0367},
-                                       {0.0389, -0.0685, 1.0296}}};
+static const ColourMatrix BRADFORD = {
+    {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
 
 typedef struct ProfileWriter {
     unsigned char *bytes;
-    size_t         size;
-    int            tags;
+    size_t size;
+    int tags;
 } ProfileWriter;
 
-static void put_u16(ProfileWriter *w, unsigned value)
-{
+static void put_u16(ProfileWriter *w, unsigned value) {
     w->bytes[w->size++] = (unsigned char)(value >> 8);
     w->bytes[w->size++] = (unsigned char)value;
 }
 
-static void put_u32(ProfileWriter *w, uint32_t value)
-{
+static void put_u32(ProfileWriter *w, uint32_t value) {
     put_u16(w, value >> 16);
     put_u16(w, value & 0xffff);
 }
 
-static void put_name(ProfileWriter *w, const char *four)
-{
+static void put_name(ProfileWriter *w, const char *four) {
     memcpy(w->bytes + w->size, four, 4);
     w->size += 4;
 }
 
 /* s15Fixed16Number */
-static void put_fixed(ProfileWriter *w, double value)
-{
+static void put_fixed(ProfileWriter *w, double value) {
     put_u32(w, (uint32_t)(int32_t)floor(value * 65536 + 0.5));
 }
 
-static void put_header(ProfileWriter *w)
-{
+static void put_header(ProfileWriter *w) {
     put_u32(w, 0); /* the size, set last */
     put_u32(w, 0);
     put_u32(w, 0x04300000);
@@ -64,8 +58,7 @@ static void put_header(ProfileWriter *w)
 }
 
 /* An entry of the tag table for data from `start` to here, and the padding behind them. */
-static void end_tag(ProfileWriter *w, const char *name, size_t start)
-{
+static void end_tag(ProfileWriter *w, const char *name, size_t start) {
     ProfileWriter entry = {w->bytes, HEADER_BYTES + 4 + (size_t)w->tags++ * 12, 0};
     put_name(&entry, name);
     put_u32(&entry, (uint32_t)start);
@@ -73,8 +66,7 @@ static void end_tag(ProfileWriter *w, const char *name, size_t start)
     w->size = (w->size + 3) / 4 * 4;
 }
 
-static void put_text(ProfileWriter *w, const char *name, const char *text)
-{
+static void put_text(ProfileWriter *w, const char *name, const char *text) {
     size_t start = w->size, length = strlen(text);
     put_name(w, "mluc");
     put_u32(w, 0);
@@ -87,8 +79,7 @@ static void put_text(ProfileWriter *w, const char *name, const char *text)
     end_tag(w, name, start);
 }
 
-static void put_xyz(ProfileWriter *w, const char *name, double x, double y, double z)
-{
+static void put_xyz(ProfileWriter *w, const char *name, double x, double y, double z) {
     size_t start = w->size;
     put_name(w, "XYZ ");
     put_u32(w, 0);
@@ -98,8 +89,7 @@ static void put_xyz(ProfileWriter *w, const char *name, double x, double y, doub
     end_tag(w, name, start);
 }
 
-static void put_adaptation(ProfileWriter *w, const ColourMatrix *matrix)
-{
+static void put_adaptation(ProfileWriter *w, const ColourMatrix *matrix) {
     size_t start = w->size;
     put_name(w, "sf32");
     put_u32(w, 0);
@@ -108,8 +98,7 @@ static void put_adaptation(ProfileWriter *w, const ColourMatrix *matrix)
 }
 
 /* parametricCurveType: one curve that all three tags point to. */
-static void put_curves(ProfileWriter *w, IccCurve curve)
-{
+static void put_curves(ProfileWriter *w, IccCurve curve) {
     static const double SRGB[5] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
     static const char *const NAMES[3] = {"rTRC", "gTRC", "bTRC"};
     size_t start = w->size, end;
@@ -126,8 +115,7 @@ static void put_curves(ProfileWriter *w, IccCurve curve)
 }
 
 /* Bradford: the cone responses of one white are scaled to those of D50. */
-static ColourMatrix adaptation_to_d50(const double white[3])
-{
+static ColourMatrix adaptation_to_d50(const double white[3]) {
     ColourMatrix scale = {{{0}}}, back = colour_inverse(&BRADFORD);
     for (int i = 0; i < 3; i++) {
         double from = 0, to = 0;
@@ -141,18 +129,16 @@ static ColourMatrix adaptation_to_d50(const double white[3])
     return colour_product(&back, &scaled);
 }
 
-ColourMatrix icc_d50_from_primaries(const double c[8])
-{
+ColourMatrix icc_d50_from_primaries(const double c[8]) {
     const double white[3] = {c[6] / c[7], 1, (1 - c[6] - c[7]) / c[7]};
     ColourMatrix adaptation = adaptation_to_d50(white), xyz = xyz_from_primaries(c);
     return colour_product(&adaptation, &xyz);
 }
 
 IccProfile icc_profile_create(const double c[8], IccCurve curve, const char *description,
-                              Arena *arena)
-{
+                              Arena *arena) {
     static const char *const NAMES[3] = {"rXYZ", "gXYZ", "bXYZ"};
-    ProfileWriter       w = {ARENA_NEW(arena, unsigned char, MAX_BYTES), 0, 0};
+    ProfileWriter w = {ARENA_NEW(arena, unsigned char, MAX_BYTES), 0, 0};
     const double white[3] = {c[6] / c[7], 1, (1 - c[6] - c[7]) / c[7]};
     ColourMatrix adaptation = adaptation_to_d50(white), primaries = icc_d50_from_primaries(c);
     put_header(&w);

@@ -16,7 +16,7 @@ typedef enum IccCurve {
 
 typedef struct IccProfile {
     const void *bytes;
-    size_t      size;
+    size_t size;
 } IccProfile;
 
 /* From RGB to XYZ, the white adapted to D50 by Bradford's matrix, as profiles have it. */

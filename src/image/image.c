@@ -28,22 +28,28 @@ enum {
  * none. */
 typedef struct Signature {
     const char *format, *bytes;
-    size_t      offset, length;
+    size_t offset, length;
 } Signature;
 
 static const Signature SIGNATURES[] = {
-    {"png", "\x89PNG\r\n\x1a\n", 0, 8}, {"jpeg", "\xff\xd8\xff", 0, 3},
-    {"openexr", "\x76\x2f\x31\x01", 0, 4}, {"hdr", "#?", 0, 2},
-    {"tiff", "II*\0", 0, 4}, {"tiff", "MM\0*", 0, 4},
-    {"tiff", "II+\0", 0, 4}, {"tiff", "MM\0+", 0, 4},
-    {"webp", "WEBP", 8, 4}, {"bmp", "BM", 0, 2},
-    {"gif", "GIF8", 0, 4}, {"dpx", "SDPX", 0, 4},
-    {"dpx", "XPDS", 0, 4}, {"pnm", "P5", 0, 2},
+    {"png", "\x89PNG\r\n\x1a\n", 0, 8},
+    {"jpeg", "\xff\xd8\xff", 0, 3},
+    {"openexr", "\x76\x2f\x31\x01", 0, 4},
+    {"hdr", "#?", 0, 2},
+    {"tiff", "II*\0", 0, 4},
+    {"tiff", "MM\0*", 0, 4},
+    {"tiff", "II+\0", 0, 4},
+    {"tiff", "MM\0+", 0, 4},
+    {"webp", "WEBP", 8, 4},
+    {"bmp", "BM", 0, 2},
+    {"gif", "GIF8", 0, 4},
+    {"dpx", "SDPX", 0, 4},
+    {"dpx", "XPDS", 0, 4},
+    {"pnm", "P5", 0, 2},
     {"pnm", "P6", 0, 2},
 };
 
-static const char *format_of(const unsigned char *bytes, size_t size, const char *name)
-{
+static const char *format_of(const unsigned char *bytes, size_t size, const char *name) {
     for (int i = 0; i < COUNT_OF(SIGNATURES); i++) {
         const Signature *s = &SIGNATURES[i];
         if (size >= s->offset + s->length && !memcmp(bytes + s->offset, s->bytes, s->length))
@@ -53,14 +59,12 @@ static const char *format_of(const unsigned char *bytes, size_t size, const char
     return length > 4 && !strcmp(name + length - 4, ".tga") ? "targa" : NULL;
 }
 
-static uint32_t u32_at(const unsigned char *p)
-{
+static uint32_t u32_at(const unsigned char *p) {
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
 /* A part that the picture can do without (its name begins with a small letter) may be. */
-static bool is_damaged(const unsigned char *type, size_t length)
-{
+static bool is_damaged(const unsigned char *type, size_t length) {
     for (int i = 0; i < 4; i++)
         if (!isalpha(type[i])) return true;
     return isupper(type[0]) && crc32(0, type, (uInt)(length + 4)) != u32_at(type + 4 + length);
@@ -68,21 +72,19 @@ static bool is_damaged(const unsigned char *type, size_t length)
 
 /* The first part is a head that PNG allows (ISO/IEC 15948, 11.2.2): a size, and a depth that
  * its kind of colour may have. */
-static bool is_png_head(const unsigned char *part)
-{
-    static const unsigned char depths[] = {1 | 2 | 4 | 8 | 16, 0, 8 | 16, 1 | 2 | 4 | 8,
-                                           8 | 16, 0, 8 | 16};
+static bool is_png_head(const unsigned char *part) {
+    static const unsigned char depths[] = {
+        1 | 2 | 4 | 8 | 16, 0, 8 | 16, 1 | 2 | 4 | 8, 8 | 16, 0, 8 | 16};
     const unsigned char *head = part + 8;
     unsigned depth = head[8], colour = head[9];
-    return u32_at(part) == 13 && !memcmp(part + 4, "IHDR", 4) && u32_at(head) &&
-           u32_at(head + 4) && colour < sizeof depths && (depths[colour] & depth) &&
-           !(depth & (depth - 1)) && !head[10] && !head[11] && head[12] < 2;
+    return u32_at(part) == 13 && !memcmp(part + 4, "IHDR", 4) && u32_at(head) && u32_at(head + 4) &&
+           colour < sizeof depths && (depths[colour] & depth) && !(depth & (depth - 1)) &&
+           !head[10] && !head[11] && head[12] < 2;
 }
 
 /* The library stops at the last row, so that a picture cut behind it would pass as whole; and
  * it prints what is damaged to stderr as well. */
-static bool check_png(const unsigned char *bytes, size_t size, Error *err)
-{
+static bool check_png(const unsigned char *bytes, size_t size, Error *err) {
     for (size_t at = 8; size - at >= 12;) {
         size_t length = u32_at(bytes + at);
         if (length > size - at - 12) break;
@@ -91,7 +93,8 @@ static bool check_png(const unsigned char *bytes, size_t size, Error *err)
             return error_set(err, ERROR_INPUT,
                              "damaged png picture: wrong checksum of the part at byte %zu", at);
         if (at == 8 && (size < 33 || !is_png_head(bytes + at)))
-            return error_set(err, ERROR_INPUT, "damaged png picture: its head has no size, or "
+            return error_set(err, ERROR_INPUT,
+                             "damaged png picture: its head has no size, or "
                              "a depth or way of packing that PNG does not have");
         if (!memcmp(type, "IEND", 4)) return true;
         at += 12 + length;
@@ -101,8 +104,7 @@ static bool check_png(const unsigned char *bytes, size_t size, Error *err)
 
 /* A decoder fills what is missing of a JPEG with grey. The end marker must come behind the
  * last start of pixels; neither occurs inside pixels (ITU-T T.81, B.1.1.5). */
-static bool check_jpeg(const unsigned char *bytes, size_t size, Error *err)
-{
+static bool check_jpeg(const unsigned char *bytes, size_t size, Error *err) {
     for (size_t at = size; at >= 2; at--) {
         if (bytes[at - 2] != 0xff) continue;
         if (bytes[at - 1] == 0xd9) return true;
@@ -113,22 +115,22 @@ static bool check_jpeg(const unsigned char *bytes, size_t size, Error *err)
 
 /* The library takes memory for as many bytes of user data as the header states (SMPTE 268M, at
  * byte 32, in the byte order of the first four; all ones: not stated). */
-static bool check_dpx(const unsigned char *bytes, size_t size, Error *err)
-{
+static bool check_dpx(const unsigned char *bytes, size_t size, Error *err) {
     enum { USER_BYTES_AT = 32 };
     if (size < USER_BYTES_AT + 4)
         return error_set(err, ERROR_INPUT, "damaged dpx picture: cut off in its header");
     uint32_t user = u32_at(bytes + USER_BYTES_AT);
     if (bytes[0] == 'X') user = __builtin_bswap32(user);
     return user == UINT32_MAX || user <= size ||
-           error_set(err, ERROR_INPUT, "damaged dpx picture: %u bytes of user data are stated, "
-                     "the file has %zu", user, size);
+           error_set(err, ERROR_INPUT,
+                     "damaged dpx picture: %u bytes of user data are stated, "
+                     "the file has %zu",
+                     user, size);
 }
 
 /* The library takes strips and tiles behind the end of the bytes for black (TIFF 6.0, sections
  * 2, 8 and 15). */
-static bool check_tiff(const unsigned char *bytes, size_t size, Error *err)
-{
+static bool check_tiff(const unsigned char *bytes, size_t size, Error *err) {
     static const unsigned tags[2][2] = {{273, 279}, {324, 325}}; /* where, how many bytes */
     const Tiff tiff = tiff_open(bytes, size);
     for (int k = 0; k < 2; k++) {
@@ -145,23 +147,20 @@ static bool check_tiff(const unsigned char *bytes, size_t size, Error *err)
 }
 
 /* Refuses damage that the libraries let pass. */
-static bool check_whole(const char *format, const void *bytes, size_t size, Error *err)
-{
+static bool check_whole(const char *format, const void *bytes, size_t size, Error *err) {
     if (!strcmp(format, "png")) return check_png(bytes, size, err);
     if (!strcmp(format, "dpx")) return check_dpx(bytes, size, err);
     if (!strcmp(format, "tiff")) return check_tiff(bytes, size, err);
     return strcmp(format, "jpeg") != 0 || check_jpeg(bytes, size, err);
 }
 
-static size_t format_bytes(ImageFormat format)
-{
+static size_t format_bytes(ImageFormat format) {
     return format == IMAGE_RGBA8 ? 4 : format == IMAGE_RGBA16 ? 8 : 16;
 }
 
 /* Refuses a picture before any pixel is decoded: a small file can announce a huge one. */
 static bool check_size(int width, int height, size_t pixel_bytes, size_t more_bytes,
-                       const Arena *arena, Error *err)
-{
+                       const Arena *arena, Error *err) {
     if (width < 1 || height < 1)
         return error_set(err, ERROR_INPUT, "%d x %d pixels, at least 1 x 1 required", width,
                          height);
@@ -174,8 +173,8 @@ static bool check_size(int width, int height, size_t pixel_bytes, size_t more_by
     size_t left = (size_t)(arena->end - arena->next), margin = 1 << 16;
     size_t wanted = pixels * pixel_bytes + more_bytes + margin;
     if (wanted > left) {
-        return error_set(err, ERROR_MEMORY, "%d x %d pixels need %zu MB, %zu MB are left",
-                         width, height, wanted >> 20, left >> 20);
+        return error_set(err, ERROR_MEMORY, "%d x %d pixels need %zu MB, %zu MB are left", width,
+                         height, wanted >> 20, left >> 20);
     }
     return true;
 }
@@ -185,32 +184,27 @@ typedef struct Swizzle {
     int stride, index[4];
 } Swizzle;
 
-static Swizzle swizzle_of(int channels, int alpha)
-{
+static Swizzle swizzle_of(int channels, int alpha) {
     bool grey = channels - (alpha >= 0) < 3;
     return (Swizzle){channels, {0, grey ? 0 : 1, grey ? 0 : 2, alpha}};
 }
 
-static void spread_u8(const unsigned char *from, Swizzle s, size_t count, unsigned char *to)
-{
+static void spread_u8(const unsigned char *from, Swizzle s, size_t count, unsigned char *to) {
     for (size_t i = 0; i < count; i++, from += s.stride, to += 4)
         for (int c = 0; c < 4; c++) to[c] = s.index[c] < 0 ? 255 : from[s.index[c]];
 }
 
-static void spread_u16(const uint16_t *from, Swizzle s, size_t count, uint16_t *to)
-{
+static void spread_u16(const uint16_t *from, Swizzle s, size_t count, uint16_t *to) {
     for (size_t i = 0; i < count; i++, from += s.stride, to += 4)
         for (int c = 0; c < 4; c++) to[c] = s.index[c] < 0 ? 65535 : from[s.index[c]];
 }
 
-static void spread_f32(const float *from, Swizzle s, size_t count, float *to)
-{
+static void spread_f32(const float *from, Swizzle s, size_t count, float *to) {
     for (size_t i = 0; i < count; i++, from += s.stride, to += 4)
         for (int c = 0; c < 4; c++) to[c] = s.index[c] < 0 ? 1.0f : from[s.index[c]];
 }
 
-static void spread(ImageFormat format, const void *from, Swizzle s, size_t count, void *to)
-{
+static void spread(ImageFormat format, const void *from, Swizzle s, size_t count, void *to) {
     switch (format) {
     case IMAGE_RGBA8: spread_u8(from, s, count, to); break;
     case IMAGE_RGBA16: spread_u16(from, s, count, to); break;
@@ -218,21 +212,20 @@ static void spread(ImageFormat format, const void *from, Swizzle s, size_t count
     }
 }
 
-static bool decode_pixels(ImageDecoder *decoder, Arena *arena, Image *out, Error *err)
-{
-    static const ImageFormat FORMATS[] = {[PIXEL_U8] = IMAGE_RGBA8, [PIXEL_U16] = IMAGE_RGBA16,
-                                          [PIXEL_F32] = IMAGE_RGBA32F};
+static bool decode_pixels(ImageDecoder *decoder, Arena *arena, Image *out, Error *err) {
+    static const ImageFormat FORMATS[] = {
+        [PIXEL_U8] = IMAGE_RGBA8, [PIXEL_U16] = IMAGE_RGBA16, [PIXEL_F32] = IMAGE_RGBA32F};
     ImageFileInfo info = image_decoder_info(decoder);
-    Image  image = {info.width, info.height, FORMATS[info.type], NULL};
+    Image image = {info.width, info.height, FORMATS[info.type], NULL};
     size_t bytes = format_bytes(image.format), value = bytes / 4;
     size_t raw_bytes = info.channels == 4 ? 0 : value * (size_t)info.channels;
     if (!check_size(info.width, info.height, bytes + raw_bytes, 0, arena, err)) return false;
 
     size_t count = (size_t)info.width * (size_t)info.height;
-    Arena  kept = *arena;
-    void  *pixels = arena_alloc(&kept, bytes, 16, count);
-    Arena  scratch = kept;
-    void  *raw = raw_bytes ? arena_alloc(&scratch, raw_bytes, 16, count) : pixels;
+    Arena kept = *arena;
+    void *pixels = arena_alloc(&kept, bytes, 16, count);
+    Arena scratch = kept;
+    void *raw = raw_bytes ? arena_alloc(&scratch, raw_bytes, 16, count) : pixels;
     if (!image_decoder_read(decoder, raw, err)) return false;
     if (raw != pixels)
         spread(image.format, raw, swizzle_of(info.channels, info.alpha_channel), count, pixels);
@@ -246,15 +239,14 @@ static bool decode_pixels(ImageDecoder *decoder, Arena *arena, Image *out, Error
 typedef struct Encoded {
     const char *format, *name;
     const void *bytes;
-    size_t      size;
+    size_t size;
 } Encoded;
 
-static bool decode_other(const Encoded *file, Arena *arena, Image *out, Error *err)
-{
+static bool decode_other(const Encoded *file, Arena *arena, Image *out, Error *err) {
     ImageDecoder *decoder;
-    char          why[PNG_WHY_BYTES];
-    double        room = (double)(arena->end - arena->next) / 4; /* pixels that fit */
-    double        most = fmin(MAX_PIXELS, room);
+    char why[PNG_WHY_BYTES];
+    double room = (double)(arena->end - arena->next) / 4; /* pixels that fit */
+    double most = fmin(MAX_PIXELS, room);
     if (!strcmp(file->format, "png") && !png_is_sound(file->bytes, file->size, most, why))
         return error_set(err, ERROR_INPUT, "damaged png picture: %s", why);
     if (!image_decoder_create(file->format, file->name, file->bytes, file->size, &decoder, err))
@@ -264,18 +256,15 @@ static bool decode_other(const Encoded *file, Arena *arena, Image *out, Error *e
     return ok;
 }
 
-static bool decode_radiance(const Encoded *file, Arena *arena, Image *out, Error *err)
-{
+static bool decode_radiance(const Encoded *file, Arena *arena, Image *out, Error *err) {
     RadianceFile radiance;
-    Arena        scratch = *arena;
-    if (!radiance_open(file->bytes, file->size, file->name, &scratch, &radiance, err))
-        return false;
+    Arena scratch = *arena;
+    if (!radiance_open(file->bytes, file->size, file->name, &scratch, &radiance, err)) return false;
     size_t line = 4 * (size_t)radiance.length;
     if (!check_size(radiance.width, radiance.height, 4 * sizeof(float), line, arena, err))
         return false;
-    Arena  kept = *arena;
-    float *rgba = ARENA_NEW(&kept, float,
-                            4 * (size_t)radiance.width * (size_t)radiance.height);
+    Arena kept = *arena;
+    float *rgba = ARENA_NEW(&kept, float, 4 * (size_t)radiance.width * (size_t)radiance.height);
     if (!radiance_read(&radiance, kept, rgba, err)) return false;
     *arena = kept;
     *out = (Image){radiance.width, radiance.height, IMAGE_RGBA32F, rgba};
@@ -284,15 +273,14 @@ static bool decode_radiance(const Encoded *file, Arena *arena, Image *out, Error
 
 /* A PNG or JPEG without the library. */
 typedef struct PlainPicture {
-    PlainPng  png;
+    PlainPng png;
     PlainJpeg jpeg;
-    int       width, height;
-    bool      is_jpeg;
+    int width, height;
+    bool is_jpeg;
 } PlainPicture;
 
 /* False: it is for the library. */
-static bool open_plain(const Encoded *file, PlainPicture *out)
-{
+static bool open_plain(const Encoded *file, PlainPicture *out) {
     PlainPicture made = {.is_jpeg = !strcmp(file->format, "jpeg")};
     if (made.is_jpeg ? !plain_jpeg_open(file->bytes, file->size, &made.jpeg)
                      : strcmp(file->format, "png") != 0 ||
@@ -304,17 +292,14 @@ static bool open_plain(const Encoded *file, PlainPicture *out)
     return true;
 }
 
-static bool decode_plain(const Encoded *file, Arena *arena, Image *out)
-{
+static bool decode_plain(const Encoded *file, Arena *arena, Image *out) {
     PlainPicture plain;
-    Error        ignored;
-    if (!open_plain(file, &plain) ||
-        !check_size(plain.width, plain.height, 4, 0, arena, &ignored))
+    Error ignored;
+    if (!open_plain(file, &plain) || !check_size(plain.width, plain.height, 4, 0, arena, &ignored))
         return false;
-    Arena    kept = *arena;
+    Arena kept = *arena;
     uint8_t *pixels = arena_alloc(&kept, 4, 16, (size_t)plain.width * (size_t)plain.height);
-    if (plain.is_jpeg ? !plain_jpeg_read(&plain.jpeg, pixels)
-                      : !plain_png_read(&plain.png, pixels))
+    if (plain.is_jpeg ? !plain_jpeg_read(&plain.jpeg, pixels) : !plain_png_read(&plain.png, pixels))
         return false;
     *arena = kept;
     *out = (Image){plain.width, plain.height, IMAGE_RGBA8, pixels};
@@ -327,14 +312,14 @@ static bool decode_plain(const Encoded *file, Arena *arena, Image *out)
  * alpha and round them, which cannot be undone. */
 
 /* width, height: 1 to 16384 each. Only the file's beginning is looked at. */
-static bool webp_size(const void *bytes, size_t size, int *width, int *height, Error *err)
-{
+static bool webp_size(const void *bytes, size_t size, int *width, int *height, Error *err) {
     WebPBitstreamFeatures found;
     if (WebPGetFeatures(bytes, size, &found) != VP8_STATUS_OK || found.width < 1 ||
         found.height < 1)
         return error_set(err, ERROR_INPUT, "damaged webp picture: its beginning is wrong");
     if (found.has_animation)
-        return error_set(err, ERROR_INPUT, "a webp picture that moves; one that stands still "
+        return error_set(err, ERROR_INPUT,
+                         "a webp picture that moves; one that stands still "
                          "is required");
     *width = found.width;
     *height = found.height;
@@ -342,8 +327,7 @@ static bool webp_size(const void *bytes, size_t size, int *width, int *height, E
 }
 
 /* rgba: 4 * width * height bytes, from the top, alpha straight. */
-static bool webp_read(const void *bytes, size_t size, unsigned char *rgba, Error *err)
-{
+static bool webp_read(const void *bytes, size_t size, unsigned char *rgba, Error *err) {
     int width, height;
     if (!webp_size(bytes, size, &width, &height, err)) return false;
     size_t row = 4 * (size_t)width;
@@ -351,13 +335,12 @@ static bool webp_read(const void *bytes, size_t size, unsigned char *rgba, Error
            error_set(err, ERROR_INPUT, "damaged webp picture: its pixels cannot be decoded");
 }
 
-static bool decode_webp(const Encoded *file, Arena *arena, Image *out, Error *err)
-{
+static bool decode_webp(const Encoded *file, Arena *arena, Image *out, Error *err) {
     int width, height;
     if (!webp_size(file->bytes, file->size, &width, &height, err) ||
         !check_size(width, height, 4, 0, arena, err))
         return false;
-    Arena    kept = *arena;
+    Arena kept = *arena;
     uint8_t *pixels = arena_alloc(&kept, 4, 16, (size_t)width * (size_t)height);
     if (!webp_read(file->bytes, file->size, pixels, err)) return false;
     *arena = kept;
@@ -372,25 +355,23 @@ enum { RED, GREEN, BLUE, ALPHA };
 /* The pixels of a file's data window that a picture of its display window shows. */
 typedef struct ExrPlanes {
     const ExrPicture *picture;
-    float            *rgba[4]; /* alpha may be NULL; a grey picture has one plane thrice */
+    float *rgba[4]; /* alpha may be NULL; a grey picture has one plane thrice */
 } ExrPlanes;
 
-static int channel_index(const ExrPicture *picture, const char *name)
-{
+static int channel_index(const ExrPicture *picture, const char *name) {
     for (int i = 0; i < picture->channel_count; i++)
         if (!strcmp(picture->channels[i].name, name)) return i;
     return -1;
 }
 
 /* Reads R, G, B (or Y) and A only. */
-static bool read_planes(ExrReader *reader, Arena *arena, ExrPlanes *out, Error *err)
-{
+static bool read_planes(ExrReader *reader, Arena *arena, ExrPlanes *out, Error *err) {
     static const char *const NAMES[4] = {"R", "G", "B", "A"};
     const ExrPicture *picture = exr_reader_picture(reader);
     size_t count = (size_t)(picture->data.x1 - picture->data.x0) *
                    (size_t)(picture->data.y1 - picture->data.y0);
     float **planes = ARENA_NEW(arena, float *, picture->channel_count);
-    bool    grey = channel_index(picture, "R") < 0 && channel_index(picture, "Y") >= 0;
+    bool grey = channel_index(picture, "R") < 0 && channel_index(picture, "Y") >= 0;
     out->picture = picture;
     for (int c = 0; c < 4; c++) {
         int i = channel_index(picture, grey && c != ALPHA ? "Y" : NAMES[c]);
@@ -406,22 +387,19 @@ static bool read_planes(ExrReader *reader, Arena *arena, ExrPlanes *out, Error *
 }
 
 /* OpenEXR's colours are multiplied by alpha; where alpha is 0 they glow and stay. */
-static void straighten(float rgba[4])
-{
+static void straighten(float rgba[4]) {
     if (!(rgba[ALPHA] > 0) || rgba[ALPHA] == 1) return;
     for (int c = 0; c < 3; c++) rgba[c] /= rgba[ALPHA];
 }
 
 /* to_rec709 may be NULL. What the data window does not reach is black. */
-static void place_pixels(const ExrPlanes *from, const ColourMatrix *to_rec709, float *rgba)
-{
+static void place_pixels(const ExrPlanes *from, const ColourMatrix *to_rec709, float *rgba) {
     const ExrWindow data = from->picture->data, display = from->picture->display;
     for (int y = display.y0; y < display.y1; y++) {
         for (int x = display.x0; x < display.x1; x++, rgba += 4) {
             rgba[ALPHA] = 1;
             if (x < data.x0 || x >= data.x1 || y < data.y0 || y >= data.y1) continue;
-            size_t at = (size_t)(y - data.y0) * (size_t)(data.x1 - data.x0) +
-                        (size_t)(x - data.x0);
+            size_t at = (size_t)(y - data.y0) * (size_t)(data.x1 - data.x0) + (size_t)(x - data.x0);
             for (int c = 0; c < 4; c++)
                 if (from->rgba[c]) rgba[c] = from->rgba[c][at];
             straighten(rgba);
@@ -430,20 +408,18 @@ static void place_pixels(const ExrPlanes *from, const ColourMatrix *to_rec709, f
     }
 }
 
-static bool decode_exr(ExrReader *reader, Arena *arena, Image *out, Error *err)
-{
+static bool decode_exr(ExrReader *reader, Arena *arena, Image *out, Error *err) {
     const ExrPicture *picture = exr_reader_picture(reader);
     ExrWindow w = picture->display, d = picture->data;
-    size_t    planes = (size_t)(d.x1 - d.x0) * (size_t)(d.y1 - d.y0) * 4 * sizeof(float);
-    Image     image = {w.x1 - w.x0, w.y1 - w.y0, IMAGE_RGBA32F, NULL};
-    if (!check_size(image.width, image.height, 4 * sizeof(float), planes, arena, err))
-        return false;
+    size_t planes = (size_t)(d.x1 - d.x0) * (size_t)(d.y1 - d.y0) * 4 * sizeof(float);
+    Image image = {w.x1 - w.x0, w.y1 - w.y0, IMAGE_RGBA32F, NULL};
+    if (!check_size(image.width, image.height, 4 * sizeof(float), planes, arena, err)) return false;
 
-    Arena        kept = *arena;
-    size_t       count = (size_t)image.width * (size_t)image.height;
-    float       *pixels = ARENA_NEW(&kept, float, count * 4);
-    Arena        scratch = kept;
-    ExrPlanes    from;
+    Arena kept = *arena;
+    size_t count = (size_t)image.width * (size_t)image.height;
+    float *pixels = ARENA_NEW(&kept, float, count * 4);
+    Arena scratch = kept;
+    ExrPlanes from;
     ColourMatrix matrix;
     if (!read_planes(reader, &scratch, &from, err)) return false;
     place_pixels(&from, frame_needs_rec709(picture, &matrix) ? &matrix : NULL, pixels);
@@ -453,8 +429,7 @@ static bool decode_exr(ExrReader *reader, Arena *arena, Image *out, Error *err)
     return true;
 }
 
-static bool decode(const Encoded *file, Arena *arena, Image *out, Error *err)
-{
+static bool decode(const Encoded *file, Arena *arena, Image *out, Error *err) {
     ExrReader *reader;
     if (decode_plain(file, arena, out)) return true;
     if (strcmp(file->format, "webp") == 0) return decode_webp(file, arena, out, err);
@@ -468,11 +443,10 @@ static bool decode(const Encoded *file, Arena *arena, Image *out, Error *err)
 
 /* ---- any picture ---------------------------------------------------------------------- */
 
-bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *arena,
-                       Image *out, Error *err)
-{
+bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *arena, Image *out,
+                       Error *err) {
     const Encoded file = {format_of(bytes, size, name), name, bytes, size};
-    bool          ok;
+    bool ok;
     if (!file.format) {
         ok = error_set(err, ERROR_INPUT,
                        "not a picture that can be read (PNG, JPEG, OpenEXR, Radiance HDR, "
@@ -483,11 +457,10 @@ bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *
     return ok || error_in_file(err, name);
 }
 
-bool image_read(const char *path, Arena *arena, Image *out, Error *err)
-{
-    Arena     file = arena_reserve(MAX_FILE_BYTES + 4096);
+bool image_read(const char *path, Arena *arena, Image *out, Error *err) {
+    Arena file = arena_reserve(MAX_FILE_BYTES + 4096);
     FileBytes bytes;
-    bool      ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err) &&
+    bool ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err) &&
               image_read_memory(bytes.data, bytes.size, path, arena, out, err);
     arena_release(&file);
     return ok;

@@ -28,5 +28,5 @@ typedef struct Image {
  * Grey becomes R = G = B; alpha stays straight. Negative or non-finite floats are kept. A code
  * of a Radiance picture stands for the middle of its step, as in Radiance's tools. */
 bool image_read(const char *path, Arena *arena, Image *out, Error *err);
-bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *arena,
-                       Image *out, Error *err);
+bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *arena, Image *out,
+                       Error *err);

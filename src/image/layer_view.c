@@ -17,14 +17,12 @@
 
 /* ---- planes over the display window -------------------------------------------------- */
 
-static bool covers_display(const FrameImage *frame)
-{
+static bool covers_display(const FrameImage *frame) {
     return !memcmp(&frame->display, &frame->data, sizeof frame->data);
 }
 
 /* NaN where the data window does not reach. */
-static const float *display_plane(const FrameImage *frame, const float *plane, Arena *arena)
-{
+static const float *display_plane(const FrameImage *frame, const float *plane, Arena *arena) {
     const ExrWindow w = frame->display, d = frame->data;
     if (covers_display(frame)) return plane;
     size_t width = (size_t)(w.x1 - w.x0), count = width * (size_t)(w.y1 - w.y0);
@@ -38,8 +36,7 @@ static const float *display_plane(const FrameImage *frame, const float *plane, A
     return out;
 }
 
-static size_t pixel_count(const LayerView *view)
-{
+static size_t pixel_count(const LayerView *view) {
     return (size_t)view->width * (size_t)view->height;
 }
 
@@ -48,9 +45,9 @@ static size_t pixel_count(const LayerView *view)
 /* The properties of known layers; `show` of the others follows from their channels. */
 typedef struct KnownLayer {
     const char *name, *channels; /* one letter each after the dot */
-    LayerShow   show;
+    LayerShow show;
     const char *unit;
-    bool        is_log;
+    bool is_log;
 } KnownLayer;
 
 static const KnownLayer KNOWN[] = {
@@ -84,23 +81,20 @@ static const KnownLayer KNOWN[] = {
     {"id.second", "", SHOW_ID, "", false},
 };
 
-static const KnownLayer *known_layer(const char *name)
-{
+static const KnownLayer *known_layer(const char *name) {
     for (int i = 0; i < COUNT_OF(KNOWN); i++)
         if (!strcmp(name, KNOWN[i].name)) return &KNOWN[i];
     return NULL;
 }
 
-static const float *layer_channel(const FrameImage *frame, const char *layer, char last)
-{
+static const float *layer_channel(const FrameImage *frame, const char *layer, char last) {
     char name[256];
     snprintf(name, sizeof name, "%s%s%c", layer, layer[0] ? "." : "", last);
     return frame_channel(frame, name);
 }
 
 static bool find_planes(const FrameImage *frame, const char *layer, const char *letters,
-                        const float *planes[3])
-{
+                        const float *planes[3]) {
     for (int c = 0; letters[c]; c++) {
         planes[c] = layer_channel(frame, layer, letters[c]);
         if (!planes[c]) return false;
@@ -109,14 +103,13 @@ static bool find_planes(const FrameImage *frame, const char *layer, const char *
 }
 
 /* The layers there are, each once: "R" "G" "B" make "the frame itself". */
-static const char *layer_names(const FrameImage *frame, Arena *arena)
-{
+static const char *layer_names(const FrameImage *frame, Arena *arena) {
     const char *names = "", *last = "";
     for (int i = 0; i < frame->channel_count; i++) {
         const char *name = frame->channels[i].name, *dot = strrchr(name, '.');
-        bool        is_letter = dot && strlen(dot) == 2;
-        const char *layer = dot && is_letter ? arena_string(arena, name, (size_t)(dot - name))
-                                             : name;
+        bool is_letter = dot && strlen(dot) == 2;
+        const char *layer =
+            dot && is_letter ? arena_string(arena, name, (size_t)(dot - name)) : name;
         if (!strcmp(layer, last)) continue;
         names = arena_format(arena, "%s%s%s", names, names[0] ? ", " : "", layer);
         last = layer;
@@ -124,8 +117,7 @@ static const char *layer_names(const FrameImage *frame, Arena *arena)
     return names;
 }
 
-static bool unknown_layer(const FrameImage *frame, const char *layer, Arena scratch, Error *err)
-{
+static bool unknown_layer(const FrameImage *frame, const char *layer, Arena scratch, Error *err) {
     const char *names = layer_names(frame, &scratch);
     if (!layer[0])
         return error_set(err, ERROR_INPUT, "has no channels R, G, B or Y; it has: %s", names);
@@ -133,11 +125,10 @@ static bool unknown_layer(const FrameImage *frame, const char *layer, Arena scra
 }
 
 /* A layer of one channel, or one channel of a layer. */
-static bool find_number(const FrameImage *frame, const char *name, LayerView *view)
-{
+static bool find_number(const FrameImage *frame, const char *name, LayerView *view) {
     char layer[256];
     const KnownLayer *known = known_layer(name);
-    const char       *dot = strrchr(name, '.');
+    const char *dot = strrchr(name, '.');
     view->planes[0] = frame_channel(frame, name);
     view->show = SHOW_NUMBER;
     if (!known && dot) {
@@ -155,8 +146,7 @@ static bool find_number(const FrameImage *frame, const char *name, LayerView *vi
     return view->planes[0] != NULL;
 }
 
-static bool find_layer(const FrameImage *frame, const char *name, LayerView *view)
-{
+static bool find_layer(const FrameImage *frame, const char *name, LayerView *view) {
     const KnownLayer *known = known_layer(name);
     if (!strcmp(name, "id") && find_number(frame, "id.part", view)) return true;
     if (known && strlen(known->channels) > 1 &&
@@ -179,8 +169,7 @@ static bool find_layer(const FrameImage *frame, const char *name, LayerView *vie
 
 /* ---- into Rec.709 -------------------------------------------------------------------- */
 
-static void convert(LayerView *view, const ColourMatrix *matrix, Arena *arena)
-{
+static void convert(LayerView *view, const ColourMatrix *matrix, Arena *arena) {
     float *out[3];
     for (int c = 0; c < 3; c++) out[c] = ARENA_NEW(arena, float, pixel_count(view));
     for (size_t i = 0; i < pixel_count(view); i++) {
@@ -191,21 +180,18 @@ static void convert(LayerView *view, const ColourMatrix *matrix, Arena *arena)
     for (int c = 0; c < 3; c++) view->planes[c] = out[c];
 }
 
-static void convert_xyz(LayerView *view, Arena *arena)
-{
+static void convert_xyz(LayerView *view, Arena *arena) {
     static const double XYZ_PRIMARIES[8] = {1, 0, 0, 1, 0, 0, 1 / 3.0, 1 / 3.0};
-    ColourMatrix        matrix = rec709_from_primaries(XYZ_PRIMARIES);
+    ColourMatrix matrix = rec709_from_primaries(XYZ_PRIMARIES);
     convert(view, &matrix, arena);
 }
 
 /* A frame's own variance is of R, G, B; one number is the variance of the luminance, taken as
  * if the three rose and fell together, as noise does: its greatest possible value. */
-static const float *luminance_variance(const LayerView *view, Arena *arena)
-{
+static const float *luminance_variance(const LayerView *view, Arena *arena) {
     float *out = ARENA_NEW(arena, float, pixel_count(view));
     for (size_t i = 0; i < pixel_count(view); i++) {
-        float sigma = 0.2126f * sqrtf(view->planes[0][i]) +
-                      0.7152f * sqrtf(view->planes[1][i]) +
+        float sigma = 0.2126f * sqrtf(view->planes[0][i]) + 0.7152f * sqrtf(view->planes[1][i]) +
                       0.0722f * sqrtf(view->planes[2][i]);
         out[i] = sigma * sigma;
     }
@@ -213,16 +199,14 @@ static const float *luminance_variance(const LayerView *view, Arena *arena)
 }
 
 /* The size of the halves' difference, whichever half was the brighter one. */
-static const float *luminance_size(const LayerView *view, Arena *arena)
-{
+static const float *luminance_size(const LayerView *view, Arena *arena) {
     float *out = layer_view_luminance(view, arena);
     for (size_t i = 0; i < pixel_count(view); i++) out[i] = fabsf(out[i]);
     return out;
 }
 
 bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, LayerView *out,
-                     Error *err)
-{
+                     Error *err) {
     const ExrWindow w = frame->display;
     long long width = (long long)w.x1 - w.x0, height = (long long)w.y1 - w.y0;
     LayerView view = {.show = SHOW_LIGHT, .unit = ""};
@@ -231,8 +215,10 @@ bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, L
                     !strncmp(layer, "stokes.", 7);
     if (!find_layer(frame, layer, &view)) return unknown_layer(frame, layer, *arena, err);
     if (width < 1 || height < 1 || width * height > MAX_PIXELS || width > 65536)
-        return error_set(err, ERROR_INPUT, "a display window of %lld x %lld pixels, at most "
-                         "%lld pixels are supported", width, height, MAX_PIXELS);
+        return error_set(err, ERROR_INPUT,
+                         "a display window of %lld x %lld pixels, at most "
+                         "%lld pixels are supported",
+                         width, height, MAX_PIXELS);
     view.width = (int)width;
     view.height = (int)height;
     for (int c = 0; c < 3; c++)
@@ -245,8 +231,7 @@ bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, L
     return true;
 }
 
-float *layer_view_luminance(const LayerView *view, Arena *arena)
-{
+float *layer_view_luminance(const LayerView *view, Arena *arena) {
     float *out = ARENA_NEW(arena, float, pixel_count(view));
     for (size_t i = 0; i < pixel_count(view); i++)
         out[i] = 0.2126f * view->planes[0][i] + 0.7152f * view->planes[1][i] +
@@ -257,8 +242,7 @@ float *layer_view_luminance(const LayerView *view, Arena *arena)
 /* ---- pictures ------------------------------------------------------------------------ */
 
 /* Colours far apart for numbers that follow each other: the golden angle around the hues. */
-static void id_colour(float id, float rgb[3])
-{
+static void id_colour(float id, float rgb[3]) {
     static const float THIRDS[3] = {0, 1 / 3.0f, 2 / 3.0f};
     int whole = id >= 0 && id < 1e9f ? (int)id : -1;
     float hue = (float)((uint32_t)whole * 2654435769u) * 0x1p-32f; /* 2^32 / golden ratio */
@@ -272,8 +256,7 @@ static void id_colour(float id, float rgb[3])
 
 /* From the 5th to the 80th percentile of a plane: mountains far away must not make a cabin
  * one colour. */
-static ScaleRange extent_of(const float *plane, size_t count, Arena scratch)
-{
+static ScaleRange extent_of(const float *plane, size_t count, Arena scratch) {
     float *sorted = ARENA_NEW(&scratch, float, count);
     size_t kept = 0;
     for (size_t i = 0; i < count; i++)
@@ -284,8 +267,7 @@ static ScaleRange extent_of(const float *plane, size_t count, Arena scratch)
     return range.high > range.low ? range : (ScaleRange){range.low, range.low + 1, false};
 }
 
-static float shown(LayerShow show, float value, ScaleRange extent)
-{
+static float shown(LayerShow show, float value, ScaleRange extent) {
     if (!isfinite(value)) return 0;
     switch (show) {
     case SHOW_REFLECTANCE: return srgb_from_linear(clampf(value, 0, 1));
@@ -296,8 +278,7 @@ static float shown(LayerShow show, float value, ScaleRange extent)
     }
 }
 
-static Picture plain_picture(const LayerView *view, Arena *arena)
-{
+static Picture plain_picture(const LayerView *view, Arena *arena) {
     Picture picture = picture_create(view->width, view->height, arena);
     for (int c = 0; c < 3; c++) {
         if (!view->planes[c]) continue;
@@ -310,8 +291,7 @@ static Picture plain_picture(const LayerView *view, Arena *arena)
     return picture;
 }
 
-Picture layer_view_picture(const LayerView *view, Arena *arena, char *scale)
-{
+Picture layer_view_picture(const LayerView *view, Arena *arena, char *scale) {
     if (scale) scale[0] = '\0';
     if (view->show == SHOW_ID) {
         Picture picture = picture_create(view->width, view->height, arena);
@@ -324,8 +304,8 @@ Picture layer_view_picture(const LayerView *view, Arena *arena, char *scale)
     if (!(view->high > view->low))
         range = scale_range_of(view->planes[0], pixel_count(view), view->is_log, *arena);
     if (scale)
-        snprintf(scale, 160, "%g to %g %s, %s", (double)range.low, (double)range.high,
-                 view->unit, range.is_log ? "logarithmic" : "linear");
+        snprintf(scale, 160, "%g to %g %s, %s", (double)range.low, (double)range.high, view->unit,
+                 range.is_log ? "logarithmic" : "linear");
     return false_colour_picture(view->planes[0], view->width, view->height, range, view->unit,
                                 arena);
 }

@@ -19,13 +19,13 @@ typedef enum LayerShow {
 } LayerShow;
 
 typedef struct LayerView {
-    LayerShow    show;
+    LayerShow show;
     const float *planes[3]; /* the display window, row by row; NaN where there is nothing */
-    int          width, height;
-    bool         has_gaps; /* NaN is no accident: pixels off displays, too few samples */
-    const char  *unit;   /* SHOW_NUMBER, as stroke_font.h writes it */
-    bool         is_log; /* SHOW_NUMBER: on a logarithmic scale */
-    float        low, high; /* SHOW_NUMBER: the scale's ends; both 0: what fits the values */
+    int width, height;
+    bool has_gaps;    /* NaN is no accident: pixels off displays, too few samples */
+    const char *unit; /* SHOW_NUMBER, as stroke_font.h writes it */
+    bool is_log;      /* SHOW_NUMBER: on a logarithmic scale */
+    float low, high;  /* SHOW_NUMBER: the scale's ends; both 0: what fits the values */
 } LayerView;
 
 /* layer: NULL or "" for the frame's own R, G, B; a layer ("normal", "display.emitted",

@@ -13,22 +13,21 @@
 #include "image/icc_profile.h"
 
 typedef struct Picture {
-    int    width, height;
+    int width, height;
     float *rgb; /* width * height * 3 */
 } Picture;
 
 /* Black. */
 Picture picture_create(int width, int height, Arena *arena);
 
-static inline float *picture_pixel(const Picture *picture, int x, int y)
-{
+static inline float *picture_pixel(const Picture *picture, int x, int y) {
     return picture->rgb + ((size_t)y * (size_t)picture->width + (size_t)x) * 3;
 }
 
 typedef struct PictureFile {
-    int         bits;        /* 8 or 16; JPEG has 8 */
-    bool        is_srgb;     /* stated in the file */
-    IccProfile  icc;         /* else this does, when there is one */
+    int bits;                /* 8 or 16; JPEG has 8 */
+    bool is_srgb;            /* stated in the file */
+    IccProfile icc;          /* else this does, when there is one */
     const char *description; /* goes into the file; NULL: none */
 } PictureFile;
 
@@ -43,8 +42,8 @@ bool picture_encode(const char *path, const Picture *picture, PictureFile file, 
 
 /* What a page shows, of 8 bits in sRGB: a JPEG, or a PNG where the library for JPEG cannot be
  * loaded. *kind: "jpeg" or "png". */
-bool picture_encode_small(const Picture *picture, Arena *arena, FileBytes *out,
-                          const char **kind, Error *err);
+bool picture_encode_small(const Picture *picture, Arena *arena, FileBytes *out, const char **kind,
+                          Error *err);
 
 /* False, with the endings that are supported, when picture_write would refuse the name or the
  * bits: to be checked before long work. */

@@ -12,15 +12,14 @@ enum { LINE_MAX_BYTES = 512 }; /* of a line whose numbers are read */
 
 typedef struct RadianceHeader {
     const char *next, *end, *name;
-    long        line; /* the one that was read last, from 1 */
-    char        text[LINE_MAX_BYTES];
-    Arena      *arena;
-    Error      *err;
+    long line; /* the one that was read last, from 1 */
+    char text[LINE_MAX_BYTES];
+    Arena *arena;
+    Error *err;
 } RadianceHeader;
 
 /* False at the end of the bytes. What does not fit is cut off: comments may be long. */
-static bool next_line(RadianceHeader *in)
-{
+static bool next_line(RadianceHeader *in) {
     if (in->next >= in->end) return false;
     const char *stop = memchr(in->next, '\n', (size_t)(in->end - in->next));
     if (!stop) return false;
@@ -34,8 +33,7 @@ static bool next_line(RadianceHeader *in)
     return true;
 }
 
-static bool line_is_wrong(const RadianceHeader *in, const char *wanted)
-{
+static bool line_is_wrong(const RadianceHeader *in, const char *wanted) {
     char place[32];
     snprintf(place, sizeof place, "line %ld", in->line);
     return error_at(in->err, ERROR_INPUT, in->name, place, "'%.60s', required: %s", in->text,
@@ -43,8 +41,7 @@ static bool line_is_wrong(const RadianceHeader *in, const char *wanted)
 }
 
 /* Exactly `count` numbers behind the sign of equality. */
-static bool line_numbers(const RadianceHeader *in, int count, double *out)
-{
+static bool line_numbers(const RadianceHeader *in, int count, double *out) {
     const char *at = strchr(in->text, '=') + 1;
     for (int i = 0; i < count; i++) {
         char *after;
@@ -56,9 +53,7 @@ static bool line_numbers(const RadianceHeader *in, int count, double *out)
 }
 
 /* Takes off again what the values were multiplied by. */
-static bool divide_by(const RadianceHeader *in, int count, const char *wanted,
-                      RadianceFile *out)
-{
+static bool divide_by(const RadianceHeader *in, int count, const char *wanted, RadianceFile *out) {
     double factor[3];
     if (!line_numbers(in, count, factor)) return line_is_wrong(in, wanted);
     for (int i = 0; i < 3; i++) {
@@ -69,36 +64,31 @@ static bool divide_by(const RadianceHeader *in, int count, const char *wanted,
     return true;
 }
 
-static void set_primaries(const double xy[8], RadianceFile *out)
-{
+static void set_primaries(const double xy[8], RadianceFile *out) {
     out->has_matrix = !chromaticities_are_rec709(xy);
     if (out->has_matrix) out->rec709 = rec709_from_primaries(xy);
 }
 
-static bool read_primaries(const RadianceHeader *in, RadianceFile *out)
-{
+static bool read_primaries(const RadianceHeader *in, RadianceFile *out) {
     double xy[8];
     if (!line_numbers(in, 8, xy) || !chromaticities_are_usable(xy))
         return line_is_wrong(in, "x and y of red, green, blue and white, of primaries that "
-                             "light can be mixed from");
+                                 "light can be mixed from");
     set_primaries(xy, out);
     return true;
 }
 
-static bool begins(const char *text, const char *with)
-{
+static bool begins(const char *text, const char *with) {
     return !strncmp(text, with, strlen(with));
 }
 
-static bool read_format(const RadianceHeader *in, bool *is_xyz)
-{
+static bool read_format(const RadianceHeader *in, bool *is_xyz) {
     *is_xyz = begins(in->text, "FORMAT=32-bit_rle_xyze");
     return *is_xyz || begins(in->text, "FORMAT=32-bit_rle_rgbe") ||
            line_is_wrong(in, "FORMAT=32-bit_rle_rgbe or 32-bit_rle_xyze");
 }
 
-static bool read_variable(const RadianceHeader *in, bool *is_xyz, RadianceFile *out)
-{
+static bool read_variable(const RadianceHeader *in, bool *is_xyz, RadianceFile *out) {
     if (begins(in->text, "EXPOSURE="))
         return divide_by(in, 1, "EXPOSURE= and a number above 0", out);
     if (begins(in->text, "COLORCORR="))
@@ -111,11 +101,10 @@ static bool read_variable(const RadianceHeader *in, bool *is_xyz, RadianceFile *
 }
 
 /* "-Y 32 +X 64": 32 scan lines from the top (-Y: Y grows upwards), 64 pixels from the left. */
-static bool read_size(RadianceHeader *in, RadianceFile *out)
-{
+static bool read_size(RadianceHeader *in, RadianceFile *out) {
     static const char wanted[] = "-Y HEIGHT +X WIDTH, or another order of X and Y, 1 to 65536";
     char sign[2], axis[2], rest;
-    int  size[2];
+    int size[2];
     if (!next_line(in))
         return error_at(in->err, ERROR_INPUT, in->name, "", "the header ends before the size");
     if (sscanf(in->text, "%c%c %d %c%c %d %c", &sign[0], &axis[0], &size[0], &sign[1], &axis[1],
@@ -132,16 +121,15 @@ static bool read_size(RadianceHeader *in, RadianceFile *out)
     out->width = by_rows ? size[1] : size[0];
     bool from_right = sign[by_rows] == '-', from_below = sign[!by_rows] == '+';
     long across = from_right ? -1 : 1, down = from_below ? -out->width : out->width;
-    out->first = (from_right ? out->width - 1 : 0) +
-                 (from_below ? (long)(out->height - 1) * out->width : 0);
+    out->first =
+        (from_right ? out->width - 1 : 0) + (from_below ? (long)(out->height - 1) * out->width : 0);
     out->line_step = by_rows ? down : across;
     out->pixel_step = by_rows ? across : down;
     return true;
 }
 
 /* The luminance of a white of 1, by Rec.709's parts. */
-static void set_unit(RadianceFile *out)
-{
+static void set_unit(RadianceFile *out) {
     const double luminance[3] = {0.2126, 0.7152, 0.0722};
     out->unit_cd_m2 = 0;
     for (int i = 0; i < 3; i++) {
@@ -153,19 +141,17 @@ static void set_unit(RadianceFile *out)
     }
 }
 
-bool radiance_recognise(const void *bytes, size_t size)
-{
+bool radiance_recognise(const void *bytes, size_t size) {
     return size > 2 && !memcmp(bytes, "#?", 2);
 }
 
 bool radiance_open(const void *bytes, size_t size, const char *name, Arena *arena,
-                   RadianceFile *out, Error *err)
-{
+                   RadianceFile *out, Error *err) {
     static const double XYZ[8] = {1, 0, 0, 1, 0, 0, 1.0 / 3, 1.0 / 3};
-    RadianceHeader in = {.next = bytes, .end = (const char *)bytes + size, .name = name,
-                         .arena = arena, .err = err};
+    RadianceHeader in = {
+        .next = bytes, .end = (const char *)bytes + size, .name = name, .arena = arena, .err = err};
     RadianceFile made = {.scale = {1, 1, 1}};
-    bool         is_xyz = false;
+    bool is_xyz = false;
     while (next_line(&in) && in.text[0])
         if (!read_variable(&in, &is_xyz, &made)) return false;
     if (!read_size(&in, &made)) return false;
@@ -187,8 +173,7 @@ typedef struct RadianceBytes {
     size_t left;
 } RadianceBytes;
 
-static bool take(RadianceBytes *in, size_t count, unsigned char *to)
-{
+static bool take(RadianceBytes *in, size_t count, unsigned char *to) {
     if (in->left < count) return false;
     memcpy(to, in->next, count);
     in->next += count;
@@ -197,14 +182,13 @@ static bool take(RadianceBytes *in, size_t count, unsigned char *to)
 }
 
 /* The four components one after the other, in runs (a count above 128) and as they are. */
-static bool take_components(RadianceBytes *in, int length, Rgbe *line)
-{
+static bool take_components(RadianceBytes *in, int length, Rgbe *line) {
     unsigned char head, value = 0;
     for (int c = 0; c < 4; c++)
         for (int x = 0; x < length;) {
             if (!take(in, 1, &head)) return false;
             bool is_run = head > 128;
-            int  count = is_run ? head - 128 : head;
+            int count = is_run ? head - 128 : head;
             if (count == 0 || count > length - x) return false;
             for (int i = 0; i < count; i++) {
                 if ((!is_run || i == 0) && !take(in, 1, &value)) return false;
@@ -216,8 +200,7 @@ static bool take_components(RadianceBytes *in, int length, Rgbe *line)
 
 /* Pixels, of which 1, 1, 1 and a count repeat the one before; further such ones in a row hold
  * the count's higher digits (of 256). */
-static bool take_pixels(RadianceBytes *in, int length, Rgbe *line)
-{
+static bool take_pixels(RadianceBytes *in, int length, Rgbe *line) {
     int digit = 0;
     for (int x = 0; x < length;) {
         Rgbe pixel;
@@ -233,34 +216,31 @@ static bool take_pixels(RadianceBytes *in, int length, Rgbe *line)
     return true;
 }
 
-static bool take_line(RadianceBytes *in, int length, Rgbe *line)
-{
+static bool take_line(RadianceBytes *in, int length, Rgbe *line) {
     const unsigned char *h = in->next;
-    bool in_components = in->left >= 4 && length >= 8 && length < 32768 && h[0] == 2 &&
-                         h[1] == 2 && h[2] < 128 && h[2] * 256 + h[3] == length;
+    bool in_components = in->left >= 4 && length >= 8 && length < 32768 && h[0] == 2 && h[1] == 2 &&
+                         h[2] < 128 && h[2] * 256 + h[3] == length;
     if (!in_components) return take_pixels(in, length, line);
     in->next += 4;
     in->left -= 4;
     return take_components(in, length, line);
 }
 
-static void store(const unsigned char pixel[4], float *rgba)
-{
+static void store(const unsigned char pixel[4], float *rgba) {
     float step = pixel[3] ? ldexpf(1, pixel[3] - 136) : 0;
     for (int c = 0; c < 3; c++) rgba[c] = ((float)pixel[c] + 0.5f) * step;
     rgba[3] = 1;
 }
 
-bool radiance_read(const RadianceFile *file, Arena scratch, float *rgba, Error *err)
-{
+bool radiance_read(const RadianceFile *file, Arena scratch, float *rgba, Error *err) {
     RadianceBytes in = {file->pixels, file->size};
-    Rgbe         *line = ARENA_NEW(&scratch, Rgbe, file->length);
-    int           y = 0;
+    Rgbe *line = ARENA_NEW(&scratch, Rgbe, file->length);
+    int y = 0;
     for (; y < file->count && take_line(&in, file->length, line); y++)
         for (int x = 0; x < file->length; x++)
-            store(line[x], rgba + 4 * (file->first + y * file->line_step +
-                                       x * file->pixel_step));
-    return y == file->count ||
-           error_set(err, ERROR_INPUT, "damaged hdr picture: scan line %d of %d is cut off, or "
-                     "its runs do not fit it", y, file->count);
+            store(line[x], rgba + 4 * (file->first + y * file->line_step + x * file->pixel_step));
+    return y == file->count || error_set(err, ERROR_INPUT,
+                                         "damaged hdr picture: scan line %d of %d is cut off, or "
+                                         "its runs do not fit it",
+                                         y, file->count);
 }

@@ -22,16 +22,16 @@
 #define RADIANCE_LM_W 179.0 /* Radiance's white efficacy, lm/W */
 
 typedef struct RadianceFile {
-    int          width, height;  /* upright */
-    double       scale[3];       /* stored values times these are cd m^-2 of the primaries */
-    bool         has_matrix;     /* these are not Rec.709's */
+    int width, height; /* upright */
+    double scale[3];   /* stored values times these are cd m^-2 of the primaries */
+    bool has_matrix;   /* these are not Rec.709's */
     ColourMatrix rec709;
-    double       unit_cd_m2;     /* luminance of a white whose stored values are 1 */
-    const char  *view;           /* behind the last VIEW=, as Radiance's tools take it; NULL */
+    double unit_cd_m2;           /* luminance of a white whose stored values are 1 */
+    const char *view;            /* behind the last VIEW=, as Radiance's tools take it; NULL */
     const unsigned char *pixels; /* behind the header */
-    size_t       size;
-    int          count, length;  /* scan lines, and the pixels of each */
-    long         first, line_step, pixel_step; /* of the upright picture's pixels */
+    size_t size;
+    int count, length;                 /* scan lines, and the pixels of each */
+    long first, line_step, pixel_step; /* of the upright picture's pixels */
 } RadianceFile;
 
 bool radiance_recognise(const void *bytes, size_t size);

@@ -12,30 +12,24 @@
 
 #include "base/mathf.h"
 
-static inline float srgb_from_linear(float light)
-{
+static inline float srgb_from_linear(float light) {
     return light <= 0.0031308f ? 12.92f * light : 1.055f * pow_f(light, 1 / 2.4f) - 0.055f;
 }
 
-static inline float linear_from_srgb(float code)
-{
+static inline float linear_from_srgb(float code) {
     return code <= 0.04045f ? code / 12.92f : pow_f((code + 0.055f) / 1.055f, 2.4f);
 }
 
 /* The same for every texel that is looked up: products in place of quotients round a little
  * differently, and frames keep their bits. */
-static inline float linear_from_srgb_texel(float code)
-{
-    return code <= 0.04045f ? code * (1 / 12.92f)
-                            : pow_f((code + 0.055f) * (1 / 1.055f), 2.4f);
+static inline float linear_from_srgb_texel(float code) {
+    return code <= 0.04045f ? code * (1 / 12.92f) : pow_f((code + 0.055f) * (1 / 1.055f), 2.4f);
 }
 
-static inline double srgb_from_linear_d(double light)
-{
+static inline double srgb_from_linear_d(double light) {
     return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
 }
 
-static inline double linear_from_srgb_d(double code)
-{
+static inline double linear_from_srgb_d(double code) {
     return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
 }

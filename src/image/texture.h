@@ -13,9 +13,9 @@
 typedef enum TextureWrap { WRAP_REPEAT, WRAP_CLAMP, WRAP_MIRROR } TextureWrap;
 
 typedef struct Texture {
-    Image       image;
+    Image image;
     TextureWrap wrap_u, wrap_v;
-    bool        nearest; /* magnification filter: NEAREST, else linear */
+    bool nearest; /* magnification filter: NEAREST, else linear */
 } Texture;
 
 /* Straight RGBA in [0,1], the codes as they are (data: normals, roughness ...). */

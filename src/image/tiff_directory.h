@@ -13,18 +13,16 @@
 typedef struct Tiff {
     const unsigned char *bytes;
     size_t size;
-    bool   is_big_endian, is_wide;
+    bool is_big_endian, is_wide;
 } Tiff;
 
 /* bytes: at least 4. */
-static inline Tiff tiff_open(const unsigned char *bytes, size_t size)
-{
+static inline Tiff tiff_open(const unsigned char *bytes, size_t size) {
     return (Tiff){bytes, size, bytes[0] == 'M', bytes[2] == '+' || bytes[3] == '+'};
 }
 
 /* 0 where the file does not hold all of its bytes. */
-static inline uint64_t tiff_number(const Tiff *tiff, uint64_t at, unsigned width)
-{
+static inline uint64_t tiff_number(const Tiff *tiff, uint64_t at, unsigned width) {
     uint64_t value = 0;
     if (at > tiff->size || tiff->size - at < width) return 0;
     for (unsigned i = 0; i < width; i++)
@@ -38,8 +36,7 @@ typedef struct TiffList {
     unsigned width; /* bytes of one */
 } TiffList;
 
-static inline TiffList tiff_list(const Tiff *tiff, unsigned tag)
-{
+static inline TiffList tiff_list(const Tiff *tiff, unsigned tag) {
     unsigned wide = tiff->is_wide ? 8 : 4, head = tiff->is_wide ? 8 : 2;
     uint64_t at = tiff_number(tiff, wide, wide), entries = tiff_number(tiff, at, head);
     at += head;
@@ -47,7 +44,10 @@ static inline TiffList tiff_list(const Tiff *tiff, unsigned tag)
         if (tiff_number(tiff, at, 2) != tag) continue;
         uint64_t type = tiff_number(tiff, at + 2, 2), value = at + 4 + wide;
         TiffList out = {value, tiff_number(tiff, at + 4, wide),
-                        type == 3 ? 2 : type == 16 ? 8 : type == 1 || type == 7 ? 1 : 4};
+                        type == 3                ? 2
+                        : type == 16             ? 8
+                        : type == 1 || type == 7 ? 1
+                                                 : 4};
         if (out.count * out.width > wide) out.at = tiff_number(tiff, value, wide);
         return out;
     }

@@ -25,35 +25,34 @@
 
 typedef struct PrimariesFile {
     const TextFile *text;
-    TextDialect     dialect;
-    ImportSet      *set;
-    Error          *err;
-    TextCell       *cell;
-    int             column[COLUMNS]; /* -1: not there */
-    int             cells;           /* of the header */
-    double         *value[COLUMNS];
-    int             rows;
+    TextDialect dialect;
+    ImportSet *set;
+    Error *err;
+    TextCell *cell;
+    int column[COLUMNS]; /* -1: not there */
+    int cells;           /* of the header */
+    double *value[COLUMNS];
+    int rows;
 } PrimariesFile;
 
-static int column_of(TextCell cell)
-{
+static int column_of(TextCell cell) {
     static const char *const names[COLUMNS][6] = {
         {"nm", "wavelength", "wavelength_nm", "lambda", "wavelength (nm)", NULL},
-        {"red", "r", "rot", "rouge", NULL}, {"green", "g", "gruen", "vert", NULL},
-        {"blue", "b", "blau", "bleu", NULL}, {"black", "k", "schwarz", "noir", NULL}};
+        {"red", "r", "rot", "rouge", NULL},
+        {"green", "g", "gruen", "vert", NULL},
+        {"blue", "b", "blau", "bleu", NULL},
+        {"black", "k", "schwarz", "noir", NULL}};
     for (int c = 0; c < COLUMNS; c++)
         if (text_cell_find(names[c], cell) >= 0) return c;
     return -1;
 }
 
-static bool is_comment(TextLine line)
-{
+static bool is_comment(TextLine line) {
     return !line.length || strchr("#!%", line.text[0]);
 }
 
 /* The first line that names wavelengths and the three primaries. */
-static bool find_header(PrimariesFile *in, int *at)
-{
+static bool find_header(PrimariesFile *in, int *at) {
     for (*at = 0; *at < in->text->count; (*at)++) {
         if (is_comment(in->text->line[*at])) continue;
         in->cells = text_cells(in->text->line[*at], in->dialect.delimiter, in->cell);
@@ -62,16 +61,14 @@ static bool find_header(PrimariesFile *in, int *at)
             int c = column_of(in->cell[i]);
             if (c >= 0) in->column[c] = i;
         }
-        if (in->column[0] >= 0 && in->column[1] >= 0 && in->column[2] >= 0 &&
-            in->column[3] >= 0)
+        if (in->column[0] >= 0 && in->column[1] >= 0 && in->column[2] >= 0 && in->column[3] >= 0)
             return true;
     }
     return error_at(in->err, ERROR_INPUT, in->text->file, "header line",
                     "has no columns of wavelength, red, green and blue");
 }
 
-static bool read_row(PrimariesFile *in, int at)
-{
+static bool read_row(PrimariesFile *in, int at) {
     const char *place = text_place(at, in->set->arena);
     if (text_cells(in->text->line[at], in->dialect.delimiter, in->cell) != in->cells)
         return error_at(in->err, ERROR_INPUT, in->text->file, place,
@@ -82,8 +79,8 @@ static bool read_row(PrimariesFile *in, int at)
         double *value = &in->value[c][in->rows];
         if (!text_number(cell, in->dialect.decimal, value) || fabs(*value) > VALUE_MOST)
             return error_at(in->err, ERROR_INPUT, in->text->file, place,
-                            "holds '%.*s', required: a number",
-                            cell.length < 40 ? cell.length : 40, cell.text);
+                            "holds '%.*s', required: a number", cell.length < 40 ? cell.length : 40,
+                            cell.text);
     }
     double nm = in->value[0][in->rows];
     if (!(nm >= 100 && nm <= 20000))
@@ -97,8 +94,7 @@ static bool read_row(PrimariesFile *in, int at)
     return true;
 }
 
-static bool check_reach(ImportSet *set, const char *file, Error *err)
-{
+static bool check_reach(ImportSet *set, const char *file, Error *err) {
     const ImportSpectra *spectra = &set->spectra;
     double beyond = 0;
     for (int p = 0; p < 3; p++)
@@ -107,18 +103,22 @@ static bool check_reach(ImportSet *set, const char *file, Error *err)
                                       &beyond, err))
             return false;
     if (beyond > 0)
-        import_note(set, "%s: %.2g %% of V(lambda) lies beyond the primaries' spectra, which "
-                    "end in light: dark is taken", path_name(file), 100 * beyond);
+        import_note(set,
+                    "%s: %.2g %% of V(lambda) lies beyond the primaries' spectra, which "
+                    "end in light: dark is taken",
+                    path_name(file), 100 * beyond);
     return true;
 }
 
-bool primaries_read(const char *file, const TextOptions *options, ImportSet *set, Error *err)
-{
+bool primaries_read(const char *file, const TextOptions *options, ImportSet *set, Error *err) {
     TextFile text;
-    int      at;
+    int at;
     if (!text_file_read(file, options->encoding, set->arena, &text, err)) return false;
-    PrimariesFile in = {.text = &text, .dialect = options->dialect, .set = set, .err = err,
-                  .cell = ARENA_NEW(set->arena, TextCell, TEXT_CELLS_MAX)};
+    PrimariesFile in = {.text = &text,
+                        .dialect = options->dialect,
+                        .set = set,
+                        .err = err,
+                        .cell = ARENA_NEW(set->arena, TextCell, TEXT_CELLS_MAX)};
     if (!text_find_dialect(&text, 0, *set->arena, &in.dialect, err)) return false;
     if (!find_header(&in, &at)) return false;
     for (int c = 0; c < COLUMNS; c++)
@@ -126,8 +126,10 @@ bool primaries_read(const char *file, const TextOptions *options, ImportSet *set
     for (at++; at < text.count; at++)
         if (!is_comment(text.line[at]) && !read_row(&in, at)) return false;
     if (in.rows < 2)
-        return error_at(err, ERROR_INPUT, file, "", "has %d wavelengths, required: "
-                                                    "more", in.rows);
+        return error_at(err, ERROR_INPUT, file, "",
+                        "has %d wavelengths, required: "
+                        "more",
+                        in.rows);
     set->spectra = (ImportSpectra){.rows = in.rows, .nm = in.value[0]};
     for (int c = 1; c < COLUMNS; c++) set->spectra.value[c - 1] = in.value[c];
     return check_reach(set, file, err);
@@ -138,10 +140,9 @@ bool primaries_read(const char *file, const TextOptions *options, ImportSet *set
 #define NORMAL_DEG 10.0 /* white nearer to the normal than this is compared */
 
 /* Mean luminance of the innermost directions, which lie at *theta_deg. */
-static double white_at_normal(const ImportTable *white, double *theta_deg)
-{
+static double white_at_normal(const ImportTable *white, double *theta_deg) {
     double sum = 0;
-    int    count = 0;
+    int count = 0;
     *theta_deg = 90;
     for (int i = 0; i < white->rows; i++)
         if (white->theta_deg[i] < *theta_deg) *theta_deg = white->theta_deg[i];
@@ -155,20 +156,21 @@ static double white_at_normal(const ImportTable *white, double *theta_deg)
 
 /* Reads the gamma table of white, holds it against the set's white and keeps it in the set.
  * level_max: the highest code, 0: not stated. */
-static bool import_beside_levels(const char *file, double level_max, ImportSet *set,
-                                 Error *err)
-{
+static bool import_beside_levels(const char *file, double level_max, ImportSet *set, Error *err) {
     const ImportTable *white = import_first(set, IMPORT_WHITE);
-    LevelTable        *levels = ARENA_NEW(set->arena, LevelTable, 1);
-    double             theta_deg;
+    LevelTable *levels = ARENA_NEW(set->arena, LevelTable, 1);
+    double theta_deg;
     if (!white)
-        return error_at(err, ERROR_INPUT, file, "", "is a level table for a set of white "
+        return error_at(err, ERROR_INPUT, file, "",
+                        "is a level table for a set of white "
                         "alone, but the files to import hold no white pattern alone");
     if (!level_table_read(file, level_max, set->arena, levels, err)) return false;
     double full = white_at_normal(white, &theta_deg);
     if (theta_deg > NORMAL_DEG)
-        import_note(set, "white is measured from %.3g degrees on: the level table's full level "
-                    "is not compared with it", theta_deg);
+        import_note(set,
+                    "white is measured from %.3g degrees on: the level table's full level "
+                    "is not compared with it",
+                    theta_deg);
     else if (!level_table_check_white(levels, full, white->file, err)) return false;
     import_note(set, "%s", level_table_note(levels, set->arena));
     set->levels = levels;
@@ -177,26 +179,27 @@ static bool import_beside_levels(const char *file, double level_max, ImportSet *
 
 /* ---- a mirror's reflectance -------------------------------------------------------------- */
 
-static bool check_specular(const ImportSpecular *asked, const ImportSet *set, Error *err)
-{
+static bool check_specular(const ImportSpecular *asked, const ImportSet *set, Error *err) {
     if (asked->file && asked->gloss.count)
-        return error_set(err, ERROR_USAGE, "both a specular table and gloss are given, "
-                                           "required: one of them: the table says more");
+        return error_set(err, ERROR_USAGE,
+                         "both a specular table and gloss are given, "
+                         "required: one of them: the table says more");
     if (!asked->file && asked->aperture_deg > 0)
-        return error_set(err, ERROR_USAGE, "the aperture is a specular table's, required: "
+        return error_set(err, ERROR_USAGE,
+                         "the aperture is a specular table's, required: "
                          "one (--specular)");
     return import_first(set, IMPORT_REFLECTION) || (!asked->file && !asked->gloss.count) ||
-           error_set(err, ERROR_INPUT, "a specular measurement belongs to a reflection, but "
+           error_set(err, ERROR_INPUT,
+                     "a specular measurement belongs to a reflection, but "
                      "the files to import hold none");
 }
 
-static bool import_beside_specular(const ImportSpecular *asked, ImportSet *set, Error *err)
-{
+static bool import_beside_specular(const ImportSpecular *asked, ImportSet *set, Error *err) {
     if (!check_specular(asked, set, err)) return false;
     if (asked->gloss.count) {
         set->gloss = &asked->gloss;
         import_note(set, "gloss is taken as the specular reflectance within a round aperture, "
-                    "the same at all wavelengths: an approximation");
+                         "the same at all wavelengths: an approximation");
     }
     if (!asked->file) return true;
     SpecularTable *table = ARENA_NEW(set->arena, SpecularTable, 1);
@@ -206,22 +209,20 @@ static bool import_beside_specular(const ImportSpecular *asked, ImportSet *set, 
     set->specular_aperture_deg = asked->aperture_deg;
     if (!(asked->aperture_deg > 0))
         import_note(set, "the specular table is taken as the mirror alone: no aperture is "
-                    "given");
+                         "given");
     return true;
 }
 
 #define TEXT_OR_NUMBER "{'type': ['string', 'number']}"
 #define WORDS(list) "{'enum': [" list "]}"
-#define NUMBER_FROM(bottom, top)                                                               \
-    "{'type': 'number', 'minimum': " bottom ", 'maximum': " top "}"
+#define NUMBER_FROM(bottom, top) "{'type': 'number', 'minimum': " bottom ", 'maximum': " top "}"
 /* One of them, or a list. */
-#define ENTRIES                                                                                \
-    "{'oneOf': [" TEXT_OR_NUMBER ", {'type': 'array', 'items': " TEXT_OR_NUMBER                \
+#define ENTRIES \
+    "{'oneOf': [" TEXT_OR_NUMBER ", {'type': 'array', 'items': " TEXT_OR_NUMBER \
     ", 'maxItems': 256}]}"
 
 /* A text or a number as the text that the command line would have. */
-static const char *plain_text(const JsonView *view, const json_t *value)
-{
+static const char *plain_text(const JsonView *view, const json_t *value) {
     if (json_is_string(value)) {
         const char *text = json_string_value(value);
         return arena_string(view->arena, text, strlen(text));
@@ -230,29 +231,25 @@ static const char *plain_text(const JsonView *view, const json_t *value)
                                  : NULL;
 }
 
-static bool set_one(const JsonView *view, const char *key, const json_t *value,
-                    TextOptions *text, Error *err)
-{
-    Error       why;
+static bool set_one(const JsonView *view, const char *key, const json_t *value, TextOptions *text,
+                    Error *err) {
+    Error why;
     const char *plain = plain_text(view, value);
     if (!plain) return record_fails(view, key, err, "required: a text or a number");
-    return text_options_set(text, key, plain, &why) ||
-           record_fails(view, key, err, "%s", why.text);
+    return text_options_set(text, key, plain, &why) || record_fails(view, key, err, "%s", why.text);
 }
 
 /* "columns": ["theta", "phi"] is as good as "theta,phi"; other lists add entry by entry. */
-static bool set_list(const JsonView *view, const char *key, const json_t *list,
-                     TextOptions *text, Error *err)
-{
-    size_t      i;
-    json_t     *value;
+static bool set_list(const JsonView *view, const char *key, const json_t *list, TextOptions *text,
+                     Error *err) {
+    size_t i;
+    json_t *value;
     const char *joined = "";
-    bool        is_columns = !strcmp(key, "columns");
+    bool is_columns = !strcmp(key, "columns");
     json_array_foreach((json_t *)list, i, value) {
         const char *plain = plain_text(view, value);
         if (!plain) return record_fails(view, key, err, "required: texts or numbers");
-        if (is_columns)
-            joined = arena_format(view->arena, "%s%s%s", joined, i ? "," : "", plain);
+        if (is_columns) joined = arena_format(view->arena, "%s%s%s", joined, i ? "," : "", plain);
         else if (!set_one(view, key, value, text, err)) return false;
     }
     return !is_columns || text_options_set(text, key, joined, err) ||
@@ -260,25 +257,23 @@ static bool set_list(const JsonView *view, const char *key, const json_t *list,
 }
 
 /* A key that is a line of a text declaration, and an option, as well. */
-static bool read_line(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    TextOptions  *text = &((ImportRequest *)item)->text;
+static bool read_line(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    TextOptions *text = &((ImportRequest *)item)->text;
     const json_t *value = json_object_get(view->object, row->key);
     return json_is_array(value) ? set_list(view, row->key, value, text, err)
                                 : set_one(view, row->key, value, text, err);
 }
 
-static bool read_roles(const JsonView *root, const RecordRow *row, void *item, Error *err)
-{
+static bool read_roles(const JsonView *root, const RecordRow *row, void *item, Error *err) {
     TextOptions *text = &((ImportRequest *)item)->text;
-    JsonView     view;
-    const char  *pattern;
-    json_t      *value;
+    JsonView view;
+    const char *pattern;
+    json_t *value;
     if (!json_view_child(root, row->key, &view, err)) return false;
     json_object_foreach(view.object, pattern, value) {
         const char *role = plain_text(&view, value);
-        Role        parsed;
-        Error       why;
+        Role parsed;
+        Error why;
         if (!role) return record_fails(&view, pattern, err, "required: a role");
         if (!role_parse(role, text_options_level_max(text), &parsed, &why))
             return record_fails(&view, pattern, err, "%s", why.text);
@@ -290,12 +285,11 @@ static bool read_roles(const JsonView *root, const RecordRow *row, void *item, E
     return true;
 }
 
-static bool read_skip(const JsonView *root, const RecordRow *row, void *item, Error *err)
-{
+static bool read_skip(const JsonView *root, const RecordRow *row, void *item, Error *err) {
     TextList *skip = &((ImportRequest *)item)->skip;
-    size_t    i;
-    json_t   *value, *list = json_object_get(root->object, row->key);
-    bool      ok = json_is_array(list);
+    size_t i;
+    json_t *value, *list = json_object_get(root->object, row->key);
+    bool ok = json_is_array(list);
     json_array_foreach(list, i, value) {
         const char *plain = plain_text(root, value);
         ok = ok && plain && skip->count < TEXT_ENTRIES_MAX;
@@ -305,25 +299,25 @@ static bool read_skip(const JsonView *root, const RecordRow *row, void *item, Er
 }
 
 /* Whatever it is. */
-static bool read_remark(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_remark(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     (void)view, (void)row, (void)item, (void)err;
     return true;
 }
 
-static const char *const SYMMETRIES[] = {"none", "left-right", "up-down", "both", "half-turn",
-                                         NULL};
+static const char *const SYMMETRIES[] = {"none", "left-right", "up-down",
+                                         "both", "half-turn",  NULL};
 
 #define OWNER ImportRequest
-#define LINE(key, json, words)                                                                 \
-    {key, RECORD_OWN, .read = read_line, .schema = json, .doc = words}
+#define LINE(key, json, words) {key, RECORD_OWN, .read = read_line, .schema = json, .doc = words}
 
 static const RecordRow DECLARATION[] = {
-    LINE("table", WORDS("'list', 'theta-down', 'phi-down', 'horizontal-down', "
-                        "'vertical-down'"),
+    LINE("table",
+         WORDS("'list', 'theta-down', 'phi-down', 'horizontal-down', "
+               "'vertical-down'"),
          "A direction a row, or a matrix and what runs down."),
-    LINE("columns", "{'oneOf': [" TEXT_OR_NUMBER ", {'type': 'array', 'minItems': 1, 'items': "
-                    TEXT_OR_NUMBER "}]}",
+    LINE("columns",
+         "{'oneOf': [" TEXT_OR_NUMBER ", {'type': 'array', 'minItems': 1, 'items': " TEXT_OR_NUMBER
+         "}]}",
          "What each column is; - skips one."),
     LINE("quantity", "{'type': 'string'}",
          "What a matrix without a label holds: X, Y, Z, L, brdf, 550nm."),
@@ -336,14 +330,17 @@ static const RecordRow DECLARATION[] = {
     LINE("mask", ENTRIES, "Values that mean: not measured."),
     LINE("section", ENTRIES, "PATTERN=DEG: azimuth of files that have theta alone."),
     LINE("angle_unit", WORDS("'deg', 'rad'"), NULL),
-    LINE("angles", WORDS("'polar', 'projected', 'equidistant', 'north-polar', "
-                         "'east-polar'"),
+    LINE("angles",
+         WORDS("'polar', 'projected', 'equidistant', 'north-polar', "
+               "'east-polar'"),
          "Which two angles a direction has."),
-    LINE("unit", WORDS("'cd/m2', 'nit', 'fL', 'kcd/m2', 'cd/ft2', 'brdf', "
-                       "'brdf-cos', 'factor', 'signal'"),
+    LINE("unit",
+         WORDS("'cd/m2', 'nit', 'fL', 'kcd/m2', 'cd/ft2', 'brdf', "
+               "'brdf-cos', 'factor', 'signal'"),
          "Of the values."),
-    LINE("azimuth_zero", "{'oneOf': [" WORDS("'right', 'top', 'left', 'bottom'")
-                         ", " NUMBER_FROM("-360", "360") "]}",
+    LINE("azimuth_zero",
+         "{'oneOf': [" WORDS("'right', 'top', 'left', 'bottom'") ", " NUMBER_FROM("-360",
+                                                                                  "360") "]}",
          "Where the file's azimuth 0 points."),
     LINE("azimuth_sense", WORDS("'ccw', 'cw'"), NULL),
     LINE("azimuth_seen_from", WORDS("'viewer', 'behind'"), NULL),
@@ -364,10 +361,8 @@ static const RecordRow DECLARATION[] = {
     TEXT("date", 0, date, "Of the measurement, for the manifest."),
     TEXT("operator", 0, operator_name, "Who measured, for the manifest."),
     TEXT("conditions", 0, conditions, "Under which it was measured, for the manifest."),
-    PATH("primaries", 0, primaries,
-         "A file beside the declaration: columns nm, red, green, blue."),
-    PATH("levels", 0, levels,
-         "A gamma table beside the declaration, for a set of white alone."),
+    PATH("primaries", 0, primaries, "A file beside the declaration: columns nm, red, green, blue."),
+    PATH("levels", 0, levels, "A gamma table beside the declaration, for a set of white alone."),
     PATH("specular", 0, specular.file,
          "A table beside the declaration: incidence, wavelength, reflectance."),
     NUMBER("specular_aperture_deg", 0, specular.aperture_deg, 0, SPECULAR_APERTURE_MOST_DEG,
@@ -383,13 +378,11 @@ static const RecordRow DECLARATION[] = {
            "Peak wavelengths of red, green and blue without spectra."),
     FLAG("accept", 0, accepts_repeats,
          "Take means also where repeated directions or runs contradict each other."),
-    {"note", RECORD_OWN, .read = read_remark, .schema = "{}",
-     .doc = "A remark that is not read."},
+    {"note", RECORD_OWN, .read = read_remark, .schema = "{}", .doc = "A remark that is not read."},
     {0}};
 #undef OWNER
 
-static bool check(const JsonView *view, void *item, Error *err)
-{
+static bool check(const JsonView *view, void *item, Error *err) {
     ImportRequest *request = item;
     return !request->gloss_count ||
            specular_gloss_collect(view, request->gloss, request->gloss_count,
@@ -401,8 +394,7 @@ const RecordFormat import_format = {
     .doc = "What a laboratory says once about its files; every key but the last is an option "
            "as well."};
 
-bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err)
-{
+bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err) {
     for (int i = 0; SYMMETRIES[i]; i++)
         if (!strcmp(SYMMETRIES[i], name)) {
             *out = (ImportSymmetry)i;
@@ -413,8 +405,7 @@ bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err)
                      name);
 }
 
-bool import_request_read(const char *file, Arena *arena, ImportRequest *request, Error *err)
-{
+bool import_request_read(const char *file, Arena *arena, ImportRequest *request, Error *err) {
     JsonView root;
     if (!json_view_open(file, arena, &root, err)) return false;
     root.root = request->root;
@@ -425,8 +416,7 @@ bool import_request_read(const char *file, Arena *arena, ImportRequest *request,
 
 /* ---- the import -------------------------------------------------------------------------- */
 
-bool import_request_skips(const ImportRequest *request, const char *file)
-{
+bool import_request_skips(const ImportRequest *request, const char *file) {
     const char *role = text_options_role(&request->text, file);
     if (role && !strcmp(role, "skip")) return true;
     for (int i = 0; i < request->skip.count; i++)
@@ -438,11 +428,10 @@ bool import_request_skips(const ImportRequest *request, const char *file)
 
 /* Reads on when a file is refused, so that the message can count them. */
 static bool read_files(const char *const *file, int count, const ImportRequest *request,
-                       ImportSet *set, Error *err)
-{
+                       ImportSet *set, Error *err) {
     ImportOptions options = request->options;
-    Error         one = {.code = ERROR_NONE};
-    int           refused = 0, skipped = 0;
+    Error one = {.code = ERROR_NONE};
+    int refused = 0, skipped = 0;
     options.text = &request->text;
     for (int i = 0; i < count; i++) {
         bool is_skipped = import_request_skips(request, file[i]);
@@ -460,25 +449,26 @@ static bool read_files(const char *const *file, int count, const ImportRequest *
 }
 
 /* The set takes them in place of spectra. */
-static bool check_bands(const ImportRequest *request, Arena *arena, Error *err)
-{
+static bool check_bands(const ImportRequest *request, Arena *arena, Error *err) {
     const double *nm = request->peaks_nm;
     bool has_peaks = nm[0] > 0;
     if (request->primaries && (request->backlight || has_peaks))
-        return error_set(err, ERROR_USAGE, "both spectra of the primaries and a backlight or "
+        return error_set(err, ERROR_USAGE,
+                         "both spectra of the primaries and a backlight or "
                          "peaks are given, required: one of them: spectra say more");
     if (request->backlight && !primary_backlight_named(request->backlight))
         return error_set(err, ERROR_USAGE, "the backlight is '%s', required: one of %s",
                          request->backlight, primary_backlight_names(arena));
     return !has_peaks || (nm[0] > nm[1] && nm[1] > nm[2]) ||
-           error_set(err, ERROR_USAGE, "the peaks are %g, %g, %g nm, required: those of "
-                     "red, green and blue, which fall", nm[0], nm[1], nm[2]);
+           error_set(err, ERROR_USAGE,
+                     "the peaks are %g, %g, %g nm, required: those of "
+                     "red, green and blue, which fall",
+                     nm[0], nm[1], nm[2]);
 }
 
 /* What a request says of a set, and the spectra of the primaries, before any file is read. */
-static bool begin(const char *const *file, int count, const ImportRequest *request,
-                  ImportSet *set, Error *err)
-{
+static bool begin(const char *const *file, int count, const ImportRequest *request, ImportSet *set,
+                  Error *err) {
     set->panel = request->panel;
     set->instrument = request->instrument;
     set->date = request->date;
@@ -497,16 +487,14 @@ static bool begin(const char *const *file, int count, const ImportRequest *reque
         if (beside[i]) lines_put(&set->inputs, beside[i]);
     for (int i = 0; i < count; i++) lines_put(&set->inputs, file[i]);
     return check_bands(request, set->arena, err) &&
-           (!request->primaries ||
-            primaries_read(request->primaries, &request->text, set, err));
+           (!request->primaries || primaries_read(request->primaries, &request->text, set, err));
 }
 
-bool import_run(const char *const *file, int count, const ImportRequest *request,
-                ImportSet *set, Error *err)
-{
-    return begin(file, count, request, set, err) &&
-           read_files(file, count, request, set, err) && import_complete(set, err) &&
-           (!request->levels || import_beside_levels(request->levels, request->text.level_max,
-                                                     set, err)) &&
+bool import_run(const char *const *file, int count, const ImportRequest *request, ImportSet *set,
+                Error *err) {
+    return begin(file, count, request, set, err) && read_files(file, count, request, set, err) &&
+           import_complete(set, err) &&
+           (!request->levels ||
+            import_beside_levels(request->levels, request->text.level_max, set, err)) &&
            import_beside_specular(&request->specular, set, err);
 }

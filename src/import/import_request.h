@@ -15,8 +15,8 @@
  * reflectances of 1, gloss units. File NULL and no gloss: nothing is added. */
 typedef struct ImportSpecular {
     const char *file;
-    double      aperture_deg; /* full angle; 0: the mirror alone */
-    Gloss       gloss;
+    double aperture_deg; /* full angle; 0: the mirror alone */
+    Gloss gloss;
 } ImportSpecular;
 
 /* Called with the number of files done. */
@@ -28,20 +28,20 @@ bool primaries_read(const char *file, const TextOptions *options, ImportSet *set
 
 typedef struct ImportRequest {
     TextOptions text;
-    ImportOptions   options;  /* options.text is set by import_run */
-    TextList        skip;     /* patterns of files to leave out */
-    const char     *primaries; /* a file of spectra; NULL: none */
-    const char     *levels;    /* a gamma table of a white-only set; NULL: none */
-    ImportSpecular  specular;  /* of a reflection */
-    const char     *root;      /* --root: where else such a file may name files; or NULL */
-    const char     *panel, *instrument, *date, *operator_name, *conditions, *backlight;
-    double          peaks_nm[3]; /* 0: not stated */
+    ImportOptions options;   /* options.text is set by import_run */
+    TextList skip;           /* patterns of files to leave out */
+    const char *primaries;   /* a file of spectra; NULL: none */
+    const char *levels;      /* a gamma table of a white-only set; NULL: none */
+    ImportSpecular specular; /* of a reflection */
+    const char *root;        /* --root: where else such a file may name files; or NULL */
+    const char *panel, *instrument, *date, *operator_name, *conditions, *backlight;
+    double peaks_nm[3];        /* 0: not stated */
     const GlossReading *gloss; /* as a file has it; specular.gloss counts */
-    int             gloss_count;
-    ImportSymmetry  symmetry;
-    bool            is_isotropic, black_is_zero, accepts_repeats;
-    ImportStep     *step; /* NULL: nobody waits */
-    void           *context;
+    int gloss_count;
+    ImportSymmetry symmetry;
+    bool is_isotropic, black_is_zero, accepts_repeats;
+    ImportStep *step; /* NULL: nobody waits */
+    void *context;
 } ImportRequest;
 
 extern const RecordFormat import_format;
@@ -56,5 +56,5 @@ bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err);
 bool import_request_skips(const ImportRequest *request, const char *file);
 
 /* Reads all files with the options of the request and completes the set. */
-bool import_run(const char *const *file, int count, const ImportRequest *request,
-                ImportSet *set, Error *err);
+bool import_run(const char *const *file, int count, const ImportRequest *request, ImportSet *set,
+                Error *err);

@@ -15,20 +15,16 @@
 #define FORMATS_MAX 64
 
 const Importer *const importers[] = {
-    &importer_zemax, &importer_speos, &importer_astm, &importer_rgl,
-    &importer_merl, &importer_spreadsheet,
-    &importer_ies, &importer_eulumdat,
-    &importer_text,
-    NULL,
+    &importer_zemax,       &importer_speos, &importer_astm,     &importer_rgl,  &importer_merl,
+    &importer_spreadsheet, &importer_ies,   &importer_eulumdat, &importer_text, NULL,
 };
 
 /* ---- which importer ---------------------------------------------------------------------- */
 
-static const Importer *importer_named(const char *name, Error *err)
-{
+static const Importer *importer_named(const char *name, Error *err) {
     const char *names[FORMATS_MAX];
-    char        advice[512];
-    int         count = 0;
+    char advice[512];
+    int count = 0;
     for (int i = 0; importers[i] && i < FORMATS_MAX; i++) {
         if (!strcmp(importers[i]->name, name)) return importers[i];
         names[count++] = importers[i]->name;
@@ -43,8 +39,7 @@ static const Importer *importer_named(const char *name, Error *err)
     return NULL;
 }
 
-static bool read_head(const char *file, char *head, size_t *size, Error *err)
-{
+static bool read_head(const char *file, char *head, size_t *size, Error *err) {
     struct stat info; /* a pipe would be waited for */
     if (!stat(file, &info) && !S_ISREG(info.st_mode))
         return error_at(err, ERROR_INPUT, file, "", "is %s, a file is required",
@@ -61,14 +56,16 @@ static bool read_head(const char *file, char *head, size_t *size, Error *err)
 
 /* Formats of before, by what stands in their first bytes and in none of the formats that are
  * tried before text. */
-static const struct { const char *name, *mark; } FORMATS_REMOVED[] = {
-    {"FRED", "type bsdf_data"}, {"FRED", "!!BSDF Data"}, {"LightTools", "ScatterAzimuth"},
-    {"Mountain", "#format: theta phi"}, {"Mountain", "#incident_angle"}, {"SSDD", "DATA_TYPE "},
-    {"WINDOW", "<WindowElement"}, {"KAIST", "tensor_file"},
+static const struct {
+    const char *name, *mark;
+} FORMATS_REMOVED[] = {
+    {"FRED", "type bsdf_data"},       {"FRED", "!!BSDF Data"},
+    {"LightTools", "ScatterAzimuth"}, {"Mountain", "#format: theta phi"},
+    {"Mountain", "#incident_angle"},  {"SSDD", "DATA_TYPE "},
+    {"WINDOW", "<WindowElement"},     {"KAIST", "tensor_file"},
 };
 
-static const char *format_removed(const char *head, size_t size)
-{
+static const char *format_removed(const char *head, size_t size) {
     for (int i = 0; i < COUNT_OF(FORMATS_REMOVED); i++) {
         const char *mark = FORMATS_REMOVED[i].mark;
         if (memmem(head, size, mark, strlen(mark))) return FORMATS_REMOVED[i].name;
@@ -76,9 +73,8 @@ static const char *format_removed(const char *head, size_t size)
     return NULL;
 }
 
-bool import_file(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
-{
-    char   head[IMPORT_HEAD_BYTES + 1];
+bool import_file(const char *file, const ImportOptions *options, ImportSet *set, Error *err) {
+    char head[IMPORT_HEAD_BYTES + 1];
     size_t size = 0;
     const Importer *named = options->format ? importer_named(options->format, err) : NULL;
     if ((options->format && !named) || !read_head(file, head, &size, err)) return false;
@@ -89,7 +85,8 @@ bool import_file(const char *file, const ImportOptions *options, ImportSet *set,
         if (gone)
             return error_at(err, ERROR_INPUT, file, "",
                             "is of %s's format, which is no longer read — export it as text "
-                            "(parhelion help measuring-a-panel)", gone);
+                            "(parhelion help measuring-a-panel)",
+                            gone);
         if (importers[i]->recognises(file, head, size))
             return importers[i]->read(file, options, set, err);
     }

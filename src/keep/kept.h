@@ -24,20 +24,20 @@
 
 /* One kind of file. */
 typedef struct KeptFormat {
-    char        magic[9]; /* 8 letters */
-    const char *name;     /* as messages call it: "a checkpoint" */
-    uint32_t    version;  /* others are refused */
-    size_t      facts_bytes;
+    char magic[9];    /* 8 letters */
+    const char *name; /* as messages call it: "a checkpoint" */
+    uint32_t version; /* others are refused */
+    size_t facts_bytes;
 } KeptFormat;
 
 /* ---- writing ----------------------------------------------------------------------------- */
 
 typedef struct KeptFile {
     const KeptFormat *format;
-    const char       *path;     /* must outlive the writer */
-    const char       *identity; /* "": nothing besides the facts decides it */
-    const void       *facts;    /* without padding */
-    uint64_t          body_bytes;
+    const char *path;     /* must outlive the writer */
+    const char *identity; /* "": nothing besides the facts decides it */
+    const void *facts;    /* without padding */
+    uint64_t body_bytes;
 } KeptFile;
 
 typedef struct KeptWriter KeptWriter;
@@ -57,9 +57,9 @@ bool kept_write(const KeptFile *file, const void *body, Arena scratch, Error *er
 
 typedef struct KeptReader {
     const char *path, *identity;
-    uint64_t    bytes; /* of the file */
-    uint64_t    left;  /* of the body */
-    FILE       *file;
+    uint64_t bytes; /* of the file */
+    uint64_t left;  /* of the body */
+    FILE *file;
 } KeptReader;
 
 /* True when a file stands there that begins with the format's magic. */

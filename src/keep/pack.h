@@ -33,15 +33,15 @@ typedef struct PackFormat PackFormat;
 
 typedef struct PackRow {
     PackKind kind;
-    size_t   offset, size, count;
-    int      low, high;
+    size_t offset, size, count;
+    int low, high;
     const PackFormat *of;
 } PackRow;
 
 struct PackFormat {
-    size_t         size; /* of the struct */
+    size_t size; /* of the struct */
     const PackRow *rows;
-    int            row_count;
+    int row_count;
     bool (*is_sound)(const void *item); /* once it is read; NULL: rows say all */
 };
 

@@ -20,37 +20,37 @@
 /* Work on a rectangle of pixels: the interface between the render loop and the kernel. */
 typedef struct TileJob {
     const PathContext *context;
-    const Camera      *camera;
-    Film    *film;
-    bool     with_features; /* fill the layers of the first surface, not only the colour */
-    bool     with_fine;     /* and display.fine, which takes more camera rays; */
-    bool     with_lambertian; /* display.lambertian */
-    bool     with_extrapolated; /* display.extrapolated */
+    const Camera *camera;
+    Film *film;
+    bool with_features;        /* fill the layers of the first surface, not only the colour */
+    bool with_fine;            /* and display.fine, which takes more camera rays; */
+    bool with_lambertian;      /* display.lambertian */
+    bool with_extrapolated;    /* display.extrapolated */
     const LightGroups *lights; /* the film's groups of lights; NULL: it keeps none apart */
     uint32_t seed;
-    SampleShares shares;    /* of the film's crop */
+    SampleShares shares;               /* of the film's crop */
     uint32_t first_sample, end_sample; /* half-open, of the frame */
 } TileJob;
 
 /* A search for the pixels that show a display. */
 typedef struct DisplaySearch {
     const PathContext *context;
-    const Camera      *camera;
-    int       display; /* its id; FILM_ANY_DISPLAY: any */
-    FilmRect  rect;    /* of the frame */
-    uint8_t  *shows;   /* of each of its pixels, row by row: 1: it does */
+    const Camera *camera;
+    int display;    /* its id; FILM_ANY_DISPLAY: any */
+    FilmRect rect;  /* of the frame */
+    uint8_t *shows; /* of each of its pixels, row by row: 1: it does */
 } DisplaySearch;
 
 /* The work by which a guide is trained. */
 typedef struct TrainingJob {
     const PathContext *context; /* with the guide as trained so far */
-    const Camera      *camera;
+    const Camera *camera;
     uint32_t seed, index; /* of the paths' random numbers */
-    Vec2     stretch;     /* pixels of the frame to a step of the raster, across and down */
+    Vec2 stretch;         /* pixels of the frame to a step of the raster, across and down */
     PathPlaces *places;   /* one a step of the raster, row by row */
-    int         columns;  /* of the raster */
+    int columns;          /* of the raster */
     const GuideTraining *training;
-    LightFinds        *finds;   /* one a cell */
+    LightFinds *finds; /* one a cell */
 } TrainingJob;
 
 typedef struct Kernel {
@@ -69,7 +69,7 @@ typedef struct Kernel {
     void (*look)(const ProbeAim *aim, int first, int end, ProbeLook *out,
                  PathStatistics *statistics);
     void (*trace)(const ProbeAim *aim, int first, int end, const PathListener *listener,
-                 PathStatistics *statistics);
+                  PathStatistics *statistics);
     void (*sample_cells)(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
                          ProbeAnswers *out, PathStatistics *statistics);
     void (*sample_suns)(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,

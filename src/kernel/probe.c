@@ -9,9 +9,8 @@
 
 /* place: the pair in [0, 1)^2 that is a pixel path's place in the pixel. The choice of the
  * target leaves a number that is as even. */
-static Vec3 target_of(const ProbeAim *aim, int path, Vec2 place, int *which)
-{
-    int   target = path % aim->target_count;
+static Vec3 target_of(const ProbeAim *aim, int path, Vec2 place, int *which) {
+    int target = path % aim->target_count;
     float along = place.x;
     if (aim->is_spread) {
         float scaled = place.x * (float)aim->target_count;
@@ -27,16 +26,15 @@ static Vec3 target_of(const ProbeAim *aim, int path, Vec2 place, int *which)
 
 /* A path of a probe: its sampler behind the wavelengths, and where it goes. */
 typedef struct ProbePath {
-    PathStart   start;
+    PathStart start;
     Wavelengths wavelengths;
-    Sampler     sampler;
-    Ray         ray; /* of an eye */
-    int         target;
+    Sampler sampler;
+    Ray ray; /* of an eye */
+    int target;
 } ProbePath;
 
 /* place: of the path's sampler. */
-static void set_ray(const ProbeAim *aim, int path, Vec2 place, ProbePath *out)
-{
+static void set_ray(const ProbeAim *aim, int path, Vec2 place, ProbePath *out) {
     const ProbePixel *pixel = aim->pixel;
     if (pixel) {
         out->ray = camera_pixel_ray(pixel->camera, pixel->x, pixel->y, place, &out->sampler);
@@ -47,35 +45,33 @@ static void set_ray(const ProbeAim *aim, int path, Vec2 place, ProbePath *out)
 }
 
 /* All light that is counted is counted by these weights. */
-static void colour_eye(const Curve *colour, Wavelengths *wavelengths)
-{
+static void colour_eye(const Curve *colour, Wavelengths *wavelengths) {
     Spectrum share = curve_lookup(colour, wavelengths);
     for (int i = 0; i < 3; i++) wavelengths->xyz[i] *= share;
 }
 
-static void start_path(const ProbeAim *aim, int path, PathStatistics *statistics,
-                       ProbePath *out)
-{
+static void start_path(const ProbeAim *aim, int path, PathStatistics *statistics, ProbePath *out) {
     const ProbePixel *pixel = aim->pixel;
-    int  x = pixel ? pixel->x : 0, y = pixel ? pixel->y : 0;
+    int x = pixel ? pixel->x : 0, y = pixel ? pixel->y : 0;
     out->sampler = sampler_start(aim->seed, x, y, (uint32_t)path);
     Vec2 place = sampler_2d(&out->sampler);
     wavelengths_sample(sampler_1d(&out->sampler), &out->wavelengths);
     if (aim->colour) colour_eye(aim->colour, &out->wavelengths);
-    out->start = (PathStart){.context = aim->context, .wavelengths = &out->wavelengths,
-                             .sampler = &out->sampler, .statistics = statistics};
+    out->start = (PathStart){.context = aim->context,
+                             .wavelengths = &out->wavelengths,
+                             .sampler = &out->sampler,
+                             .statistics = statistics};
     out->target = 0;
     if (!aim->meter) set_ray(aim, path, place, out);
 }
 
 /* ---- by the light that is there ---------------------------------------------------------- */
 
-static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *statistics)
-{
-    ProbePath    own;
-    SeenLight    seen;
-    float        emitted[3];
-    SeenRequest  request = {.listener = NULL};
+static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *statistics) {
+    ProbePath own;
+    SeenLight seen;
+    float emitted[3];
+    SeenRequest request = {.listener = NULL};
     *out = (ProbeLook){.is_found = false};
     start_path(aim, path, statistics, &own);
     path_seen(&own.start, own.ray, &request, &seen);
@@ -92,18 +88,15 @@ static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *
     }
 }
 
-static void read_meter(const ProbeAim *aim, int path, ProbeLook *out,
-                       PathStatistics *statistics)
-{
-    ProbePath    own;
+static void read_meter(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *statistics) {
+    ProbePath own;
     *out = (ProbeLook){.is_found = true};
     start_path(aim, path, statistics, &own);
     path_from_point(&own.start, *aim->meter, out->reflected);
 }
 
 /* A pixel's paths are no probe's but those of its frame. */
-static ProbeAim aim_of_first(const ProbeAim *aim, PathContext *room)
-{
+static ProbeAim aim_of_first(const ProbeAim *aim, PathContext *room) {
     ProbeAim own = *aim;
     *room = *aim->context;
     room->is_probe = !aim->meter && !aim->pixel;
@@ -112,27 +105,24 @@ static ProbeAim aim_of_first(const ProbeAim *aim, PathContext *room)
 }
 
 void probe_look(const ProbeAim *asked, int first, int end, ProbeLook *out,
-                PathStatistics *statistics)
-{
+                PathStatistics *statistics) {
     PathContext context;
-    ProbeAim    aim = aim_of_first(asked, &context);
+    ProbeAim aim = aim_of_first(asked, &context);
     for (int path = first; path < end; path++)
         (aim.meter ? read_meter : look)(&aim, path, &out[path - first], statistics);
 }
 
 /* Traces the path for its collectors alone. */
-static void go(const ProbeAim *aim, const ProbePath *path)
-{
+static void go(const ProbeAim *aim, const ProbePath *path) {
     float ignored[3];
     if (aim->meter) path_from_point(&path->start, *aim->meter, ignored);
     else path_from_ray(&path->start, path->ray, NULL);
 }
 
 void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *listener,
-                 PathStatistics *statistics)
-{
+                 PathStatistics *statistics) {
     PathContext context;
-    ProbeAim    own = aim_of_first(asked, &context), *aim = &own;
+    ProbeAim own = aim_of_first(asked, &context), *aim = &own;
     for (int path = first; path < end; path++) {
         ProbePath one;
         HistoryCollector by_way = history_collector(listener, NULL);
@@ -153,8 +143,7 @@ void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *
 
 /* Traces a dark path (PathManner), which gets light by the collector. */
 static void trace(const ProbeAim *aim, int path, PathCollector *collector,
-                PathStatistics *statistics)
-{
+                  PathStatistics *statistics) {
     ProbePath one;
     start_path(aim, path, statistics, &one);
     one.start.collector = collector;
@@ -162,95 +151,87 @@ static void trace(const ProbeAim *aim, int path, PathCollector *collector,
     go(aim, &one);
 }
 
-static void add_lanes(float *sums, float weight, const float *share)
-{
+static void add_lanes(float *sums, float weight, const float *share) {
     for (int lane = 0; lane < SPECTRUM_LANES; lane++) sums[lane] += weight * share[lane];
 }
 
 /* The z axis of the cells' hemisphere is the scene's y axis. */
-static Vec3 world_of_cells(Vec3 d)
-{
+static Vec3 world_of_cells(Vec3 d) {
     return vec3(d.y, d.z, d.x);
 }
 
-static Vec3 cells_of_world(Vec3 d)
-{
+static Vec3 cells_of_world(Vec3 d) {
     return vec3(d.z, d.x, d.y);
 }
 
-Vec3 probe_cell_center(const ProbeCells *cells, int cell)
-{
-    int  half = cells->count / 2;
+Vec3 probe_cell_center(const ProbeCells *cells, int cell) {
+    int half = cells->count / 2;
     Vec3 d = geodesic_center(cells->level, (uint32_t)(cell % half));
     if (cell >= half) d.z = -d.z;
     return world_of_cells(d);
 }
 
-static int cell_of(const ProbeCells *cells, Vec3 direction)
-{
+static int cell_of(const ProbeCells *cells, Vec3 direction) {
     Vec3 d = cells_of_world(direction);
-    int  first = d.z < 0 ? cells->count / 2 : 0;
+    int first = d.z < 0 ? cells->count / 2 : 0;
     d.z = fabsf(d.z);
     return first + (int)geodesic_find(cells->geodesic, cells->level, d).id;
 }
 
 typedef struct CellSums {
     const ProbeCells *cells;
-    float            *sums;
+    float *sums;
 } CellSums;
 
-static float *cell_sums(const CellSums *to, int order, int cell)
-{
+static float *cell_sums(const CellSums *to, int order, int cell) {
     size_t at = (size_t)order * (size_t)to->cells->count + (size_t)cell;
     return to->sums + at * SPECTRUM_LANES;
 }
 
 /* One over the density with which calls sample a direction, sr. */
-static float sr_of_cell(const ProbeCells *cells, int cell)
-{
+static float sr_of_cell(const ProbeCells *cells, int cell) {
     return cells->samplers[cell % (cells->count / 2)].area * cells->every[cell];
 }
 
 /* The balance heuristic (Veach 1997, 9.2.2) of light samples and of ways. */
-static void add_cell(void *user, int i, int bounce, const float *share, float pdf)
-{
+static void add_cell(void *user, int i, int bounce, const float *share, float pdf) {
     const CellSums *to = user;
-    int   cell = to->cells->asked[i];
+    int cell = to->cells->asked[i];
     float sr = sr_of_cell(to->cells, cell);
     add_lanes(cell_sums(to, bounce > 0, cell), sr / (1 + pdf * sr), share);
 }
 
 static void add_escaped_cell(void *user, Vec3 direction, int bounce, const float *share,
-                             float pdf)
-{
+                             float pdf) {
     const CellSums *to = user;
-    int   cell = cell_of(to->cells, direction);
+    int cell = cell_of(to->cells, direction);
     float sought = pdf * sr_of_cell(to->cells, cell);
     add_lanes(cell_sums(to, bounce > 1, cell), pdf > 0 ? sought / (1 + sought) : 1, share);
 }
 
-static void draw_cells(const ProbeAim *aim, const ProbeCells *cells, int path, Vec3 *towards)
-{
+static void draw_cells(const ProbeAim *aim, const ProbeCells *cells, int path, Vec3 *towards) {
     int half = cells->count / 2;
     for (int i = 0; i < cells->asked_count; i++) {
-        int     cell = cells->asked[i];
+        int cell = cells->asked[i];
         Sampler sampler = sampler_start(aim->seed + 1, cell, 0, (uint32_t)path);
-        Vec2    u = sampler_2d(&sampler);
-        Vec3    d = geodesic_sampler_draw(&cells->samplers[cell % half], u.x, u.y);
+        Vec2 u = sampler_2d(&sampler);
+        Vec3 d = geodesic_sampler_draw(&cells->samplers[cell % half], u.x, u.y);
         if (cell >= half) d.z = -d.z;
         towards[i] = world_of_cells(d);
     }
 }
 
 void probe_sample_cells(const ProbeAim *asked, const ProbeCells *cells, int first, int end,
-                        ProbeAnswers *out, PathStatistics *statistics)
-{
+                        ProbeAnswers *out, PathStatistics *statistics) {
     PathContext context;
-    ProbeAim    own = aim_of_first(asked, &context), *aim = &own;
+    ProbeAim own = aim_of_first(asked, &context), *aim = &own;
     CellSums to = {cells, out->sums};
-    PathDistant distant = {.towards = out->towards, .count = cells->asked_count,
+    PathDistant distant = {.towards = out->towards,
+                           .count = cells->asked_count,
                            .add = add_cell,
-                           .add_escaped = add_escaped_cell, .user = &to, .has_ways = true};
+                           .add_escaped = add_escaped_cell,
+                           .user = &to,
+                           .has_ways = true};
     for (int path = first; path < end; path++) {
         draw_cells(aim, cells, path, out->towards);
         DistantCollector questions = distant_collector(&distant);
@@ -262,22 +243,20 @@ void probe_sample_cells(const ProbeAim *asked, const ProbeCells *cells, int firs
 
 typedef struct SunSums {
     const ProbeSuns *suns;
-    float            chord2; /* squared distance of unit vectors one radius apart: cosines of
-                                such angles have no digits left */
-    float           *sums;
-    float            per_sr; /* one over the disc's solid angle */
+    float chord2; /* squared distance of unit vectors one radius apart: cosines of
+                     such angles have no digits left */
+    float *sums;
+    float per_sr; /* one over the disc's solid angle */
 } SunSums;
 
-static void add_sun(void *user, int i, int bounce, const float *share, float pdf)
-{
+static void add_sun(void *user, int i, int bounce, const float *share, float pdf) {
     (void)pdf;
     const SunSums *to = user;
     if (bounce == 0) add_lanes(to->sums + (size_t)i * SPECTRUM_LANES, 1, share);
 }
 
 /* The first sun whose y is at least that; count: none. */
-static int first_sun_from(const ProbeSuns *suns, float y)
-{
+static int first_sun_from(const ProbeSuns *suns, float y) {
     int low = 0, high = suns->count;
     while (low < high) {
         int middle = low + (high - low) / 2;
@@ -288,15 +267,13 @@ static int first_sun_from(const ProbeSuns *suns, float y)
 }
 
 /* Via the first surface's mirror into each disc that the direction meets. */
-static void add_escaped_sun(void *user, Vec3 direction, int bounce, const float *share,
-                            float pdf)
-{
+static void add_escaped_sun(void *user, Vec3 direction, int bounce, const float *share, float pdf) {
     (void)pdf;
-    const SunSums   *to = user;
+    const SunSums *to = user;
     const ProbeSuns *suns = to->suns;
     if (bounce != 1 || !suns->by_mirror) return;
     float reach = sqrtf(to->chord2);
-    int   i = first_sun_from(suns, direction.y - reach);
+    int i = first_sun_from(suns, direction.y - reach);
     for (; i < suns->count && suns->towards[i].y <= direction.y + reach; i++) {
         Vec3 apart = vec3_sub(direction, suns->towards[i]);
         if (vec3_dot(apart, apart) <= to->chord2)
@@ -305,13 +282,12 @@ static void add_escaped_sun(void *user, Vec3 direction, int bounce, const float 
 }
 
 /* Draws a place in the disc, the same in all of them: uniform over its solid angle. */
-static void draw_suns(const ProbeAim *aim, const SunSums *to, int path, Vec3 *towards)
-{
+static void draw_suns(const ProbeAim *aim, const SunSums *to, int path, Vec3 *towards) {
     const ProbeSuns *suns = to->suns;
     Sampler sampler = sampler_start(aim->seed + 2, 0, 0, (uint32_t)path);
-    Vec2    u = sampler_2d(&sampler);
-    float   below = u.x * 0.5f * to->chord2; /* 1 less the cosine */
-    float   cosine = 1 - below, sine = sqrtf(below * (2 - below)), s, c;
+    Vec2 u = sampler_2d(&sampler);
+    float below = u.x * 0.5f * to->chord2; /* 1 less the cosine */
+    float cosine = 1 - below, sine = sqrtf(below * (2 - below)), s, c;
     sincos_turns(u.y, &s, &c);
     for (int i = 0; i < suns->count; i++) {
         Frame frame = frame_from_z(suns->towards[i]);
@@ -320,17 +296,19 @@ static void draw_suns(const ProbeAim *aim, const SunSums *to, int path, Vec3 *to
 }
 
 void probe_sample_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
-                       ProbeAnswers *out, PathStatistics *statistics)
-{
-    double      half = sin_d((double)suns->radius / 2);
-    float       chord2 = (float)(4 * half * half);
-    SunSums     to = {suns, chord2, out->sums, 1 / (PI_F * chord2)};
-    int         count = suns->by_mirror ? 0 : suns->count;
-    PathDistant distant = {.towards = out->towards, .count = count, .add = add_sun,
-                           .add_escaped = add_escaped_sun, .user = &to,
+                       ProbeAnswers *out, PathStatistics *statistics) {
+    double half = sin_d((double)suns->radius / 2);
+    float chord2 = (float)(4 * half * half);
+    SunSums to = {suns, chord2, out->sums, 1 / (PI_F * chord2)};
+    int count = suns->by_mirror ? 0 : suns->count;
+    PathDistant distant = {.towards = out->towards,
+                           .count = count,
+                           .add = add_sun,
+                           .add_escaped = add_escaped_sun,
+                           .user = &to,
                            .is_of_mirror = suns->by_mirror};
     PathContext once = *aim->context;
-    ProbeAim    direct = *aim;
+    ProbeAim direct = *aim;
     once.max_bounces = 1;
     direct.context = &once;
     for (int path = first; path < end; path++) {
@@ -345,8 +323,7 @@ void probe_sample_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, in
 #define IMAGE_BOUNCES 4
 
 /* The part of the first mirror on the way; NO_ID: there is none, or something scattered. */
-static int mirror_of(const PathHistory *history)
-{
+static int mirror_of(const PathHistory *history) {
     int part_id = NO_ID;
     for (int i = history->count - 1; i >= 0; i--) {
         if (history->step[i].event == PATH_SCATTERS) return NO_ID;
@@ -355,21 +332,18 @@ static int mirror_of(const PathHistory *history)
     return part_id;
 }
 
-static void add_image(void *user, const PathHistory *history, Vec3 direction,
-                      const float *share)
-{
+static void add_image(void *user, const PathHistory *history, Vec3 direction, const float *share) {
     const ProbeImages *images = user;
-    int                part_id = mirror_of(history);
+    int part_id = mirror_of(history);
     if (part_id != NO_ID) images->found(images->user, part_id, direction, share);
 }
 
 void probe_sample_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
-                         PathStatistics *statistics)
-{
+                         PathStatistics *statistics) {
     ProbeImages listener = *images;
-    PathImages  wanted = {add_image, &listener};
+    PathImages wanted = {add_image, &listener};
     PathContext once = *aim->context;
-    ProbeAim    direct = *aim;
+    ProbeAim direct = *aim;
     once.max_bounces = IMAGE_BOUNCES;
     direct.context = &once;
     for (int path = first; path < end; path++) {

@@ -23,30 +23,30 @@ typedef struct ProbePatch {
 /* A pixel of a frame: path i is its sample i, with the frame's seed. */
 typedef struct ProbePixel {
     const Camera *camera;
-    int           x, y;
+    int x, y;
 } ProbePixel;
 
 /* An eye and the points that it looks at, one path each; more paths than points begin again. */
 typedef struct ProbeAim {
     const PathContext *context;
-    Vec3            eye;       /* m, scene */
-    const Vec3     *targets;   /* of surfaces that the eye sees */
-    int             target_count;
+    Vec3 eye;            /* m, scene */
+    const Vec3 *targets; /* of surfaces that the eye sees */
+    int target_count;
     const ProbePatch *patches; /* of which targets are the middles: paths go anywhere within;
                                   NULL: to the targets themselves */
-    bool            is_spread; /* paths take points by chance, evenly, however few they are */
+    bool is_spread;            /* paths take points by chance, evenly, however few they are */
     const LitPoint *meter;     /* a luxmeter instead: eye and targets do not count; or NULL */
     const ProbePixel *pixel;   /* a frame's pixel instead of targets; or NULL */
-    const Curve    *colour;    /* of glasses before an eye: weighs each wavelength; NULL: 1 */
-    uint32_t        seed;
+    const Curve *colour;       /* of glasses before an eye: weighs each wavelength; NULL: 1 */
+    uint32_t seed;
 } ProbeAim;
 
 /* The light that one path found, XYZ. */
 typedef struct ProbeLook {
     float reflected[3]; /* all but what the first surface emits; of a luxmeter all */
     float mirror[3];    /* of it, via a display's mirror */
-    bool  is_found;     /* the first surface is a display, or a luxmeter's; else these are 0 */
-    int   target;       /* of the aim, that it went to; of a luxmeter or a pixel 0 */
+    bool is_found;      /* the first surface is a display, or a luxmeter's; else these are 0 */
+    int target;         /* of the aim, that it went to; of a luxmeter or a pixel 0 */
 } ProbeLook;
 
 /* HOT. Path i of [first, end) fills out[i - first]. */
@@ -61,13 +61,13 @@ void probe_trace(const ProbeAim *aim, int first, int end, const PathListener *li
 
 /* The sphere in triangles: those of the upper hemisphere (+Y up), then their mirror images. */
 typedef struct ProbeCells {
-    const Geodesic        *geodesic;
+    const Geodesic *geodesic;
     const GeodesicSampler *samplers; /* of the upper ones */
-    int        level;
-    int        count;      /* of the whole sphere */
-    const int *asked;     /* by every path of this call */
-    int        asked_count;
-    const float *every;   /* [cell] it is sampled by one in so many calls */
+    int level;
+    int count;        /* of the whole sphere */
+    const int *asked; /* by every path of this call */
+    int asked_count;
+    const float *every; /* [cell] it is sampled by one in so many calls */
 } ProbeCells;
 
 #define PROBE_ORDERS 2 /* light that the first vertex sends to the eye; all other */
@@ -78,7 +78,7 @@ Vec3 probe_cell_center(const ProbeCells *cells, int cell);
 /* Where answers are added, and room for as many directions as are sampled. */
 typedef struct ProbeAnswers {
     float *sums;
-    Vec3  *towards;
+    Vec3 *towards;
 } ProbeAnswers;
 
 /* HOT. Adds the sum over paths to sums[order][cell][lane]: what comes to the eye of a radiance
@@ -89,9 +89,9 @@ void probe_sample_cells(const ProbeAim *aim, const ProbeCells *cells, int first,
 /* Discs of one size in the sky. */
 typedef struct ProbeSuns {
     const Vec3 *towards; /* unit, world: their centres; by_mirror: their y rises */
-    int   count;
-    float radius;        /* radians, above 0 */
-    bool  by_mirror;     /* the first vertex's mirror is sampled, else what scatters */
+    int count;
+    float radius;   /* radians, above 0 */
+    bool by_mirror; /* the first vertex's mirror is sampled, else what scatters */
 } ProbeSuns;
 
 /* HOT. Adds the sum over paths to sums[sun][lane]: what the first vertex sends to the eye of an
@@ -107,7 +107,7 @@ void probe_sample_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, in
  * the eye, per lane. */
 typedef struct ProbeImages {
     void (*found)(void *user, int part_id, Vec3 direction, const float *share);
-    void  *user;
+    void *user;
 } ProbeImages;
 
 /* HOT. For paths [first, end) of an eye. */

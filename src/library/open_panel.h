@@ -13,14 +13,14 @@
 typedef struct PanelSource {
     const char *path; /* NULL: bytes */
     const void *bytes;
-    size_t      size;
+    size_t size;
 } PanelSource;
 
 typedef struct OpenedPanel {
-    Arena        arena; /* holds all the others */
+    Arena arena; /* holds all the others */
     const Panel *panel;
     EmissionDraw draw;
-    void        *room;  /* for the caller, as many bytes as it said, zero */
+    void *room; /* for the caller, as many bytes as it said, zero */
 } OpenedPanel;
 
 bool open_panel(const PanelSource *from, size_t room, OpenedPanel *out, Error *err);

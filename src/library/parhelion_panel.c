@@ -17,7 +17,7 @@
 #include "spectrum/spectral_table.h"
 
 struct ParhelionPanel { /* lies in its own arena */
-    Arena        arena;
+    Arena arena;
     const Panel *panel;
     EmissionDraw draw;
 };
@@ -29,9 +29,8 @@ struct ParhelionPanel { /* lies in its own arena */
 /* ---- opening ----------------------------------------------------------------------------- */
 
 static int open_from(const PanelSource *from, ParhelionPanel **panel, char *error,
-                     size_t error_size)
-{
-    Error       err = {0};
+                     size_t error_size) {
+    Error err = {0};
     OpenedPanel opened;
     *panel = NULL;
     if (open_panel(from, sizeof **panel, &opened, &err)) {
@@ -44,20 +43,16 @@ static int open_from(const PanelSource *from, ParhelionPanel **panel, char *erro
     return err.code == ERROR_MEMORY ? PARHELION_PANEL_NO_MEMORY : PARHELION_PANEL_REFUSED;
 }
 
-int parhelion_panel_open(const char *path, ParhelionPanel **panel, char *error,
-                         size_t error_size)
-{
+int parhelion_panel_open(const char *path, ParhelionPanel **panel, char *error, size_t error_size) {
     return open_from(&(PanelSource){.path = path ? path : ""}, panel, error, error_size);
 }
 
-int parhelion_panel_open_memory(const void *bytes, size_t size, ParhelionPanel **panel,
-                                char *error, size_t error_size)
-{
+int parhelion_panel_open_memory(const void *bytes, size_t size, ParhelionPanel **panel, char *error,
+                                size_t error_size) {
     return open_from(&(PanelSource){.bytes = bytes, .size = size}, panel, error, error_size);
 }
 
-void parhelion_panel_close(ParhelionPanel *panel)
-{
+void parhelion_panel_close(ParhelionPanel *panel) {
     if (!panel) return;
     Arena arena = panel->arena; /* which the panel itself goes with */
     arena_release(&arena);
@@ -65,10 +60,9 @@ void parhelion_panel_close(ParhelionPanel *panel)
 
 /* ---- what it holds ----------------------------------------------------------------------- */
 
-static uint32_t flags_of(const Panel *panel)
-{
+static uint32_t flags_of(const Panel *panel) {
     double phi[PANEL_INFO_AZIMUTHS_MAX];
-    bool   reflects = panel_reflects(panel);
+    bool reflects = panel_reflects(panel);
     return (panel_info_emits(panel) ? PARHELION_PANEL_EMITS : 0) |
            (reflects ? PARHELION_PANEL_REFLECTS : 0) |
            (panel_has_mirror(panel) ? PARHELION_PANEL_HAS_MIRROR : 0) |
@@ -78,8 +72,7 @@ static uint32_t flags_of(const Panel *panel)
            (panel_zones(panel) ? PARHELION_PANEL_HAS_ZONES : 0);
 }
 
-static void add_emission(const Panel *panel, ParhelionPanelInfo *info)
-{
+static void add_emission(const Panel *panel, ParhelionPanelInfo *info) {
     PanelPolarisation polarisation = panel_polarisation(panel);
     if (!panel_info_emits(panel)) return;
     info->emission_cone = (float)panel_info_emission_cone(panel);
@@ -89,11 +82,10 @@ static void add_emission(const Panel *panel, ParhelionPanelInfo *info)
     info->polarisation_azimuth = polarisation.azimuth;
 }
 
-static void add_reflection(const Panel *panel, ParhelionPanelInfo *info)
-{
-    float  nm[PANEL_INFO_WAVELENGTHS_MAX];
+static void add_reflection(const Panel *panel, ParhelionPanelInfo *info) {
+    float nm[PANEL_INFO_WAVELENGTHS_MAX];
     double theta[PANEL_INFO_INCIDENCES_MAX];
-    int    wavelengths = panel_info_wavelengths(panel, nm);
+    int wavelengths = panel_info_wavelengths(panel, nm);
     if (!wavelengths) return;
     info->reflection_cone = (float)panel_info_reflection_cone(panel);
     info->last_incidence = (float)theta[panel_info_incidences(panel, theta) - 1];
@@ -101,8 +93,7 @@ static void add_reflection(const Panel *panel, ParhelionPanelInfo *info)
     info->reflection_nm[1] = nm[wavelengths - 1];
 }
 
-int parhelion_panel_info(const ParhelionPanel *panel, ParhelionPanelInfo *info)
-{
+int parhelion_panel_info(const ParhelionPanel *panel, ParhelionPanelInfo *info) {
     ParhelionPanelInfo all = {.size = info->size};
     size_t room = info->size;
     if (room < INFO_BYTES) return PARHELION_PANEL_WRONG_SIZE;
@@ -124,8 +115,7 @@ typedef enum Need {
     NEED_NM = 16
 } Need;
 
-static int check(const ParhelionPanelQuestions *q, int needs, const void *out)
-{
+static int check(const ParhelionPanelQuestions *q, int needs, const void *out) {
     if (q->size < QUESTION_BYTES) return PARHELION_PANEL_WRONG_SIZE;
     if (q->count == 0 || (needs & NEED_NM && q->wavelengths == 0)) return PARHELION_PANEL_OK;
     bool lacks = (needs & NEED_VIEWER && !q->viewer) || (needs & NEED_LIGHT && !q->light) ||
@@ -137,9 +127,8 @@ static int check(const ParhelionPanelQuestions *q, int needs, const void *out)
 /* A vector of nearly length 1 stays as it is, so that the bits are those of the program. */
 #define LENGTH_BEARS 1e-5f
 
-static Vec3 direction_at(const float *from, size_t i)
-{
-    Vec3  d = vec3(from[3 * i], from[3 * i + 1], from[3 * i + 2]);
+static Vec3 direction_at(const float *from, size_t i) {
+    Vec3 d = vec3(from[3 * i], from[3 * i + 1], from[3 * i + 2]);
     float square = vec3_dot(d, d);
     if (fabsf(square - 1) <= LENGTH_BEARS) return d;
     double x = (double)d.x, y = (double)d.y, z = (double)d.z;
@@ -148,21 +137,18 @@ static Vec3 direction_at(const float *from, size_t i)
     return vec3((float)(x / length), (float)(y / length), (float)(z / length));
 }
 
-static void place_at(const ParhelionPanelQuestions *q, size_t i, float place[2])
-{
+static void place_at(const ParhelionPanelQuestions *q, size_t i, float place[2]) {
     for (int k = 0; k < 2; k++) place[k] = q->place ? q->place[2 * i + (size_t)k] : 0.5f;
 }
 
-static PanelMix mix_at(const ParhelionPanel *panel, const ParhelionPanelQuestions *q, size_t i)
-{
+static PanelMix mix_at(const ParhelionPanel *panel, const ParhelionPanelQuestions *q, size_t i) {
     float place[2];
     place_at(q, i, place);
     return panel_place_reflection(panel->panel, place);
 }
 
 /* Held in [0, most]; no number is 0. */
-static void held_at(const float *from, size_t i, float most, float out[3])
-{
+static void held_at(const float *from, size_t i, float most, float out[3]) {
     for (size_t k = 0; k < 3; k++) {
         float value = from[3 * i + k];
         out[k] = value > 0 ? fminf(value, most) : 0;
@@ -172,49 +158,45 @@ static void held_at(const float *from, size_t i, float most, float out[3])
 /* Up to 16 wavelengths from a first one on; lanes behind the last repeat it. */
 typedef struct WaveBlock {
     Wavelengths wavelengths; /* nm alone */
-    size_t      first, count;
+    size_t first, count;
 } WaveBlock;
 
-static void fill_block(const ParhelionPanelQuestions *q, size_t first, WaveBlock *out)
-{
+static void fill_block(const ParhelionPanelQuestions *q, size_t first, WaveBlock *out) {
     size_t left = q->wavelengths - first;
     memset(out, 0, sizeof *out);
     out->first = first;
     out->count = left < SPECTRUM_LANES ? left : SPECTRUM_LANES;
     for (size_t k = 0; k < SPECTRUM_LANES; k++) {
         float nm = q->nm[first + (k < out->count ? k : out->count - 1)];
-        out->wavelengths.nm[k] = nm > SPECTRAL_FIRST_NM ? fminf(nm, SPECTRAL_LAST_NM)
-                                                        : SPECTRAL_FIRST_NM;
+        out->wavelengths.nm[k] =
+            nm > SPECTRAL_FIRST_NM ? fminf(nm, SPECTRAL_LAST_NM) : SPECTRAL_FIRST_NM;
     }
 }
 
 static void put(const ParhelionPanelQuestions *q, const WaveBlock *block, size_t i,
-                const Spectrum *value, float *out)
-{
+                const Spectrum *value, float *out) {
     float *to = out + i * q->wavelengths + block->first;
     for (size_t k = 0; k < block->count; k++) to[k] = (*value)[k];
 }
 
 int parhelion_panel_emission_xyz(const ParhelionPanel *panel,
                                  const ParhelionPanelQuestions *questions, float *xyz,
-                                 unsigned char *is_measured)
-{
+                                 unsigned char *is_measured) {
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_VIEWER | NEED_CODE, xyz);
     for (size_t i = 0; !status && i < q->count; i++) {
         float place[2], code[3];
         place_at(q, i, place);
         held_at(q->code, i, 255, code);
-        bool measured = panel_place_emission_xyz(panel->panel, place,
-                                                 direction_at(q->viewer, i), code, xyz + 3 * i);
+        bool measured = panel_place_emission_xyz(panel->panel, place, direction_at(q->viewer, i),
+                                                 code, xyz + 3 * i);
         if (is_measured) is_measured[i] = measured;
     }
     return status;
 }
 
 int parhelion_panel_emission_spectrum(const ParhelionPanel *panel,
-                                      const ParhelionPanelQuestions *questions, float *radiance)
-{
+                                      const ParhelionPanelQuestions *questions, float *radiance) {
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_VIEWER | NEED_CODE | NEED_NM, radiance);
     for (size_t w = 0; !status && w < q->wavelengths; w += SPECTRUM_LANES) {
@@ -235,12 +217,11 @@ int parhelion_panel_emission_spectrum(const ParhelionPanel *panel,
 /* A panel's lanes are worth a query and a half: kept while the same panel is queried. */
 typedef struct KeptLanes {
     const Panel *panel;
-    PanelLanes   lanes;
+    PanelLanes lanes;
 } KeptLanes;
 
 static const PanelLanes *lanes_of(const Panel *panel, const Wavelengths *wavelengths,
-                                  KeptLanes *kept)
-{
+                                  KeptLanes *kept) {
     if (kept->panel != panel) panel_lanes(panel, wavelengths, &kept->lanes);
     kept->panel = panel;
     return &kept->lanes;
@@ -249,12 +230,11 @@ static const PanelLanes *lanes_of(const Panel *panel, const Wavelengths *wavelen
 /* Panels at a place, the two directions and where they are evaluated. */
 typedef struct BrdfQuestion {
     PanelMix mix;
-    Vec3     wo, wi;
+    Vec3 wo, wi;
     const Wavelengths *wavelengths;
 } BrdfQuestion;
 
-static Spectrum brdf_of(const BrdfQuestion *of, KeptLanes *kept)
-{
+static Spectrum brdf_of(const BrdfQuestion *of, KeptLanes *kept) {
     Spectrum sum = spectrum_all(0);
     for (int i = 0; i < of->mix.count; i++) {
         const Panel *one = of->mix.panel[i];
@@ -264,8 +244,7 @@ static Spectrum brdf_of(const BrdfQuestion *of, KeptLanes *kept)
     return sum;
 }
 
-static Spectrum lambertian_of(const BrdfQuestion *of, Spectrum brdf, KeptLanes *kept)
-{
+static Spectrum lambertian_of(const BrdfQuestion *of, Spectrum brdf, KeptLanes *kept) {
     Spectrum sum = spectrum_all(0);
     for (int i = 0; i < of->mix.count; i++) {
         const Panel *one = of->mix.panel[i];
@@ -276,12 +255,11 @@ static Spectrum lambertian_of(const BrdfQuestion *of, Spectrum brdf, KeptLanes *
 }
 
 int parhelion_panel_brdf(const ParhelionPanel *panel, const ParhelionPanelQuestions *questions,
-                         float *brdf, float *lambertian)
-{
+                         float *brdf, float *lambertian) {
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_VIEWER | NEED_LIGHT | NEED_NM, brdf);
     for (size_t w = 0; !status && w < q->wavelengths; w += SPECTRUM_LANES) {
-        WaveBlock     block;
+        WaveBlock block;
         KeptLanes kept = {.panel = NULL};
         fill_block(q, w, &block);
         for (size_t i = 0; i < q->count; i++) {
@@ -297,9 +275,8 @@ int parhelion_panel_brdf(const ParhelionPanel *panel, const ParhelionPanelQuesti
     return status;
 }
 
-int parhelion_panel_mirror(const ParhelionPanel *panel,
-                           const ParhelionPanelQuestions *questions, float *reflectance)
-{
+int parhelion_panel_mirror(const ParhelionPanel *panel, const ParhelionPanelQuestions *questions,
+                           float *reflectance) {
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_VIEWER | NEED_NM, reflectance);
     for (size_t w = 0; !status && w < q->wavelengths; w += SPECTRUM_LANES) {
@@ -307,17 +284,16 @@ int parhelion_panel_mirror(const ParhelionPanel *panel,
         fill_block(q, w, &block);
         for (size_t i = 0; i < q->count; i++) {
             PanelMix mix = mix_at(panel, q, i);
-            Spectrum share = panel_mix_mirror(&mix, direction_at(q->viewer, i).z,
-                                              &block.wavelengths);
+            Spectrum share =
+                panel_mix_mirror(&mix, direction_at(q->viewer, i).z, &block.wavelengths);
             put(q, &block, i, &share, reflectance);
         }
     }
     return status;
 }
 
-int parhelion_panel_albedo(const ParhelionPanel *panel,
-                           const ParhelionPanelQuestions *questions, float *albedo)
-{
+int parhelion_panel_albedo(const ParhelionPanel *panel, const ParhelionPanelQuestions *questions,
+                           float *albedo) {
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_VIEWER, albedo);
     for (size_t i = 0; !status && i < q->count; i++) {
@@ -329,18 +305,16 @@ int parhelion_panel_albedo(const ParhelionPanel *panel,
 
 #define BELOW_ONE 0x1.fffffep-1f
 
-int parhelion_panel_sample(const ParhelionPanel *panel,
-                           const ParhelionPanelQuestions *questions, float *light,
-                           float *density)
-{
+int parhelion_panel_sample(const ParhelionPanel *panel, const ParhelionPanelQuestions *questions,
+                           float *light, float *density) {
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_VIEWER | NEED_RANDOM, light && density ? light : NULL);
     for (size_t i = 0; !status && i < q->count; i++) {
         float u[3], pdf;
-        Vec3  wi;
+        Vec3 wi;
         held_at(q->random, i, BELOW_ONE, u);
         PanelMix mix = mix_at(panel, q, i);
-        bool     drawn = panel_mix_sample(&mix, direction_at(q->viewer, i), u, &wi, &pdf);
+        bool drawn = panel_mix_sample(&mix, direction_at(q->viewer, i), u, &wi, &pdf);
         if (!drawn) wi = vec3(0, 0, 0);
         memcpy(light + 3 * i, (float[3]){wi.x, wi.y, wi.z}, 3 * sizeof *light);
         density[i] = drawn ? pdf : 0;
@@ -349,8 +323,7 @@ int parhelion_panel_sample(const ParhelionPanel *panel,
 }
 
 int parhelion_panel_pdf(const ParhelionPanel *panel, const ParhelionPanelQuestions *questions,
-                        float *density)
-{
+                        float *density) {
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_VIEWER | NEED_LIGHT, density);
     for (size_t i = 0; !status && i < q->count; i++) {
@@ -364,13 +337,12 @@ int parhelion_panel_pdf(const ParhelionPanel *panel, const ParhelionPanelQuestio
 
 int parhelion_panel_sample_emission(const ParhelionPanel *panel,
                                     const ParhelionPanelQuestions *questions, float *viewer,
-                                    float *density)
-{
+                                    float *density) {
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_CODE | NEED_RANDOM, viewer && density ? viewer : NULL);
     for (size_t i = 0; !status && i < q->count; i++) {
         float u[3], code[3], pdf;
-        Vec3  d;
+        Vec3 d;
         held_at(q->random, i, BELOW_ONE, u);
         held_at(q->code, i, 255, code);
         bool drawn = emission_draw_sample(&panel->draw, panel->panel, code, u, &d, &pdf);
@@ -382,15 +354,14 @@ int parhelion_panel_sample_emission(const ParhelionPanel *panel,
 }
 
 int parhelion_panel_pdf_emission(const ParhelionPanel *panel,
-                                 const ParhelionPanelQuestions *questions, float *density)
-{
+                                 const ParhelionPanelQuestions *questions, float *density) {
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_VIEWER | NEED_CODE, density);
     for (size_t i = 0; !status && i < q->count; i++) {
         float code[3];
         held_at(q->code, i, 255, code);
-        density[i] = emission_draw_pdf(&panel->draw, panel->panel, code,
-                                       direction_at(q->viewer, i));
+        density[i] =
+            emission_draw_pdf(&panel->draw, panel->panel, code, direction_at(q->viewer, i));
     }
     return status;
 }

@@ -61,8 +61,8 @@ typedef enum ParhelionPanelStatus {
 /* Reads and checks a .panel file; later changes of the file make no difference. *panel is NULL
  * where the status is not PARHELION_PANEL_OK: `error` (NULL is fine, error_size 0 then) has the
  * reason as one line, cut at error_size - 1 bytes. */
-PARHELION_PANEL_API int parhelion_panel_open(const char *path, ParhelionPanel **panel,
-                                             char *error, size_t error_size);
+PARHELION_PANEL_API int parhelion_panel_open(const char *path, ParhelionPanel **panel, char *error,
+                                             size_t error_size);
 
 /* The same for the bytes of a file, which are copied. */
 PARHELION_PANEL_API int parhelion_panel_open_memory(const void *bytes, size_t size,
@@ -76,44 +76,44 @@ PARHELION_PANEL_API void parhelion_panel_close(ParhelionPanel *panel); /* NULL i
 /* Bits of ParhelionPanelInfo.flags. */
 #define PARHELION_PANEL_EMITS 1u
 #define PARHELION_PANEL_REFLECTS 2u
-#define PARHELION_PANEL_HAS_MIRROR 4u      /* an image in the glass, anywhere */
-#define PARHELION_PANEL_ANISOTROPIC 8u     /* reflection depends on the azimuth of the light */
-#define PARHELION_PANEL_VARIES 16u         /* not the same at every place */
+#define PARHELION_PANEL_HAS_MIRROR 4u  /* an image in the glass, anywhere */
+#define PARHELION_PANEL_ANISOTROPIC 8u /* reflection depends on the azimuth of the light */
+#define PARHELION_PANEL_VARIES 16u     /* not the same at every place */
 #define PARHELION_PANEL_POLARISED 32u
-#define PARHELION_PANEL_HAS_ZONES 64u      /* local dimming: all answers are of a backlight that
-                                              is full; what a picture makes of it is not told */
+#define PARHELION_PANEL_HAS_ZONES \
+    64u /* local dimming: all answers are of a backlight that \
+           is full; what a picture makes of it is not told */
 
 /* Numbers of what is absent are 0. */
 typedef struct ParhelionPanelInfo {
-    uint32_t size;               /* sizeof(ParhelionPanelInfo), by the caller */
+    uint32_t size; /* sizeof(ParhelionPanelInfo), by the caller */
     uint32_t flags;
-    float    emission_cone;      /* last measured angle to the normal; beyond: extrapolated */
-    float    reflection_cone;    /* the same of leaving directions */
-    float    last_incidence;     /* the same of the light */
-    float    emission_nm[2];     /* range of the spectra of the emission */
-    float    reflection_nm[2];   /* measured range of the reflection; the ends hold outside */
-    float    polarisation;       /* linearly polarised share of the emission */
-    float    polarisation_azimuth; /* in which it swings: 0 right, pi / 2 up */
+    float emission_cone;        /* last measured angle to the normal; beyond: extrapolated */
+    float reflection_cone;      /* the same of leaving directions */
+    float last_incidence;       /* the same of the light */
+    float emission_nm[2];       /* range of the spectra of the emission */
+    float reflection_nm[2];     /* measured range of the reflection; the ends hold outside */
+    float polarisation;         /* linearly polarised share of the emission */
+    float polarisation_azimuth; /* in which it swings: 0 right, pi / 2 up */
 } ParhelionPanelInfo;
 
 /* Fills in *info but its size. */
-PARHELION_PANEL_API int parhelion_panel_info(const ParhelionPanel *panel,
-                                             ParhelionPanelInfo *info);
+PARHELION_PANEL_API int parhelion_panel_info(const ParhelionPanel *panel, ParhelionPanelInfo *info);
 
 /* ---- questions --------------------------------------------------------------------------- */
 
 /* Any number of questions at once: arrays have the numbers of one after those of the other.
  * What a question does not need may be NULL. */
 typedef struct ParhelionPanelQuestions {
-    size_t       size;        /* sizeof(ParhelionPanelQuestions), by the caller */
-    size_t       count;       /* of questions */
-    const float *place;       /* [count][2]; NULL: all in the middle, (0.5, 0.5) */
-    const float *viewer;      /* [count][3], the direction to the eye */
-    const float *light;       /* [count][3], the direction to the light */
-    const float *code;        /* [count][3], red, green, blue */
-    const float *random;      /* [count][3], in [0, 1) */
-    size_t       wavelengths; /* requested, the same in all questions */
-    const float *nm;          /* [wavelengths], in any order */
+    size_t size;         /* sizeof(ParhelionPanelQuestions), by the caller */
+    size_t count;        /* of questions */
+    const float *place;  /* [count][2]; NULL: all in the middle, (0.5, 0.5) */
+    const float *viewer; /* [count][3], the direction to the eye */
+    const float *light;  /* [count][3], the direction to the light */
+    const float *code;   /* [count][3], red, green, blue */
+    const float *random; /* [count][3], in [0, 1) */
+    size_t wavelengths;  /* requested, the same in all questions */
+    const float *nm;     /* [wavelengths], in any order */
 } ParhelionPanelQuestions;
 
 /* Emission towards the viewer: viewer, code. xyz[count][3]; is_measured[count], 0: it lies
@@ -124,15 +124,16 @@ PARHELION_PANEL_API int parhelion_panel_emission_xyz(const ParhelionPanel *panel
 
 /* The same as spectral radiance: viewer, code, nm (held in 360 to 830).
  * radiance[count][wavelengths]. Its XYZ are nearly those above (0.1 % as a rule). */
-PARHELION_PANEL_API int parhelion_panel_emission_spectrum(
-    const ParhelionPanel *panel, const ParhelionPanelQuestions *questions, float *radiance);
+PARHELION_PANEL_API int parhelion_panel_emission_spectrum(const ParhelionPanel *panel,
+                                                          const ParhelionPanelQuestions *questions,
+                                                          float *radiance);
 
 /* BRDF without the mirror part: viewer, light, nm. brdf[count][wavelengths];
  * lambertian[count][wavelengths]: how much of it is the same to all sides, the rest is haze;
  * NULL is fine. Where the mirror has a share see below. */
 PARHELION_PANEL_API int parhelion_panel_brdf(const ParhelionPanel *panel,
-                                             const ParhelionPanelQuestions *questions,
-                                             float *brdf, float *lambertian);
+                                             const ParhelionPanelQuestions *questions, float *brdf,
+                                             float *lambertian);
 
 /* Share of the light that is mirrored, an image: viewer (the angle to the normal counts), nm.
  * reflectance[count][wavelengths]. */
@@ -167,9 +168,9 @@ PARHELION_PANEL_API int parhelion_panel_pdf(const ParhelionPanel *panel,
  * have a distribution each, made when the panel is opened; a code mixes them by their mean
  * luminance, so that the light over the density is nearly the same everywhere, exact in the
  * mean. Every direction above the surface has a density. The same at all places. */
-PARHELION_PANEL_API int parhelion_panel_sample_emission(
-    const ParhelionPanel *panel, const ParhelionPanelQuestions *questions, float *viewer,
-    float *density);
+PARHELION_PANEL_API int parhelion_panel_sample_emission(const ParhelionPanel *panel,
+                                                        const ParhelionPanelQuestions *questions,
+                                                        float *viewer, float *density);
 
 /* The density with which a direction is drawn: viewer, code. density[count]; it integrates to
  * 1 over the hemisphere. */

@@ -13,10 +13,9 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 /* prob: of the first `count` lanes, adding up to 1. The choice is taken off *u, in [0, 1),
  * which is uniform again. */
-static inline int choose_branch(Spectrum prob, int count, float *u)
-{
+static inline int choose_branch(Spectrum prob, int count, float *u) {
     float below = 0;
-    int   i = 0;
+    int i = 0;
     while (i + 1 < count && *u >= below + prob[i]) below += prob[i++];
     while (i > 0 && !(prob[i] > 0)) below -= prob[--i]; /* by rounding, beyond the last seen */
     *u = prob[i] > 0 ? clampf((*u - below) / prob[i], 0, BELOW_ONE) : 0;

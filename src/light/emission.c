@@ -11,8 +11,7 @@
 #include "base/units.h"
 
 void display_codes(const Scene *scene, const Display *display, const TrianglePoint *point,
-                   float codes[3])
-{
+                   float codes[3]) {
     codes[0] = codes[1] = codes[2] = 255;
     if (display->content.texture_id == NO_ID) return;
     Vec2 uv = slot_uv(&display->content, point);
@@ -20,11 +19,9 @@ void display_codes(const Scene *scene, const Display *display, const TrianglePoi
 }
 
 /* KHR_materials_unlit: base colour, its texture and the vertices' colour, multiplied. */
-void emitted_rgb(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
-                 float rgb[3])
-{
+void emitted_rgb(const Scene *scene, uint32_t triangle, const TrianglePoint *point, float rgb[3]) {
     const Material *material = &scene->materials[scene_part(scene, triangle)->material_id];
-    float           texel[4];
+    float texel[4];
     const float *factor = material->unlit ? material->base_color : material->emissive_cd_m2;
     const TextureSlot *slot =
         material->unlit ? &material->base_color_texture : &material->emissive_texture;
@@ -39,8 +36,7 @@ void emitted_rgb(const Scene *scene, uint32_t triangle, const TrianglePoint *poi
 }
 
 void display_full_xyz(const Display *display, const TrianglePoint *point, Vec3 local,
-                      const float codes[3], float xyz[3])
-{
+                      const float codes[3], float xyz[3]) {
     float place[2];
     if (!panel_varies(display->panel)) {
         panel_emission_xyz(display->panel, local, codes, xyz);
@@ -51,8 +47,7 @@ void display_full_xyz(const Display *display, const TrianglePoint *point, Vec3 l
 }
 
 Spectrum display_full_spectrum(const Display *display, const TrianglePoint *point, Vec3 local,
-                               const float codes[3], const Wavelengths *wavelengths)
-{
+                               const float codes[3], const Wavelengths *wavelengths) {
     float place[2];
     if (!panel_varies(display->panel))
         return panel_emission_spectrum(display->panel, local, codes, wavelengths);
@@ -62,8 +57,7 @@ Spectrum display_full_spectrum(const Display *display, const TrianglePoint *poin
 
 /* The backlight there, and the codes that pixels get. */
 static float dimmed(const Display *display, const TrianglePoint *point, const float codes[3],
-                    float driven[3])
-{
+                    float driven[3]) {
     float place[2];
     display_place(display, point, place);
     float b = backlight_at(display->backlight, place);
@@ -72,8 +66,7 @@ static float dimmed(const Display *display, const TrianglePoint *point, const fl
 }
 
 void display_panel_xyz(const Display *display, const TrianglePoint *point, Vec3 local,
-                       const float codes[3], float xyz[3])
-{
+                       const float codes[3], float xyz[3]) {
     float driven[3];
     if (!display->backlight) {
         display_full_xyz(display, point, local, codes, xyz);
@@ -85,8 +78,7 @@ void display_panel_xyz(const Display *display, const TrianglePoint *point, Vec3 
 }
 
 Spectrum display_panel_spectrum(const Display *display, const TrianglePoint *point, Vec3 local,
-                                const float codes[3], const Wavelengths *wavelengths)
-{
+                                const float codes[3], const Wavelengths *wavelengths) {
     float driven[3];
     if (!display->backlight)
         return display_full_spectrum(display, point, local, codes, wavelengths);
@@ -94,16 +86,14 @@ Spectrum display_panel_spectrum(const Display *display, const TrianglePoint *poi
     return display_full_spectrum(display, point, local, driven, wavelengths) * spectrum_all(b);
 }
 
-bool display_is_measured(const Display *display, const TrianglePoint *point, Vec3 local)
-{
+bool display_is_measured(const Display *display, const TrianglePoint *point, Vec3 local) {
     float place[2];
     display_place(display, point, place);
     return panel_place_emission_is_measured(display->panel, place, local);
 }
 
 void display_emission_xyz(const Scene *scene, const Display *display, uint32_t triangle,
-                          const TrianglePoint *point, Vec3 direction, float xyz[3])
-{
+                          const TrianglePoint *point, Vec3 direction, float xyz[3]) {
     float codes[3];
     Frame frame = display_frame(scene, display, triangle, point);
     display_codes(scene, display, point, codes);
@@ -113,8 +103,7 @@ void display_emission_xyz(const Scene *scene, const Display *display, uint32_t t
 
 static Spectrum display_emission(const Scene *scene, const Display *display, uint32_t triangle,
                                  const TrianglePoint *point, Vec3 direction,
-                                 const Wavelengths *wavelengths)
-{
+                                 const Wavelengths *wavelengths) {
     float codes[3];
     Frame frame = display_frame(scene, display, triangle, point);
     display_codes(scene, display, point, codes);
@@ -124,14 +113,12 @@ static Spectrum display_emission(const Scene *scene, const Display *display, uin
 }
 
 /* A measured spectrum is stored with a luminance of 1 cd m^-2; the colour gives how much. */
-static Spectrum material_emission(const Scene *scene, uint32_t triangle,
-                                  const TrianglePoint *point, const Wavelengths *wavelengths)
-{
+static Spectrum material_emission(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
+                                  const Wavelengths *wavelengths) {
     const Material *material = &scene->materials[scene_part(scene, triangle)->material_id];
-    float           rgb[3];
+    float rgb[3];
     emitted_rgb(scene, triangle, point, rgb);
-    if (material->emission_curve_id == NO_ID)
-        return spectrum_from_rgb_emission(wavelengths, rgb);
+    if (material->emission_curve_id == NO_ID) return spectrum_from_rgb_emission(wavelengths, rgb);
     float luminance = luminance_from_rgb(rgb);
     return curve_lookup(&scene->curves[material->emission_curve_id], wavelengths) *
            spectrum_all(luminance);
@@ -139,8 +126,7 @@ static Spectrum material_emission(const Scene *scene, uint32_t triangle,
 
 /* Share of the light from below that the coat lets out. */
 static float coat_lets_out(const Scene *scene, const Material *m, uint32_t triangle,
-                           const TrianglePoint *point, Vec3 direction)
-{
+                           const TrianglePoint *point, Vec3 direction) {
     float coat = m->clearcoat, texel[4];
     if (!material_shows_coat(m)) return 1;
     if (m->clearcoat_texture.texture_id != NO_ID) {
@@ -153,28 +139,25 @@ static float coat_lets_out(const Scene *scene, const Material *m, uint32_t trian
 }
 
 bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
-                       Vec3 direction)
-{
-    const Material *material =
-        &scene->materials[scene_part(scene, triangle)->material_id];
+                       Vec3 direction) {
+    const Material *material = &scene->materials[scene_part(scene, triangle)->material_id];
     bool front = vec3_dot(point->ng, direction) > 0;
     bool back_is_dark = material->display_id != NO_ID || !material->double_sided;
     return material->is_emitter && (front || !back_is_dark);
 }
 
 bool triangle_polarisation(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
-                           Vec3 direction, Vec3 *axis, float *degree)
-{
+                           Vec3 direction, Vec3 *axis, float *degree) {
     int display_id = scene->materials[scene_part(scene, triangle)->material_id].display_id;
     if (display_id == NO_ID) return false;
-    const Display    *display = &scene->displays[display_id];
+    const Display *display = &scene->displays[display_id];
     PanelPolarisation light = panel_polarisation(display->panel);
     if (!(light.degree > 0)) return false;
     float sine, cosine;
     sincos_turns(light.azimuth * (0.5f * INV_PI_F), &sine, &cosine);
     Frame frame = display_frame(scene, display, triangle, point);
-    Vec3  absorbs = frame_to_world(&frame, vec3(-sine, cosine, 0));
-    Vec3  lets = vec3_cross(absorbs, direction);
+    Vec3 absorbs = frame_to_world(&frame, vec3(-sine, cosine, 0));
+    Vec3 lets = vec3_cross(absorbs, direction);
     if (!(vec3_dot(lets, lets) > 1e-12f)) return false;
     *axis = vec3_normalize(lets);
     *degree = light.degree;
@@ -182,10 +165,8 @@ bool triangle_polarisation(const Scene *scene, uint32_t triangle, const Triangle
 }
 
 Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
-                           Vec3 direction, const Wavelengths *wavelengths)
-{
-    const Material *material =
-        &scene->materials[scene_part(scene, triangle)->material_id];
+                           Vec3 direction, const Wavelengths *wavelengths) {
+    const Material *material = &scene->materials[scene_part(scene, triangle)->material_id];
     if (!triangle_emits_to(scene, triangle, point, direction)) return spectrum_all(0);
     if (material->display_id != NO_ID)
         return display_emission(scene, &scene->displays[material->display_id], triangle, point,

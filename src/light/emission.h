@@ -36,8 +36,7 @@ void display_emission_xyz(const Scene *scene, const Display *display, uint32_t t
 
 /* Emitted colour of a material that is no display, linear Rec.709, cd m^-2; front side, below
  * any coat. */
-void emitted_rgb(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
-                 float rgb[3]);
+void emitted_rgb(const Scene *scene, uint32_t triangle, const TrianglePoint *point, float rgb[3]);
 
 /* Can anything leave the point along `direction` (unit, world)? The back of a display is its
  * casing and emits nothing; that of another material emits where it is double-sided. */

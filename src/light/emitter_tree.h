@@ -4,5 +4,4 @@
 #include "light/emitters.h"
 
 /* weight: luminance x area of every cell, the sum above 0. Fills the tree and cells' ranks. */
-void emitter_tree_build(const Scene *scene, const double *weight, Arena *arena,
-                        Emitters *emitters);
+void emitter_tree_build(const Scene *scene, const double *weight, Arena *arena, Emitters *emitters);

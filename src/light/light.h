@@ -62,17 +62,17 @@ int lights_lamp_count(const Lights *lights);
 
 typedef struct LightSample {
     LightSet set;
-    Vec3     wi;       /* unit, from the surface to the light */
-    float    distance; /* m, to the light; INFINITY for sun, sky and directional lights */
-    float    pdf;      /* sr^-1; 1 for delta lights */
-    bool     is_delta; /* a BSDF sample can never hit it */
-    bool     is_emitter; /* of a triangle; else triangle .. point are unset */
+    Vec3 wi;         /* unit, from the surface to the light */
+    float distance;  /* m, to the light; INFINITY for sun, sky and directional lights */
+    float pdf;       /* sr^-1; 1 for delta lights */
+    bool is_delta;   /* a BSDF sample can never hit it */
+    bool is_emitter; /* of a triangle; else triangle .. point are unset */
     uint32_t triangle;
-    float    u, v;     /* barycentric weights of the triangle's vertices 1 and 2 */
+    float u, v;          /* barycentric weights of the triangle's vertices 1 and 2 */
     TrianglePoint point; /* the geometry at u, v */
-    Vec2     at;       /* of the sky: where in its picture */
-    int      light_id; /* of a punctual light: which */
-    float    scale;    /* of a punctual light: lx per unit of its intensity, over its prob */
+    Vec2 at;             /* of the sky: where in its picture */
+    int light_id;        /* of a punctual light: which */
+    float scale;         /* of a punctual light: lx per unit of its intensity, over its prob */
 } LightSample;
 
 /* The ray that shows whether a sample arrives at a place where a ray may start (ray_ends.h). It
@@ -97,21 +97,19 @@ Spectrum lights_radiance(const Lights *lights, const LightSample *sample,
                          const Wavelengths *wavelengths);
 
 /* Illuminance, lx, by a sample that arrives; u in [0, 1) chooses the wavelengths. */
-double lights_sample_lx(const Lights *lights, LitPoint point, const LightSample *light,
-                        float u);
+double lights_sample_lx(const Lights *lights, LitPoint point, const LightSample *light, float u);
 
 /* Radiance of sun plus sky from a direction, and each one's sampling pdf as above.
  * radiance[0] the sun's, radiance[1] the sky's; likewise pdf. */
-void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
-                    const Wavelengths *wavelengths, Spectrum radiance[2], float pdf[2]);
+void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns, const Wavelengths *wavelengths,
+                    Spectrum radiance[2], float pdf[2]);
 
 /* Is the sky's light from a direction polarised? *degree: in [0, 1]; *axis: unit, along which
  * the field oscillates: across the plane of the direction and the sun (daylight.h). */
-bool lights_sky_polarisation(const Lights *lights, Vec3 direction,
-                             const Wavelengths *wavelengths, Vec3 *axis, Spectrum *degree);
+bool lights_sky_polarisation(const Lights *lights, Vec3 direction, const Wavelengths *wavelengths,
+                             Vec3 *axis, Spectrum *degree);
 
 /* pdf, sr^-1, with which LIGHTS_EMITTERS chooses the point that a ray in `direction` from the
  * lit point `from` hit, at distance hit->t from there; ng: the triangle's normal. */
-float lights_emitter_pdf(const Lights *lights, const LitPoint *from, const Hit *hit,
-                         Vec3 direction, Vec3 ng);
-
+float lights_emitter_pdf(const Lights *lights, const LitPoint *from, const Hit *hit, Vec3 direction,
+                         Vec3 ng);

@@ -20,7 +20,7 @@ typedef struct LightGroups {
     int count;
     const char *const *names; /* [count]: of channels, no two the same */
     const char *const *said;  /* [count]: as the scene has them */
-    int        sun, sky;      /* NO_ID: there is none */
+    int sun, sky;             /* NO_ID: there is none */
     const int *of_part;       /* [part_count]; NO_ID: emits nothing */
     const int *of_light;      /* [light_count]: of punctual lights */
 } LightGroups;
@@ -30,8 +30,7 @@ LightGroups light_groups_build(const Scene *scene, const Lights *lights, Arena *
 
 /* source_id: of emitters the scene's part, of punctual lights which. NO_ID: there is no such
  * light. */
-static inline int light_group_of(const LightGroups *groups, LightSet set, int source_id)
-{
+static inline int light_group_of(const LightGroups *groups, LightSet set, int source_id) {
     if (set == LIGHTS_SUN) return groups->sun;
     if (set == LIGHTS_SKY) return groups->sky;
     return set == LIGHTS_EMITTERS ? groups->of_part[source_id] : groups->of_light[source_id];

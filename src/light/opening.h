@@ -13,8 +13,7 @@
 Vec3 opening_sample(const LuminousOpening *opening, Vec3 from, const float u[2], float *weight);
 
 /* From the origin to the farthest point, m. */
-static inline float opening_radius(const LuminousOpening *opening)
-{
+static inline float opening_radius(const LuminousOpening *opening) {
     const float *h = opening->half;
     return sqrtf(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
 }

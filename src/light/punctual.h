@@ -27,32 +27,32 @@ typedef struct PunctualProfile {
 #define PUNCTUAL_BRANCHES SPECTRUM_LANES
 typedef struct PunctualNode PunctualNode;
 struct PunctualNode {
-    int          count;
-    Spectrum     centre[3]; /* of the lamps, by intensity; m, scene */
-    Spectrum     spread2;   /* mean square distance of the lamps from it, m^2 */
-    Spectrum     radius;    /* m: none reaches farther from it */
-    Spectrum     power;     /* sum of the largest intensities, cd; 0 in lanes not used */
-    Spectrum     mean;      /* of the profile over all directions */
-    Spectrum     lux;       /* of directional lights, which have their own branch; else 0 */
+    int count;
+    Spectrum centre[3];      /* of the lamps, by intensity; m, scene */
+    Spectrum spread2;        /* mean square distance of the lamps from it, m^2 */
+    Spectrum radius;         /* m: none reaches farther from it */
+    Spectrum power;          /* sum of the largest intensities, cd; 0 in lanes not used */
+    Spectrum mean;           /* of the profile over all directions */
+    Spectrum lux;            /* of directional lights, which have their own branch; else 0 */
     SpectrumMask is_distant; /* that branch */
     const PunctualProfile *profile[PUNCTUAL_BRANCHES]; /* NULL: alike in all directions */
-    int           first[PUNCTUAL_BRANCHES]; /* of its lamps in the order, */
-    int           lamp_count[PUNCTUAL_BRANCHES];
+    int first[PUNCTUAL_BRANCHES];                      /* of its lamps in the order, */
+    int lamp_count[PUNCTUAL_BRANCHES];
     PunctualNode *child[PUNCTUAL_BRANCHES]; /* NULL: all are evaluated */
 };
 
 typedef struct PunctualLights {
     const PunctualLight *lights;
-    int           count; /* 0: none gives any light */
-    int          *order; /* light ids in the tree's order */
-    PunctualNode *root;  /* NULL: few */
+    int count;          /* 0: none gives any light */
+    int *order;         /* light ids in the tree's order */
+    PunctualNode *root; /* NULL: few */
 } PunctualLights;
 
 /* The lamps that are known to light a place, and how much of each one's light arrives. */
 #define PUNCTUAL_KNOWN_MAX 8
 typedef struct PunctualKnown {
-    int   count; /* 0: nothing is known */
-    int   id[PUNCTUAL_KNOWN_MAX];      /* of lights, each once */
+    int count;                         /* 0: nothing is known */
+    int id[PUNCTUAL_KNOWN_MAX];        /* of lights, each once */
     float arrives[PUNCTUAL_KNOWN_MAX]; /* share of its light, in (0, 1] */
     float others; /* share of the choices that go to all other lamps, in [0, 1); 0: there are
                      none */
@@ -60,8 +60,8 @@ typedef struct PunctualKnown {
 
 /* One lamp as it was chosen. */
 typedef struct PunctualSample {
-    int   light_id;
-    Vec3  wi;       /* unit, towards it or a point of its opening */
+    int light_id;
+    Vec3 wi;        /* unit, towards it or a point of its opening */
     float distance; /* m; INFINITY of directional lights */
     float scale;    /* lx on a plane that faces it per unit of its colour's intensity, over the
                        choice's probability */

@@ -8,29 +8,26 @@
 
 /* A branch while it is made: lamps order[first .. first + count - 1]. */
 typedef struct LampGroup {
-    int    first, count;
+    int first, count;
     double power, centre[3], spread2;
-    int    longest; /* axis along which the lamps spread most */
+    int longest; /* axis along which the lamps spread most */
 } LampGroup;
 
 typedef struct LampWork {
     const PunctualLight *lights;
-    int    *order;
-    Arena  *arena;
+    int *order;
+    Arena *arena;
 } LampWork;
 
-static double candela(const PunctualLight *light)
-{
+static double candela(const PunctualLight *light) {
     return (double)luminance_from_rgb(light->intensity);
 }
 
-static const PunctualLight *lamp(const LampWork *work, const LampGroup *g, int i)
-{
+static const PunctualLight *lamp(const LampWork *work, const LampGroup *g, int i) {
     return &work->lights[work->order[g->first + i]];
 }
 
-static void measure(const LampWork *work, LampGroup *g)
-{
+static void measure(const LampWork *work, LampGroup *g) {
     double squares[3] = {0};
     g->power = g->spread2 = 0;
     for (int k = 0; k < 3; k++) g->centre[k] = 0;
@@ -54,15 +51,14 @@ static void measure(const LampWork *work, LampGroup *g)
     if (squares[2] > squares[g->longest]) g->longest = 2;
 }
 
-static double along(const PunctualLight *light, int axis)
-{
-    return (double)(axis == 0 ? light->position.x : axis == 1 ? light->position.y
-                                                               : light->position.z);
+static double along(const PunctualLight *light, int axis) {
+    return (double)(axis == 0   ? light->position.x
+                    : axis == 1 ? light->position.y
+                                : light->position.z);
 }
 
 /* Splits at the centre, across the longest axis; lamps at one place are halved. */
-static void split(LampWork *work, LampGroup *g, LampGroup *rest)
-{
+static void split(LampWork *work, LampGroup *g, LampGroup *rest) {
     int *order = work->order + g->first, below = 0;
     for (int i = 0; i < g->count; i++) {
         int id = order[i];
@@ -81,11 +77,10 @@ static void split(LampWork *work, LampGroup *g, LampGroup *rest)
 
 /* Splits again and again the branch with the greatest product of power and extent, among those
  * with too many lamps to be evaluated one by one. */
-static int split_all(LampWork *work, LampGroup branch[PUNCTUAL_BRANCHES], int count)
-{
+static int split_all(LampWork *work, LampGroup branch[PUNCTUAL_BRANCHES], int count) {
     int start = count - 1; /* directional lights stay together, before it */
     while (count < PUNCTUAL_BRANCHES) {
-        int    best = -1;
+        int best = -1;
         double most = -1;
         for (int i = start; i < count; i++) {
             double badness = branch[i].power * branch[i].spread2;
@@ -102,8 +97,7 @@ static int split_all(LampWork *work, LampGroup branch[PUNCTUAL_BRANCHES], int co
 /* ---- nodes ------------------------------------------------------------------------------- */
 
 /* The direction of a node of the octahedral map, as punctual.c reads it. */
-static Vec3 node_direction(int i, int j)
-{
+static Vec3 node_direction(int i, int j) {
     float p = 2 * (float)i / (PUNCTUAL_PROFILE_SIDE - 1) - 1;
     float q = 2 * (float)j / (PUNCTUAL_PROFILE_SIDE - 1) - 1;
     float z = 1 - fabsf(p) - fabsf(q);
@@ -112,8 +106,7 @@ static Vec3 node_direction(int i, int j)
 }
 
 /* NULL where all lamps shine alike in all directions. *mean: over the sphere. */
-static const PunctualProfile *profile_of(const LampWork *work, const LampGroup *g, float *mean)
-{
+static const PunctualProfile *profile_of(const LampWork *work, const LampGroup *g, float *mean) {
     enum { SIDE = PUNCTUAL_PROFILE_SIDE };
     bool is_even = true;
     for (int i = 0; i < g->count; i++) is_even &= lamp(work, g, i)->kind == LIGHT_POINT;
@@ -122,7 +115,7 @@ static const PunctualProfile *profile_of(const LampWork *work, const LampGroup *
     PunctualProfile *profile = ARENA_NEW(work->arena, PunctualProfile, 1);
     double sum = 0;
     for (int k = 0; k < SIDE * SIDE; k++) {
-        Vec3   d = node_direction(k % SIDE, k / SIDE);
+        Vec3 d = node_direction(k % SIDE, k / SIDE);
         double value = 0;
         for (int i = 0; i < g->count; i++) {
             const PunctualLight *light = lamp(work, g, i);
@@ -135,10 +128,9 @@ static const PunctualProfile *profile_of(const LampWork *work, const LampGroup *
     return profile;
 }
 
-static void finish_branch(const LampWork *work, const LampGroup *g, int i, PunctualNode *node)
-{
+static void finish_branch(const LampWork *work, const LampGroup *g, int i, PunctualNode *node) {
     double radius = 0, size = 0;
-    float  mean;
+    float mean;
     for (int k = 0; k < g->count; k++) {
         const PunctualLight *light = lamp(work, g, k);
         double d2 = 0;
@@ -160,8 +152,7 @@ static void finish_branch(const LampWork *work, const LampGroup *g, int i, Punct
 }
 
 /* branch: one, or two of which the first holds the directional lights. */
-static PunctualNode *build_node(LampWork *work, LampGroup branch[PUNCTUAL_BRANCHES], int count)
-{
+static PunctualNode *build_node(LampWork *work, LampGroup branch[PUNCTUAL_BRANCHES], int count) {
     PunctualNode *node = ARENA_NEW(work->arena, PunctualNode, 1);
     node->count = split_all(work, branch, count);
     for (int i = 0; i < node->count; i++) {
@@ -175,9 +166,8 @@ static PunctualNode *build_node(LampWork *work, LampGroup branch[PUNCTUAL_BRANCH
 }
 
 /* Directional lights' lux and other lights' candela are compared at the scene's own size. */
-static void set_distant(const Scene *scene, PunctualNode *root)
-{
-    Vec3   size = vec3_sub(scene->bounds_max, scene->bounds_min);
+static void set_distant(const Scene *scene, PunctualNode *root) {
+    Vec3 size = vec3_sub(scene->bounds_max, scene->bounds_min);
     double radius2 = fmax(0.25 * (double)vec3_dot(size, size), 1e-12);
     root->lux[0] = root->power[0];
     root->power[0] = (float)((double)root->power[0] * fmin(radius2, 1e12));
@@ -186,8 +176,7 @@ static void set_distant(const Scene *scene, PunctualNode *root)
 }
 
 /* Lists the lamps that give light, directional ones first; returns how many those are. */
-static int list_lights(const Scene *scene, PunctualLights *lights)
-{
+static int list_lights(const Scene *scene, PunctualLights *lights) {
     int distant = 0;
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < scene->light_count; i++) {
@@ -199,13 +188,12 @@ static int list_lights(const Scene *scene, PunctualLights *lights)
     return distant;
 }
 
-PunctualLights punctual_build(const Scene *scene, Arena *arena)
-{
+PunctualLights punctual_build(const Scene *scene, Arena *arena) {
     PunctualLights lights = {.lights = scene->lights};
     lights.order = ARENA_NEW(arena, int, scene->light_count + 1);
     int distant = list_lights(scene, &lights), near = lights.count - distant;
     if (lights.count <= PUNCTUAL_FEW || !near) return lights;
-    LampWork  work = {scene->lights, lights.order, arena};
+    LampWork work = {scene->lights, lights.order, arena};
     LampGroup branch[PUNCTUAL_BRANCHES] = {{.first = 0, .count = distant}};
     branch[distant > 0] = (LampGroup){.first = distant, .count = near};
     for (int i = 0; i <= (distant > 0); i++) measure(&work, &branch[i]);

@@ -22,19 +22,19 @@
 typedef struct Sky {
     EnvironmentKind kind;
     float constant_rgb[3]; /* cd m^-2, linear Rec.709 */
-    SkyPicture      picture; /* HDRI */
-    const SkyModel *model;   /* CIE, PEREZ, SKY; else NULL */
+    SkyPicture picture;    /* HDRI */
+    const SkyModel *model; /* CIE, PEREZ, SKY; else NULL */
 
-    bool   has_sun;
-    Vec3   sun_direction;  /* unit, scene */
-    float  sun_radius;     /* radians */
-    float  sun_solid_angle;
-    float  sun_chord2;     /* squared distance of unit vectors one radius apart */
-    float  sun_luminance;  /* the disc's mean, cd m^-2; unless a model's */
-    Curve  sun_curve;      /* spectral radiance of 1 cd m^-2 */
-    Curve  sun_limb[SUN_LIMB_TERMS]; /* sun_disc.h's; unless a model's */
-    bool   is_moon;        /* the disc is the moon's */
-    Vec3   moon_lit;       /* unit, scene: across the disc towards the side that is lit */
+    bool has_sun;
+    Vec3 sun_direction; /* unit, scene */
+    float sun_radius;   /* radians */
+    float sun_solid_angle;
+    float sun_chord2;               /* squared distance of unit vectors one radius apart */
+    float sun_luminance;            /* the disc's mean, cd m^-2; unless a model's */
+    Curve sun_curve;                /* spectral radiance of 1 cd m^-2 */
+    Curve sun_limb[SUN_LIMB_TERMS]; /* sun_disc.h's; unless a model's */
+    bool is_moon;                   /* the disc is the moon's */
+    Vec3 moon_lit;                  /* unit, scene: across the disc towards the side that is lit */
 } Sky;
 
 /* Fails on an environment that makes no sky, with the reason. */
@@ -44,10 +44,10 @@ bool sky_build(const Environment *environment, Arena *arena, Sky *out, Error *er
  * choose it for a surface with shading normal ns (constant skies are sampled by the cosine
  * around it, others by their luminance). */
 typedef struct SkySample {
-    Vec3     direction;
+    Vec3 direction;
     Spectrum radiance; /* W m^-2 sr^-1 nm^-1 */
-    float    pdf;      /* sr^-1 */
-    Vec2     at;       /* sky_choose: where in the picture */
+    float pdf;         /* sr^-1 */
+    Vec2 at;           /* sky_choose: where in the picture */
 } SkySample;
 
 SkySample sky_seen(const Sky *sky, Vec3 direction, Vec3 ns, const Wavelengths *wavelengths);
@@ -62,5 +62,5 @@ Spectrum sky_radiance(const Sky *sky, const SkySample *chosen, const Wavelengths
 
 /* Zero off the disc, and below the horizon of a model. */
 Spectrum sun_radiance(const Sky *sky, Vec3 direction, const Wavelengths *wavelengths);
-float    sun_pdf(const Sky *sky, Vec3 direction);
-Vec3     sun_sample(const Sky *sky, float u0, float u1);
+float sun_pdf(const Sky *sky, Vec3 direction);
+Vec3 sun_sample(const Sky *sky, float u0, float u1);

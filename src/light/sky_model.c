@@ -7,8 +7,7 @@
 
 #define ROWS (2 * SKY_MODEL_ROWS)
 
-Vec3 sky_model_direction(float scene_azimuth, float elevation)
-{
+Vec3 sky_model_direction(float scene_azimuth, float elevation) {
     double c = cos_d((double)elevation);
     return vec3((float)(c * sin_d((double)scene_azimuth)), (float)sin_d((double)elevation),
                 (float)(-c * cos_d((double)scene_azimuth)));
@@ -17,8 +16,7 @@ Vec3 sky_model_direction(float scene_azimuth, float elevation)
 /* ---- building --------------------------------------------------------------------------- */
 
 /* Elevations rise from the nadir to the horizon to the zenith, closest at the horizon. */
-static void place_edges(SkyModel *model, double horizon)
-{
+static void place_edges(SkyModel *model, double horizon) {
     for (int i = 0; i <= SKY_MODEL_ROWS; i++) {
         double share = (double)i / SKY_MODEL_ROWS, square = share * share;
         double above = horizon + (PI / 2 - horizon) * square;
@@ -29,8 +27,7 @@ static void place_edges(SkyModel *model, double horizon)
 }
 
 /* Mean luminance of a cell from 3 x 3 places inside. */
-static double cell_luminance(const SkyModel *model, int row, int column)
-{
+static double cell_luminance(const SkyModel *model, int row, int column) {
     double sum = 0;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
@@ -43,25 +40,21 @@ static double cell_luminance(const SkyModel *model, int row, int column)
     return sum / 9;
 }
 
-static void fill_row(void *context, int row, int worker)
-{
+static void fill_row(void *context, int row, int worker) {
     SkyModel *model = context;
-    double    running = 0, cell[SKY_MODEL_COLUMNS];
+    double running = 0, cell[SKY_MODEL_COLUMNS];
     (void)worker;
-    for (int j = 0; j < SKY_MODEL_COLUMNS; j++)
-        running += cell[j] = cell_luminance(model, row, j);
+    for (int j = 0; j < SKY_MODEL_COLUMNS; j++) running += cell[j] = cell_luminance(model, row, j);
     /* a hundredth evenly: a cell may be brighter than its nine places show */
     double even = 0.01 * running / SKY_MODEL_COLUMNS + 1e-12, total = running * 1.01 + 1e-9;
     double sum = 0;
     for (int j = 0; j < SKY_MODEL_COLUMNS; j++)
         model->cdf[row][j + 1] = (float)((sum += cell[j] + even) / total);
     model->cdf[row][SKY_MODEL_COLUMNS] = 1;
-    model->row_cdf[row + 1] =
-        (float)(total * (double)(model->edge[row + 1] - model->edge[row]));
+    model->row_cdf[row + 1] = (float)(total * (double)(model->edge[row + 1] - model->edge[row]));
 }
 
-static void sum_rows(SkyModel *model)
-{
+static void sum_rows(SkyModel *model) {
     double total = 0, running = 0;
     for (int i = 0; i < ROWS; i++) total += (double)model->row_cdf[i + 1];
     for (int i = 0; i < ROWS; i++) {
@@ -71,8 +64,7 @@ static void sum_rows(SkyModel *model)
     model->row_cdf[ROWS] = 1;
 }
 
-static DaylightInput input_of(const Environment *environment)
-{
+static DaylightInput input_of(const Environment *environment) {
     DaylightInput input = environment->daylight;
     input.threads = parallel_default_threads();
     input.has_sun = environment->has_sun;
@@ -82,20 +74,18 @@ static DaylightInput input_of(const Environment *environment)
     return input;
 }
 
-bool sky_model_build(const Environment *environment, float turn, Arena *arena,
-                     const SkyModel **out, Error *err)
-{
-    Daylight     *daylight = arena_alloc(arena, sizeof *daylight, 64, 1);
-    SkyModel    *model = ARENA_NEW(arena, SkyModel, 1);
+bool sky_model_build(const Environment *environment, float turn, Arena *arena, const SkyModel **out,
+                     Error *err) {
+    Daylight *daylight = arena_alloc(arena, sizeof *daylight, 64, 1);
+    SkyModel *model = ARENA_NEW(arena, SkyModel, 1);
     DaylightInput input = input_of(environment);
     if (!daylight_build(&input, arena, daylight, err)) return false;
     model->daylight = daylight;
     model->turn = turn;
     model->is_polarised = input.kind == DAYLIGHT_CLEAR;
     if (model->is_polarised)
-        model->sun = sky_model_direction(
-            (float)daylight->sun_azimuth - turn,
-            (float)daylight->sunlight.atmosphere.input.sun_elevation);
+        model->sun = sky_model_direction((float)daylight->sun_azimuth - turn,
+                                         (float)daylight->sunlight.atmosphere.input.sun_elevation);
     place_edges(model, daylight->horizon);
     parallel_for(input.threads, ROWS, fill_row, model);
     sum_rows(model);
@@ -106,8 +96,7 @@ bool sky_model_build(const Environment *environment, float turn, Arena *arena,
 /* ---- queries ---------------------------------------------------------------------------- */
 
 /* The largest i with value[i] <= x, 0 <= i < count. */
-static int interval(const float *value, int count, float x)
-{
+static int interval(const float *value, int count, float x) {
     int low = 0, high = count;
     while (high - low > 1) {
         int middle = (low + high) / 2;
@@ -117,8 +106,7 @@ static int interval(const float *value, int count, float x)
     return low;
 }
 
-static float cell_pdf(const SkyModel *model, int row, int column)
-{
+static float cell_pdf(const SkyModel *model, int row, int column) {
     float share = (model->row_cdf[row + 1] - model->row_cdf[row]) *
                   (model->cdf[row][column + 1] - model->cdf[row][column]);
     float area = (model->edge[row + 1] - model->edge[row]) * (2 * PI_F / SKY_MODEL_COLUMNS);
@@ -126,33 +114,28 @@ static float cell_pdf(const SkyModel *model, int row, int column)
 }
 
 /* Compass azimuth in turns, [0, 1). */
-static float azimuth_turns(const SkyModel *model, Vec3 d)
-{
+static float azimuth_turns(const SkyModel *model, Vec3 d) {
     float turns = (atan2_f(d.x, -d.z) + model->turn) * (0.5f * INV_PI_F);
     turns -= floorf(turns);
     return turns < 1 ? turns : 0;
 }
 
-static float elevation_of(Vec3 d)
-{
+static float elevation_of(Vec3 d) {
     return atan2_f(d.y, safe_sqrtf(d.x * d.x + d.z * d.z));
 }
 
-static float pdf_at(const SkyModel *model, float turns, float height)
-{
+static float pdf_at(const SkyModel *model, float turns, float height) {
     int column = (int)(turns * SKY_MODEL_COLUMNS);
     if (column > SKY_MODEL_COLUMNS - 1) column = SKY_MODEL_COLUMNS - 1;
     return cell_pdf(model, interval(model->edge, ROWS, height), column);
 }
 
-float sky_model_pdf(const SkyModel *model, Vec3 direction)
-{
+float sky_model_pdf(const SkyModel *model, Vec3 direction) {
     return pdf_at(model, azimuth_turns(model, direction), direction.y);
 }
 
 Spectrum sky_model_seen(const SkyModel *model, Vec3 direction, const Wavelengths *wavelengths,
-                        float *pdf)
-{
+                        float *pdf) {
     float turns = azimuth_turns(model, direction);
     *pdf = pdf_at(model, turns, direction.y);
     return daylight_radiance(model->daylight, elevation_of(direction), 2 * PI_F * turns,
@@ -160,16 +143,14 @@ Spectrum sky_model_seen(const SkyModel *model, Vec3 direction, const Wavelengths
 }
 
 Spectrum sky_model_polarisation(const SkyModel *model, Vec3 direction,
-                                const Wavelengths *wavelengths)
-{
+                                const Wavelengths *wavelengths) {
     return daylight_polarisation(model->daylight, elevation_of(direction),
                                  2 * PI_F * azimuth_turns(model, direction), wavelengths);
 }
 
-Vec3 sky_model_sample(const SkyModel *model, float u0, float u1)
-{
-    int   row = interval(model->row_cdf, ROWS, u1);
-    int   column = interval(model->cdf[row], SKY_MODEL_COLUMNS, u0);
+Vec3 sky_model_sample(const SkyModel *model, float u0, float u1) {
+    int row = interval(model->row_cdf, ROWS, u1);
+    int column = interval(model->cdf[row], SKY_MODEL_COLUMNS, u0);
     float height = model->row_cdf[row + 1] - model->row_cdf[row];
     float width = model->cdf[row][column + 1] - model->cdf[row][column];
     float t = height > 0 ? (u1 - model->row_cdf[row]) / height : 0.5f;

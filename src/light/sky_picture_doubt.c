@@ -23,8 +23,7 @@ typedef struct LuminanceHistogram {
     double weight[BINS], total;
 } LuminanceHistogram;
 
-static void histogram_add(LuminanceHistogram *histogram, double luminance, double weight)
-{
+static void histogram_add(LuminanceHistogram *histogram, double luminance, double weight) {
     int octave, bin = 0;
     if (luminance > 0) {
         double mantissa = frexp(luminance, &octave); /* in [0.5, 1) */
@@ -36,10 +35,9 @@ static void histogram_add(LuminanceHistogram *histogram, double luminance, doubl
 }
 
 /* The middle of the median's bin. */
-static double histogram_median(const LuminanceHistogram *histogram)
-{
+static double histogram_median(const LuminanceHistogram *histogram) {
     double below = 0;
-    int    bin = 0;
+    int bin = 0;
     while (bin < BINS - 1 && below + histogram->weight[bin] < 0.5 * histogram->total)
         below += histogram->weight[bin++];
     double share = (bin % BINS_AN_OCTAVE + 0.5) / BINS_AN_OCTAVE;
@@ -48,39 +46,33 @@ static double histogram_median(const LuminanceHistogram *histogram)
 
 /* State of one pass over the pixels. */
 typedef struct Look {
-    HdriLook           out;
+    HdriLook out;
     const Environment *environment;
     LuminanceHistogram dome, ground;
     double blue;
-    int    peak_x, peak_y;
+    int peak_x, peak_y;
 } Look;
 
-static const float *pixel_at(const Environment *environment, int x, int y)
-{
+static const float *pixel_at(const Environment *environment, int x, int y) {
     const Image *image = &environment->hdri;
-    return (const float *)image->pixels +
-           4 * ((size_t)y * (size_t)image->width + (size_t)x);
+    return (const float *)image->pixels + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
 }
 
-static double luminance_of(const Environment *environment, int x, int y)
-{
-    double luminance = (double)luminance_from_rgb(pixel_at(environment, x, y)) *
-                       (double)environment->hdri_scale;
+static double luminance_of(const Environment *environment, int x, int y) {
+    double luminance =
+        (double)luminance_from_rgb(pixel_at(environment, x, y)) * (double)environment->hdri_scale;
     return luminance > 0 && isfinite(luminance) ? luminance : 0;
 }
 
-static bool is_blue(const float rgb[3])
-{
+static bool is_blue(const float rgb[3]) {
     return rgb[2] >= 1.15f * rgb[0] && rgb[2] >= rgb[1] && rgb[2] > 0;
 }
 
-static double elevation_of(const Image *image, double row)
-{
+static double elevation_of(const Image *image, double row) {
     return PI * (0.5 - row / image->height);
 }
 
-static void look_at_row(Look *look, int y)
-{
+static void look_at_row(Look *look, int y) {
     const Image *image = &look->environment->hdri;
     double top = elevation_of(image, y), bottom = elevation_of(image, y + 1);
     double middle = elevation_of(image, y + 0.5), deg = degrees_from_radians(middle);
@@ -105,15 +97,13 @@ static void look_at_row(Look *look, int y)
     }
 }
 
-static double cosine_between(const Image *image, int x, int y, int other_x, int other_y)
-{
+static double cosine_between(const Image *image, int x, int y, int other_x, int other_y) {
     double a = elevation_of(image, y + 0.5), b = elevation_of(image, other_y + 0.5);
     double turn = 2 * PI * (x - other_x) / image->width;
     return sin_d(a) * sin_d(b) + cos_d(a) * cos_d(b) * cos_d(turn);
 }
 
-static bool has_one_peak(const Look *look)
-{
+static bool has_one_peak(const Look *look) {
     const Image *image = &look->environment->hdri;
     double least = cos_d(radians_from_degrees(PEAK_WIDTH_DEG));
     for (int y = 0; y < image->height / 2; y++)
@@ -124,8 +114,7 @@ static bool has_one_peak(const Look *look)
     return look->out.peak_cd_m2 > 0;
 }
 
-HdriLook hdri_look(const Environment *environment)
-{
+HdriLook hdri_look(const Environment *environment) {
     Look look = {.environment = environment};
     for (int y = 0; y < environment->hdri.height; y++) look_at_row(&look, y);
     look.out.largest_stored /= environment->hdri_unit_cd_m2;
@@ -137,13 +126,11 @@ HdriLook hdri_look(const Environment *environment)
     return look.out;
 }
 
-static double overcast_lx(double elevation)
-{
+static double overcast_lx(double elevation) {
     return DAY_LX + 21000 * fmax(sin_d(elevation), 0);
 }
 
-HdriDoubt hdri_doubt(const HdriLook *look)
-{
+HdriDoubt hdri_doubt(const HdriLook *look) {
     double lux = look->illuminance_lx;
     if (look->largest_stored > 0.25 && look->largest_stored <= 1.0001 && lux < DAY_LX)
         return HDRI_UNIT_RANGE;

@@ -27,23 +27,18 @@
 #pragma once
 #include "scene/scene.h"
 
-typedef enum HdriDoubt {
-    HDRI_PLAUSIBLE,
-    HDRI_UNIT_RANGE,
-    HDRI_DIM_SUN,
-    HDRI_DIM_SKY
-} HdriDoubt;
+typedef enum HdriDoubt { HDRI_PLAUSIBLE, HDRI_UNIT_RANGE, HDRI_DIM_SUN, HDRI_DIM_SKY } HdriDoubt;
 
 /* Quantities of the criterion; luminances are in the picture's scaled values. */
 typedef struct HdriLook {
     double illuminance_lx;
-    double largest_stored;                /* of R, G, B, as the file holds them */
-    double dome_cd_m2, ground_cd_m2;      /* medians over solid angle */
-    double peak_cd_m2, peak_elevation;    /* of the upper half */
-    double blue_share;                    /* of the dome */
-    bool   has_one_peak;
+    double largest_stored;             /* of R, G, B, as the file holds them */
+    double dome_cd_m2, ground_cd_m2;   /* medians over solid angle */
+    double peak_cd_m2, peak_elevation; /* of the upper half */
+    double blue_share;                 /* of the dome */
+    bool has_one_peak;
 } HdriLook;
 
 /* environment->kind is ENVIRONMENT_HDRI. */
-HdriLook  hdri_look(const Environment *environment);
+HdriLook hdri_look(const Environment *environment);
 HdriDoubt hdri_doubt(const HdriLook *look);

@@ -7,7 +7,7 @@
 #include "base/vec.h"
 
 typedef struct SolidAngle {
-    Vec3  corner[3];   /* unit, from the point to the corners */
+    Vec3 corner[3];    /* unit, from the point to the corners */
     float distance[3]; /* m */
     float volume;      /* of the parallelepiped of the three, >= 0 */
     float value;       /* sr, 0 .. 2 pi; 0 when the point lies in the plane */

@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-static int display_count(const FrameImage *frame)
-{
+static int display_count(const FrameImage *frame) {
     static const char PREFIX[] = "parhelion:display.";
     int count = 0;
     for (int i = 0; i < frame->attribute_count; i++)
@@ -13,8 +12,7 @@ static int display_count(const FrameImage *frame)
     return count;
 }
 
-static bool find_second(const FrameImage *frame, DisplayLayers *out)
-{
+static bool find_second(const FrameImage *frame, DisplayLayers *out) {
     out->second_id = frame_channel(frame, "id.second");
     out->second_coverage = frame_channel(frame, "display.second.coverage");
     return out->second_id && out->second_coverage &&
@@ -22,8 +20,7 @@ static bool find_second(const FrameImage *frame, DisplayLayers *out)
            frame_rgb(frame, "display.second.variance", out->second_variance);
 }
 
-bool display_layers_find(const FrameImage *frame, DisplayLayers *out)
-{
+bool display_layers_find(const FrameImage *frame, DisplayLayers *out) {
     *out = (DisplayLayers){.id = frame_channel(frame, "id.display"),
                            .coverage = frame_channel(frame, "display.coverage"),
                            .samples = frame_channel(frame, "samples.N")};
@@ -47,8 +44,7 @@ typedef struct PartShare {
 
 /* variance: of the mean; NaN: of one sample. */
 static PartShare share_of(double samples, const double mean[3], const float *const variance[3],
-                      size_t i)
-{
+                          size_t i) {
     PartShare share = {.samples = samples};
     for (int c = 0; c < 3; c++) {
         double of = (double)variance[c][i];
@@ -58,8 +54,7 @@ static PartShare share_of(double samples, const double mean[3], const float *con
     return share;
 }
 
-static PartShare whole_share(const DisplayLayers *layers, size_t i)
-{
+static PartShare whole_share(const DisplayLayers *layers, size_t i) {
     double mean[3];
     for (int c = 0; c < 3; c++)
         mean[c] = (double)layers->emitted[c][i] + (double)layers->reflected[c][i];
@@ -67,8 +62,7 @@ static PartShare whole_share(const DisplayLayers *layers, size_t i)
                     layers->variance, i);
 }
 
-static PartShare second_share(const DisplayLayers *layers, size_t i)
-{
+static PartShare second_share(const DisplayLayers *layers, size_t i) {
     double mean[3];
     for (int c = 0; c < 3; c++) mean[c] = (double)layers->second[c][i];
     return share_of((double)layers->second_coverage[i] * (double)layers->samples[i], mean,
@@ -77,23 +71,20 @@ static PartShare second_share(const DisplayLayers *layers, size_t i)
 
 /* What is left of `all` without `other`. Squares about the common mean are those about both
  * means and what lies between these. */
-static PartShare share_without(const PartShare *all, const PartShare *other)
-{
+static PartShare share_without(const PartShare *all, const PartShare *other) {
     PartShare left = {.samples = all->samples - other->samples};
     for (int c = 0; c < 3; c++) {
         double a = all->mean[c], b = other->mean[c];
         double mean = (all->samples * a - other->samples * b) / left.samples;
-        double between = left.samples * mean * mean + other->samples * b * b -
-                         all->samples * a * a;
+        double between = left.samples * mean * mean + other->samples * b * b - all->samples * a * a;
         left.mean[c] = mean;
         left.squares[c] = fmax(all->squares[c] - other->squares[c] - between, 0);
     }
     return left;
 }
 
-static DisplayPart part_of(const PartShare *share, double n)
-{
-    double      coverage = share->samples / n;
+static DisplayPart part_of(const PartShare *share, double n) {
+    double coverage = share->samples / n;
     DisplayPart part = {.coverage = coverage, .spread = coverage * (1 - coverage) / (n - 1)};
     if (n < 2) part.spread = NAN;
     for (int c = 0; c < 3; c++) {
@@ -103,15 +94,13 @@ static DisplayPart part_of(const PartShare *share, double n)
     return part;
 }
 
-DisplayPart display_part(const DisplayLayers *layers, size_t i, int id)
-{
+DisplayPart display_part(const DisplayLayers *layers, size_t i, int id) {
     float second_id = layers->second_id ? layers->second_id[i] : -1;
-    bool  is_first = layers->id[i] == (float)id, is_second = second_id == (float)id;
-    if (id < 0 || (!is_first && !is_second) || !(layers->coverage[i] > 0))
-        return (DisplayPart){0};
+    bool is_first = layers->id[i] == (float)id, is_second = second_id == (float)id;
+    if (id < 0 || (!is_first && !is_second) || !(layers->coverage[i] > 0)) return (DisplayPart){0};
     if (second_id < -1) return (DisplayPart){.is_shared = true, .is_unknown = true};
     double n = (double)layers->samples[i];
-    PartShare  share = whole_share(layers, i);
+    PartShare share = whole_share(layers, i);
     if (second_id < 0) return part_of(&share, n);
     PartShare other = second_share(layers, i), first = share_without(&share, &other);
     DisplayPart part = part_of(is_first ? &first : &other, n);
@@ -126,8 +115,7 @@ DisplayPart display_part(const DisplayLayers *layers, size_t i, int id)
 /* ---- a frame ----------------------------------------------------------------------------- */
 
 /* A copy in its place; NULL: there is none. */
-static float *new_channel(FrameImage *frame, const char *name, Arena *arena)
-{
+static float *new_channel(FrameImage *frame, const char *name, Arena *arena) {
     for (int i = 0; i < frame->channel_count; i++) {
         if (strcmp(frame->channels[i].name, name) != 0) continue;
         float *values = ARENA_NEW(arena, float, frame_pixel_count(frame));
@@ -141,13 +129,12 @@ static float *new_channel(FrameImage *frame, const char *name, Arena *arena)
 /* One channel of R, G, B and of what states its noise. Pixels that show the display alone keep
  * their halves; the others have the root of their variance, which has the same expectation. */
 static void fill_channel(const DisplayLayers *layers, int id, int c, size_t count,
-                         float *const to[3])
-{
+                         float *const to[3]) {
     for (size_t i = 0; i < count; i++) {
         DisplayPart part = display_part(layers, i, id);
         double mean = part.rgb[c];
         double variance = part.scatter[c] + part.spread * mean * mean;
-        bool   is_alone = part.coverage == 1 && !part.is_shared;
+        bool is_alone = part.coverage == 1 && !part.is_shared;
         to[0][i] = part.is_unknown ? NAN : (float)(part.coverage * mean);
         to[1][i] = (float)variance;
         if (to[2] && !is_alone) to[2][i] = (float)sqrt(variance);
@@ -155,16 +142,14 @@ static void fill_channel(const DisplayLayers *layers, int id, int c, size_t coun
 }
 
 FrameImage display_part_frame(const FrameImage *frame, const DisplayLayers *layers, int id,
-                              Arena *arena)
-{
-    static const char *const NAMES[3][3] = {
-        {"R", "variance.R", "halves.R"}, {"G", "variance.G", "halves.G"},
-        {"B", "variance.B", "halves.B"}};
+                              Arena *arena) {
+    static const char *const NAMES[3][3] = {{"R", "variance.R", "halves.R"},
+                                            {"G", "variance.G", "halves.G"},
+                                            {"B", "variance.B", "halves.B"}};
     FrameImage out = *frame;
     out.channel_room = frame->channel_count + 3;
     out.channels = ARENA_NEW(arena, ExrChannel, out.channel_room);
-    memcpy(out.channels, frame->channels,
-           (size_t)frame->channel_count * sizeof *out.channels);
+    memcpy(out.channels, frame->channels, (size_t)frame->channel_count * sizeof *out.channels);
     for (int c = 0; c < 3; c++) {
         float *to[3];
         for (int k = 0; k < 3; k++) to[k] = new_channel(&out, NAMES[c][k], arena);

@@ -35,8 +35,8 @@ typedef struct DisplayPart {
     double rgb[3];     /* mean over it */
     double scatter[3]; /* of R, G, B; NaN below two samples */
     double spread;     /* NaN below two samples */
-    bool   is_shared;  /* with another display: the other display.* layers are of both */
-    bool   is_unknown; /* shared with several: no part is reported */
+    bool is_shared;    /* with another display: the other display.* layers are of both */
+    bool is_unknown;   /* shared with several: no part is reported */
 } DisplayPart;
 
 DisplayPart display_part(const DisplayLayers *layers, size_t i, int id);

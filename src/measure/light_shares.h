@@ -17,8 +17,8 @@ typedef struct LightShare {
 
 typedef struct LightShares {
     LightShare *list; /* the brightest first */
-    int         count; /* 0: the frame has no layers of lights */
-    long        pixels; /* that shares are of: of a display those that show it alone */
+    int count;        /* 0: the frame has no layers of lights */
+    long pixels;      /* that shares are of: of a display those that show it alone */
 } LightShares;
 
 /* For a request that measure_frame answers, over the pixels that it takes; of a display only

@@ -19,20 +19,19 @@ typedef struct DisplayLight {
 typedef struct Sums {
     double area, rgb[3]; /* of the parts and of the channels */
     PixelNoise noise, by_halves;
-    RimNoise rim, display_rim; /* of the light, and of what is reflected */
+    RimNoise rim, display_rim;                   /* of the light, and of what is reflected */
     PixelNoise display_noise, display_by_halves; /* over the pixels of displays */
-    PixelNoise reflected_by_halves; /* of what is reflected there: all that contrasts hang on */
+    PixelNoise reflected_by_halves;    /* of what is reflected there: all that contrasts hang on */
     double missing, reflected_missing; /* what few samples find may be missing, summed: of all
                                           light, and of what is reflected there */
-    DisplayLight light; /* of displays */
+    DisplayLight light;                /* of displays */
     double mirror, lambertian, display_area, reflected_rgb[3];
     double extrapolated[2]; /* of what is shown, and reflected, there */
-    long   pixels, display_pixels, nonfinite, rim_pixels, shared_pixels, unknown_pixels;
+    long pixels, display_pixels, nonfinite, rim_pixels, shared_pixels, unknown_pixels;
     double least, greatest;
 } Sums;
 
-static double luminance_at(const LayerView *view, size_t i)
-{
+static double luminance_at(const LayerView *view, size_t i) {
     float rgb[3] = {view->planes[0][i], view->planes[1][i], view->planes[2][i]}, xyz[3];
     xyz_from_rgb(rgb, xyz);
     return (double)xyz[1];
@@ -40,8 +39,7 @@ static double luminance_at(const LayerView *view, size_t i)
 
 /* ---- one pixel after the other ------------------------------------------------------- */
 
-static bool display_light(const RegionPlanes *planes, size_t i, DisplayLight *out)
-{
+static bool display_light(const RegionPlanes *planes, size_t i, DisplayLight *out) {
     *out = (DisplayLight){.white = luminance_at(&planes->white, i),
                           .black = luminance_at(&planes->black, i),
                           .shown = planes->has_shown ? luminance_at(&planes->shown, i) : 0,
@@ -52,31 +50,29 @@ static bool display_light(const RegionPlanes *planes, size_t i, DisplayLight *ou
 
 /* What counts of a pixel. */
 typedef struct PixelShare {
-    double      area;        /* 1, or a display's coverage */
-    double      rgb[3], luminance; /* means over it */
-    double      variance[3]; /* of area times rgb; NaN: not known */
-    DisplayPart own;         /* of the display that is measured, or else of the pixel's */
+    double area;              /* 1, or a display's coverage */
+    double rgb[3], luminance; /* means over it */
+    double variance[3];       /* of area times rgb; NaN: not known */
+    DisplayPart own;          /* of the display that is measured, or else of the pixel's */
 } PixelShare;
 
-static DisplayPart part_at(const RegionPlanes *planes, size_t i)
-{
-    int    width = planes->light.width, row = planes->data.x1 - planes->data.x0;
-    int    x = (int)(i % (size_t)width) + planes->window.x0 - planes->data.x0;
-    int    y = (int)(i / (size_t)width) + planes->window.y0 - planes->data.y0;
+static DisplayPart part_at(const RegionPlanes *planes, size_t i) {
+    int width = planes->light.width, row = planes->data.x1 - planes->data.x0;
+    int x = (int)(i % (size_t)width) + planes->window.x0 - planes->data.x0;
+    int y = (int)(i / (size_t)width) + planes->window.y0 - planes->data.y0;
     size_t k = (size_t)y * (size_t)row + (size_t)x;
     if (!planes->has_parts) return (DisplayPart){0};
     return display_part(&planes->parts, k,
                         planes->wanted < 0 ? (int)planes->parts.id[k] : planes->wanted);
 }
 
-static PixelShare pixel_light(const RegionPlanes *planes, size_t i)
-{
+static PixelShare pixel_light(const RegionPlanes *planes, size_t i) {
     PixelShare pixel = {.area = 1, .own = part_at(planes, i)};
-    bool       is_part = planes->rim == RIM_BY_COVERAGE;
+    bool is_part = planes->rim == RIM_BY_COVERAGE;
     if (is_part) pixel.area = pixel.own.coverage;
     for (int c = 0; c < 3; c++) {
         pixel.rgb[c] = is_part ? pixel.own.rgb[c] : (double)planes->light.planes[c][i];
-        pixel.variance[c] = is_part ? pixel.own.scatter[c]
+        pixel.variance[c] = is_part                ? pixel.own.scatter[c]
                             : planes->has_variance ? (double)planes->variance.planes[c][i]
                                                    : (double)NAN;
     }
@@ -87,21 +83,18 @@ static PixelShare pixel_light(const RegionPlanes *planes, size_t i)
 }
 
 /* Not a display's share of a pixel, but all of it, and nothing else. */
-static bool is_alone(const RegionPlanes *planes, const PixelShare *pixel, size_t i)
-{
+static bool is_alone(const RegionPlanes *planes, const PixelShare *pixel, size_t i) {
     return planes->coverage && planes->coverage[i] == 1 && !pixel->own.is_shared;
 }
 
 /* The share of the pixel that means over displays are taken with; 0: none, as the layers are of
  * two displays. */
-static double display_weight(const RegionPlanes *planes, const PixelShare *pixel, size_t i)
-{
+static double display_weight(const RegionPlanes *planes, const PixelShare *pixel, size_t i) {
     if (planes->has_parts) return pixel->own.is_shared ? 0 : pixel->own.coverage;
     return planes->coverage ? (double)planes->coverage[i] : 1;
 }
 
-static bool add_display(const RegionPlanes *planes, size_t i, double weight, Sums *sums)
-{
+static bool add_display(const RegionPlanes *planes, size_t i, double weight, Sums *sums) {
     DisplayLight light;
     if (!(weight > 0) || !display_light(planes, i, &light)) return false;
     sums->light.white += weight * light.white;
@@ -111,12 +104,11 @@ static bool add_display(const RegionPlanes *planes, size_t i, double weight, Sum
     for (int c = 0; c < 3; c++)
         sums->reflected_rgb[c] += weight * (double)planes->reflected.planes[c][i];
     if (planes->has_mirror) sums->mirror += weight * luminance_at(&planes->mirror, i);
-    if (planes->has_lambertian)
-        sums->lambertian += weight * luminance_at(&planes->lambertian, i);
+    if (planes->has_lambertian) sums->lambertian += weight * luminance_at(&planes->lambertian, i);
     for (int k = 0; k < 2; k++)
         if (planes->extrapolated[k])
-            sums->extrapolated[k] += weight * (double)planes->extrapolated[k][i] *
-                                     (k ? light.reflected : light.shown);
+            sums->extrapolated[k] +=
+                weight * (double)planes->extrapolated[k][i] * (k ? light.reflected : light.shown);
     sums->display_area += weight;
     sums->display_pixels++;
     return true;
@@ -124,8 +116,7 @@ static bool add_display(const RegionPlanes *planes, size_t i, double weight, Sum
 
 /* The squares of a pixel's halves have the expectation of its variances, that of their
  * luminance, too. */
-static void add_halves(const LayerView *halves, size_t i, double weight, PixelNoise *to)
-{
+static void add_halves(const LayerView *halves, size_t i, double weight, PixelNoise *to) {
     double rgb[3], y = weight * luminance_at(halves, i);
     for (int c = 0; c < 3; c++) {
         double half = weight * (double)halves->planes[c][i];
@@ -134,25 +125,21 @@ static void add_halves(const LayerView *halves, size_t i, double weight, PixelNo
     if (isfinite(y)) pixel_noise_add(to, rgb, y * y);
 }
 
-static void add_variance(const double variance[3], PixelNoise *to)
-{
+static void add_variance(const double variance[3], PixelNoise *to) {
     pixel_noise_add(to, variance, pixel_noise_luminance(variance));
 }
 
 /* Is the display's own light there known twice? */
-static bool is_known_twice(const RegionPlanes *planes, size_t i)
-{
+static bool is_known_twice(const RegionPlanes *planes, size_t i) {
     return planes->has_shown && planes->has_fine && planes->has_display_halves &&
-           isfinite(luminance_at(&planes->shown, i)) &&
-           isfinite(luminance_at(&planes->fine, i)) &&
+           isfinite(luminance_at(&planes->shown, i)) && isfinite(luminance_at(&planes->fine, i)) &&
            isfinite(luminance_at(&planes->display_halves, i));
 }
 
 /* What a display shows is spread by its samples better than its two halves can estimate. But
  * display.fine is the same by rays of other points, up to eight times as many: the distance of
  * the two has the samples' noise, and that of those rays, which is smaller. */
-static void add_known_twice(const RegionPlanes *planes, size_t i, PixelNoise *to)
-{
+static void add_known_twice(const RegionPlanes *planes, size_t i, PixelNoise *to) {
     double rgb[3], reflected = luminance_at(&planes->display_halves, i);
     double shown = luminance_at(&planes->shown, i) - luminance_at(&planes->fine, i);
     for (int c = 0; c < 3; c++) {
@@ -166,8 +153,7 @@ static void add_known_twice(const RegionPlanes *planes, size_t i, PixelNoise *to
 /* Halves are of whole pixels: of one that shows other things, too, the part of a display has
  * its own variance alone. */
 static void add_pixel_noise(const RegionPlanes *planes, size_t i, const PixelShare *pixel,
-                            bool on_display, Sums *sums)
-{
+                            bool on_display, Sums *sums) {
     bool is_whole = is_alone(planes, pixel, i), is_part = planes->rim == RIM_BY_COVERAGE;
     if (is_part || planes->has_variance) add_variance(pixel->variance, &sums->noise);
     if (is_part) rim_noise_add(&sums->rim, pixel->own.spread, pixel->rgb);
@@ -179,11 +165,10 @@ static void add_pixel_noise(const RegionPlanes *planes, size_t i, const PixelSha
 
 /* weight: the display's share. What is reflected is measured by the display's samples alone. */
 static void add_display_noise(const RegionPlanes *planes, size_t i, const PixelShare *pixel,
-                              double weight, Sums *sums)
-{
-    bool          has_own = planes->has_parts, is_whole = is_alone(planes, pixel, i);
+                              double weight, Sums *sums) {
+    bool has_own = planes->has_parts, is_whole = is_alone(planes, pixel, i);
     const double *variance = has_own ? pixel->own.scatter : pixel->variance;
-    double        rgb[3];
+    double rgb[3];
     for (int c = 0; c < 3; c++) rgb[c] = (double)planes->reflected.planes[c][i];
     if (has_own || planes->has_variance) add_variance(variance, &sums->display_noise);
     if (has_own) rim_noise_add(&sums->display_rim, pixel->own.spread, rgb);
@@ -200,8 +185,7 @@ static void add_display_noise(const RegionPlanes *planes, size_t i, const PixelS
 
 /* A bright sample in a pixel of n moves it by its n-th part, and half the difference of the
  * pixel's halves is as much, its variance the square: these stand for the samples. */
-static double missing_by(const PixelNoise *noise)
-{
+static double missing_by(const PixelNoise *noise) {
     return bright_missing(&(BrightSamples){noise->luminance, noise->fourths}, 1, 1);
 }
 
@@ -210,8 +194,7 @@ static double missing_by(const PixelNoise *noise)
  * the interval is Student's as it is, of as many degrees of freedom as pixels count. Of all
  * light bright samples are looked for among that many pixels only: in one or two all noise
  * would be taken for a single sample. */
-static void choose_noise(Sums *sums)
-{
+static void choose_noise(Sums *sums) {
     const PixelNoise *reflected = &sums->reflected_by_halves;
     double missing = missing_by(&sums->noise), by_halves = missing_by(&sums->by_halves);
     if (pixel_noise_of_halves(&sums->by_halves, sums->pixels, HALVES_FREEDOM, &sums->noise))
@@ -222,19 +205,17 @@ static void choose_noise(Sums *sums)
         sums->reflected_missing = missing_by(reflected);
     else
         pixel_noise_of_halves(&sums->display_by_halves, sums->display_pixels, HALVES_FREEDOM,
-                      &sums->display_noise);
+                              &sums->display_noise);
 }
 
-static bool is_wanted(const RegionPlanes *planes, size_t i, const PixelShare *pixel)
-{
+static bool is_wanted(const RegionPlanes *planes, size_t i, const PixelShare *pixel) {
     bool is_named = planes->wanted < 0 || planes->display_id[i] == (float)planes->wanted;
     if (planes->rim == RIM_BY_COVERAGE) return pixel->area > 0;
     return is_named && (planes->rim == RIM_WHOLE || is_alone(planes, pixel, i));
 }
 
 /* What a display shows of a pixel that shows something else, too. */
-static void count_rim(const RegionPlanes *planes, size_t i, const PixelShare *pixel, Sums *sums)
-{
+static void count_rim(const RegionPlanes *planes, size_t i, const PixelShare *pixel, Sums *sums) {
     if (planes->wanted < 0) return;
     bool is_named = planes->display_id[i] == (float)planes->wanted;
     sums->unknown_pixels += is_named && pixel->own.is_unknown;
@@ -243,9 +224,8 @@ static void count_rim(const RegionPlanes *planes, size_t i, const PixelShare *pi
     sums->shared_pixels += pixel->own.coverage > 0 && pixel->own.is_shared;
 }
 
-static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums)
-{
-    bool       is_finite = isfinite(luminance_at(&planes->light, i));
+static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums) {
+    bool is_finite = isfinite(luminance_at(&planes->light, i));
     PixelShare pixel = pixel_light(planes, i);
     count_rim(planes, i, &pixel, sums);
     if (!is_wanted(planes, i, &pixel)) return;
@@ -254,7 +234,7 @@ static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums)
         return;
     }
     double weight = display_weight(planes, &pixel, i);
-    bool   on_display = planes->has_display && add_display(planes, i, weight, sums);
+    bool on_display = planes->has_display && add_display(planes, i, weight, sums);
     sums->area += pixel.area;
     for (int c = 0; c < 3; c++) sums->rgb[c] += pixel.area * pixel.rgb[c];
     add_pixel_noise(planes, i, &pixel, on_display, sums);
@@ -266,8 +246,7 @@ static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums)
 
 /* ---- figures ------------------------------------------------------------------------- */
 
-static void chromaticity_of(const double rgb[3], double xyuv[4], double xyz[3])
-{
+static void chromaticity_of(const double rgb[3], double xyuv[4], double xyz[3]) {
     float in[3] = {(float)rgb[0], (float)rgb[1], (float)rgb[2]}, out[3];
     xyz_from_rgb(in, out);
     for (int c = 0; c < 3; c++) xyz[c] = (double)out[c];
@@ -281,19 +260,17 @@ static void chromaticity_of(const double rgb[3], double xyuv[4], double xyz[3])
 #define ROUNDING 1e-6 /* of a figure: channels in single precision, and their matrix */
 
 /* A display of even light has no noise but its channels' last digits. */
-static Measured about(double value, double half_width, const FrameMeasurement *out)
-{
+static Measured about(double value, double half_width, const FrameMeasurement *out) {
     double least = out->rim == RIM_BY_COVERAGE ? ROUNDING * fabs(value) : 0;
     if (!out->has_variance) half_width = NAN;
     return measured_about(value, half_width < least ? least : half_width);
 }
 
 /* First-order propagation of the channels' variances, the slopes by central differences. */
-static void measure_colour(const double rgb[3], const double variance[3], FrameMeasurement *out)
-{
-    double    mean[4], spread[4] = {0, 0, 0, 0}, unused[3];
+static void measure_colour(const double rgb[3], const double variance[3], FrameMeasurement *out) {
+    double mean[4], spread[4] = {0, 0, 0, 0}, unused[3];
     Measured *figures[4] = {&out->x, &out->y, &out->u, &out->v};
-    double    scale = fabs(rgb[0]) + fabs(rgb[1]) + fabs(rgb[2]);
+    double scale = fabs(rgb[0]) + fabs(rgb[1]) + fabs(rgb[2]);
     chromaticity_of(rgb, mean, out->xyz);
     for (int c = 0; c < 3; c++) {
         double step = scale * 1e-3, above[3], below[3], high[4], low[4];
@@ -308,24 +285,20 @@ static void measure_colour(const double rgb[3], const double variance[3], FrameM
             spread[k] += slope * slope * variance[c];
         }
     }
-    for (int k = 0; k < 4; k++)
-        *figures[k] = about(mean[k], SIGMAS_95 * sqrt(spread[k]), out);
+    for (int k = 0; k < 4; k++) *figures[k] = about(mean[k], SIGMAS_95 * sqrt(spread[k]), out);
 }
 
-static double contrast_with(double white, double black, double reflected)
-{
+static double contrast_with(double white, double black, double reflected) {
     return (white + reflected) / (black + reflected);
 }
 
 /* It falls as the reflected light, the only noisy one, rises from r.low to r.high. */
-static Measured contrast_of(double white, double black, Measured r)
-{
+static Measured contrast_of(double white, double black, Measured r) {
     double low = contrast_with(white, black, r.high), high = contrast_with(white, black, r.low);
     return (Measured){contrast_with(white, black, r.value), fmin(low, high), fmax(low, high)};
 }
 
-static Measured reflected_interval(double reflected, const Sums *sums)
-{
+static Measured reflected_interval(double reflected, const Sums *sums) {
     double n = sums->display_area;
     double width = SIGMAS_95 * sqrt(sums->display_noise.luminance) / n;
     return (Measured){reflected, fmax(reflected - width, 0),
@@ -333,14 +306,11 @@ static Measured reflected_interval(double reflected, const Sums *sums)
 }
 
 /* NaN: not known; 0 where there is no light. */
-static double share_of(bool is_known, double part, double all)
-{
+static double share_of(bool is_known, double part, double all) {
     return !is_known ? (double)NAN : all > 0 ? part / all : 0;
 }
 
-static void measure_display(const RegionPlanes *planes, const Sums *sums,
-                            FrameMeasurement *out)
-{
+static void measure_display(const RegionPlanes *planes, const Sums *sums, FrameMeasurement *out) {
     double n = sums->display_area;
     out->display_pixels = sums->display_pixels;
     out->has_contrast = sums->display_pixels > 0;
@@ -353,29 +323,28 @@ static void measure_display(const RegionPlanes *planes, const Sums *sums,
     out->shown = planes->has_shown ? sums->light.shown / n : (double)NAN;
     out->extrapolated_shown = share_of(planes->has_shown && planes->extrapolated[0],
                                        sums->extrapolated[0], sums->light.shown);
-    out->extrapolated_reflected = share_of(planes->extrapolated[1], sums->extrapolated[1],
-                                           sums->light.reflected);
-    out->contrast = contrast_of(out->white, out->black,
-                                reflected_interval(out->reflected, sums));
+    out->extrapolated_reflected =
+        share_of(planes->extrapolated[1], sums->extrapolated[1], sums->light.reflected);
+    out->contrast = contrast_of(out->white, out->black, reflected_interval(out->reflected, sums));
     if (!out->has_variance) out->contrast.low = out->contrast.high = NAN;
 }
 
 /* The pixels that are measured, by themselves. */
 static ContentContrast measure_content(const RegionPlanes *planes, const ExrWindow *r,
-                                       bool has_variance, size_t first, Arena scratch)
-{
+                                       bool has_variance, size_t first, Arena scratch) {
     ContentPixels part = {.width = r->x1 - r->x0, .height = r->y1 - r->y0};
     size_t count = (size_t)part.width * (size_t)part.height, k = 0;
     float *luminance = ARENA_NEW(&scratch, float, count);
     float *variance = has_variance ? ARENA_NEW(&scratch, float, count) : NULL;
     for (int y = 0; y < part.height; y++) {
         for (int x = 0; x < part.width; x++, k++) {
-            size_t     i = first + (size_t)y * (size_t)planes->light.width + (size_t)x;
+            size_t i = first + (size_t)y * (size_t)planes->light.width + (size_t)x;
             PixelShare pixel = pixel_light(planes, i);
-            bool       wanted = is_wanted(planes, i, &pixel);
+            bool wanted = is_wanted(planes, i, &pixel);
             luminance[k] = wanted ? (float)pixel.luminance : NAN;
-            if (variance) variance[k] = (float)(pixel_noise_luminance(pixel.variance) /
-                                                (pixel.area * pixel.area));
+            if (variance)
+                variance[k] =
+                    (float)(pixel_noise_luminance(pixel.variance) / (pixel.area * pixel.area));
         }
     }
     part.luminance = luminance;
@@ -383,33 +352,32 @@ static ContentContrast measure_content(const RegionPlanes *planes, const ExrWind
     return content_contrast(&part, scratch);
 }
 
-static bool states_noise(const RegionPlanes *planes)
-{
+static bool states_noise(const RegionPlanes *planes) {
     return planes->has_variance || planes->rim == RIM_BY_COVERAGE;
 }
 
 /* Of the parts that chance gives pixels, once the means are known. */
-static void add_rim_noise(Sums *sums)
-{
+static void add_rim_noise(Sums *sums) {
     double rgb[3], reflected[3];
     for (int c = 0; c < 3; c++) {
         rgb[c] = sums->rgb[c] / sums->area;
         reflected[c] = sums->reflected_rgb[c] / sums->display_area;
     }
     rim_noise_put(&sums->rim, rgb, &sums->noise);
-    if (sums->display_area > 0)
-        rim_noise_put(&sums->display_rim, reflected, &sums->display_noise);
+    if (sums->display_area > 0) rim_noise_put(&sums->display_rim, reflected, &sums->display_noise);
 }
 
-static FrameMeasurement figures_of(const RegionPlanes *planes, const Sums *sums)
-{
-    double      n = sums->area, rgb[3], variance[3];
-    FrameMeasurement out = {.pixels = sums->pixels, .nonfinite = sums->nonfinite,
-                            .rim = planes->rim, .area = sums->area,
+static FrameMeasurement figures_of(const RegionPlanes *planes, const Sums *sums) {
+    double n = sums->area, rgb[3], variance[3];
+    FrameMeasurement out = {.pixels = sums->pixels,
+                            .nonfinite = sums->nonfinite,
+                            .rim = planes->rim,
+                            .area = sums->area,
                             .rim_pixels = sums->rim_pixels,
                             .shared_pixels = sums->shared_pixels,
                             .unknown_pixels = sums->unknown_pixels,
-                            .has_variance = states_noise(planes), .least = sums->least,
+                            .has_variance = states_noise(planes),
+                            .least = sums->least,
                             .greatest = sums->greatest};
     for (int c = 0; c < 3; c++) {
         rgb[c] = sums->rgb[c] / n;
@@ -423,11 +391,9 @@ static FrameMeasurement figures_of(const RegionPlanes *planes, const Sums *sums)
 }
 
 static bool check_region(const FrameImage *frame, const MeasureRequest *request, ExrWindow *out,
-                         Error *err)
-{
+                         Error *err) {
     const ExrWindow d = frame->data, r = request->has_region ? request->region : d;
-    if (r.x0 < d.x0 || r.y0 < d.y0 || r.x1 > d.x1 || r.y1 > d.y1 || r.x0 >= r.x1 ||
-        r.y0 >= r.y1)
+    if (r.x0 < d.x0 || r.y0 < d.y0 || r.x1 > d.x1 || r.y1 > d.y1 || r.x0 >= r.x1 || r.y0 >= r.y1)
         return error_set(err, ERROR_USAGE,
                          "--region %d,%d,%d,%d: required: X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
                          "inside the frame's pixels %d,%d,%d,%d",
@@ -439,8 +405,7 @@ static bool check_region(const FrameImage *frame, const MeasureRequest *request,
 }
 
 /* Rims are left out where their parts are not known. */
-static bool no_pixel(const MeasureRequest *request, const Sums *sums, Error *err)
-{
+static bool no_pixel(const MeasureRequest *request, const Sums *sums, Error *err) {
     if (request->display && sums->rim_pixels)
         return error_at(err, ERROR_INPUT, request->frame_name, "",
                         "no pixel shows display %s alone, and how much the %ld at its rim show "
@@ -456,10 +421,9 @@ static bool no_pixel(const MeasureRequest *request, const Sums *sums, Error *err
 }
 
 bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena scratch,
-                   FrameMeasurement *out, Error *err)
-{
+                   FrameMeasurement *out, Error *err) {
     RegionPlanes planes = {.wanted = -1};
-    Sums      sums = {.least = INFINITY, .greatest = -INFINITY};
+    Sums sums = {.least = INFINITY, .greatest = -INFINITY};
     ExrWindow r = frame->data, w = frame->display;
     FrameView circle = frame_view_circle(frame);
     if (!check_region(frame, request, &r, err)) return false;
@@ -470,8 +434,9 @@ bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena
     for (int y = r.y0; y < r.y1; y++)
         for (int x = r.x0; x < r.x1; x++)
             if (frame_view_sees(&circle, x - w.x0, y - w.y0))
-                add_pixel(&planes, (size_t)(y - w.y0) * (size_t)planes.light.width +
-                                   (size_t)(x - w.x0), &sums);
+                add_pixel(&planes,
+                          (size_t)(y - w.y0) * (size_t)planes.light.width + (size_t)(x - w.x0),
+                          &sums);
     if (sums.pixels == 0) return no_pixel(request, &sums, err);
     if (states_noise(&planes)) choose_noise(&sums);
     add_rim_noise(&sums);

@@ -32,35 +32,35 @@
 
 typedef struct MeasureRequest {
     const char *frame_name; /* for messages */
-    bool        has_region;
-    ExrWindow   region;  /* half-open, pixels of the display window */
+    bool has_region;
+    ExrWindow region;    /* half-open, pixels of the display window */
     const char *display; /* only what this display sends; NULL: all pixels */
 } MeasureRequest;
 
 typedef struct FrameMeasurement {
-    long     pixels;    /* that were taken */
-    long     nonfinite; /* that were left out, NaN or infinite */
+    long pixels;    /* that were taken */
+    long nonfinite; /* that were left out, NaN or infinite */
     RimCount rim;
-    double   area;      /* of the pixels taken, their parts added up */
-    long     rim_pixels; /* of a display: that show something else, too; taken or left out */
-    long     shared_pixels; /* of these, that show two displays: without a contrast */
-    long     unknown_pixels; /* that show more displays, and were left out */
-    double   xyz[3];    /* mean, cd m^-2 */
-    Measured luminance; /* xyz[1] */
-    double   least, greatest; /* luminance of single pixels */
-    Measured x, y, u, v; /* of the mean colour; NaN for black */
-    bool     has_variance;
-    bool     has_contrast; /* some of the pixels show a display and the layers are there */
-    long     display_pixels;
-    double   white, black, reflected; /* means over the display's parts of pixels, cd m^-2 */
-    double   mirror;   /* of the reflected, via the panel's mirror; NaN: not known */
-    double   lambertian; /* and what its lambertian part scattered; NaN: not known */
-    double   extrapolated_shown, extrapolated_reflected; /* shares of what is shown and of what
-                                is reflected, by directions that were not measured; NaN: not
-                                known */
-    double   shown;    /* of its content, cd m^-2; NaN: not known */
-    Measured contrast; /* of these means: (white + reflected) / (black + reflected) */
-    bool     has_content; /* a region or a display was requested */
+    double area;            /* of the pixels taken, their parts added up */
+    long rim_pixels;        /* of a display: that show something else, too; taken or left out */
+    long shared_pixels;     /* of these, that show two displays: without a contrast */
+    long unknown_pixels;    /* that show more displays, and were left out */
+    double xyz[3];          /* mean, cd m^-2 */
+    Measured luminance;     /* xyz[1] */
+    double least, greatest; /* luminance of single pixels */
+    Measured x, y, u, v;    /* of the mean colour; NaN for black */
+    bool has_variance;
+    bool has_contrast; /* some of the pixels show a display and the layers are there */
+    long display_pixels;
+    double white, black, reflected; /* means over the display's parts of pixels, cd m^-2 */
+    double mirror;                  /* of the reflected, via the panel's mirror; NaN: not known */
+    double lambertian;              /* and what its lambertian part scattered; NaN: not known */
+    double extrapolated_shown, extrapolated_reflected; /* shares of what is shown and of what
+                              is reflected, by directions that were not measured; NaN: not
+                              known */
+    double shown;                                      /* of its content, cd m^-2; NaN: not known */
+    Measured contrast;       /* of these means: (white + reflected) / (black + reflected) */
+    bool has_content;        /* a region or a display was requested */
     ContentContrast content; /* of what is shown there: characters on their ground */
 } FrameMeasurement;
 

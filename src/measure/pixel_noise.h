@@ -12,7 +12,7 @@
 /* Variances of sums over pixels, of channels and of luminance. */
 typedef struct PixelNoise {
     double rgb[3], luminance, fourths; /* fourths: squares of the pixels' variances */
-    long   pixels;
+    long pixels;
 } PixelNoise;
 
 /* What chance does to the parts that pixels have of a display: the sum of spread (mean - R)^2
@@ -30,8 +30,7 @@ double pixel_noise_luminance(const double variance[3]);
 /* Halves' squares are those of normal variables, as many as count: 3 (sum d^2)^2 / sum d^4.
  * Student's factor is put into the variances. False where they are fewer than `least`, or some
  * of the pixels have none. */
-bool pixel_noise_of_halves(const PixelNoise *halves, long pixels, double least,
-                           PixelNoise *out);
+bool pixel_noise_of_halves(const PixelNoise *halves, long pixels, double least, PixelNoise *out);
 
 /* A pixel's spread and its mean. */
 void rim_noise_add(RimNoise *rim, double spread, const double rgb[3]);

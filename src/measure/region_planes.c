@@ -4,12 +4,11 @@
 #include <stdio.h>
 
 /* Three planes of a layer as they are, without a change of colour space. */
-static bool raw_layer(const FrameImage *frame, const char *layer, Arena *arena, LayerView *out)
-{
+static bool raw_layer(const FrameImage *frame, const char *layer, Arena *arena, LayerView *out) {
     const float *rgb[3];
-    LayerView    views[3];
-    char         name[128];
-    Error        unused;
+    LayerView views[3];
+    char name[128];
+    Error unused;
     if (!frame_rgb(frame, layer, rgb)) return false;
     for (int c = 0; c < 3; c++) {
         snprintf(name, sizeof name, "%s.%c", layer, "RGB"[c]);
@@ -20,18 +19,16 @@ static bool raw_layer(const FrameImage *frame, const char *layer, Arena *arena, 
     return true;
 }
 
-static const float *number_plane(const FrameImage *frame, const char *channel, Arena *arena)
-{
+static const float *number_plane(const FrameImage *frame, const char *channel, Arena *arena) {
     LayerView view;
-    Error     unused;
-    return frame_channel(frame, channel) &&
-                   layer_view_find(frame, channel, arena, &view, &unused)
-               ? view.planes[0] : NULL;
+    Error unused;
+    return frame_channel(frame, channel) && layer_view_find(frame, channel, arena, &view, &unused)
+               ? view.planes[0]
+               : NULL;
 }
 
 bool region_planes_choose(const FrameImage *frame, const char *display, Arena *arena,
-                          RegionPlanes *out, Error *err)
-{
+                          RegionPlanes *out, Error *err) {
     LayerView view;
     out->wanted = frame_id_of(frame, "display", display);
     if (out->wanted < 0)
@@ -46,8 +43,7 @@ bool region_planes_choose(const FrameImage *frame, const char *display, Arena *a
     return true;
 }
 
-bool region_planes_find(const FrameImage *frame, Arena *arena, RegionPlanes *out, Error *err)
-{
+bool region_planes_find(const FrameImage *frame, Arena *arena, RegionPlanes *out, Error *err) {
     if (!layer_view_find(frame, NULL, arena, &out->light, err)) return false;
     out->has_variance = raw_layer(frame, "variance", arena, &out->variance);
     out->has_halves = raw_layer(frame, "halves", arena, &out->halves);
@@ -65,7 +61,9 @@ bool region_planes_find(const FrameImage *frame, Arena *arena, RegionPlanes *out
     out->coverage = number_plane(frame, "display.coverage", arena);
     out->extrapolated[0] = number_plane(frame, "display.extrapolated.emitted", arena);
     out->extrapolated[1] = number_plane(frame, "display.extrapolated.reflected", arena);
-    out->rim = out->wanted < 0 ? RIM_WHOLE : out->has_parts ? RIM_BY_COVERAGE
-               : out->coverage ? RIM_LEFT_OUT : RIM_WHOLE;
+    out->rim = out->wanted < 0  ? RIM_WHOLE
+               : out->has_parts ? RIM_BY_COVERAGE
+               : out->coverage  ? RIM_LEFT_OUT
+                                : RIM_WHOLE;
     return true;
 }

@@ -11,16 +11,16 @@
 
 /* The planes that are looked at; has_... states which the frame has. */
 typedef struct RegionPlanes {
-    LayerView    light, variance, halves, white, black, reflected, shown, mirror, lambertian;
-    LayerView    display_halves, fine;
+    LayerView light, variance, halves, white, black, reflected, shown, mirror, lambertian;
+    LayerView display_halves, fine;
     const float *extrapolated[2]; /* shares of shown and of reflected; NULL: not known */
-    const float *display_id; /* NULL: every pixel counts */
-    int          wanted;     /* id of the display that does; -1: all pixels */
-    RimCount     rim;
-    const float *coverage;   /* by displays; NULL: not known */
+    const float *display_id;      /* NULL: every pixel counts */
+    int wanted;                   /* id of the display that does; -1: all pixels */
+    RimCount rim;
+    const float *coverage; /* by displays; NULL: not known */
     DisplayLayers parts;
-    ExrWindow    data, window; /* of the frame: the layers of parts are of the data window */
-    bool         has_parts;
+    ExrWindow data, window; /* of the frame: the layers of parts are of the data window */
+    bool has_parts;
     bool has_variance, has_halves, has_display, has_shown, has_mirror, has_lambertian;
     bool has_display_halves, has_fine;
 } RegionPlanes;

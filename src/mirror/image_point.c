@@ -19,20 +19,17 @@ typedef struct Solve {
     D3 corner[3], normal[3], from, source;
 } Solve;
 
-static D3 unit(D3 a)
-{
+static D3 unit(D3 a) {
     double length = sqrt(d3_dot(a, a));
     return length > 0 ? d3_along((D3){0, 0, 0}, a, 1 / length) : a;
 }
 
-static D3 weighted(const D3 p[3], double u, double v)
-{
+static D3 weighted(const D3 p[3], double u, double v) {
     return d3_along(d3_along(d3_along((D3){0, 0, 0}, p[0], 1 - u - v), p[1], u), p[2], v);
 }
 
 /* r's parts across s; is_ahead: r points along s, not against it. */
-static void off_source(const Solve *solve, double u, double v, double out[2], bool *is_ahead)
-{
+static void off_source(const Solve *solve, double u, double v, double out[2], bool *is_ahead) {
     D3 p = weighted(solve->corner, u, v), n = unit(weighted(solve->normal, u, v));
     D3 d = unit(d3_along(p, solve->from, -1)), s = unit(d3_along(solve->source, p, -1));
     D3 r = d3_along(d, n, -2 * d3_dot(n, d));
@@ -45,11 +42,10 @@ static void off_source(const Solve *solve, double u, double v, double out[2], bo
 
 /* The weights of where the line to the mirrored source meets the plane; false: both points are
  * not on one side. */
-static bool start(const Solve *solve, double *u, double *v)
-{
-    D3     e1 = d3_along(solve->corner[1], solve->corner[0], -1);
-    D3     e2 = d3_along(solve->corner[2], solve->corner[0], -1);
-    D3     n = d3_cross(e1, e2), to = d3_along(solve->from, solve->corner[0], -1);
+static bool start(const Solve *solve, double *u, double *v) {
+    D3 e1 = d3_along(solve->corner[1], solve->corner[0], -1);
+    D3 e2 = d3_along(solve->corner[2], solve->corner[0], -1);
+    D3 n = d3_cross(e1, e2), to = d3_along(solve->from, solve->corner[0], -1);
     double nn = d3_dot(n, n), h = d3_dot(n, to);
     double k = d3_dot(n, d3_along(solve->source, solve->corner[0], -1));
     if (!(nn > 0) || !(h * k > 0)) return false;
@@ -61,10 +57,9 @@ static bool start(const Solve *solve, double *u, double *v)
 }
 
 /* One of Newton's steps; false: the mirror does not turn there. */
-static bool newton(const Solve *solve, const double f[2], double *u, double *v)
-{
+static bool newton(const Solve *solve, const double f[2], double *u, double *v) {
     double by_u[2], by_v[2];
-    bool   is_ahead;
+    bool is_ahead;
     off_source(solve, *u + DIFFERENCE, *v, by_u, &is_ahead);
     off_source(solve, *u, *v + DIFFERENCE, by_v, &is_ahead);
     for (int k = 0; k < 2; k++) {
@@ -78,11 +73,10 @@ static bool newton(const Solve *solve, const double f[2], double *u, double *v)
     return fabs(*u - 1 / 3.0) < FARTHEST && fabs(*v - 1 / 3.0) < FARTHEST;
 }
 
-bool image_point_find(const MirrorTriangle *triangle, Vec3 from, Vec3 source, ImagePoint *out)
-{
-    Solve  solve = {.from = d3_of(from), .source = d3_of(source)};
+bool image_point_find(const MirrorTriangle *triangle, Vec3 from, Vec3 source, ImagePoint *out) {
+    Solve solve = {.from = d3_of(from), .source = d3_of(source)};
     double u, v, f[2], off = INFINITY;
-    bool   is_ahead = false;
+    bool is_ahead = false;
     for (int k = 0; k < 3; k++) {
         solve.corner[k] = d3_of(triangle->position[k]);
         solve.normal[k] = unit(d3_of(triangle->normal[k]));

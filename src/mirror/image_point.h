@@ -15,8 +15,8 @@
 #include "mirror/reflection_point.h"
 
 typedef struct ImagePoint {
-    float u, v;      /* barycentric weights of corners 1 and 2 */
-    Vec3  position;  /* m */
+    float u, v;    /* barycentric weights of corners 1 and 2 */
+    Vec3 position; /* m */
 } ImagePoint;
 
 /* from: the eye; source: the point that it sees in the mirror, on the same side of the

@@ -6,31 +6,26 @@
 #include "panel/query/panel_place.h"
 #include "shaders/facets/microfacet.h"
 
-#define STACK 64          /* the tree halves: no scene is as deep */
+#define STACK 64 /* the tree halves: no scene is as deep */
 
 /* ---- which ------------------------------------------------------------------------------ */
 
 /* Textures make a surface only smoother. */
-static bool is_smooth_everywhere(float roughness)
-{
+static bool is_smooth_everywhere(float roughness) {
     return is_smooth(roughness * roughness);
 }
 
-static bool has_smooth_base(const Material *m)
-{
+static bool has_smooth_base(const Material *m) {
     if (!is_smooth_everywhere(m->roughness) || m->brushing) return false;
-    if (m->is_solid && m->transmission > 0)
-        return fabsf(m->ior - 1) > 1e-4f || m->film;
+    if (m->is_solid && m->transmission > 0) return fabsf(m->ior - 1) > 1e-4f || m->film;
     return m->metallic > 0 || m->specular > 0;
 }
 
-static bool has_smooth_coat(const Material *m)
-{
+static bool has_smooth_coat(const Material *m) {
     return m->clearcoat > 0 && is_smooth_everywhere(m->clearcoat_roughness);
 }
 
-bool mirrors_can_be(const Scene *scene, const Material *m)
-{
+bool mirrors_can_be(const Scene *scene, const Material *m) {
     if (m->unlit) return false;
     if (m->display_id != NO_ID) return panel_has_mirror(scene->displays[m->display_id].panel);
     bool is_bent = m->normal_texture.texture_id != NO_ID ||
@@ -38,19 +33,17 @@ bool mirrors_can_be(const Scene *scene, const Material *m)
     return !is_bent && (has_smooth_base(m) || has_smooth_coat(m));
 }
 
-float mirrors_rough_alpha(const Material *m)
-{
+float mirrors_rough_alpha(const Material *m) {
     float alpha = m->roughness * m->roughness;
-    bool  reflects = m->metallic > 0 || m->specular > 0;
-    bool  is_plain = m->normal_texture.texture_id == NO_ID && m->display_id == NO_ID &&
-                    !m->unlit && !m->brushing && !(m->is_solid && m->transmission > 0);
+    bool reflects = m->metallic > 0 || m->specular > 0;
+    bool is_plain = m->normal_texture.texture_id == NO_ID && m->display_id == NO_ID && !m->unlit &&
+                    !m->brushing && !(m->is_solid && m->transmission > 0);
     return reflects && is_plain && !is_smooth(alpha) && alpha <= GLINT_ALPHA ? alpha : 0;
 }
 
 /* ---- queries ---------------------------------------------------------------------------- */
 
-int mirrors_compare_pairs(const void *a, const void *b)
-{
+int mirrors_compare_pairs(const void *a, const void *b) {
     const MirrorPair *x = a, *y = b;
     int root_x = mirror_root(x->part_id, x->is_rough);
     int root_y = mirror_root(y->part_id, y->is_rough);
@@ -58,12 +51,11 @@ int mirrors_compare_pairs(const void *a, const void *b)
     return x->triangle < y->triangle ? -1 : x->triangle > y->triangle;
 }
 
-bool mirrors_have(const Mirrors *mirrors, MirrorPair pair)
-{
+bool mirrors_have(const Mirrors *mirrors, MirrorPair pair) {
     uint32_t low = 0, high = mirrors->pair_count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        int      order = mirrors_compare_pairs(&mirrors->pairs[middle], &pair);
+        int order = mirrors_compare_pairs(&mirrors->pairs[middle], &pair);
         if (order == 0) return true;
         if (order < 0) low = middle + 1;
         else high = middle;
@@ -72,8 +64,7 @@ bool mirrors_have(const Mirrors *mirrors, MirrorPair pair)
 }
 
 /* Is h, or its opposite, within `reach` of all normals' planes? */
-static bool may_be_normal(const MirrorNode *node, Vec3 h, float reach)
-{
+static bool may_be_normal(const MirrorNode *node, Vec3 h, float reach) {
     bool along = true, against = true;
     for (int i = 0; i < MIRROR_PLANES; i++) {
         float above = vec3_dot(node->plane[i], h);
@@ -86,31 +77,28 @@ static bool may_be_normal(const MirrorNode *node, Vec3 h, float reach)
 /* A query on its way through the tree. */
 typedef struct MirrorSearch {
     const MirrorQuery *query;
-    float  lean;      /* by how much facets of alpha 1 lean; 0: of smooth mirrors */
-    Vec2   direction; /* and along which slopes, unit */
+    float lean;     /* by how much facets of alpha 1 lean; 0: of smooth mirrors */
+    Vec2 direction; /* and along which slopes, unit */
     MirrorFound *found;
-    void        *user;
+    void *user;
 } MirrorSearch;
 
 /* Where a mirror turns w, the direction from the point to it, into s, its normal lies along
  * h = s - w, on one side or the other. Over the node w stays within a chord of the direction to
  * its centre: sin beta = radius / distance, chord = 2 sin(beta / 2); and so does h. A leaning
  * facet's normal is off by no more than its slope. */
-static bool may_reflect(const MirrorNode *node, const MirrorSearch *asking)
-{
-    Vec3  to = vec3_sub(node->centre, asking->query->from);
+static bool may_reflect(const MirrorNode *node, const MirrorSearch *asking) {
+    Vec3 to = vec3_sub(node->centre, asking->query->from);
     float far2 = vec3_dot(to, to), radius2 = node->radius * node->radius * 1.0001f;
     if (!(far2 > radius2)) return true;
     float chord2 = 2 * (1 - sqrtf(1 - radius2 / far2));
-    Vec3  h = vec3_along(asking->query->towards, to, -1 / sqrtf(far2));
+    Vec3 h = vec3_along(asking->query->towards, to, -1 / sqrtf(far2));
     float lean = asking->lean * node->alpha;
-    return may_be_normal(node, h,
-                         sqrtf(chord2) * (1 + lean) + lean * vec3_length(h) + 1e-5f);
+    return may_be_normal(node, h, sqrtf(chord2) * (1 + lean) + lean * vec3_length(h) + 1e-5f);
 }
 
 /* The point and the light lie on one side of a triangle that reflects. */
-static bool is_on_one_side(const MirrorTriangle *t, Vec3 from, Vec3 towards)
-{
+static bool is_on_one_side(const MirrorTriangle *t, Vec3 from, Vec3 towards) {
     Vec3 n = vec3_cross(vec3_sub(t->position[1], t->position[0]),
                         vec3_sub(t->position[2], t->position[0]));
     return vec3_dot(n, towards) * vec3_dot(n, vec3_sub(from, t->position[0])) > 0;
@@ -119,8 +107,7 @@ static bool is_on_one_side(const MirrorTriangle *t, Vec3 from, Vec3 towards)
 /* Slopes m of GGX facets lie at density alpha^2 / (pi (alpha^2 + m^2)^2) (Walter 2007, written
  * by slopes): m^2 = alpha^2 u / (1 - u). */
 static int leaning_points(const MirrorPatch *patch, const MirrorSearch *asking,
-                          ReflectionPoint points[REFLECTION_POINTS_MAX])
-{
+                          ReflectionPoint points[REFLECTION_POINTS_MAX]) {
     const MirrorQuery *query = asking->query;
     float m = asking->lean * patch->alpha, a2 = patch->alpha * patch->alpha;
     float density = a2 / (PI_F * (a2 + m * m) * (a2 + m * m));
@@ -128,19 +115,19 @@ static int leaning_points(const MirrorPatch *patch, const MirrorSearch *asking,
         &patch->corners, (Vec2){m * asking->direction.x, m * asking->direction.y});
     int count = reflection_points_find(&leaning, query->from, query->towards, points);
     for (int i = 0; i < count; i++)
-        points[i].spread = reflection_slope_spread(&patch->corners, query->from, query->towards,
-                                                   &points[i]) / density;
+        points[i].spread =
+            reflection_slope_spread(&patch->corners, query->from, query->towards, &points[i]) /
+            density;
     return count;
 }
 
-static void find_on_patch(const MirrorPatch *patch, const MirrorSearch *asking)
-{
+static void find_on_patch(const MirrorPatch *patch, const MirrorSearch *asking) {
     const MirrorQuery *query = asking->query;
     ReflectionPoint points[REFLECTION_POINTS_MAX];
     if (!is_on_one_side(&patch->corners, query->from, query->towards)) return;
-    int count = query->is_rough ? leaning_points(patch, asking, points)
-                                : reflection_points_find(&patch->corners, query->from,
-                                                         query->towards, points);
+    int count = query->is_rough
+                    ? leaning_points(patch, asking, points)
+                    : reflection_points_find(&patch->corners, query->from, query->towards, points);
     for (int i = 0; i < count; i++) {
         const Vec2 *uv = patch->uv;
         float u = points[i].u, v = points[i].v, w = 1 - u - v;
@@ -151,10 +138,9 @@ static void find_on_patch(const MirrorPatch *patch, const MirrorSearch *asking)
 }
 
 uint32_t mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFound *found,
-                      void *user)
-{
+                      void *user) {
     uint32_t stack[STACK], depth = 1, taken = 0;
-    MirrorSearch   asking = {.query = query, .found = found, .user = user};
+    MirrorSearch asking = {.query = query, .found = found, .user = user};
     stack[0] = mirrors->roots[mirror_root(query->part_id, query->is_rough)];
     if (stack[0] == MIRROR_NO_TREE) return 0;
     if (query->is_rough) {

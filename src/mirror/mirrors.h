@@ -21,40 +21,39 @@
 /* A mirror that points of a part search; part_id may be NO_ID: points of no part. Its smooth
  * boundary and its rough one are searched separately. */
 typedef struct MirrorPair {
-    int      part_id;
-    bool     is_rough;
+    int part_id;
+    bool is_rough;
     uint32_t triangle;
 } MirrorPair;
 
 /* A piece of a triangle, bent so little that its normals can be bounded. */
 typedef struct MirrorPatch {
     MirrorTriangle corners;
-    Vec2           uv[3]; /* of the corners in the triangle */
-    uint32_t       id;    /* of the triangle, in Scene.triangles */
-    float          alpha; /* GGX, of its facets; 0: none that are searched */
+    Vec2 uv[3];  /* of the corners in the triangle */
+    uint32_t id; /* of the triangle, in Scene.triangles */
+    float alpha; /* GGX, of its facets; 0: none that are searched */
 } MirrorPatch;
 
 typedef struct MirrorNode {
-    Vec3     centre;       /* of the box of its patches, m */
-    float    radius;       /* from there to the box's corners, m */
-    Vec3     plane[MIRROR_PLANES]; /* unit: all normals, turned to the side of their mean, lie
-                                      below these planes; 0: nothing is known */
-    uint32_t children;     /* the first of two; 0: it is a leaf, of */
+    Vec3 centre;               /* of the box of its patches, m */
+    float radius;              /* from there to the box's corners, m */
+    Vec3 plane[MIRROR_PLANES]; /* unit: all normals, turned to the side of their mean, lie
+                                  below these planes; 0: nothing is known */
+    uint32_t children;         /* the first of two; 0: it is a leaf, of */
     uint32_t patch;
-    float    alpha;        /* the roughest patch's */
+    float alpha; /* the roughest patch's */
 } MirrorNode;
 
 typedef struct Mirrors {
-    const MirrorPair  *pairs;
-    uint32_t           pair_count;
-    const uint32_t    *roots; /* nodes, or MIRROR_NO_TREE; of mirror_root */
+    const MirrorPair *pairs;
+    uint32_t pair_count;
+    const uint32_t *roots; /* nodes, or MIRROR_NO_TREE; of mirror_root */
     const MirrorPatch *patches;
-    const MirrorNode  *nodes;
+    const MirrorNode *nodes;
 } Mirrors;
 
 /* Where a part's tree stands in Mirrors.roots. */
-static inline int mirror_root(int part_id, bool is_rough)
-{
+static inline int mirror_root(int part_id, bool is_rough) {
     return 2 * (part_id + 1) + is_rough;
 }
 
@@ -71,11 +70,11 @@ int mirrors_compare_pairs(const void *a, const void *b);
 bool mirrors_have(const Mirrors *mirrors, MirrorPair pair);
 
 typedef struct MirrorQuery {
-    int   part_id;
-    bool  is_rough; /* then by u, in [0, 1)^2, facets lean as GGX facets do */
-    Vec3  from;     /* the point, m, scene */
-    Vec3  towards;  /* unit, to the light */
-    Vec2  u;
+    int part_id;
+    bool is_rough; /* then by u, in [0, 1)^2, facets lean as GGX facets do */
+    Vec3 from;     /* the point, m, scene */
+    Vec3 towards;  /* unit, to the light */
+    Vec2 u;
 } MirrorQuery;
 
 /* Called for each reflection with its triangle of the scene and the point on it. For rough

@@ -5,29 +5,27 @@
 #include "base/parallel.h"
 #include "mirror/mirrors.h"
 
-#define BEND 0.16f        /* between normals of one patch's corners, at most */
-#define PATCH_CUTS 10     /* of one triangle to get there */
-#define NEAR_M 1.0f       /* a mirror this large is as bad to bound as a bend of one radian */
-#define WIDEST 0.2f       /* cosine between a node's axis and normals that are bounded at all */
-#define BOUND_MOST 64     /* patches of a node whose normals are bounded one by one */
+#define BEND 0.16f           /* between normals of one patch's corners, at most */
+#define PATCH_CUTS 10        /* of one triangle to get there */
+#define NEAR_M 1.0f          /* a mirror this large is as bad to bound as a bend of one radian */
+#define WIDEST 0.2f          /* cosine between a node's axis and normals that are bounded at all */
+#define BOUND_MOST 64        /* patches of a node whose normals are bounded one by one */
 #define LEAVES_TOGETHER 1024 /* that a thread makes at once */
 
 /* ---- patches ---------------------------------------------------------------------------- */
 
 typedef struct PatchList {
-    Arena       *arena;
+    Arena *arena;
     MirrorPatch *patches;
-    uint32_t     count;
+    uint32_t count;
 } PatchList;
 
-static Vec3 edges_cross(const MirrorTriangle *t)
-{
+static Vec3 edges_cross(const MirrorTriangle *t) {
     return vec3_cross(vec3_sub(t->position[1], t->position[0]),
                       vec3_sub(t->position[2], t->position[0]));
 }
 
-static MirrorPatch whole_triangle(const Scene *scene, uint32_t id)
-{
+static MirrorPatch whole_triangle(const Scene *scene, uint32_t id) {
     MirrorPatch patch = {.uv = {{0, 0}, {1, 0}, {0, 1}}, .id = id};
     const Vec3 *normals = scene_part(scene, id)->normals;
     patch.alpha = mirrors_rough_alpha(&scene->materials[scene_part(scene, id)->material_id]);
@@ -38,20 +36,17 @@ static MirrorPatch whole_triangle(const Scene *scene, uint32_t id)
     return patch;
 }
 
-static Vec3 halfway(Vec3 a, Vec3 b)
-{
+static Vec3 halfway(Vec3 a, Vec3 b) {
     return vec3_scale(vec3_add(a, b), 0.5f);
 }
 
-static float squared_distance(Vec3 a, Vec3 b)
-{
+static float squared_distance(Vec3 a, Vec3 b) {
     Vec3 d = vec3_sub(a, b);
     return vec3_dot(d, d);
 }
 
 /* The edge across which the normals differ most, from its first corner; and by how much. */
-static int most_bent_edge(const MirrorTriangle *t, float *bend2)
-{
+static int most_bent_edge(const MirrorTriangle *t, float *bend2) {
     int edge = 0;
     *bend2 = 0;
     for (int i = 0; i < 3; i++) {
@@ -63,18 +58,15 @@ static int most_bent_edge(const MirrorTriangle *t, float *bend2)
     return edge;
 }
 
-static void set_corner(MirrorPatch *patch, int i, const MirrorPatch *of, int a, int b)
-{
+static void set_corner(MirrorPatch *patch, int i, const MirrorPatch *of, int a, int b) {
     patch->corners.position[i] = halfway(of->corners.position[a], of->corners.position[b]);
     patch->corners.normal[i] = halfway(of->corners.normal[a], of->corners.normal[b]);
-    patch->uv[i] = (Vec2){0.5f * (of->uv[a].x + of->uv[b].x),
-                          0.5f * (of->uv[a].y + of->uv[b].y)};
+    patch->uv[i] = (Vec2){0.5f * (of->uv[a].x + of->uv[b].x), 0.5f * (of->uv[a].y + of->uv[b].y)};
 }
 
-static void add_patches(PatchList *list, const MirrorPatch *patch, int cuts)
-{
+static void add_patches(PatchList *list, const MirrorPatch *patch, int cuts) {
     float bend2;
-    int   edge = most_bent_edge(&patch->corners, &bend2), next = (edge + 1) % 3;
+    int edge = most_bent_edge(&patch->corners, &bend2), next = (edge + 1) % 3;
     if (bend2 > BEND * BEND && cuts > 0) {
         MirrorPatch half[2] = {*patch, *patch};
         set_corner(&half[0], next, patch, edge, next);
@@ -89,8 +81,7 @@ static void add_patches(PatchList *list, const MirrorPatch *patch, int cuts)
 
 /* Patches of a triangle: [first[id], first[id + 1]); none where no pair has it. */
 static PatchList cut_patches(const Scene *scene, const bool *is_used, uint32_t *first,
-                             Arena *arena)
-{
+                             Arena *arena) {
     PatchList list = {.arena = arena};
     for (uint32_t id = 0; id < scene->triangle_count; id++) {
         first[id] = list.count;
@@ -106,35 +97,34 @@ static PatchList cut_patches(const Scene *scene, const bool *is_used, uint32_t *
 /* ---- the tree --------------------------------------------------------------------------- */
 
 typedef struct Item {
-    float    key[6]; /* centre and normal, in one measure */
+    float key[6]; /* centre and normal, in one measure */
     uint32_t patch;
 } Item;
 
 typedef struct MirrorBounds {
-    Vec3  low, high; /* of the box, m */
-    Vec3  axis;      /* unit, of a cone about all normals, */
-    float cosine;    /* of its half angle; below WIDEST: there is none */
+    Vec3 low, high; /* of the box, m */
+    Vec3 axis;      /* unit, of a cone about all normals, */
+    float cosine;   /* of its half angle; below WIDEST: there is none */
 } MirrorBounds;
 
 /* What a tree's leaf is, whichever tree it stands in. */
 typedef struct MirrorLeaf {
-    MirrorNode   node;
+    MirrorNode node;
     MirrorBounds bounds;
-    Item         item;
+    Item item;
 } MirrorLeaf;
 
 /* One tree while it is made. */
 typedef struct MirrorBuilder {
     const MirrorPatch *patches;
-    const Vec3        *normals; /* unit, of the patches' three corners */
-    const MirrorLeaf  *leaves;  /* of the patches */
-    Item              *items;
-    MirrorNode        *nodes;
-    uint32_t           node_count;
+    const Vec3 *normals;      /* unit, of the patches' three corners */
+    const MirrorLeaf *leaves; /* of the patches */
+    Item *items;
+    MirrorNode *nodes;
+    uint32_t node_count;
 } MirrorBuilder;
 
-static Item item_of(const MirrorPatch *patches, uint32_t i)
-{
+static Item item_of(const MirrorPatch *patches, uint32_t i) {
     const MirrorTriangle *t = &patches[i].corners;
     Vec3 p = vec3_add(vec3_add(t->position[0], t->position[1]), t->position[2]);
     Vec3 n = vec3_normalize(vec3_add(vec3_add(t->normal[0], t->normal[1]), t->normal[2]));
@@ -143,45 +133,38 @@ static Item item_of(const MirrorPatch *patches, uint32_t i)
 }
 
 /* Not fminf: a call for the sake of NaN. */
-static float lesser(float a, float b)
-{
+static float lesser(float a, float b) {
     return b < a ? b : a;
 }
 
-static float greater(float a, float b)
-{
+static float greater(float a, float b) {
     return b > a ? b : a;
 }
 
-static void widen(MirrorBounds *bounds, Vec3 p)
-{
+static void widen(MirrorBounds *bounds, Vec3 p) {
     Vec3 *low = &bounds->low, *high = &bounds->high;
     *low = vec3(lesser(low->x, p.x), lesser(low->y, p.y), lesser(low->z, p.z));
     *high = vec3(greater(high->x, p.x), greater(high->y, p.y), greater(high->z, p.z));
 }
 
-static MirrorBounds bounds_of(const MirrorTriangle *t)
-{
+static MirrorBounds bounds_of(const MirrorTriangle *t) {
     MirrorBounds bounds = {.low = t->position[0], .high = t->position[0]};
     for (int k = 1; k < 3; k++) widen(&bounds, t->position[k]);
     return bounds;
 }
 
-static const Vec3 *normals_of(const MirrorBuilder *builder, uint32_t i)
-{
+static const Vec3 *normals_of(const MirrorBuilder *builder, uint32_t i) {
     return builder->normals + 3 * (size_t)builder->items[i].patch;
 }
 
 /* A frame about the mean normal, +x where the slopes against it spread most. False: too wide
  * to be bounded. */
 static bool frame_of_normals(const MirrorBuilder *builder, uint32_t first, uint32_t count,
-                             Frame *frame)
-{
-    Vec3  sum = vec3(0, 0, 0);
+                             Frame *frame) {
+    Vec3 sum = vec3(0, 0, 0);
     float xx = 0, xy = 0, yy = 0;
     for (uint32_t i = first; i < first + count; i++)
-        for (int k = 0; k < 3; k++)
-            sum = vec3_add(sum, normals_of(builder, i)[k]);
+        for (int k = 0; k < 3; k++) sum = vec3_add(sum, normals_of(builder, i)[k]);
     if (!(vec3_length(sum) > 0)) return false;
     *frame = frame_from_z(vec3_normalize(sum));
     for (uint32_t i = first; i < first + count; i++)
@@ -200,39 +183,34 @@ static bool frame_of_normals(const MirrorBuilder *builder, uint32_t first, uint3
 }
 
 /* The greatest angle between the frame's +z and a normal, as its cosine. */
-static float widest_cosine(const MirrorBuilder *builder, uint32_t first, uint32_t count, Vec3 z)
-{
+static float widest_cosine(const MirrorBuilder *builder, uint32_t first, uint32_t count, Vec3 z) {
     float cosine = 1;
     for (uint32_t i = first; i < first + count; i++)
-        for (int k = 0; k < 3; k++)
-            cosine = lesser(cosine, vec3_dot(normals_of(builder, i)[k], z));
+        for (int k = 0; k < 3; k++) cosine = lesser(cosine, vec3_dot(normals_of(builder, i)[k], z));
     return cosine;
 }
 
 /* Bounds the slopes against the axis (x / z and y / z of the frame) by planes. */
 static void set_planes(const Frame *frame, const float low[2], const float high[2],
-                       MirrorNode *node)
-{
+                       MirrorNode *node) {
     for (int a = 0; a < 2; a++) {
         Vec3 across = a ? frame->y : frame->x;
         node->plane[2 * a] = vec3_normalize(vec3_along(across, frame->z, -high[a]));
-        node->plane[2 * a + 1] =
-            vec3_normalize(vec3_along(vec3_neg(across), frame->z, low[a]));
+        node->plane[2 * a + 1] = vec3_normalize(vec3_along(vec3_neg(across), frame->z, low[a]));
     }
 }
 
 /* A normal is a weighted sum of corners' normals, so planes through the origin that bound those
  * bound it: their slopes between the extremes. */
 static void bound_normals(const MirrorBuilder *builder, uint32_t first, uint32_t count,
-                          MirrorNode *node, MirrorBounds *bounds)
-{
+                          MirrorNode *node, MirrorBounds *bounds) {
     Frame frame;
     float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     bounds->cosine = -1;
     if (!frame_of_normals(builder, first, count, &frame)) return;
     for (uint32_t i = first; i < first + count; i++)
         for (int k = 0; k < 3; k++) {
-            Vec3  n = frame_to_local(&frame, normals_of(builder, i)[k]);
+            Vec3 n = frame_to_local(&frame, normals_of(builder, i)[k]);
             float slope[2] = {n.x / n.z, n.y / n.z};
             for (int a = 0; a < 2; a++) {
                 low[a] = lesser(low[a], slope[a]);
@@ -245,38 +223,33 @@ static void bound_normals(const MirrorBuilder *builder, uint32_t first, uint32_t
 }
 
 /* cos(x + y), x between the axis and the cone's, y the cone's half angle; -1: too wide. */
-static float cosine_about(Vec3 axis, const MirrorBounds *cone)
-{
+static float cosine_about(Vec3 axis, const MirrorBounds *cone) {
     float c = clampf(vec3_dot(axis, cone->axis), -1, 1), k = clampf(cone->cosine, -1, 1);
     if (c + k <= 0) return -1; /* beyond half a turn */
     return c * k - safe_sqrtf(1 - c * c) * safe_sqrtf(1 - k * k);
 }
 
 /* A cone about two cones, and its planes; where it is too wide nothing is known. */
-static void join_normals(const MirrorBounds half[2], MirrorBounds *bounds, MirrorNode *node)
-{
+static void join_normals(const MirrorBounds half[2], MirrorBounds *bounds, MirrorNode *node) {
     Vec3 sum = vec3_add(half[0].axis, half[1].axis);
     bounds->cosine = -1;
-    if (!(half[0].cosine > WIDEST && half[1].cosine > WIDEST && vec3_length(sum) > 0.1f))
-        return;
+    if (!(half[0].cosine > WIDEST && half[1].cosine > WIDEST && vec3_length(sum) > 0.1f)) return;
     bounds->axis = vec3_normalize(sum);
-    bounds->cosine = lesser(cosine_about(bounds->axis, &half[0]),
-                            cosine_about(bounds->axis, &half[1])) - 1e-6f;
+    bounds->cosine =
+        lesser(cosine_about(bounds->axis, &half[0]), cosine_about(bounds->axis, &half[1])) - 1e-6f;
     if (!(bounds->cosine > WIDEST)) return;
     Frame frame = frame_from_z(bounds->axis);
     float slope = safe_sqrtf(1 - bounds->cosine * bounds->cosine) / bounds->cosine;
     set_planes(&frame, (float[2]){-slope, -slope}, (float[2]){slope, slope}, node);
 }
 
-static void set_ball(const MirrorBounds *bounds, MirrorNode *node)
-{
+static void set_ball(const MirrorBounds *bounds, MirrorNode *node) {
     node->centre = halfway(bounds->low, bounds->high);
     node->radius = 0.5f * vec3_length(vec3_sub(bounds->high, bounds->low));
 }
 
 static void make_leaf(const MirrorPatch *patches, const Vec3 *normals, uint32_t i,
-                      MirrorLeaf *leaf)
-{
+                      MirrorLeaf *leaf) {
     leaf->item = item_of(patches, i);
     leaf->node = (MirrorNode){.patch = i, .alpha = patches[i].alpha};
     leaf->bounds = bounds_of(&patches[i].corners);
@@ -285,16 +258,14 @@ static void make_leaf(const MirrorPatch *patches, const Vec3 *normals, uint32_t 
     set_ball(&leaf->bounds, &leaf->node);
 }
 
-static bool comes_before(const Item *a, const Item *b, int axis)
-{
+static bool comes_before(const Item *a, const Item *b, int axis) {
     return a->key[axis] < b->key[axis] || (a->key[axis] == b->key[axis] && a->patch < b->patch);
 }
 
 /* The key in which the items differ most. */
-static int widest_axis(const Item *items, uint32_t count)
-{
+static int widest_axis(const Item *items, uint32_t count) {
     float widest = -1;
-    int   axis = 0;
+    int axis = 0;
     for (int a = 0; a < 6; a++) {
         float low = INFINITY, high = -INFINITY;
         for (uint32_t i = 0; i < count; i++) {
@@ -309,11 +280,10 @@ static int widest_axis(const Item *items, uint32_t count)
 }
 
 /* Brings the `middle` items that come first before the others (Hoare's selection). */
-static void part_items(Item *items, uint32_t count, uint32_t middle, int axis)
-{
+static void part_items(Item *items, uint32_t count, uint32_t middle, int axis) {
     int64_t low = 0, high = (int64_t)count - 1;
     while (low < high) {
-        Item    pivot = items[(low + high) / 2];
+        Item pivot = items[(low + high) / 2];
         int64_t i = low, k = high;
         while (i <= k) {
             while (comes_before(&items[i], &pivot, axis)) i++;
@@ -330,18 +300,17 @@ static void part_items(Item *items, uint32_t count, uint32_t middle, int axis)
 }
 
 static MirrorBounds build_node(MirrorBuilder *builder, uint32_t node_id, uint32_t first,
-                         uint32_t count);
+                               uint32_t count);
 
 static MirrorBounds build_halves(MirrorBuilder *builder, MirrorNode *node, uint32_t first,
-                           uint32_t count)
-{
-    Item    *items = builder->items + first;
+                                 uint32_t count) {
+    Item *items = builder->items + first;
     uint32_t middle = count / 2, child = builder->node_count;
     part_items(items, count, middle, widest_axis(items, count));
     node->children = child;
     builder->node_count += 2;
     MirrorBounds half[2] = {build_node(builder, child, first, middle),
-                      build_node(builder, child + 1, first + middle, count - middle)};
+                            build_node(builder, child + 1, first + middle, count - middle)};
     MirrorBounds bounds = half[0];
     widen(&bounds, half[1].low);
     widen(&bounds, half[1].high);
@@ -351,8 +320,7 @@ static MirrorBounds build_halves(MirrorBuilder *builder, MirrorNode *node, uint3
 }
 
 static MirrorBounds build_node(MirrorBuilder *builder, uint32_t node_id, uint32_t first,
-                         uint32_t count)
-{
+                               uint32_t count) {
     MirrorNode *node = &builder->nodes[node_id];
     const MirrorLeaf *leaf = &builder->leaves[builder->items[first].patch];
     MirrorBounds cone = {.cosine = -1}, bounds;
@@ -371,8 +339,7 @@ static MirrorBounds build_node(MirrorBuilder *builder, uint32_t node_id, uint32_
     return bounds;
 }
 
-static const Vec3 *unit_normals(const MirrorPatch *patches, uint32_t count, Arena *arena)
-{
+static const Vec3 *unit_normals(const MirrorPatch *patches, uint32_t count, Arena *arena) {
     Vec3 *normals = ARENA_NEW(arena, Vec3, 3 * (size_t)count);
     for (uint32_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++)
@@ -383,24 +350,23 @@ static const Vec3 *unit_normals(const MirrorPatch *patches, uint32_t count, Aren
 /* A tree is one over the patches of a part's pairs; all of them stand one after the other. */
 typedef struct TreePlan {
     const MirrorPair *pairs;
-    uint32_t          count;      /* of them */
-    uint32_t          first_item; /* twice as many nodes as items come before, at most */
+    uint32_t count;      /* of them */
+    uint32_t first_item; /* twice as many nodes as items come before, at most */
 } TreePlan;
 
 typedef struct TreesWork {
-    const Mirrors  *mirrors;
+    const Mirrors *mirrors;
     const uint32_t *first; /* patch of a triangle */
     const TreePlan *plans;
-    MirrorLeaf     *leaves;
-    const Vec3     *normals;
-    Item           *items;
-    MirrorNode     *nodes;
-    uint32_t       *roots;
-    uint32_t        patch_count;
+    MirrorLeaf *leaves;
+    const Vec3 *normals;
+    Item *items;
+    MirrorNode *nodes;
+    uint32_t *roots;
+    uint32_t patch_count;
 } TreesWork;
 
-static void make_some_leaves(void *user, int item, int worker)
-{
+static void make_some_leaves(void *user, int item, int worker) {
     const TreesWork *work = user;
     (void)worker;
     for (uint32_t i = (uint32_t)item * LEAVES_TOGETHER;
@@ -408,14 +374,16 @@ static void make_some_leaves(void *user, int item, int worker)
         make_leaf(work->mirrors->patches, work->normals, i, &work->leaves[i]);
 }
 
-static void build_tree(void *user, int tree, int worker)
-{
+static void build_tree(void *user, int tree, int worker) {
     const TreesWork *work = user;
-    const TreePlan  *plan = &work->plans[tree];
+    const TreePlan *plan = &work->plans[tree];
     uint32_t items = 0, root = 2 * plan->first_item;
-    MirrorBuilder builder = {.patches = work->mirrors->patches, .normals = work->normals,
-                             .leaves = work->leaves, .items = work->items + plan->first_item,
-                             .nodes = work->nodes, .node_count = root + 1};
+    MirrorBuilder builder = {.patches = work->mirrors->patches,
+                             .normals = work->normals,
+                             .leaves = work->leaves,
+                             .items = work->items + plan->first_item,
+                             .nodes = work->nodes,
+                             .node_count = root + 1};
     (void)worker;
     for (uint32_t i = 0; i < plan->count; i++) {
         uint32_t triangle = plan->pairs[i].triangle;
@@ -428,8 +396,7 @@ static void build_tree(void *user, int tree, int worker)
 
 /* Returns the number of items of all trees. */
 static uint32_t plan_trees(const Mirrors *mirrors, const uint32_t *first, int trees,
-                           TreePlan *plans)
-{
+                           TreePlan *plans) {
     uint32_t done = 0, items = 0;
     for (int i = 0; i < trees; i++) {
         const MirrorPair *pairs = mirrors->pairs + done;
@@ -446,16 +413,19 @@ static uint32_t plan_trees(const Mirrors *mirrors, const uint32_t *first, int tr
 }
 
 static void build_trees(const Scene *scene, Mirrors *mirrors, const uint32_t *first,
-                        uint32_t patch_count, int threads, Arena *arena)
-{
-    int       trees = 2 * (scene->part_count + 1);
+                        uint32_t patch_count, int threads, Arena *arena) {
+    int trees = 2 * (scene->part_count + 1);
     uint32_t *roots = ARENA_NEW(arena, uint32_t, trees);
     TreePlan *plans = ARENA_NEW(arena, TreePlan, trees);
-    uint32_t  items = plan_trees(mirrors, first, trees, plans);
+    uint32_t items = plan_trees(mirrors, first, trees, plans);
     MirrorNode *nodes = ARENA_NEW(arena, MirrorNode, 2 * (size_t)items + 1);
-    Arena     scratch = *arena;
-    TreesWork work = {.mirrors = mirrors, .first = first, .plans = plans, .nodes = nodes,
-                      .roots = roots, .patch_count = patch_count};
+    Arena scratch = *arena;
+    TreesWork work = {.mirrors = mirrors,
+                      .first = first,
+                      .plans = plans,
+                      .nodes = nodes,
+                      .roots = roots,
+                      .patch_count = patch_count};
     work.items = ARENA_NEW(&scratch, Item, items);
     work.leaves = ARENA_NEW(&scratch, MirrorLeaf, patch_count);
     work.normals = unit_normals(mirrors->patches, patch_count, &scratch);
@@ -467,13 +437,12 @@ static void build_trees(const Scene *scene, Mirrors *mirrors, const uint32_t *fi
 }
 
 const Mirrors *mirrors_build(const Scene *scene, const MirrorPair *pairs, uint32_t count,
-                             int threads, Arena *arena)
-{
+                             int threads, Arena *arena) {
     if (!count) return NULL;
-    Mirrors    *mirrors = ARENA_NEW(arena, Mirrors, 1);
+    Mirrors *mirrors = ARENA_NEW(arena, Mirrors, 1);
     MirrorPair *kept = ARENA_NEW(arena, MirrorPair, count);
-    uint32_t   *first = ARENA_NEW(arena, uint32_t, scene->triangle_count + 1);
-    bool       *is_used = ARENA_NEW(arena, bool, scene->triangle_count + 1);
+    uint32_t *first = ARENA_NEW(arena, uint32_t, scene->triangle_count + 1);
+    bool *is_used = ARENA_NEW(arena, bool, scene->triangle_count + 1);
     for (uint32_t i = 0; i < count; i++) {
         kept[i] = pairs[i];
         is_used[pairs[i].triangle] = true;

@@ -32,8 +32,8 @@
 #define DEPTH_MAX 20
 #define NEARLY_LINEAR 0.25 /* with it a fresh derivative is one to two thirds, too */
 #define STEPS_MAX 16
-#define FARTHEST 0.75      /* corner from the centre, in u and v */
-#define ON_ROOT 1e-9       /* of the patch: the last step's length */
+#define FARTHEST 0.75 /* corner from the centre, in u and v */
+#define ON_ROOT 1e-9  /* of the patch: the last step's length */
 #define BERNSTEIN 10
 #define DIFFERENCES 6
 
@@ -48,7 +48,7 @@ typedef struct Slope {
 
 typedef struct PatchCorner {
     double u, v; /* in the whole triangle */
-    D3     d, n;
+    D3 d, n;
 } PatchCorner;
 
 typedef struct Patch {
@@ -56,40 +56,36 @@ typedef struct Patch {
 } Patch;
 
 typedef struct Search {
-    D3    across[2], towards; /* a, b, s */
+    D3 across[2], towards; /* a, b, s */
     Patch whole;
     ReflectionPoint *out;
-    int   count;
+    int count;
 } Search;
 
-static double determinant(const Slope *s)
-{
+static double determinant(const Slope *s) {
     return s->by_u.a * s->by_v.b - s->by_v.a * s->by_u.b;
 }
 
 /* (u, v) whose image under the slope is f. */
-static D2 unsloped(const Slope *s, double det, D2 f)
-{
+static D2 unsloped(const Slope *s, double det, D2 f) {
     return (D2){(s->by_v.b * f.a - s->by_v.a * f.b) / det,
                 (s->by_u.a * f.b - s->by_u.b * f.a) / det};
 }
 
 /* ---- the map ---------------------------------------------------------------------------- */
 
-static D3 interpolate(D3 a, D3 b, D3 c, double u, double v)
-{
+static D3 interpolate(D3 a, D3 b, D3 c, double u, double v) {
     return d3_along(d3_along(a, d3_sub(b, a), u), d3_sub(c, a), v);
 }
 
 /* F.a and F.b, and the terms that they come from. */
 typedef struct Value {
-    D2     f;
-    D3     d, n;
+    D2 f;
+    D3 d, n;
     double nn, nd;
 } Value;
 
-static Value value_at(const Search *search, const Patch *patch, double u, double v)
-{
+static Value value_at(const Search *search, const Patch *patch, double u, double v) {
     const PatchCorner *c = patch->corner;
     Value at = {.d = interpolate(c[0].d, c[1].d, c[2].d, u, v),
                 .n = interpolate(c[0].n, c[1].n, c[2].n, u, v)};
@@ -101,8 +97,7 @@ static Value value_at(const Search *search, const Patch *patch, double u, double
 }
 
 /* dF = 2 (n.n') d + (n.n) d' - 2 (n'.d + n.d') n - 2 (n.d) n' along one edge. */
-static D2 derivative(const Search *search, const Value *at, D3 edge_d, D3 edge_n)
-{
+static D2 derivative(const Search *search, const Value *at, D3 edge_d, D3 edge_n) {
     double shrink = 2 * d3_dot(at->n, edge_n);
     double turn = 2 * (d3_dot(edge_n, at->d) + d3_dot(at->n, edge_d));
     D3 f = {shrink * at->d.x, shrink * at->d.y, shrink * at->d.z};
@@ -110,34 +105,30 @@ static D2 derivative(const Search *search, const Value *at, D3 edge_d, D3 edge_n
     return (D2){d3_dot(f, search->across[0]), d3_dot(f, search->across[1])};
 }
 
-static Slope slope_at(const Search *search, const Patch *patch, const Value *at)
-{
+static Slope slope_at(const Search *search, const Patch *patch, const Value *at) {
     const PatchCorner *c = patch->corner;
-    return (Slope){
-        derivative(search, at, d3_sub(c[1].d, c[0].d), d3_sub(c[1].n, c[0].n)),
-        derivative(search, at, d3_sub(c[2].d, c[0].d), d3_sub(c[2].n, c[0].n))};
+    return (Slope){derivative(search, at, d3_sub(c[1].d, c[0].d), d3_sub(c[1].n, c[0].n)),
+                   derivative(search, at, d3_sub(c[2].d, c[0].d), d3_sub(c[2].n, c[0].n))};
 }
 
 /* ---- Bernstein coefficients -------------------------------------------------------------- */
 
 enum { C000, C111, C222, C001, C011, C112, C122, C022, C002, C012 };
 
-static void coefficients(const Search *search, const Patch *patch, D2 out[BERNSTEIN])
-{
+static void coefficients(const Search *search, const Patch *patch, D2 out[BERNSTEIN]) {
     static const uint8_t corners[BERNSTEIN][3] = {
         [C000] = {0, 0, 0}, [C111] = {1, 1, 1}, [C222] = {2, 2, 2}, [C001] = {0, 0, 1},
         [C011] = {0, 1, 1}, [C112] = {1, 1, 2}, [C122] = {1, 2, 2}, [C022] = {0, 2, 2},
         [C002] = {0, 0, 2}, [C012] = {0, 1, 2}};
     const PatchCorner *c = patch->corner;
     double nn[3][3], nd[3][3];
-    D2     d[3], n[3];
+    D2 d[3], n[3];
     for (int i = 0; i < 3; i++) {
         d[i] = (D2){d3_dot(c[i].d, search->across[0]), d3_dot(c[i].d, search->across[1])};
         n[i] = (D2){d3_dot(c[i].n, search->across[0]), d3_dot(c[i].n, search->across[1])};
         for (int k = 0; k <= i; k++) {
             nn[i][k] = nn[k][i] = d3_dot(c[i].n, c[k].n) * (1.0 / 3);
-            nd[i][k] = nd[k][i] =
-                (d3_dot(c[i].n, c[k].d) + d3_dot(c[k].n, c[i].d)) * (1.0 / 3);
+            nd[i][k] = nd[k][i] = (d3_dot(c[i].n, c[k].d) + d3_dot(c[k].n, c[i].d)) * (1.0 / 3);
         }
     }
     for (int m = 0; m < BERNSTEIN; m++) {
@@ -153,8 +144,7 @@ static void coefficients(const Search *search, const Patch *patch, D2 out[BERNST
 
 /* All of one sign in a or in b; or all zero: then the point lies on a focus, the whole patch
  * sends its light there, and no single point of it does. */
-static bool has_no_root(const D2 c[BERNSTEIN], double size)
-{
+static bool has_no_root(const D2 c[BERNSTEIN], double size) {
     int above[2] = {0}, below[2] = {0}, something = 0;
     for (int m = 0; m < BERNSTEIN; m++) {
         above[0] += c[m].a > 0;
@@ -167,26 +157,23 @@ static bool has_no_root(const D2 c[BERNSTEIN], double size)
            below[1] == BERNSTEIN || !something;
 }
 
-static D2 tripled_difference(D2 a, D2 b)
-{
+static D2 tripled_difference(D2 a, D2 b) {
     return (D2){3 * (a.a - b.a), 3 * (a.b - b.b)};
 }
 
 /* Coefficients of the derivative, which is quadratic. */
-static void differences(const D2 c[BERNSTEIN], Slope out[DIFFERENCES])
-{
-    static const uint8_t by[DIFFERENCES][4] = {
-        {C001, C000, C002, C000}, {C111, C011, C112, C011}, {C122, C022, C222, C022},
-        {C011, C001, C012, C001}, {C112, C012, C122, C012}, {C012, C002, C022, C002}};
+static void differences(const D2 c[BERNSTEIN], Slope out[DIFFERENCES]) {
+    static const uint8_t by[DIFFERENCES][4] = {{C001, C000, C002, C000}, {C111, C011, C112, C011},
+                                               {C122, C022, C222, C022}, {C011, C001, C012, C001},
+                                               {C112, C012, C122, C012}, {C012, C002, C022, C002}};
     for (int i = 0; i < DIFFERENCES; i++)
         out[i] = (Slope){tripled_difference(c[by[i][0]], c[by[i][1]]),
                          tripled_difference(c[by[i][2]], c[by[i][3]])};
 }
 
 /* The greatest |P dF - 1|; infinite where there is no P. */
-static double nonlinearity(const D2 c[BERNSTEIN], const Slope *centre)
-{
-    Slope  steps[DIFFERENCES];
+static double nonlinearity(const D2 c[BERNSTEIN], const Slope *centre) {
+    Slope steps[DIFFERENCES];
     double det = determinant(centre), worst = 0;
     differences(c, steps);
     for (int i = 0; i < DIFFERENCES; i++) {
@@ -201,8 +188,7 @@ static double nonlinearity(const D2 c[BERNSTEIN], const Slope *centre)
 /* ---- roots ------------------------------------------------------------------------------ */
 
 /* The nearest point of the patch. */
-static void hold(double *u, double *v)
-{
+static void hold(double *u, double *v) {
     if (*u < 0) *u = 0;
     if (*v < 0) *v = 0;
     double over = 0.5 * (*u + *v - 1);
@@ -214,8 +200,7 @@ static void hold(double *u, double *v)
 }
 
 /* False: there is no root. */
-static bool newton(const Search *search, const Patch *patch, double *u, double *v)
-{
+static bool newton(const Search *search, const Patch *patch, double *u, double *v) {
     D2 step = {1, 1};
     for (int i = 0; i < STEPS_MAX && step.a * step.a + step.b * step.b > 1e-20; i++) {
         Value at = value_at(search, patch, *u, *v);
@@ -230,24 +215,22 @@ static bool newton(const Search *search, const Patch *patch, double *u, double *
     return step.a * step.a + step.b * step.b < ON_ROOT * ON_ROOT;
 }
 
-static void keep(Search *search, const Patch *patch, double u, double v)
-{
+static void keep(Search *search, const Patch *patch, double u, double v) {
     const PatchCorner *c = patch->corner, *whole = search->whole.corner;
     double at_u = c[0].u + u * (c[1].u - c[0].u) + v * (c[2].u - c[0].u);
     double at_v = c[0].v + u * (c[1].v - c[0].v) + v * (c[2].v - c[0].v);
-    Value  at = value_at(search, &search->whole, at_u, at_v);
-    Slope  slope = slope_at(search, &search->whole, &at);
-    D3     edges = d3_cross(d3_sub(whole[1].d, whole[0].d), d3_sub(whole[2].d, whole[0].d));
-    double along = at.nn * d3_dot(at.d, search->towards) -
-                   2 * at.nd * d3_dot(at.n, search->towards);
+    Value at = value_at(search, &search->whole, at_u, at_v);
+    Slope slope = slope_at(search, &search->whole, &at);
+    D3 edges = d3_cross(d3_sub(whole[1].d, whole[0].d), d3_sub(whole[2].d, whole[0].d));
+    double along =
+        at.nn * d3_dot(at.d, search->towards) - 2 * at.nd * d3_dot(at.n, search->towards);
     double spread = fabs(d3_dot(edges, at.d)) * at.nn * at.nn /
                     (sqrt(d3_dot(at.d, at.d)) * fabs(determinant(&slope)));
     if (!(along > 0) || !(spread < 1e30) || search->count == REFLECTION_POINTS_MAX) return;
     search->out[search->count++] = (ReflectionPoint){(float)at_u, (float)at_v, (float)spread};
 }
 
-static PatchCorner middle(const PatchCorner *a, const PatchCorner *b)
-{
+static PatchCorner middle(const PatchCorner *a, const PatchCorner *b) {
     return (PatchCorner){0.5 * (a->u + b->u), 0.5 * (a->v + b->v),
                          interpolate(a->d, b->d, a->d, 0.5, 0),
                          interpolate(a->n, b->n, a->n, 0.5, 0)};
@@ -255,31 +238,27 @@ static PatchCorner middle(const PatchCorner *a, const PatchCorner *b)
 
 static void search_patch(Search *search, const Patch *patch, int depth);
 
-static void search_quarters(Search *search, const Patch *patch, int depth)
-{
+static void search_quarters(Search *search, const Patch *patch, int depth) {
     const PatchCorner *c = patch->corner;
     PatchCorner m[3] = {middle(&c[0], &c[1]), middle(&c[1], &c[2]), middle(&c[2], &c[0])};
-    const Patch quarters[4] = {{{c[0], m[0], m[2]}},
-                               {{m[0], c[1], m[1]}},
-                               {{m[2], m[1], c[2]}},
-                               {{m[1], m[2], m[0]}}};
+    const Patch quarters[4] = {
+        {{c[0], m[0], m[2]}}, {{m[0], c[1], m[1]}}, {{m[2], m[1], c[2]}}, {{m[1], m[2], m[0]}}};
     for (int i = 0; i < 4; i++) search_patch(search, &quarters[i], depth + 1);
 }
 
-static void search_patch(Search *search, const Patch *patch, int depth)
-{
+static void search_patch(Search *search, const Patch *patch, int depth) {
     const double third = 1.0 / 3;
-    D2     c[BERNSTEIN];
-    Value  centre = value_at(search, patch, third, third);
+    D2 c[BERNSTEIN];
+    Value centre = value_at(search, patch, third, third);
     coefficients(search, patch, c);
     if (has_no_root(c, centre.nn * sqrt(d3_dot(centre.d, centre.d)))) return;
-    Slope  slope = slope_at(search, patch, &centre);
+    Slope slope = slope_at(search, patch, &centre);
     double q = nonlinearity(c, &slope);
     if (q > NEARLY_LINEAR) {
         if (depth < DEPTH_MAX) search_quarters(search, patch, depth);
         return;
     }
-    D2     step = unsloped(&slope, determinant(&slope), centre.f);
+    D2 step = unsloped(&slope, determinant(&slope), centre.f);
     double u = third - step.a, v = third - step.b, reach = q * FARTHEST + ON_ROOT;
     if (u < -reach || v < -reach || u + v > 1 + 2 * reach) return;
     hold(&u, &v);
@@ -287,15 +266,14 @@ static void search_patch(Search *search, const Patch *patch, int depth)
 }
 
 int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, Vec3 towards,
-                           ReflectionPoint out[REFLECTION_POINTS_MAX])
-{
-    Frame  frame = frame_from_z(towards);
+                           ReflectionPoint out[REFLECTION_POINTS_MAX]) {
+    Frame frame = frame_from_z(towards);
     Search search = {{d3_of(frame.x), d3_of(frame.y)}, d3_of(towards), .out = out};
-    D3     origin = d3_of(from);
+    D3 origin = d3_of(from);
     for (int i = 0; i < 3; i++)
-        search.whole.corner[i] = (PatchCorner){i == 1, i == 2,
-                                          d3_sub(d3_of(triangle->position[i]), origin),
-                                          d3_of(triangle->normal[i])};
+        search.whole.corner[i] =
+            (PatchCorner){i == 1, i == 2, d3_sub(d3_of(triangle->position[i]), origin),
+                          d3_of(triangle->normal[i])};
     Patch whole = search.whole;
     search_patch(&search, &whole, 0);
     return search.count;
@@ -303,33 +281,30 @@ int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, Vec3 towar
 
 /* ---- rough mirrors ---------------------------------------------------------------------- */
 
-static Frame reflection_frame(const MirrorTriangle *t)
-{
+static Frame reflection_frame(const MirrorTriangle *t) {
     return frame_from_z(
         vec3_normalize(vec3_add(vec3_add(t->normal[0], t->normal[1]), t->normal[2])));
 }
 
-MirrorTriangle reflection_leaning(const MirrorTriangle *triangle, Vec2 slope)
-{
+MirrorTriangle reflection_leaning(const MirrorTriangle *triangle, Vec2 slope) {
     MirrorTriangle leaning = *triangle;
     Frame frame = reflection_frame(triangle);
     for (int i = 0; i < 3; i++)
-        leaning.normal[i] = vec3_along(vec3_along(triangle->normal[i], frame.x, slope.x),
-                                       frame.y, slope.y);
+        leaning.normal[i] =
+            vec3_along(vec3_along(triangle->normal[i], frame.x, slope.x), frame.y, slope.y);
     return leaning;
 }
 
 /* The half vector h = s - w, w = d / |d|, from which slopes follow: g = h / h.z in the frame,
  * slope = n.z (g.x, g.y) - (n.x, n.y). */
 typedef struct HalfWay {
-    D3     x, y, z; /* the frame */
-    D3     d, n, w, h;
+    D3 x, y, z; /* the frame */
+    D3 d, n, w, h;
     double distance;
 } HalfWay;
 
 /* dh = -(d' - w (w.d')) / |d|, dg = (dh - g dh.z) / h.z. */
-static D2 slope_derivative(const HalfWay *at, D3 edge_d, D3 edge_n)
-{
+static D2 slope_derivative(const HalfWay *at, D3 edge_d, D3 edge_n) {
     D3 none = {0, 0, 0}, dh = d3_along(edge_d, at->w, -d3_dot(at->w, edge_d));
     dh = d3_along(none, dh, -1 / at->distance);
     double hz = d3_dot(at->h, at->z), nz = d3_dot(at->n, at->z);
@@ -341,16 +316,17 @@ static D2 slope_derivative(const HalfWay *at, D3 edge_d, D3 edge_n)
 
 /* |dw'| / |slope'|, with |dw'| = |N.d| / |d|^3 as above. */
 float reflection_slope_spread(const MirrorTriangle *triangle, Vec3 from, Vec3 towards,
-                              const ReflectionPoint *at)
-{
+                              const ReflectionPoint *at) {
     Frame frame = reflection_frame(triangle);
-    D3    d[3], n[3];
+    D3 d[3], n[3];
     for (int i = 0; i < 3; i++) {
         d[i] = d3_sub(d3_of(triangle->position[i]), d3_of(from));
         n[i] = d3_of(triangle->normal[i]);
     }
-    double  u = (double)at->u, v = (double)at->v;
-    HalfWay half = {.x = d3_of(frame.x), .y = d3_of(frame.y), .z = d3_of(frame.z),
+    double u = (double)at->u, v = (double)at->v;
+    HalfWay half = {.x = d3_of(frame.x),
+                    .y = d3_of(frame.y),
+                    .z = d3_of(frame.z),
                     .d = interpolate(d[0], d[1], d[2], u, v),
                     .n = interpolate(n[0], n[1], n[2], u, v)};
     half.distance = sqrt(d3_dot(half.d, half.d));
@@ -358,8 +334,7 @@ float reflection_slope_spread(const MirrorTriangle *triangle, Vec3 from, Vec3 to
     half.h = d3_sub(d3_of(towards), half.w);
     Slope slope = {slope_derivative(&half, d3_sub(d[1], d[0]), d3_sub(n[1], n[0])),
                    slope_derivative(&half, d3_sub(d[2], d[0]), d3_sub(n[2], n[0]))};
-    D3     edges = d3_cross(d3_sub(d[1], d[0]), d3_sub(d[2], d[0]));
-    double solid = fabs(d3_dot(edges, half.d)) /
-                   (half.distance * half.distance * half.distance);
+    D3 edges = d3_cross(d3_sub(d[1], d[0]), d3_sub(d[2], d[0]));
+    double solid = fabs(d3_dot(edges, half.d)) / (half.distance * half.distance * half.distance);
     return (float)(solid / fabs(determinant(&slope)));
 }

@@ -20,9 +20,9 @@
 #include "text/text.h"
 
 typedef struct PageHead {
-    const char *title;     /* of the window */
-    const char *command;   /* that made the page */
-    bool        is_dark;   /* for every reader */
+    const char *title;   /* of the window */
+    const char *command; /* that made the page */
+    bool is_dark;        /* for every reader */
 } PageHead;
 
 /* The file of a firm's own style, behind that of every page: CSS. */
@@ -61,5 +61,4 @@ json_t *page_picture(const Picture *picture, bool is_jpeg, Arena scratch, Error 
  *
  * values: the lowest `bytes` of each go in. The same numbers give the same text (of one version
  * of zlib). NULL: memory is out. */
-const char *page_packed(const uint32_t *values, size_t count, int bytes, Arena *arena,
-                        Error *err);
+const char *page_packed(const uint32_t *values, size_t count, int bytes, Arena *arena, Error *err);

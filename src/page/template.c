@@ -5,40 +5,50 @@
 #include <stdlib.h>
 #include <string.h>
 
-
 #define DEPTH_MOST 32 /* sections and templates within each other */
 #define NAME_MOST 64
 
 /* ---- what stands in a template ----------------------------------------------------------- */
 
 typedef enum TagKind {
-    TAG_RAW, TAG_SECTION, TAG_EMPTY, TAG_END, TAG_PART, TAG_VALUE, TAG_NOTE, TAG_STYLE,
-    TAG_SCRIPT, TAG_KINDS
+    TAG_RAW,
+    TAG_SECTION,
+    TAG_EMPTY,
+    TAG_END,
+    TAG_PART,
+    TAG_VALUE,
+    TAG_NOTE,
+    TAG_STYLE,
+    TAG_SCRIPT,
+    TAG_KINDS
 } TagKind;
 
 /* The longer of two that begin alike comes first. */
-static const struct { const char *open, *close; } MARKS[TAG_KINDS] = {
-    [TAG_RAW] = {"{{{", "}}}"}, [TAG_SECTION] = {"{{#", "}}"}, [TAG_EMPTY] = {"{{^", "}}"},
-    [TAG_END] = {"{{/", "}}"}, [TAG_PART] = {"{{>", "}}"}, [TAG_VALUE] = {"{{", "}}"},
-    [TAG_NOTE] = {"<!--", "-->"},
-    [TAG_STYLE] = {"<link rel=\"stylesheet\" href=\"", "\">"},
-    [TAG_SCRIPT] = {"<script src=\"", "\"></script>"}};
+static const struct {
+    const char *open, *close;
+} MARKS[TAG_KINDS] = {[TAG_RAW] = {"{{{", "}}}"},
+                      [TAG_SECTION] = {"{{#", "}}"},
+                      [TAG_EMPTY] = {"{{^", "}}"},
+                      [TAG_END] = {"{{/", "}}"},
+                      [TAG_PART] = {"{{>", "}}"},
+                      [TAG_VALUE] = {"{{", "}}"},
+                      [TAG_NOTE] = {"<!--", "-->"},
+                      [TAG_STYLE] = {"<link rel=\"stylesheet\" href=\"", "\">"},
+                      [TAG_SCRIPT] = {"<script src=\"", "\"></script>"}};
 
 typedef struct Tag {
-    TagKind     kind;
-    const char *begin, *after;    /* in the template */
-    char        name[NAME_MOST];
-    const char *format;           /* in the name, behind its bar; NULL: none */
+    TagKind kind;
+    const char *begin, *after; /* in the template */
+    char name[NAME_MOST];
+    const char *format; /* in the name, behind its bar; NULL: none */
 } Tag;
 
-static bool starts_with(const char *text, const char *start)
-{
+static bool starts_with(const char *text, const char *start) {
     return !strncmp(text, start, strlen(start));
 }
 
 /* A tag that is no value and has a line to itself takes the line's end with it. */
-static const char *behind_line(const Tag *tag, const char *text)
-{
+static const char *behind_line(const Tag *tag, const char *text) {
     const char *before = tag->begin;
     while (before > text && before[-1] == ' ') before--;
     bool is_alone = (before == text || before[-1] == '\n') && *tag->after == '\n';
@@ -46,8 +56,7 @@ static const char *behind_line(const Tag *tag, const char *text)
     return tag->after + 1;
 }
 
-static bool read_tag(const char *text, const char *at, Tag *tag)
-{
+static bool read_tag(const char *text, const char *at, Tag *tag) {
     int kind = 0;
     while (kind < TAG_KINDS && !starts_with(at, MARKS[kind].open)) kind++;
     const char *name = kind < TAG_KINDS ? at + strlen(MARKS[kind].open) : NULL;
@@ -66,8 +75,7 @@ static bool read_tag(const char *text, const char *at, Tag *tag)
 }
 
 /* The first in [at, end) of the template that begins at `text`. */
-static bool next_tag(const char *text, const char *at, const char *end, Tag *tag)
-{
+static bool next_tag(const char *text, const char *at, const char *end, Tag *tag) {
     for (; at < end; at++)
         if ((*at == '{' || *at == '<') && read_tag(text, at, tag)) return true;
     return false;
@@ -76,21 +84,20 @@ static bool next_tag(const char *text, const char *at, const char *end, Tag *tag
 /* ---- rendering --------------------------------------------------------------------------- */
 
 typedef struct Render {
-    Text             *to;
+    Text *to;
     const PageFormat *formats;
-    Arena            *scratch;
-    Error            *err;
-    const json_t     *context[DEPTH_MOST]; /* the innermost last */
-    int               depth;
-    bool              is_csv, is_indented; /* kinds of files: .csv; all but .html */
-    const char       *file, *text;         /* the template in hand, */
-    const Tag        *tag;                 /* and the tag */
+    Arena *scratch;
+    Error *err;
+    const json_t *context[DEPTH_MOST]; /* the innermost last */
+    int depth;
+    bool is_csv, is_indented; /* kinds of files: .csv; all but .html */
+    const char *file, *text;  /* the template in hand, */
+    const Tag *tag;           /* and the tag */
 } Render;
 
 static bool render(Render *r, const char *at, const char *end);
 
-static bool fails(const Render *r, const char *what)
-{
+static bool fails(const Render *r, const char *what) {
     char where[32];
     long line = 1;
     for (const char *c = r->text; c < r->tag->begin; c++) line += *c == '\n';
@@ -99,8 +106,7 @@ static bool fails(const Render *r, const char *what)
 }
 
 /* Templates of HTML are indented, the page is not; a line of CSV ends as RFC 4180 says. */
-static void add_plain(const Render *r, const char *at, const char *end)
-{
+static void add_plain(const Render *r, const char *at, const char *end) {
     bool begins_line = at > r->text && at[-1] == '\n';
     while (begins_line && !r->is_indented && at < end && *at == ' ') at++;
     while (at < end) {
@@ -115,8 +121,7 @@ static void add_plain(const Render *r, const char *at, const char *end)
 
 /* RFC 4180: a cell with a comma or a quote stands in quotes, quotes doubled. No text has a
  * line's end as it may be shown. */
-static void add_csv(Text *csv, const char *text)
-{
+static void add_csv(Text *csv, const char *text) {
     bool is_quoted = strpbrk(text, ",\"") != NULL;
     if (is_quoted) text_add(csv, "\"");
     for (size_t plain; *text; text += plain) {
@@ -128,14 +133,12 @@ static void add_csv(Text *csv, const char *text)
     if (is_quoted) text_add(csv, "\"");
 }
 
-static void add_words(const Render *r, const char *words)
-{
+static void add_words(const Render *r, const char *words) {
     if (r->is_csv) add_csv(r->to, words);
     else escape_markup(r->to, words);
 }
 
-static const char *file_text(const char *name)
-{
+static const char *file_text(const char *name) {
     for (int i = 0; i < page_file_count; i++)
         if (!strcmp(page_file_table[i].name, name)) return page_file_table[i].text;
     return NULL;
@@ -143,8 +146,7 @@ static const char *file_text(const char *name)
 
 /* A member of an object; of a list the item of that number, null behind its last; of null
  * null. */
-static const json_t *member_of(const json_t *value, const char *name, size_t length)
-{
+static const json_t *member_of(const json_t *value, const char *name, size_t length) {
     if (json_is_null(value)) return value;
     if (!json_is_array(value)) return json_object_getn(value, name, length);
     const json_t *item = json_array_get(value, (size_t)strtoul(name, NULL, 10));
@@ -152,10 +154,9 @@ static const json_t *member_of(const json_t *value, const char *name, size_t len
 }
 
 /* NULL: no value has that name. */
-static const json_t *look_up(const Render *r)
-{
-    const char   *name = r->tag->name;
-    size_t        first = strcspn(name, ".");
+static const json_t *look_up(const Render *r) {
+    const char *name = r->tag->name;
+    size_t first = strcspn(name, ".");
     const json_t *found = NULL;
     if (!strcmp(name, ".")) return r->context[r->depth - 1];
     for (int i = r->depth - 1; i >= 0 && !found; i--)
@@ -167,8 +168,7 @@ static const json_t *look_up(const Render *r)
     return found;
 }
 
-static bool is_empty(const json_t *value)
-{
+static bool is_empty(const json_t *value) {
     if (!value || json_is_null(value) || json_is_false(value)) return true;
     return json_is_string(value)    ? json_string_length(value) == 0
            : json_is_array(value)   ? json_array_size(value) == 0
@@ -179,20 +179,18 @@ static bool is_empty(const json_t *value)
 /* ---- values ------------------------------------------------------------------------------ */
 
 /* The formats that every page has. NULL: it is none of them. */
-static const char *common_format(const char *format, double value, Arena *arena)
-{
+static const char *common_format(const char *format, double value, Arena *arena) {
     bool is_printed = (*format == 'f' || *format == 'g') && format[1] && !format[2];
-    int  digits = is_printed ? format[1] - '0' : 0;
+    int digits = is_printed ? format[1] - '0' : 0;
     if (!strcmp(format, "s")) return value == 1 ? "" : "s";
     if (digits < 0 || digits > 9 || !is_printed) return NULL;
     return arena_format(arena, *format == 'f' ? "%.*f" : "%.*g", digits, value);
 }
 
-static bool add_number(Render *r, const json_t *value)
-{
+static bool add_number(Render *r, const json_t *value) {
     const char *format = r->tag->format, *words = NULL;
-    double      number = json_is_number(value) ? json_number_value(value) : (double)NAN;
-    Arena       scratch = *r->scratch;
+    double number = json_is_number(value) ? json_number_value(value) : (double)NAN;
+    Arena scratch = *r->scratch;
     if (!format && json_is_real(value)) format = r->is_csv ? "g6" : "g9";
     if (!format) {
         if (json_is_integer(value)) text_format(r->to, "%lld", json_integer_value(value));
@@ -208,10 +206,9 @@ static bool add_number(Render *r, const json_t *value)
 }
 
 /* The texts of a list, with what stands behind the bar between them. */
-static bool add_joined(Render *r, const json_t *list)
-{
+static bool add_joined(Render *r, const json_t *list) {
     Arena scratch = *r->scratch;
-    Text  joined = {.arena = &scratch};
+    Text joined = {.arena = &scratch};
     for (size_t i = 0; i < json_array_size(list); i++) {
         const char *text = json_string_value(json_array_get(list, i));
         if (i > 0) text_add(&joined, r->tag->format ? r->tag->format : "");
@@ -221,8 +218,7 @@ static bool add_joined(Render *r, const json_t *list)
     return true;
 }
 
-static bool add_value(Render *r)
-{
+static bool add_value(Render *r) {
     const json_t *value = look_up(r);
     if (!value) return fails(r, "has no value for");
     if (json_is_array(value)) return add_joined(r, value);
@@ -234,8 +230,7 @@ static bool add_value(Render *r)
 
 /* ---- sections and parts ------------------------------------------------------------------ */
 
-static bool find_end(const Render *r, const char *at, const char *end, Tag *close)
-{
+static bool find_end(const Render *r, const char *at, const char *end, Tag *close) {
     int depth = 1;
     for (; next_tag(r->text, at, end, close); at = close->after) {
         depth += close->kind == TAG_SECTION || close->kind == TAG_EMPTY;
@@ -246,8 +241,7 @@ static bool find_end(const Render *r, const char *at, const char *end, Tag *clos
 }
 
 /* The part of the template within a section, once for an item. */
-static bool render_item(Render *r, const json_t *item, const char *at, const char *end)
-{
+static bool render_item(Render *r, const json_t *item, const char *at, const char *end) {
     if (r->depth == DEPTH_MOST) return fails(r, "is too deep at");
     r->context[r->depth++] = item;
     bool ok = render(r, at, end);
@@ -256,16 +250,14 @@ static bool render_item(Render *r, const json_t *item, const char *at, const cha
 }
 
 /* *after: behind the section's end. */
-static bool render_section(Render *r, const char *end, const char **after)
-{
-    Tag           close;
-    const Tag    *open = r->tag;
+static bool render_section(Render *r, const char *end, const char **after) {
+    Tag close;
+    const Tag *open = r->tag;
     const json_t *value = look_up(r);
-    size_t        count = json_is_array(value) ? json_array_size(value) : 1;
+    size_t count = json_is_array(value) ? json_array_size(value) : 1;
     if (!find_end(r, open->after, end, &close)) return fails(r, "has no end of");
     *after = close.after;
-    if (open->kind == TAG_EMPTY)
-        return !is_empty(value) || render(r, open->after, close.begin);
+    if (open->kind == TAG_EMPTY) return !is_empty(value) || render(r, open->after, close.begin);
     for (size_t i = 0; !is_empty(value) && i < count; i++) {
         const json_t *item = json_is_array(value) ? json_array_get(value, i) : value;
         if (!render_item(r, item, open->after, close.begin)) return false;
@@ -274,27 +266,23 @@ static bool render_section(Render *r, const char *end, const char **after)
 }
 
 /* One place of the stack goes to each, so that a part of itself comes to an end. */
-static bool render_whole(Render *r, PageFile file)
-{
+static bool render_whole(Render *r, PageFile file) {
     Render part = *r;
     part.file = file.name;
     part.text = file.text;
     part.is_csv = strstr(file.name, ".csv") != NULL;
     part.is_indented = !strstr(file.name, ".html");
-    return render_item(&part, r->context[r->depth - 1], file.text,
-                       file.text + strlen(file.text));
+    return render_item(&part, r->context[r->depth - 1], file.text, file.text + strlen(file.text));
 }
 
-static bool render_part(Render *r)
-{
+static bool render_part(Render *r) {
     char name[NAME_MOST + 16];
     snprintf(name, sizeof name, "%.*s.html", NAME_MOST, r->tag->name);
     PageFile file = {name, file_text(name)};
     return file.text ? render_whole(r, file) : fails(r, "has no part");
 }
 
-static bool add_file(Render *r, const char *element)
-{
+static bool add_file(Render *r, const char *element) {
     const char *text = file_text(r->tag->name);
     if (!text) return fails(r, "has no file");
     text_format(r->to, "<%s>\n", element);
@@ -303,8 +291,7 @@ static bool add_file(Render *r, const char *element)
     return true;
 }
 
-static bool add_tag(Render *r, const char *end, const char **after)
-{
+static bool add_tag(Render *r, const char *end, const char **after) {
     switch (r->tag->kind) {
     case TAG_VALUE:
     case TAG_RAW: return add_value(r);
@@ -318,11 +305,10 @@ static bool add_tag(Render *r, const char *end, const char **after)
     }
 }
 
-static bool render(Render *r, const char *at, const char *end)
-{
-    Tag        tag;
+static bool render(Render *r, const char *at, const char *end) {
+    Tag tag;
     const Tag *outer = r->tag;
-    bool       ok = true;
+    bool ok = true;
     while (ok && next_tag(r->text, at, end, &tag)) {
         add_plain(r, at, tag.begin);
         at = tag.after;
@@ -335,18 +321,21 @@ static bool render(Render *r, const char *at, const char *end)
 }
 
 bool page_render_text(Text *to, PageFile page, const json_t *values, const PageFormat *formats,
-                      Arena scratch, Error *err)
-{
-    Tag    all = {.kind = TAG_PART, .begin = page.text};
-    Render r = {.to = to, .formats = formats, .scratch = &scratch, .err = err,
-                .context = {values}, .depth = 1, .file = page.name, .text = page.text,
+                      Arena scratch, Error *err) {
+    Tag all = {.kind = TAG_PART, .begin = page.text};
+    Render r = {.to = to,
+                .formats = formats,
+                .scratch = &scratch,
+                .err = err,
+                .context = {values},
+                .depth = 1,
+                .file = page.name,
+                .text = page.text,
                 .tag = &all};
     return render_whole(&r, page);
 }
 
 bool page_render(Text *to, const char *name, const json_t *values, const PageFormat *formats,
-                 Arena scratch, Error *err)
-{
-    return page_render_text(to, (PageFile){name, file_text(name)}, values, formats, scratch,
-                            err);
+                 Arena scratch, Error *err) {
+    return page_render_text(to, (PageFile){name, file_text(name)}, values, formats, scratch, err);
 }

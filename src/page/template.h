@@ -35,7 +35,7 @@ typedef const char *PageFormatOf(double value, Arena *arena);
 
 /* Every page has "s" (the plural's letter; "" for 1), and "f0".."f9", "g1".."g9": printf's. */
 typedef struct PageFormat {
-    const char   *name; /* NULL ends a list */
+    const char *name; /* NULL ends a list */
     PageFormatOf *of;
 } PageFormat;
 
@@ -44,7 +44,7 @@ typedef struct PageFile {
     const char *name, *text; /* "review.html" */
 } PageFile;
 extern const PageFile page_file_table[];
-extern const int      page_file_count;
+extern const int page_file_count;
 
 /* name: "review.html" of assets/pages, which must be there. formats: more than every page has;
  * NULL: none. */

@@ -11,8 +11,7 @@
 #define LEAST_OTHERS 0.1f
 #define MOST_OTHERS 0.9f
 
-static LampFind *place_of(LampFinds *finds, const LampFind *find)
-{
+static LampFind *place_of(LampFinds *finds, const LampFind *find) {
     LampFind *least = &finds->lamp[0];
     for (int i = 0; i < finds->count; i++) {
         if (finds->lamp[i].id == find->id) return &finds->lamp[i];
@@ -24,26 +23,22 @@ static LampFind *place_of(LampFinds *finds, const LampFind *find)
     return least;
 }
 
-void lamp_finds_add(LampFinds *finds, LampFind find)
-{
+void lamp_finds_add(LampFinds *finds, LampFind find) {
     LampFind *place = place_of(finds, &find);
     if (!place) return;
     place->sent += find.sent;
     place->arrived += find.arrived;
 }
 
-void lamp_finds_join(LampFinds *finds, const LampFinds *neighbour, double weight)
-{
+void lamp_finds_join(LampFinds *finds, const LampFinds *neighbour, double weight) {
     for (int i = 0; i < neighbour->count; i++) {
         const LampFind *find = &neighbour->lamp[i];
-        lamp_finds_add(finds,
-                       (LampFind){find->id, find->sent * weight, find->arrived * weight});
+        lamp_finds_add(finds, (LampFind){find->id, find->sent * weight, find->arrived * weight});
     }
 }
 
 /* Takes the lamp of which most arrived out of the finds. */
-static LampFind take_best(LampFinds *finds)
-{
+static LampFind take_best(LampFinds *finds) {
     int best = 0;
     for (int i = 1; i < finds->count; i++)
         if (finds->lamp[i].arrived > finds->lamp[best].arrived) best = i;
@@ -52,18 +47,16 @@ static LampFind take_best(LampFinds *finds)
     return find;
 }
 
-static void keep(GuideLamps *lamps, const LampFind *find)
-{
+static void keep(GuideLamps *lamps, const LampFind *find) {
     double arrives = find->sent > 0 ? find->arrived / find->sent : 0;
     lamps->id[lamps->count] = find->id;
     lamps->arrives[lamps->count++] = clampf((float)arrives, LEAST_ARRIVES, 1);
 }
 
-GuideLamps cell_lamps_keep(const LampFinds *finds, int lamp_count)
-{
-    LampFinds  left = *finds;
+GuideLamps cell_lamps_keep(const LampFinds *finds, int lamp_count) {
+    LampFinds left = *finds;
     GuideLamps lamps = {0};
-    double     all = 0, kept = 0;
+    double all = 0, kept = 0;
     for (int i = 0; i < left.count; i++) all += left.lamp[i].arrived;
     if (!(all > 0)) return lamps;
     while (left.count && lamps.count < GUIDE_LAMPS) {
@@ -84,45 +77,40 @@ GuideLamps cell_lamps_keep(const LampFinds *finds, int lamp_count)
 #define LEAST 0.1f
 
 /* The MIS weight of a path's light sample: the share that BSDF samples do not find. */
-static double own_share(const Guiding *guiding, LitPoint point, const LightSample *light)
-{
+static double own_share(const Guiding *guiding, LitPoint point, const LightSample *light) {
     if (light->is_delta) return 1;
     float cosine = vec3_dot(light->wi, point.ns);
     float other = guiding_pdf(guiding, light->wi, cosine * INV_PI_F) / light->pdf;
     return 1 / (1 + (double)(other * other));
 }
 
-static void note_lamp(const PathContext *context, LitPoint point, const LightSample *light,
-                      float u, bool arrives, LightFinds *finds)
-{
+static void note_lamp(const PathContext *context, LitPoint point, const LightSample *light, float u,
+                      bool arrives, LightFinds *finds) {
     double lx = lights_sample_lx(context->lights, point, light, u);
     if (!(lx > 0)) return;
     lamp_finds_add(&finds->lamps, (LampFind){light->light_id, lx, arrives ? lx : 0});
 }
 
 static void try_sunlit(const PathContext *context, const Guiding *guiding, LitPoint point,
-                       Sampler *sampler, LightFinds *finds)
-{
+                       Sampler *sampler, LightFinds *finds) {
     const SunlitTools tools = {context->scene, context->bvh, context->lights};
-    SunlitTry   found;
-    float       u[8];
+    SunlitTry found;
+    float u[8];
     sampler_4d(sampler, u);
     sampler_4d(sampler, u + 4);
     if (!sunlit_try(&tools, &context->sunlit, point, u, &found)) return;
     float cosine = vec3_dot(found.wi, point.ns);
-    sunlit_finds_add(&finds->sunlit, &found,
-                     guiding_pdf(guiding, found.wi, cosine * INV_PI_F));
+    sunlit_finds_add(&finds->sunlit, &found, guiding_pdf(guiding, found.wi, cosine * INV_PI_F));
 }
 
-void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
-                     Sampler *sampler, LightFinds *finds)
-{
+void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell, Sampler *sampler,
+                     LightFinds *finds) {
     Guiding guiding;
     guiding_of_white(context, cell, point.ns, &guiding);
     finds->points++;
     for (int set = 0; set < LIGHT_SETS; set++) {
         LightSample light;
-        float       u[4];
+        float u[4];
         if (!lights_has(context->lights, (LightSet)set)) continue;
         sampler_4d(sampler, u);
         if (!guiding_choose_light(&guiding, context->lights, (LightSet)set, point, u, &light))
@@ -140,8 +128,7 @@ void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
 }
 
 void cell_lights_weigh(const PathContext *context, const LightFinds *finds, CellLight light,
-                       float prob[LIGHT_CHOICES])
-{
+                       float prob[LIGHT_CHOICES]) {
     double rest = light.usual * light.usual;
     for (int set = 0; set < LIGHT_SETS; set++) {
         prob[set] = 0;

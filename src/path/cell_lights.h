@@ -17,12 +17,12 @@
 /* Sums over samples of one lamp, lx: of what it would give were nothing in the way, and of what
  * arrived. */
 typedef struct LampFind {
-    int    id;
+    int id;
     double sent, arrived;
 } LampFind;
 
 typedef struct LampFinds {
-    int      count;
+    int count;
     LampFind lamp[LAMP_FINDS];
 } LampFinds;
 
@@ -45,8 +45,8 @@ typedef struct LightFinds {
 } LightFinds;
 
 /* One sample of every set for a white point of the cell that faces point.ns. */
-void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
-                     Sampler *sampler, LightFinds *finds);
+void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell, Sampler *sampler,
+                     LightFinds *finds);
 
 /* Light of a cell, lx: as it was found, and as about it. */
 typedef struct CellLight {

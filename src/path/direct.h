@@ -18,11 +18,11 @@ bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo)
 
 /* Share of the light sample that arrives at the surface; *ray: the sheets that it passed. */
 Spectrum direct_visibility(PathState *path, const Surface *surface, const LightSample *light,
-                    ShadowRay *ray);
+                           ShadowRay *ray);
 
 /* Share of the sun, if the path meets it by `next`, that the vertex before did not sample. */
 Spectrum direct_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
-                   const BsdfSample *next);
+                          const BsdfSample *next);
 
 /* Beer's law inside a solid: the material's colour is what is left after its distance. */
 void direct_absorb(const PathState *path, int medium_id, float distance, Spectrum *light);

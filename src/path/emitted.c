@@ -7,19 +7,17 @@
 
 /* MIS weight of emitted light that the last vertex met by chance: the rest belongs to its
  * light samples, which find the same light with density light_pdf. */
-static float emission_weight(const PathState *path, LightSet set, float light_pdf)
-{
+static float emission_weight(const PathState *path, LightSet set, float light_pdf) {
     const PathContext *context = path->context;
     if (path->last.is_delta || context->strategy == PATH_BSDF_ONLY) return 1;
     if (context->strategy == PATH_LIGHTS_ONLY) return 0;
     float prob = path->guiding->asked[set] * path->guiding->often;
-    if (set == LIGHTS_SKY) light_pdf = guiding_sky_pdf(path->guiding, path->ray.direction,
-                                                       light_pdf);
+    if (set == LIGHTS_SKY)
+        light_pdf = guiding_sky_pdf(path->guiding, path->ray.direction, light_pdf);
     return mis_weight(path->last.pdf, prob * light_pdf);
 }
 
-LitPoint emitted_lit_point(const PathState *path, const Surface *surface)
-{
+LitPoint emitted_lit_point(const PathState *path, const Surface *surface) {
     const Material *m = surface->material_id == NO_ID
                             ? NULL
                             : &path->context->scene->materials[surface->material_id];
@@ -29,10 +27,9 @@ LitPoint emitted_lit_point(const PathState *path, const Surface *surface)
 
 /* ---- sunlit surfaces --------------------------------------------------------------------- */
 
-SunlitPair emitted_pair(const PathState *path, const Surface *surface)
-{
+SunlitPair emitted_pair(const PathState *path, const Surface *surface) {
     const PathContext *context = path->context;
-    const Scene       *scene = context->scene;
+    const Scene *scene = context->scene;
     SunlitPair pair = {.prob = 0};
     if (!path->last.samples_map || path->medium_id != NO_ID || surface->part_id == NO_ID ||
         surface->triangle >= scene->opaque_count)
@@ -47,8 +44,7 @@ SunlitPair emitted_pair(const PathState *path, const Surface *surface)
     return pair;
 }
 
-float emitted_chance(const PathContext *context, const SunlitPair *pair, Vec3 sun)
-{
+float emitted_chance(const PathContext *context, const SunlitPair *pair, Vec3 sun) {
     const SunlitMap *map = &context->sunlit;
     if (!(pair->prob > 0)) return 1;
     float density = sunlit_map_density(map, &pair->from, pair->at, sun);
@@ -59,58 +55,60 @@ float emitted_chance(const PathContext *context, const SunlitPair *pair, Vec3 su
 
 /* ---- sun and sky ------------------------------------------------------------------------- */
 
-static void find_distant(PathState *path, LightSet set, Spectrum radiance)
-{
+static void find_distant(PathState *path, LightSet set, Spectrum radiance) {
     if (!path->collector) {
         path->gathered.radiance += radiance;
         return;
     }
-    Vec3      towards = path->ray.direction;
-    PathFound found = {.set = set, .from = towards, .is_distant = true,
-                       .way = vec3_neg(towards), .radiance = radiance};
+    Vec3 towards = path->ray.direction;
+    PathFound found = {.set = set,
+                       .from = towards,
+                       .is_distant = true,
+                       .way = vec3_neg(towards),
+                       .radiance = radiance};
     path_gather(path, &found);
 }
 
-void emitted_distant(PathState *path)
-{
+void emitted_distant(PathState *path) {
     if (collect_escape(path)) return;
     Spectrum radiance[2];
-    float    pdf[2];
-    lights_distant(path->context->lights, path->ray.direction, path->last.at.ns,
-                   path->wavelengths, radiance, pdf);
+    float pdf[2];
+    lights_distant(path->context->lights, path->ray.direction, path->last.at.ns, path->wavelengths,
+                   radiance, pdf);
     radiance[LIGHTS_SUN] *= path->last.sun_share;
     if (path->context->without_mirrored_sun && path->first.by_mirror && path->bounce == 1)
         radiance[LIGHTS_SUN] = spectrum_all(0);
     if (path->bounce && !spectrum_is_zero(radiance[LIGHTS_SKY])) path->statistics->sky_finds++;
     collect_sky(path, &radiance[LIGHTS_SKY]);
     if (path->last.before.prob > 0 && !spectrum_is_zero(radiance[LIGHTS_SUN]))
-        radiance[LIGHTS_SUN] *= spectrum_all(
-            emitted_chance(path->context, &path->last.before, path->ray.direction));
+        radiance[LIGHTS_SUN] *=
+            spectrum_all(emitted_chance(path->context, &path->last.before, path->ray.direction));
     for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
         float weight = emission_weight(path, (LightSet)set, pdf[set]);
-        find_distant(path, (LightSet)set,
-                     path->throughput * radiance[set] * spectrum_all(weight));
+        find_distant(path, (LightSet)set, path->throughput * radiance[set] * spectrum_all(weight));
     }
 }
 
 /* ---- emitters ---------------------------------------------------------------------------- */
 
-static PathFound found_on(const Surface *surface, const Hit *hit, Vec3 wo, float weight)
-{
-    return (PathFound){.set = LIGHTS_EMITTERS, .source_id = surface->part_id,
-                       .from = surface->position, .way = wo, .weight = weight,
-                       .triangle = hit->triangle, .point = &surface->point};
+static PathFound found_on(const Surface *surface, const Hit *hit, Vec3 wo, float weight) {
+    return (PathFound){.set = LIGHTS_EMITTERS,
+                       .source_id = surface->part_id,
+                       .from = surface->position,
+                       .way = wo,
+                       .weight = weight,
+                       .triangle = hit->triangle,
+                       .point = &surface->point};
 }
 
 /* A display seen along a path on which nothing depends on wavelength: its measured XYZ. */
 static void add_display_xyz(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo,
-                            float weight)
-{
+                            float weight) {
     const Scene *scene = path->context->scene;
-    int          display_id = scene->materials[surface->material_id].display_id;
-    float        xyz[3];
-    display_emission_xyz(scene, &scene->displays[display_id], hit->triangle, &surface->point,
-                         wo, xyz);
+    int display_id = scene->materials[surface->material_id].display_id;
+    float xyz[3];
+    display_emission_xyz(scene, &scene->displays[display_id], hit->triangle, &surface->point, wo,
+                         xyz);
     PathFound found = found_on(surface, hit, wo, weight);
     found.radiance = spectrum_all(0);
     found.xyz = xyz;
@@ -119,16 +117,14 @@ static void add_display_xyz(PathState *path, const Surface *surface, const Hit *
 }
 
 /* Density of the last vertex's light samples there, sr^-1; 0, unused, behind a mirror. */
-static float emitter_pdf(const PathState *path, const Surface *surface, const Hit *hit)
-{
+static float emitter_pdf(const PathState *path, const Surface *surface, const Hit *hit) {
     Hit seen = {path->straight, hit->u, hit->v, hit->triangle};
     if (path->last.is_delta) return 0;
-    return lights_emitter_pdf(path->context->lights, &path->last.at, &seen,
-                              path->ray.direction, surface->ng);
+    return lights_emitter_pdf(path->context->lights, &path->last.at, &seen, path->ray.direction,
+                              surface->ng);
 }
 
-void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo)
-{
+void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo) {
     if (!surface->emits) return;
     const Scene *scene = path->context->scene;
     float weight = emission_weight(path, LIGHTS_EMITTERS, emitter_pdf(path, surface, hit));
@@ -138,8 +134,8 @@ void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 w
         return;
     }
     PathFound found = found_on(surface, hit, wo, weight);
-    found.radiance = path->throughput * spectrum_all(weight) *
-                     triangle_emission(scene, hit->triangle, &surface->point, wo,
-                                       path->wavelengths);
+    found.radiance =
+        path->throughput * spectrum_all(weight) *
+        triangle_emission(scene, hit->triangle, &surface->point, wo, path->wavelengths);
     path_gather(path, &found);
 }

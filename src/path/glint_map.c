@@ -5,9 +5,9 @@
 
 #include "base/mathf.h"
 
-#define COARSER 8         /* edge of a large cube by a small one's */
+#define COARSER 8 /* edge of a large cube by a small one's */
 #define FIRST_ROOM 4096
-#define ACROSS_M2 4.0f    /* times edge squared: area of a plane that one cube counts for */
+#define ACROSS_M2 4.0f /* times edge squared: area of a plane that one cube counts for */
 
 /* Odd numbers without a pattern: the bits of a place's coordinates mix by them. */
 #define MIX_X 0x9e3779b97f4a7c15u
@@ -18,25 +18,21 @@
 
 /* Hashes a cube's key to 32 bits: now and then two cubes share one, which is good enough for a
  * mere estimate of light. */
-static uint32_t tag_of(uint64_t key)
-{
+static uint32_t tag_of(uint64_t key) {
     key = (key ^ key >> 32) * MIX_ALL;
     return (uint32_t)(key >> 29) | 1u << 31;
 }
 
 /* The cube, or the free place where it would stand. */
-static GlintCube *find(const GlintTable *table, uint32_t tag)
-{
+static GlintCube *find(const GlintTable *table, uint32_t tag) {
     for (uint32_t at = tag;; at++) {
         GlintCube *cube = &table->cubes[at & (table->room - 1)];
         if (cube->tag == tag || !cube->tag) return cube;
     }
 }
 
-static void grow(GlintTable *table, Arena *arena)
-{
-    GlintTable larger = {.room = table->room ? 2 * table->room : FIRST_ROOM,
-                         .count = table->count};
+static void grow(GlintTable *table, Arena *arena) {
+    GlintTable larger = {.room = table->room ? 2 * table->room : FIRST_ROOM, .count = table->count};
     larger.cubes = ARENA_NEW(arena, GlintCube, larger.room);
     for (uint32_t i = 0; i < table->room; i++)
         if (table->cubes[i].tag) *find(&larger, table->cubes[i].tag) = table->cubes[i];
@@ -44,21 +40,18 @@ static void grow(GlintTable *table, Arena *arena)
 }
 
 /* Index of the cube along one axis, for a place moved down by `shift` edges. */
-static uint64_t coordinate(float m, float per_m, float shift)
-{
+static uint64_t coordinate(float m, float per_m, float shift) {
     return (uint64_t)(int64_t)floorf(clampf(m * per_m - shift, -1e18f, 1e18f));
 }
 
-static uint64_t cube_key(const GlintPlace *place, float edge_m, float shift)
-{
-    Vec3  p = place->position;
+static uint64_t cube_key(const GlintPlace *place, float edge_m, float shift) {
+    Vec3 p = place->position;
     float per_m = 1 / edge_m;
     return place->row * MIX_ROW + coordinate(p.x, per_m, shift) * MIX_X +
            coordinate(p.y, per_m, shift) * MIX_Y + coordinate(p.z, per_m, shift) * MIX_Z;
 }
 
-static void add_lm(GlintTable *table, uint32_t tag, float lm, Arena *arena)
-{
+static void add_lm(GlintTable *table, uint32_t tag, float lm, Arena *arena) {
     if (4 * (uint64_t)table->count >= 3 * (uint64_t)table->room) grow(table, arena);
     GlintCube *cube = find(table, tag);
     table->count += !cube->tag;
@@ -66,27 +59,24 @@ static void add_lm(GlintTable *table, uint32_t tag, float lm, Arena *arena)
     cube->lm += lm;
 }
 
-void glint_map_add(GlintMap *map, const GlintPlace *place, float lm, Arena *arena)
-{
+void glint_map_add(GlintMap *map, const GlintPlace *place, float lm, Arena *arena) {
     for (int size = 0; size < GLINT_SIZES; size++) {
-        float    edge = size ? COARSER * place->edge_m : place->edge_m;
+        float edge = size ? COARSER * place->edge_m : place->edge_m;
         uint64_t lowest = cube_key(place, edge, 0.5f);
         for (int i = 0; i < 8; i++)
             add_lm(&map->size[size],
-                   tag_of(lowest + (i & 1 ? MIX_X : 0) + (i & 2 ? MIX_Y : 0) +
-                          (i & 4 ? MIX_Z : 0)), lm, arena);
+                   tag_of(lowest + (i & 1 ? MIX_X : 0) + (i & 2 ? MIX_Y : 0) + (i & 4 ? MIX_Z : 0)),
+                   lm, arena);
     }
 }
 
-static float lx_in(const GlintTable *table, const GlintPlace *place, float edge)
-{
+static float lx_in(const GlintTable *table, const GlintPlace *place, float edge) {
     if (!table->room) return 0;
     return find(table, tag_of(cube_key(place, edge, 0)))->lm / (ACROSS_M2 * edge * edge);
 }
 
 /* Where no large cube got light no small one did. */
-float glint_map_lx(const GlintMap *map, const GlintPlace *place)
-{
+float glint_map_lx(const GlintMap *map, const GlintPlace *place) {
     float coarse = lx_in(&map->size[1], place, COARSER * place->edge_m);
     return coarse > 0 ? fmaxf(coarse, lx_in(&map->size[0], place, place->edge_m)) : 0;
 }

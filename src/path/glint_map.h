@@ -19,12 +19,12 @@
 
 typedef struct GlintCube {
     uint32_t tag; /* of which row and place; 0: free */
-    float    lm;
+    float lm;
 } GlintCube;
 
 typedef struct GlintTable {
     GlintCube *cubes;
-    uint32_t   room, count; /* room: a power of two, or 0 */
+    uint32_t room, count; /* room: a power of two, or 0 */
 } GlintTable;
 
 typedef struct GlintMap {
@@ -34,8 +34,8 @@ typedef struct GlintMap {
 /* row: a number for each side of a part; edge_m: of its fine cubes, > 0, fixed for a row. */
 typedef struct GlintPlace {
     uint32_t row;
-    float    edge_m;
-    Vec3     position; /* m */
+    float edge_m;
+    Vec3 position; /* m */
 } GlintPlace;
 
 void glint_map_add(GlintMap *map, const GlintPlace *place, float lm, Arena *arena);

@@ -20,13 +20,13 @@ _Static_assert(LIGHT_CHOICES == GUIDE_LIGHTS, "cells of a guide know all there i
 #define DEEP_SHARE 0.4f
 
 typedef struct Guiding {
-    float        mix;
-    bool         is_wide; /* the surface scatters widely, and there is a guide */
-    const float *asked;   /* probability of sampling each set of lights, times this: */
-    float        often;
-    float        sky_mix;
+    float mix;
+    bool is_wide;       /* the surface scatters widely, and there is a guide */
+    const float *asked; /* probability of sampling each set of lights, times this: */
+    float often;
+    float sky_mix;
     PunctualKnown lamps; /* that light the place; count 0: not known */
-    GuideView    view;    /* unset where both mixes are 0 */
+    GuideView view;      /* unset where both mixes are 0 */
 } Guiding;
 
 /* wo: unit, world. bounce: scattering vertices before this one. */

@@ -8,32 +8,30 @@
 #include "path/sheets.h"
 #include "sunlit/sunlit_way.h"
 
-#define POINTS 32        /* of every side of a part, for every set */
-#define SUNLIT_POINTS 8  /* of every side, for the sunlit map */
-#define GENEROSITY 4.0f  /* a set with a quarter of a part's light is sampled at every hit */
-#define LEAST 0.1f       /* and none less often than this */
-#define TOGETHER 16      /* parts that a thread takes at once */
+#define POINTS 32       /* of every side of a part, for every set */
+#define SUNLIT_POINTS 8 /* of every side, for the sunlit map */
+#define GENEROSITY 4.0f /* a set with a quarter of a part's light is sampled at every hit */
+#define LEAST 0.1f      /* and none less often than this */
+#define TOGETHER 16     /* parts that a thread takes at once */
 #define SKY_SAMPLES 256
 
-bool light_selection_arrives(const Bvh *bvh, LitPoint point, const LightSample *light)
-{
+bool light_selection_arrives(const Bvh *bvh, LitPoint point, const LightSample *light) {
     return vec3_dot(point.ns, light->wi) > 0 &&
            !bvh_occluded(bvh, lights_ray(point.position, light), sheets_let_pass, NULL);
 }
 
 typedef struct Weighing {
-    const Scene  *scene;
-    const Bvh    *bvh;
+    const Scene *scene;
+    const Bvh *bvh;
     const Lights *lights;
     const SunlitTools *tools;
-    const SunlitMap  *sunlit;
+    const SunlitMap *sunlit;
     LightSelection selection;
 } Weighing;
 
 /* Illuminance, lx, by one sample of the set; 0 where it does not arrive. */
 static double sample_illuminance(const Weighing *w, LightSet set, LitPoint point,
-                                 Sampler *sampler)
-{
+                                 Sampler *sampler) {
     LightSample light;
     float u[4];
     sampler_4d(sampler, u);
@@ -44,36 +42,32 @@ static double sample_illuminance(const Weighing *w, LightSet set, LitPoint point
 
 /* Point i of so many that are spread over the part's triangles; side 0: in front, 1: behind. */
 static LitPoint point_of(const Weighing *w, int part_id, int side, uint32_t i, uint32_t points,
-                         Sampler *sampler)
-{
+                         Sampler *sampler) {
     const Part *part = &w->scene->parts[part_id];
-    Vec2     at = sampler_2d(sampler);
+    Vec2 at = sampler_2d(sampler);
     uint32_t triangle = (uint32_t)((uint64_t)part->triangle_count * i / points);
     if (at.x + at.y > 1) at = (Vec2){1 - at.x, 1 - at.y};
-    TrianglePoint point =
-        triangle_point(w->scene, part->first_triangle + triangle, at.x, at.y);
+    TrianglePoint point = triangle_point(w->scene, part->first_triangle + triangle, at.x, at.y);
     Vec3 ng = side ? vec3_neg(point.ng) : point.ng;
     return (LitPoint){ray_start(&point, ng), ng, false};
 }
 
-static double side_illuminance(const Weighing *w, LightSet set, int part_id, int side)
-{
+static double side_illuminance(const Weighing *w, LightSet set, int part_id, int side) {
     double sum = 0;
     for (uint32_t i = 0; i < POINTS; i++) {
-        Sampler  sampler = sampler_start((uint32_t)set, part_id, side, i);
+        Sampler sampler = sampler_start((uint32_t)set, part_id, side, i);
         LitPoint lit = point_of(w, part_id, side, i, POINTS, &sampler);
         sum += sample_illuminance(w, set, lit, &sampler);
     }
     return sum / POINTS;
 }
 
-static void try_sunlit(const Weighing *w, int part_id, int side, SunlitFinds *finds)
-{
+static void try_sunlit(const Weighing *w, int part_id, int side, SunlitFinds *finds) {
     for (uint32_t i = 0; i < SUNLIT_POINTS; i++) {
         SunlitTry found;
-        float     u[8];
-        Sampler   sampler = sampler_start(LIGHTS_SUNLIT, part_id, side, i);
-        LitPoint  lit = point_of(w, part_id, side, i, SUNLIT_POINTS, &sampler);
+        float u[8];
+        Sampler sampler = sampler_start(LIGHTS_SUNLIT, part_id, side, i);
+        LitPoint lit = point_of(w, part_id, side, i, SUNLIT_POINTS, &sampler);
         sampler_4d(&sampler, u);
         sampler_4d(&sampler, u + 4);
         if (sunlit_try(w->tools, w->sunlit, lit, u, &found))
@@ -82,8 +76,7 @@ static void try_sunlit(const Weighing *w, int part_id, int side, SunlitFinds *fi
 }
 
 static void share_out(const Weighing *w, const double lx[LIGHT_SETS], const SunlitFinds *sunlit,
-                      float prob[LIGHT_CHOICES])
-{
+                      float prob[LIGHT_CHOICES]) {
     double total = 0;
     for (int set = 0; set < LIGHT_SETS; set++) total += lx[set];
     for (int set = 0; set < LIGHT_SETS; set++) {
@@ -96,10 +89,9 @@ static void share_out(const Weighing *w, const double lx[LIGHT_SETS], const Sunl
 }
 
 /* A part that lets light through is lit from both of its sides, whichever is seen. */
-static void weigh_part(const Weighing *w, int part_id)
-{
+static void weigh_part(const Weighing *w, int part_id) {
     const Material *material = &w->scene->materials[w->scene->parts[part_id].material_id];
-    bool   is_sheet = material_sends_through(material);
+    bool is_sheet = material_sends_through(material);
     double lx[2][LIGHT_SETS] = {{0}};
     SunlitFinds finds[2] = {{{0}}};
     for (int set = 0; set < LIGHT_SETS; set++)
@@ -107,20 +99,17 @@ static void weigh_part(const Weighing *w, int part_id)
             lx[side][set] = side_illuminance(w, (LightSet)set, part_id, side);
     for (int set = 0; set < LIGHT_SETS && is_sheet; set++)
         lx[0][set] = lx[1][set] = lx[0][set] + lx[1][set];
-    for (int side = 0; side < 2; side++)
-        try_sunlit(w, part_id, side, &finds[is_sheet ? 0 : side]);
+    for (int side = 0; side < 2; side++) try_sunlit(w, part_id, side, &finds[is_sheet ? 0 : side]);
     if (is_sheet) finds[1] = finds[0];
     for (int side = 0; side < 2; side++) {
         int row = 2 * part_id + side;
         share_out(w, lx[side], &finds[side], w->selection.prob[row]);
-        for (int set = 0; set < LIGHT_SETS; set++)
-            w->selection.lx[row] += (float)lx[side][set];
+        for (int set = 0; set < LIGHT_SETS; set++) w->selection.lx[row] += (float)lx[side][set];
     }
 }
 
 /* Each part has its own rows and random numbers, so the threads decide nothing. */
-static void weigh_some(void *context, int item, int worker)
-{
+static void weigh_some(void *context, int item, int worker) {
     const Weighing *w = context;
     (void)worker;
     for (int part = TOGETHER * item; part < TOGETHER * (item + 1); part++)
@@ -128,14 +117,13 @@ static void weigh_some(void *context, int item, int worker)
             weigh_part(w, part);
 }
 
-static float open_sky(const Lights *lights)
-{
+static float open_sky(const Lights *lights) {
     LitPoint up = {.ns = {0, 1, 0}};
-    double   lx = 0;
+    double lx = 0;
     for (uint32_t i = 0; i < SKY_SAMPLES && lights_has(lights, LIGHTS_SKY); i++) {
         LightSample light;
-        Sampler     sampler = sampler_start(LIGHTS_SKY, 0, 0, i);
-        float       u[4];
+        Sampler sampler = sampler_start(LIGHTS_SKY, 0, 0, i);
+        float u[4];
         sampler_4d(&sampler, u);
         if (lights_sample(lights, LIGHTS_SKY, up, u, &light))
             lx += lights_sample_lx(lights, up, &light, u[3]);
@@ -144,14 +132,15 @@ static float open_sky(const Lights *lights)
 }
 
 LightSelection light_selection_build(const SunlitTools *tools, const SunlitMap *sunlit,
-                                     Arena *arena)
-{
-    int      parts = tools->scene->part_count;
-    size_t   rows = 2 * ((size_t)parts + 1);
-    Weighing work = {.scene = tools->scene, .bvh = tools->bvh, .lights = tools->lights,
-                     .tools = tools, .sunlit = sunlit};
-    work.selection.prob =
-        (float(*)[LIGHT_CHOICES])ARENA_NEW(arena, float, LIGHT_CHOICES * rows);
+                                     Arena *arena) {
+    int parts = tools->scene->part_count;
+    size_t rows = 2 * ((size_t)parts + 1);
+    Weighing work = {.scene = tools->scene,
+                     .bvh = tools->bvh,
+                     .lights = tools->lights,
+                     .tools = tools,
+                     .sunlit = sunlit};
+    work.selection.prob = (float(*)[LIGHT_CHOICES])ARENA_NEW(arena, float, LIGHT_CHOICES *rows);
     work.selection.lx = ARENA_NEW(arena, float, rows);
     for (int set = 0; set < LIGHT_SETS; set++)
         work.selection.all[set] = lights_has(tools->lights, (LightSet)set) ? 1.0f : 0.0f;

@@ -15,9 +15,9 @@
 typedef struct LightSelection {
     float (*prob)[LIGHT_CHOICES]; /* of sampling one; rows 2 part (front), 2 part + 1; 0: the
                                   set is empty */
-    float *lx;                 /* by all sets together, one a row */
-    float all[LIGHT_CHOICES];  /* where no part is known: 1 for every set that has lights */
-    float sky_cd_m2; /* the sky's mean: what it makes of a white plane that faces up */
+    float *lx;                    /* by all sets together, one a row */
+    float all[LIGHT_CHOICES];     /* where no part is known: 1 for every set that has lights */
+    float sky_cd_m2;              /* the sky's mean: what it makes of a white plane that faces up */
 } LightSelection;
 
 /* The same for any number of threads and on every machine whose rays hit the same. */
@@ -30,7 +30,6 @@ bool light_selection_arrives(const Bvh *bvh, LitPoint point, const LightSample *
 /* part_id may be NO_ID. is_back: seen from the side that the triangle's normal points away
  * from. The row lives as long as the selection. */
 static inline const float *light_selection_of_side(const LightSelection *selection, int part_id,
-                                                   bool is_back)
-{
+                                                   bool is_back) {
     return part_id == NO_ID ? selection->all : selection->prob[2 * part_id + is_back];
 }

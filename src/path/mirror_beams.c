@@ -10,81 +10,76 @@
 #include "path/sheets.h"
 #include "shaders/facets/microfacet.h"
 
-#define LEAST_RAYS 8       /* to every mirror's triangle, and by its share of all their area: */
+#define LEAST_RAYS 8 /* to every mirror's triangle, and by its share of all their area: */
 #define RAYS_BY_AREA 25000
-#define DARK_RAYS 2        /* that do not get through, of a small mirror: it is left alone */
-#define FIRST_ROOM 1024    /* of pairs, of glints */
-#define SHEETS_PASSED 16   /* by one ray behind its mirror */
-#define GENEROSITY 0.2f    /* times the root of mirrored over other light, of one mirror */
-#define LEAST 0.0075f      /* probability where no ray came */
-#define CUBES 128          /* along the longest edge of a part's box, and at least so large: */
+#define DARK_RAYS 2      /* that do not get through, of a small mirror: it is left alone */
+#define FIRST_ROOM 1024  /* of pairs, of glints */
+#define SHEETS_PASSED 16 /* by one ray behind its mirror */
+#define GENEROSITY 0.2f  /* times the root of mirrored over other light, of one mirror */
+#define LEAST 0.0075f    /* probability where no ray came */
+#define CUBES 128        /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
-#define LEAST_LX 1e-6f     /* of other light */
+#define LEAST_LX 1e-6f /* of other light */
 
 /* Where a ray of the sun lands behind a mirror. */
 typedef struct Glint {
     GlintPlace place;
-    float      lm;
+    float lm;
 } Glint;
 
 /* Finds of some of the rays; other threads may follow others. */
 typedef struct Beams {
     const BeamTools *tools;
-    Arena           *arena; /* nothing else allocates from it meanwhile */
-    MirrorPair      *pairs;
-    uint32_t         count, room;
-    Glint           *glints;
-    uint32_t         glint_count, glint_room;
-    const BeamSide  *sides; /* as in MirrorBeams */
+    Arena *arena; /* nothing else allocates from it meanwhile */
+    MirrorPair *pairs;
+    uint32_t count, room;
+    Glint *glints;
+    uint32_t glint_count, glint_room;
+    const BeamSide *sides;          /* as in MirrorBeams */
     const Wavelengths *wavelengths; /* of all rays: what they bring is an estimate */
 } Beams;
 
 /* One ray of the sun behind its mirror. */
 typedef struct Beam {
-    Ray      ray;
+    Ray ray;
     uint32_t triangle;
-    bool     is_rough;
-    float    lm;
+    bool is_rough;
+    float lm;
 } Beam;
 
 /* Rays of one mirror come one after the other. */
-static void add_pair(Beams *beams, MirrorPair pair)
-{
+static void add_pair(Beams *beams, MirrorPair pair) {
     for (uint32_t i = beams->count; i > 0 && beams->pairs[i - 1].triangle == pair.triangle; i--)
         if (!mirrors_compare_pairs(&beams->pairs[i - 1], &pair)) return;
     if (beams->count == beams->room) {
         beams->room = beams->room ? 2 * beams->room : FIRST_ROOM;
-        beams->pairs = ARENA_GROW(beams->arena, MirrorPair, beams->pairs, beams->count,
-                                  beams->room);
+        beams->pairs =
+            ARENA_GROW(beams->arena, MirrorPair, beams->pairs, beams->count, beams->room);
     }
     beams->pairs[beams->count++] = pair;
 }
 
-static void add_glint(Beams *beams, Glint glint)
-{
+static void add_glint(Beams *beams, Glint glint) {
     if (beams->glint_count == beams->glint_room) {
         beams->glint_room = beams->glint_room ? 2 * beams->glint_room : FIRST_ROOM;
-        beams->glints = ARENA_GROW(beams->arena, Glint, beams->glints, beams->glint_count,
-                                   beams->glint_room);
+        beams->glints =
+            ARENA_GROW(beams->arena, Glint, beams->glints, beams->glint_count, beams->glint_room);
     }
     beams->glints[beams->glint_count++] = glint;
 }
 
 /* A part that scatters more narrowly than a rough mirror finds the sun in it by itself. */
-static bool is_asked_of(const Scene *scene, int part_id, const Beam *beam)
-{
+static bool is_asked_of(const Scene *scene, int part_id, const Beam *beam) {
     const Material *m = &scene->materials[scene->parts[part_id].material_id];
     return !beam->is_rough || m->roughness * m->roughness > 2 * GLINT_ALPHA;
 }
 
 /* All parts along the ray, up to one that stops it. */
-static void follow(Beams *beams, Beam beam)
-{
+static void follow(Beams *beams, Beam beam) {
     const Scene *scene = beams->tools->scene;
     Hit hit;
     add_pair(beams, (MirrorPair){NO_ID, beam.is_rough, beam.triangle});
-    for (int i = 0; i < SHEETS_PASSED && bvh_intersect(beams->tools->bvh, beam.ray, 0, &hit);
-         i++) {
+    for (int i = 0; i < SHEETS_PASSED && bvh_intersect(beams->tools->bvh, beam.ray, 0, &hit); i++) {
         TrianglePoint point = triangle_point(scene, hit.triangle, hit.u, hit.v);
         int part_id = (int)scene->triangles[hit.triangle].part_id;
         if (is_asked_of(scene, part_id, &beam)) {
@@ -100,9 +95,8 @@ static void follow(Beams *beams, Beam beam)
 
 /* Luminous flux that the sun's ray takes on, per m2 of the mirror; of a rough one about. */
 static double reflected_lx(const Lights *lights, const Surface *mirror, const LightSample *sun,
-                           Vec3 local_wo, const Wavelengths *wavelengths)
-{
-    float    xyz[3] = {0};
+                           Vec3 local_wo, const Wavelengths *wavelengths) {
+    float xyz[3] = {0};
     Spectrum smooth = bsdf_mirror(&mirror->bsdf, local_wo);
     Spectrum share = spectrum_is_zero(smooth) ? bsdf_albedo(&mirror->bsdf, local_wo) : smooth;
     share *= spectrum_all(fabsf(vec3_dot(mirror->ng, sun->wi)) / sun->pdf);
@@ -111,8 +105,7 @@ static double reflected_lx(const Lights *lights, const Surface *mirror, const Li
 }
 
 /* A rough mirror's facet, leaning as GGX facets do. */
-static Vec3 facet_normal(Vec3 ns, float alpha, Vec2 u)
-{
+static Vec3 facet_normal(Vec3 ns, float alpha, Vec2 u) {
     Frame frame = frame_from_z(ns);
     float sine, cosine, lean = alpha * sqrtf(u.x / (1 - u.x));
     sincos_turns(u.y, &sine, &cosine);
@@ -122,16 +115,15 @@ static Vec3 facet_normal(Vec3 ns, float alpha, Vec2 u)
 /* A mirror's triangle that rays are sent to; alpha 0: smooth. */
 typedef struct Aim {
     uint32_t triangle;
-    float    alpha;
-    double   ray_m2; /* that one ray stands for */
+    float alpha;
+    double ray_m2; /* that one ray stands for */
 } Aim;
 
 /* The sampler's numbers in turn: two for nothing, place, direction, facet. False: no sun comes
  * to the mirror there, or it goes nowhere. */
-static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler)
-{
+static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler) {
     const BeamTools *tools = beams->tools;
-    Surface     mirror;
+    Surface mirror;
     LightSample sun;
     float first[4], last[4];
     sampler_4d(&sampler, first);
@@ -141,7 +133,7 @@ static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler)
     if (at.x + at.y > 1) at = (Vec2){1 - at.x, 1 - at.y};
     Hit hit = {0, at.x, at.y, aim->triangle};
     TrianglePoint point = triangle_point(tools->scene, aim->triangle, at.x, at.y);
-    LitPoint      place = {point.position, point.ns, true};
+    LitPoint place = {point.position, point.ns, true};
     if (!lights_sample(tools->lights, LIGHTS_SUN, place, u, &sun)) return false;
     Vec3 n = aim->alpha > 0 ? facet_normal(point.ns, aim->alpha, lean) : point.ns;
     Vec3 r = vec3_sub(vec3_scale(n, 2 * vec3_dot(n, sun.wi)), sun.wi);
@@ -153,13 +145,13 @@ static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler)
     double lx = reflected_lx(tools->lights, &mirror, &sun, frame_to_local(&mirror.frame, r),
                              beams->wavelengths);
     if (!(lx > 0)) return false;
-    follow(beams, (Beam){{origin, r, 0, INFINITY}, aim->triangle, aim->alpha > 0,
-                         (float)(lx * aim->ray_m2)});
+    follow(
+        beams,
+        (Beam){{origin, r, 0, INFINITY}, aim->triangle, aim->alpha > 0, (float)(lx * aim->ray_m2)});
     return true;
 }
 
-static double area_m2(const Scene *scene, uint32_t triangle)
-{
+static double area_m2(const Scene *scene, uint32_t triangle) {
     Vec3 p[3];
     for (int i = 0; i < 3; i++) p[i] = scene_corner(scene, triangle, i);
     return 0.5 * (double)vec3_length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
@@ -167,9 +159,8 @@ static double area_m2(const Scene *scene, uint32_t triangle)
 
 /* Sends more rays to large triangles; a small one that is dark at two well spread places is
  * left alone. all_m2: area of all mirrors. */
-static void send_rays(Beams *beams, Aim aim, double all_m2)
-{
-    double   own = area_m2(beams->tools->scene, aim.triangle);
+static void send_rays(Beams *beams, Aim aim, double all_m2) {
+    double own = area_m2(beams->tools->scene, aim.triangle);
     uint32_t rays = LEAST_RAYS + (uint32_t)(RAYS_BY_AREA * own / all_m2), sent = 0;
     aim.ray_m2 = own / rays;
     for (uint32_t k = 0; k < rays && (sent || k < DARK_RAYS || rays > 2 * LEAST_RAYS); k++)
@@ -178,12 +169,11 @@ static void send_rays(Beams *beams, Aim aim, double all_m2)
 
 /* ---- all rays ---------------------------------------------------------------------------- */
 
-#define PIECES 64 /* of the rays; the same for any number of threads */
+#define PIECES 64                      /* of the rays; the same for any number of threads */
 #define WORKER_BYTES ((size_t)1 << 30) /* address space: what is not touched costs nothing */
 
 /* Lists every mirror's triangle: as a smooth one, then as a rough one, if its material is. */
-static Aim *list_aims(const Scene *scene, int *count, double *all_m2, Arena *arena)
-{
+static Aim *list_aims(const Scene *scene, int *count, double *all_m2, Arena *arena) {
     Arena scratch = *arena;
     bool *is_smooth_one = ARENA_NEW(&scratch, bool, scene->material_count + 1);
     for (int i = 0; i < scene->material_count; i++)
@@ -192,7 +182,7 @@ static Aim *list_aims(const Scene *scene, int *count, double *all_m2, Arena *are
     *count = 0;
     *all_m2 = 0;
     for (uint32_t i = 0; i < scene->triangle_count; i++) {
-        int   id = scene_part(scene, i)->material_id;
+        int id = scene_part(scene, i)->material_id;
         float alpha = mirrors_rough_alpha(&scene->materials[id]);
         if (is_smooth_one[id] || alpha > 0) *all_m2 += area_m2(scene, i);
         if (is_smooth_one[id]) aims[(*count)++] = (Aim){i, 0, 0};
@@ -202,26 +192,23 @@ static Aim *list_aims(const Scene *scene, int *count, double *all_m2, Arena *are
 }
 
 typedef struct RayWork {
-    Beams     *pieces;
-    Arena     *arenas; /* one a worker */
+    Beams *pieces;
+    Arena *arenas; /* one a worker */
     const Aim *aims;
-    int        count;
-    double     all_m2;
+    int count;
+    double all_m2;
 } RayWork;
 
-static void send_piece(void *user, int item, int worker)
-{
+static void send_piece(void *user, int item, int worker) {
     const RayWork *work = user;
     work->pieces[item].arena = &work->arenas[worker];
     int first = (int)((int64_t)work->count * item / PIECES);
     int end = (int)((int64_t)work->count * (item + 1) / PIECES);
-    for (int i = first; i < end; i++)
-        send_rays(&work->pieces[item], work->aims[i], work->all_m2);
+    for (int i = first; i < end; i++) send_rays(&work->pieces[item], work->aims[i], work->all_m2);
 }
 
 /* Joins the pieces in order: the result is that of a single thread. */
-static void join_pieces(const Beams *pieces, Beams *out, GlintMap *map, Arena *arena)
-{
+static void join_pieces(const Beams *pieces, Beams *out, GlintMap *map, Arena *arena) {
     for (int p = 0; p < PIECES; p++) out->count += pieces[p].count;
     out->pairs = ARENA_NEW(arena, MirrorPair, out->count);
     uint32_t count = 0;
@@ -232,18 +219,17 @@ static void join_pieces(const Beams *pieces, Beams *out, GlintMap *map, Arena *a
             glint_map_add(map, &pieces[p].glints[i].place, pieces[p].glints[i].lm, arena);
 }
 
-static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena)
-{
-    Beams   pieces[PIECES];
+static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena) {
+    Beams pieces[PIECES];
     RayWork work = {.pieces = pieces};
-    int     threads = bvh_threads(beams->tools->bvh);
-    Arena   scratch = arena_reserve(WORKER_BYTES);
+    int threads = bvh_threads(beams->tools->bvh);
+    Arena scratch = arena_reserve(WORKER_BYTES);
     work.arenas = ARENA_NEW(&scratch, Arena, threads);
     for (int i = 0; i < threads; i++) work.arenas[i] = arena_reserve(WORKER_BYTES);
     work.aims = list_aims(beams->tools->scene, &work.count, &work.all_m2, &scratch);
     for (int p = 0; p < PIECES; p++)
-        pieces[p] = (Beams){.tools = beams->tools, .sides = beams->sides,
-                            .wavelengths = beams->wavelengths};
+        pieces[p] = (Beams){
+            .tools = beams->tools, .sides = beams->sides, .wavelengths = beams->wavelengths};
     parallel_for(threads, PIECES, send_piece, &work);
     join_pieces(pieces, beams, map, arena);
     for (int i = 0; i < threads; i++) arena_release(&work.arenas[i]);
@@ -251,8 +237,7 @@ static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena)
 }
 
 /* The longest edge of the box about a part. */
-static float longest_edge(const Scene *scene, const Part *part)
-{
+static float longest_edge(const Scene *scene, const Part *part) {
     Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
     for (uint32_t i = 0; i < 3 * part->triangle_count; i++) {
         Vec3 p = scene_corner(scene, part->first_triangle + i / 3, (int)(i % 3));
@@ -264,15 +249,14 @@ static float longest_edge(const Scene *scene, const Part *part)
 }
 
 /* The two sides of a part that lets light through share a row: it is lit from both. */
-static void measure_sides(const Scene *scene, BeamSide *sides)
-{
+static void measure_sides(const Scene *scene, BeamSide *sides) {
     for (int id = 0; id < scene->part_count; id++) {
         const Part *part = &scene->parts[id];
-        bool  is_sheet = material_sends_through(&scene->materials[part->material_id]);
+        bool is_sheet = material_sends_through(&scene->materials[part->material_id]);
         float edge = fmaxf(longest_edge(scene, part) / CUBES, LEAST_EDGE_M);
         for (int k = 0; k < 2; k++)
-            sides[2 * id + k] = (BeamSide){.row = (uint32_t)(2 * id + (is_sheet ? 0 : k)),
-                                           .edge_m = edge};
+            sides[2 * id + k] =
+                (BeamSide){.row = (uint32_t)(2 * id + (is_sheet ? 0 : k)), .edge_m = edge};
     }
 }
 
@@ -281,15 +265,14 @@ static void measure_sides(const Scene *scene, BeamSide *sides)
  * time grows about as the root of the mirrors sampled. Measured over views of both cockpits the
  * root of c does better than c, which is known by a few rays. */
 static void weigh_sides(const Beams *beams, const LightSelection *selection, BeamSide *sides,
-                        Arena scratch)
-{
+                        Arena scratch) {
     const Scene *scene = beams->tools->scene;
     uint32_t *mirrors = ARENA_NEW(&scratch, uint32_t, scene->part_count + 1);
     for (uint32_t i = 0; i < beams->count; i++)
         if (beams->pairs[i].part_id != NO_ID) mirrors[beams->pairs[i].part_id]++;
     for (int row = 0; row < 2 * scene->part_count; row++) {
         BeamSide *side = &sides[row];
-        float     time = sqrtf(sqrtf((float)mirrors[row / 2]));
+        float time = sqrtf(sqrtf((float)mirrors[row / 2]));
         if (!mirrors[row / 2]) continue;
         side->least = LEAST;
         side->by_root = GENEROSITY / (time * sqrtf(fmaxf(selection->lx[row], LEAST_LX)));
@@ -297,25 +280,24 @@ static void weigh_sides(const Beams *beams, const LightSelection *selection, Bea
 }
 
 MirrorBeams mirror_beams_build(const BeamTools *tools, const LightSelection *selection,
-                               Arena *arena)
-{
+                               Arena *arena) {
     if (!lights_has(tools->lights, LIGHTS_SUN)) return (MirrorBeams){.mirrors = NULL};
     BeamSide *sides = ARENA_NEW(arena, BeamSide, 2 * ((size_t)tools->scene->part_count + 1));
     Wavelengths middle;
-    Beams     beams = {.tools = tools, .sides = sides, .wavelengths = &middle};
-    GlintMap  map = {0};
+    Beams beams = {.tools = tools, .sides = sides, .wavelengths = &middle};
+    GlintMap map = {0};
     wavelengths_sample(0.5f, &middle);
     measure_sides(tools->scene, sides);
     send_all_rays(&beams, &map, arena);
     if (!beams.count) return (MirrorBeams){.mirrors = NULL};
     qsort(beams.pairs, beams.count, sizeof *beams.pairs, mirrors_compare_pairs);
     weigh_sides(&beams, selection, sides, *arena);
-    return (MirrorBeams){mirrors_build(tools->scene, beams.pairs, beams.count,
-                                       bvh_threads(tools->bvh), arena), sides, map};
+    return (MirrorBeams){
+        mirrors_build(tools->scene, beams.pairs, beams.count, bvh_threads(tools->bvh), arena),
+        sides, map};
 }
 
-float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position)
-{
+float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position) {
     if (part_id == NO_ID) return 1;
     const BeamSide *side = &beams->sides[2 * part_id + is_back];
     GlintPlace place = {side->row, side->edge_m, position};

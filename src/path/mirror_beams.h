@@ -17,21 +17,21 @@
 /* How often one side of a part samples its mirrors. */
 typedef struct BeamSide {
     uint32_t row; /* in the glint map */
-    float    edge_m;
-    float    least;   /* probability of sampling where no ray came; 0: it has no mirrors */
-    float    by_root; /* more of it by the root of what the rays bring, lx */
+    float edge_m;
+    float least;   /* probability of sampling where no ray came; 0: it has no mirrors */
+    float by_root; /* more of it by the root of what the rays bring, lx */
 } BeamSide;
 
 typedef struct MirrorBeams {
-    const Mirrors  *mirrors; /* NULL: none sends the sun anywhere */
-    const BeamSide *sides;   /* rows as LightSelection's */
-    GlintMap        map;     /* where the rays came */
+    const Mirrors *mirrors; /* NULL: none sends the sun anywhere */
+    const BeamSide *sides;  /* rows as LightSelection's */
+    GlintMap map;           /* where the rays came */
 } MirrorBeams;
 
 typedef struct BeamTools {
-    const Scene         *scene;
-    const Bvh           *bvh;
-    const Lights        *lights;
+    const Scene *scene;
+    const Bvh *bvh;
+    const Lights *lights;
     const SurfaceTables *tables;
 } BeamTools;
 

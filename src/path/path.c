@@ -23,8 +23,7 @@ typedef enum Step { STEP_ENDED, STEP_PASSED, STEP_SCATTERED } Step;
  * The square root spares the light that reaches shadows via dark leather. Measured over
  * both cockpits, a guided path is worth more than that: what it finds costs little beside the
  * vertices before it. */
-static bool roulette(PathState *path)
-{
+static bool roulette(PathState *path) {
     if (path->bounce < ROULETTE_FIRST_BOUNCE) return true;
     numbers_for(path, NUMBERS_ROULETTE);
     float share = spectrum_max_lane(path->throughput) / path->bright;
@@ -35,14 +34,12 @@ static bool roulette(PathState *path)
 }
 
 /* Does light via the first surface count, however dark that is? */
-static bool asks_the_first(const PathState *path, const Surface *surface)
-{
+static bool asks_the_first(const PathState *path, const Surface *surface) {
     return path->context->is_probe || surface_is_display(path->context->scene, surface);
 }
 
 /* At the first surface: what is found from now on came via a display's mirror. */
-static void note_mirror(PathState *path, const Surface *surface, const BsdfSample *next)
-{
+static void note_mirror(PathState *path, const Surface *surface, const BsdfSample *next) {
     PathFirst *first = &path->first;
     bool is_mirror = next->is_delta && surface_is_display(path->context->scene, surface);
     if (!first->is_awaited || !is_mirror) return;
@@ -51,8 +48,7 @@ static void note_mirror(PathState *path, const Surface *surface, const BsdfSampl
 }
 
 /* The path crosses the surface towards wi; of a solid it is inside or outside then. */
-static void cross(PathState *path, const Surface *surface, Vec3 local_wi, Vec3 wi)
-{
+static void cross(PathState *path, const Surface *surface, Vec3 local_wi, Vec3 wi) {
     bool refracts = bsdf_is(&surface->bsdf, BSDF_REFRACTS);
     bool is_inside = refracts ? local_wi.z < 0 : vec3_dot(wi, surface->ng) < 0;
     const Material *m = &path->context->scene->materials[surface->material_id];
@@ -61,20 +57,24 @@ static void cross(PathState *path, const Surface *surface, Vec3 local_wi, Vec3 w
 }
 
 /* Turns the path into direction next->wi (local) at a vertex that scatters. */
-static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSample *next)
-{
+static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSample *next) {
     Vec3 wi = frame_to_world(&surface->frame, next->wi), start;
     if (!direct_sides_agree(surface, next->wi, wi, wo)) return STEP_ENDED;
     if (next->along == 0) start = ray_start(&surface->point, wi);
     else if (!pane_image_start(path, surface, wi, next->along, &start)) return STEP_ENDED;
     Spectrum sun = direct_sun_share(path, surface, wo, next);
-    bool     samples_map = !next->is_delta && sunlit_is_sampled(path, surface);
+    bool samples_map = !next->is_delta && sunlit_is_sampled(path, surface);
     SunlitPair before = {.prob = 0};
     if (path->last.samples_map && !next->is_delta) before = emitted_pair(path, surface);
     if (next->wi.z * surface->local_wo.z < 0) cross(path, surface, next->wi, wi);
     collect_turn(path, surface, wo, next);
-    path->last = (PathVertex){emitted_lit_point(path, surface), surface->part_id, next->pdf,
-                              next->is_delta, samples_map, before, sun};
+    path->last = (PathVertex){emitted_lit_point(path, surface),
+                              surface->part_id,
+                              next->pdf,
+                              next->is_delta,
+                              samples_map,
+                              before,
+                              sun};
     path->straight = path->sheets_from = 0;
     sheets_none(path->stack);
     note_mirror(path, surface, next);
@@ -88,14 +88,12 @@ static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
 
 /* Chooses where the path goes from the surface, by the spare guiding. Windows can be passed
  * after the last bounce. */
-static Step scatter(PathState *path, const Surface *surface, Vec3 wo)
-{
+static Step scatter(PathState *path, const Surface *surface, Vec3 wo) {
     float u[4];
     BsdfSample next;
     numbers_for(path, NUMBERS_SCATTER);
     sampler_4d(path->sampler, u);
-    if (!collect_choose(path, surface, &next) && !guiding_sample(path->spare, surface, u,
-                                                                 &next))
+    if (!collect_choose(path, surface, &next) && !guiding_sample(path->spare, surface, u, &next))
         return STEP_ENDED;
     path_weigh(path, surface, next.weight);
     collect_leave(path, surface, wo, &next);
@@ -115,8 +113,7 @@ static Step scatter(PathState *path, const Surface *surface, Vec3 wo)
 /* ---- what it meets ----------------------------------------------------------------------- */
 
 /* The next surface along the ray; those that lie in one plane come one after the other. */
-static bool next_hit(PathState *path, Hit *hit)
-{
+static bool next_hit(PathState *path, Hit *hit) {
     const PathContext *context = path->context;
     SheetStack *stack = path->stack;
     if (stack->next < stack->count) {
@@ -126,8 +123,7 @@ static bool next_hit(PathState *path, Hit *hit)
     *(path->bounce ? &path->statistics->bounce_rays : &path->statistics->camera_rays) += 1;
     if (!bvh_intersect(context->bvh, path->ray, path->sheets_from, hit)) return false;
     path->straight += hit->t;
-    if (path->medium_id != NO_ID)
-        direct_absorb(path, path->medium_id, hit->t, &path->throughput);
+    if (path->medium_id != NO_ID) direct_absorb(path, path->medium_id, hit->t, &path->throughput);
     sheets_none(stack);
     if (!bvh_has_sheets(context->bvh) || hit->t < path->sheets_from) return true;
     sheets_at(context->scene, context->bvh, hit, path->ray.direction, stack);
@@ -135,16 +131,14 @@ static bool next_hit(PathState *path, Hit *hit)
     return true;
 }
 
-static void see_first(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo)
-{
+static void see_first(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo) {
     if (!path->first.is_awaited) return;
     path->first.through = path->throughput;
     path->first.through_is_grey = path->is_grey;
     collect_see(path, surface, wo, hit->triangle);
 }
 
-static void record_first(PathState *path, const Hit *hit, float distance, Vec3 wo)
-{
+static void record_first(PathState *path, const Hit *hit, float distance, Vec3 wo) {
     PathFirst *first = &path->first;
     if (!first->is_awaited) return;
     first->is_awaited = false;
@@ -155,8 +149,7 @@ static void record_first(PathState *path, const Hit *hit, float distance, Vec3 w
 }
 
 /* At a surface that is no hole: adds its emission and its light samples, then goes on. */
-static Step shade(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo)
-{
+static Step shade(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo) {
     Guiding *guiding = path->spare;
     if (!path->manner.is_dark) emitted_add(path, surface, hit, wo);
     guiding_at(path->context, surface, wo, path->bounce, guiding);
@@ -170,9 +163,8 @@ static Step shade(PathState *path, const Surface *surface, const Hit *hit, Vec3 
 
 static void walk(PathState *path);
 
-static Step show_sheet(PathState *sheet, const Surface *surface, const Hit *hit, Vec3 wo)
-{
-    Surface    pane;
+static Step show_sheet(PathState *sheet, const Surface *surface, const Hit *hit, Vec3 wo) {
+    Surface pane;
     BsdfSample mirror;
     if (surface->alpha < 1) return shade(sheet, surface, hit, wo);
     if (pane_shows_itself(surface, &pane)) return shade(sheet, &pane, hit, wo);
@@ -182,8 +174,7 @@ static Step show_sheet(PathState *sheet, const Surface *surface, const Hit *hit,
 
 /* First the light of a thin sheet itself: its mirror image, or its part that is no hole; then
  * what lies behind it. */
-static void follow_both(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo)
-{
+static void follow_both(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo) {
     SheetRoom room;
     PathState sheet;
     if (sheet_is_shown(path, surface, &room, &sheet)) {
@@ -197,17 +188,16 @@ static void follow_both(PathState *path, const Surface *surface, const Hit *hit,
  *     L(x, wo) = Le(x, wo) + integral over wi of f(x, wo, wi) |cos wi| L(y, -wi)
  * A step adds Le and what light samples find of the integral, both by path_gather(), and
  * follows the rest in one direction: the throughput times f |cos wi| / pdf. */
-static void walk(PathState *path)
-{
+static void walk(PathState *path) {
     const PathContext *context = path->context;
     for (int steps = 0; steps < PASSES_MAX + context->max_bounces; steps++) {
-        Hit     hit;
+        Hit hit;
         Surface surface;
         if (!next_hit(path, &hit)) {
             emitted_distant(path);
             return;
         }
-        Vec3  wo = vec3_neg(path->ray.direction);
+        Vec3 wo = vec3_neg(path->ray.direction);
         float distance = path->straight;
         path->steps++;
         surface_at(context->scene, context->tables, &hit, wo, path->wavelengths, &surface);
@@ -231,25 +221,24 @@ static void walk(PathState *path)
     }
 }
 
-void path_follow(PathState *path, const Surface *surface, Vec3 wo, const BsdfSample *next)
-{
+void path_follow(PathState *path, const Surface *surface, Vec3 wo, const BsdfSample *next) {
     if (turn(path, surface, wo, next) == STEP_SCATTERED) walk(path);
 }
 
 /* ---- contexts ---------------------------------------------------------------------------- */
 
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
-                               int max_bounces, Arena *arena)
-{
-    PathContext context = {.scene = scene, .bvh = bvh, .max_bounces = max_bounces,
+                               int max_bounces, Arena *arena) {
+    PathContext context = {.scene = scene,
+                           .bvh = bvh,
+                           .max_bounces = max_bounces,
                            .tables = surface_tables_build(scene, false, arena),
                            .strategy = PATH_MIS};
     return path_context_relight(&context, lights, arena);
 }
 
-PathContext path_context_relight(const PathContext *before, const Lights *lights, Arena *arena)
-{
-    PathContext     context = *before;
+PathContext path_context_relight(const PathContext *before, const Lights *lights, Arena *arena) {
+    PathContext context = *before;
     const BeamTools tools = {context.scene, context.bvh, lights, context.tables};
     context.lights = lights;
     context.guide = NULL;
@@ -265,32 +254,41 @@ PathContext path_context_relight(const PathContext *before, const Lights *lights
 /* Memory that a PathState points to. */
 typedef struct PathRoom {
     SheetStack stack;
-    Guiding    guidings[2];
+    Guiding guidings[2];
 } PathRoom;
 
-static PathState state_of(const PathStart *start, PathRoom *room)
-{
+static PathState state_of(const PathStart *start, PathRoom *room) {
     start->statistics->samples++;
     sheets_none(&room->stack);
     guiding_none(start->context, &room->guidings[0]);
-    return (PathState){
-        .context = start->context, .wavelengths = start->wavelengths,
-        .sampler = start->sampler, .statistics = start->statistics,
-        .collector = start->collector, .manner = start->manner,
-        .throughput = spectrum_all(1), .is_grey = true, .bright = 1,
-        .gathered.radiance = spectrum_all(0),
-        .last = {.at.ns = vec3(0, 0, 1), .is_delta = true, .part_id = NO_ID,
-                 .sun_share = spectrum_all(1)},
-        .guiding = &room->guidings[0], .spare = &room->guidings[1], .splits_left = SPLITS,
-        .medium_id = NO_ID, .stack = &room->stack};
+    return (PathState){.context = start->context,
+                       .wavelengths = start->wavelengths,
+                       .sampler = start->sampler,
+                       .statistics = start->statistics,
+                       .collector = start->collector,
+                       .manner = start->manner,
+                       .throughput = spectrum_all(1),
+                       .is_grey = true,
+                       .bright = 1,
+                       .gathered.radiance = spectrum_all(0),
+                       .last = {.at.ns = vec3(0, 0, 1),
+                                .is_delta = true,
+                                .part_id = NO_ID,
+                                .sun_share = spectrum_all(1)},
+                       .guiding = &room->guidings[0],
+                       .spare = &room->guidings[1],
+                       .splits_left = SPLITS,
+                       .medium_id = NO_ID,
+                       .stack = &room->stack};
 }
 
-static void report(const PathState *path, PathResult *out)
-{
+static void report(const PathState *path, PathResult *out) {
     const PathFirst *first = &path->first;
-    *out = (PathResult){.hit = first->is_met, .first = first->hit,
-                        .direction = first->direction, .through = first->through,
-                         .through_is_grey = first->through_is_grey};
+    *out = (PathResult){.hit = first->is_met,
+                        .first = first->hit,
+                        .direction = first->direction,
+                        .through = first->through,
+                        .through_is_grey = first->through_is_grey};
     path_light_to_xyz(&path->gathered, path->wavelengths, out->xyz);
     if (!first->by_mirror) return;
     PathLight since = path->gathered;
@@ -298,9 +296,8 @@ static void report(const PathState *path, PathResult *out)
     path_light_to_xyz(&since, path->wavelengths, out->mirror);
 }
 
-void path_from_ray(const PathStart *start, Ray ray, PathResult *out)
-{
-    PathRoom  room;
+void path_from_ray(const PathStart *start, Ray ray, PathResult *out) {
+    PathRoom room;
     PathState path = state_of(start, &room);
     path.ray = ray;
     path.first.is_awaited = out != NULL;
@@ -317,10 +314,9 @@ void path_from_ray(const PathStart *start, Ray ray, PathResult *out)
 }
 
 /* A white surface sends back a pi-th part of its illuminance: the throughput begins at pi. */
-void path_from_point(const PathStart *start, LitPoint point, float xyz_lx[3])
-{
-    PathRoom  room;
-    Surface   head;
+void path_from_point(const PathStart *start, LitPoint point, float xyz_lx[3]) {
+    PathRoom room;
+    Surface head;
     PathState path = state_of(start, &room);
     surface_white(path.context->tables, point.position, point.ns, &head);
     path.throughput = spectrum_all(PI_F);

@@ -20,26 +20,26 @@ PathContext path_context_relight(const PathContext *before, const Lights *lights
 
 /* Where a path begins, and its inputs. */
 typedef struct PathStart {
-    const PathContext    *context;
-    const Wavelengths    *wavelengths;
-    Sampler              *sampler;    /* behind the numbers that chose ray and wavelengths */
-    PathStatistics       *statistics; /* added to */
-    struct PathCollector *collector;  /* NULL: the light alone is requested */
-    PathManner            manner;
-    const LitPoint       *from; /* the ray begins there, as if the point had scattered it, by a
-                                   density of 1 per steradian; NULL: it comes to an eye */
+    const PathContext *context;
+    const Wavelengths *wavelengths;
+    Sampler *sampler;                /* behind the numbers that chose ray and wavelengths */
+    PathStatistics *statistics;      /* added to */
+    struct PathCollector *collector; /* NULL: the light alone is requested */
+    PathManner manner;
+    const LitPoint *from; /* the ray begins there, as if the point had scattered it, by a
+                             density of 1 per steradian; NULL: it comes to an eye */
 } PathStart;
 
 /* The result of one path. */
 typedef struct PathResult {
-    float    xyz[3];    /* cd m^-2, along the ray against its direction */
-    bool     hit;       /* the ray met a surface (windows passed and holes do not count): */
-    Hit      first;     /* t counted from the ray's origin */
-    Vec3     direction; /* of the ray there */
-    Spectrum through;   /* share of its light that the panes before it let pass, per lane; */
-    bool     through_is_grey; /* these treat all wavelengths alike */
-    float    mirror[3]; /* of xyz: what came via that surface's mirror, if it is a
-                           display; else 0 */
+    float xyz[3];         /* cd m^-2, along the ray against its direction */
+    bool hit;             /* the ray met a surface (windows passed and holes do not count): */
+    Hit first;            /* t counted from the ray's origin */
+    Vec3 direction;       /* of the ray there */
+    Spectrum through;     /* share of its light that the panes before it let pass, per lane; */
+    bool through_is_grey; /* these treat all wavelengths alike */
+    float mirror[3];      /* of xyz: what came via that surface's mirror, if it is a
+                             display; else 0 */
 } PathResult;
 
 /* Radiance along `ray` as tristimulus values, and the first surface that the eye sees there.

@@ -17,26 +17,25 @@
 typedef enum PathStrategy { PATH_MIS, PATH_LIGHTS_ONLY, PATH_BSDF_ONLY } PathStrategy;
 
 typedef struct PathContext {
-    const Scene         *scene;
-    const Bvh           *bvh;
-    const Lights        *lights;
+    const Scene *scene;
+    const Bvh *bvh;
+    const Lights *lights;
     const SurfaceTables *tables;
-    MirrorBeams          beams; /* without mirrors: the sun in them is left to chance */
-    SunlitMap            sunlit; /* without nodes: what the sun lights is left to chance */
-    LightSelection       selection;
-    int                  max_bounces; /* 0: emission only, 1: plus direct light */
-    PathStrategy         strategy;
-    const LightGuide    *guide; /* guides wide scattering; NULL: the surfaces alone decide */
+    MirrorBeams beams; /* without mirrors: the sun in them is left to chance */
+    SunlitMap sunlit;  /* without nodes: what the sun lights is left to chance */
+    LightSelection selection;
+    int max_bounces; /* 0: emission only, 1: plus direct light */
+    PathStrategy strategy;
+    const LightGuide *guide;   /* guides wide scattering; NULL: the surfaces alone decide */
     bool without_mirrored_sun; /* the sun in the mirror of a display that the eye sees is left
                                   out: the caller adds it */
-    bool is_probe; /* light via the first surface counts, however dark that is: roulette
-                      compares with the throughput behind it; in a frame only behind displays */
-    const PolarisedEye *eye; /* rays from it carry how light is polarised; NULL: unpolarised */
+    bool is_probe;             /* light via the first surface counts, however dark that is: roulette
+                                  compares with the throughput behind it; in a frame only behind displays */
+    const PolarisedEye *eye;   /* rays from it carry how light is polarised; NULL: unpolarised */
 } PathContext;
 
 /* Is there anything that this choice may sample? */
-static inline bool path_context_has(const PathContext *context, int choice)
-{
+static inline bool path_context_has(const PathContext *context, int choice) {
     return choice == LIGHTS_SUNLIT ? context->sunlit.nodes != NULL
                                    : lights_has(context->lights, (LightSet)choice);
 }

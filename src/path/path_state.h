@@ -14,27 +14,24 @@
  * on which nothing depended on wavelength keeps its measured XYZ: lanes would only blur it. */
 typedef struct PathLight {
     Spectrum radiance; /* W m^-2 sr^-1 nm^-1 per lane */
-    float    xyz[3];   /* cd m^-2 */
+    float xyz[3];      /* cd m^-2 */
 } PathLight;
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-static inline void path_light_add(PathLight *sum, const PathLight *more)
-{
+static inline void path_light_add(PathLight *sum, const PathLight *more) {
     sum->radiance += more->radiance;
     for (int i = 0; i < 3; i++) sum->xyz[i] += more->xyz[i];
 }
 
-static inline void path_light_take(PathLight *from, const PathLight *part)
-{
+static inline void path_light_take(PathLight *from, const PathLight *part) {
     from->radiance -= part->radiance;
     for (int i = 0; i < 3; i++) from->xyz[i] -= part->xyz[i];
 }
 
-static inline void path_light_to_xyz(const PathLight *gathered,
-                                     const Wavelengths *wavelengths, float xyz[3])
-{
+static inline void path_light_to_xyz(const PathLight *gathered, const Wavelengths *wavelengths,
+                                     float xyz[3]) {
     for (int i = 0; i < 3; i++) xyz[i] = gathered->xyz[i];
     spectrum_add_xyz(wavelengths, gathered->radiance, xyz);
 }
@@ -46,7 +43,7 @@ typedef struct PathStatistics {
     uint64_t samples;
     uint64_t camera_rays, bounce_rays, shadow_rays;
     uint64_t sky_finds; /* ways on which light of the sky reached a vertex */
-    double   sent_on;   /* of a probe's paths: the share of the light from where they go that
+    double sent_on;     /* of a probe's paths: the share of the light from where they go that
                            their first vertex sends to the eye, a sum */
 } PathStatistics;
 
@@ -62,7 +59,7 @@ enum {
     NUMBERS_ROULETTE = NUMBERS_SCATTER + 2,
     NUMBERS_STEP
 };
-#define NUMBERS_MAP 4 /* a step's own, behind those of all steps: of the sunlit map */
+#define NUMBERS_MAP 4   /* a step's own, behind those of all steps: of the sunlit map */
 #define NUMBERS_FIRST 2 /* before them: the place in the pixel, the wavelengths */
 #define STEPS_FAR 4096  /* more than a path meets */
 #define SPLITS 2        /* thin sheets along an eye's ray that are followed both ways */
@@ -70,96 +67,90 @@ enum {
 /* A vertex and the opaque surface that its path met next: how the vertex might have sampled
  * that from the sun's side (sunlit.h). */
 typedef struct SunlitPair {
-    float    prob; /* that it sampled the map; 0: it did not */
-    float    own;  /* sr^-1, density with which chance chose the direction */
-    float    sr;   /* m^2 sr^-1: density of directions by one of the surface's area */
+    float prob; /* that it sampled the map; 0: it did not */
+    float own;  /* sr^-1, density with which chance chose the direction */
+    float sr;   /* m^2 sr^-1: density of directions by one of the surface's area */
     LitPoint from;
-    Vec3     at, ng; /* of the surface; m, and unit */
+    Vec3 at, ng; /* of the surface; m, and unit */
 } SunlitPair;
 
 /* The last vertex that scattered, and how the path went on from there. */
 typedef struct PathVertex {
     LitPoint at;
-    int      part_id;   /* NO_ID: an eye or a luxmeter */
-    float    pdf;       /* with which the direction was chosen, sr^-1 */
-    bool     is_delta;  /* no light sample could have found what comes now */
-    bool     samples_map; /* where it could (sunlit.h) */
+    int part_id;        /* NO_ID: an eye or a luxmeter */
+    float pdf;          /* with which the direction was chosen, sr^-1 */
+    bool is_delta;      /* no light sample could have found what comes now */
+    bool samples_map;   /* where it could (sunlit.h) */
     SunlitPair before;  /* it and the vertex before it */
     Spectrum sun_share; /* of the sun, if met next; the vertex before sampled the rest */
 } PathVertex;
 
 /* The first surface that an eye sees: windows passed and holes do not count. */
 typedef struct PathFirst {
-    bool     is_awaited; /* it is awaited, and not met yet */
-    bool     is_met;
-    Hit      hit;        /* t counted from the ray's origin */
-    Vec3     direction;  /* of the ray there */
-    Spectrum through;    /* share of its light that the panes before it let pass; */
-    bool       through_is_grey; /* these treat all wavelengths alike */
-    bool     by_mirror;  /* it is a display, from whose mirror the path goes on: */
-    PathLight before;    /* found until then */
+    bool is_awaited; /* it is awaited, and not met yet */
+    bool is_met;
+    Hit hit;              /* t counted from the ray's origin */
+    Vec3 direction;       /* of the ray there */
+    Spectrum through;     /* share of its light that the panes before it let pass; */
+    bool through_is_grey; /* these treat all wavelengths alike */
+    bool by_mirror;       /* it is a display, from whose mirror the path goes on: */
+    PathLight before;     /* found until then */
 } PathFirst;
 
 /* Departures of a path from the plain one that gathers light. */
 typedef struct PathManner {
-    bool is_dark;   /* emission does not count: the path samples distant light */
-    bool is_spared; /* no roulette ends it */
+    bool is_dark;    /* emission does not count: the path samples distant light */
+    bool is_spared;  /* no roulette ends it */
     bool has_sheets; /* thin sheets' own light is followed in every sample, not in some */
 } PathManner;
 
 struct PathCollector;
 
 typedef struct PathState {
-    const PathContext    *context;
-    const Wavelengths    *wavelengths;
-    Sampler              *sampler;
-    PathStatistics       *statistics;
+    const PathContext *context;
+    const Wavelengths *wavelengths;
+    Sampler *sampler;
+    PathStatistics *statistics;
     struct PathCollector *collector; /* NULL: the light alone is requested */
     PathManner manner;
-    Ray        ray;
-    Spectrum   throughput; /* of the path so far, per lane */
-    bool       is_grey;    /* all surfaces so far treat wavelengths alike: lanes differ by
-                              rounding at most */
-    PathLight  gathered;   /* found so far */
-    PathFirst  first;
+    Ray ray;
+    Spectrum throughput; /* of the path so far, per lane */
+    bool is_grey;        /* all surfaces so far treat wavelengths alike: lanes differ by
+                            rounding at most */
+    PathLight gathered;  /* found so far */
+    PathFirst first;
     PathVertex last;
-    Guiding   *guiding;    /* the last vertex's; and room for the next one's */
-    Guiding   *spare;
-    float      straight;   /* m since the last vertex (windows do not scatter) */
-    float      bright;     /* the throughput that roulette takes as full; not 1 behind a probe's
-                              first surface or a display */
-    int        bounce;     /* scattering vertices so far */
-    int        first_bounce; /* at which sheets are followed both ways */
-    int        steps;      /* surfaces met so far */
-    int        splits_left; /* thin sheets that may still be followed both ways */
-    int        medium_id;  /* material of the solid that the ray is in; NO_ID: air */
-    SheetStack *stack;     /* what else lies where the ray is; empty in scenes without sheets */
-    float      sheets_from; /* m along the ray: sheets before it were in the stack */
+    Guiding *guiding; /* the last vertex's; and room for the next one's */
+    Guiding *spare;
+    float straight;    /* m since the last vertex (windows do not scatter) */
+    float bright;      /* the throughput that roulette takes as full; not 1 behind a probe's
+                          first surface or a display */
+    int bounce;        /* scattering vertices so far */
+    int first_bounce;  /* at which sheets are followed both ways */
+    int steps;         /* surfaces met so far */
+    int splits_left;   /* thin sheets that may still be followed both ways */
+    int medium_id;     /* material of the solid that the ray is in; NO_ID: air */
+    SheetStack *stack; /* what else lies where the ray is; empty in scenes without sheets */
+    float sheets_from; /* m along the ray: sheets before it were in the stack */
 } PathState;
 
 /* The sampler's next numbers are those of this purpose, at the surface met last. */
-static inline void numbers_for(PathState *path, int purpose)
-{
-    path->sampler->dimension =
-        (uint32_t)(NUMBERS_FIRST + path->steps * NUMBERS_STEP + purpose);
+static inline void numbers_for(PathState *path, int purpose) {
+    path->sampler->dimension = (uint32_t)(NUMBERS_FIRST + path->steps * NUMBERS_STEP + purpose);
 }
 
-static inline void numbers_for_map(PathState *path)
-{
-    path->sampler->dimension =
-        0x40000000u + (uint32_t)path->steps * NUMBERS_MAP;
+static inline void numbers_for_map(PathState *path) {
+    path->sampler->dimension = 0x40000000u + (uint32_t)path->steps * NUMBERS_MAP;
 }
 
 /* The surface's share of the light, per lane, on the path's way. */
-static inline void path_weigh(PathState *path, const Surface *surface, Spectrum weight)
-{
+static inline void path_weigh(PathState *path, const Surface *surface, Spectrum weight) {
     path->throughput *= weight;
     path->is_grey &= surface->is_grey;
 }
 
 /* The power heuristic (Veach 1997, 9.2.4) for two strategies. */
-static inline float mis_weight(float pdf, float other)
-{
+static inline float mis_weight(float pdf, float other) {
     float ratio = other / pdf;
     return 1 / (1 + ratio * ratio);
 }

@@ -20,11 +20,11 @@
 
 /* An eye, world, unit: right and forward as the camera has them. */
 typedef struct PolarisedEye {
-    Vec3  right, forward;
-    bool  has_glasses; /* else all light counts the same */
-    float axis[2];     /* the glasses' transmission axis: along right and up, unit */
+    Vec3 right, forward;
+    bool has_glasses;   /* else all light counts the same */
+    float axis[2];      /* the glasses' transmission axis: along right and up, unit */
     float lets, blocks; /* shares of light polarised along and across it, [0, 1] */
-    bool  with_stokes; /* of light as it comes to the eye; not with glasses */
+    bool with_stokes;   /* of light as it comes to the eye; not with glasses */
 } PolarisedEye;
 
 typedef struct PolarisedRow {
@@ -33,15 +33,15 @@ typedef struct PolarisedRow {
 } PolarisedRow;
 
 typedef struct Polarised {
-    Vec3         axis;  /* unit, across the ray */
-    Spectrum     share; /* what the eye's first weight was multiplied by since it was taken */
-    int          row_count;
+    Vec3 axis;      /* unit, across the ray */
+    Spectrum share; /* what the eye's first weight was multiplied by since it was taken */
+    int row_count;
     PolarisedRow row[POLARISED_ROWS];
 } Polarised;
 
 /* Light that is partly polarised: the rest is unpolarised. */
 typedef struct PolarisedLight {
-    Vec3     axis;   /* unit, across its way */
+    Vec3 axis;       /* unit, across its way */
     Spectrum degree; /* [0, 1] */
 } PolarisedLight;
 

@@ -21,14 +21,12 @@ typedef struct SheetStack {
     int count, next; /* next: the first that the ray has not come to */
 } SheetStack;
 
-static inline void sheets_none(SheetStack *stack)
-{
+static inline void sheets_none(SheetStack *stack) {
     stack->count = stack->next = 0;
 }
 
 /* For shadow rays that no sheet stops, whatever its colour. */
-static inline bool sheets_let_pass(void *user, const Hit *hit)
-{
+static inline bool sheets_let_pass(void *user, const Hit *hit) {
     (void)user, (void)hit;
     return true;
 }
@@ -39,5 +37,4 @@ bool sheets_are_one(const Scene *scene, uint32_t triangle, uint32_t other);
 /* All that a ray along `direction` (unit) meets where it met `met`: within the distance by
  * which rays start off a surface, which they would otherwise never see. Ends with `met` where
  * that is opaque. bvh_has_sheets(bvh) holds. The hits' t is met's. */
-void sheets_at(const Scene *scene, const Bvh *bvh, const Hit *met, Vec3 direction,
-               SheetStack *out);
+void sheets_at(const Scene *scene, const Bvh *bvh, const Hit *met, Vec3 direction, SheetStack *out);

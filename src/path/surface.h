@@ -18,21 +18,20 @@ typedef struct SurfaceTables SurfaceTables;
 const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised, Arena *arena);
 
 typedef struct Surface {
-    Vec3  position;    /* m, scene */
-    Vec3  ng;          /* unit geometric normal of the front */
-    Frame frame;       /* shading frame; for all but solids that refract turned to wo's side */
-    Vec3  local_wo;    /* wo in it */
-    int   part_id, material_id;
+    Vec3 position; /* m, scene */
+    Vec3 ng;       /* unit geometric normal of the front */
+    Frame frame;   /* shading frame; for all but solids that refract turned to wo's side */
+    Vec3 local_wo; /* wo in it */
+    int part_id, material_id;
     uint32_t triangle; /* undefined where part_id is NO_ID */
     float alpha;       /* 1: all there; below: the share 1 - alpha passes as by a hole */
-    bool  emits;       /* towards wo */
-    bool  is_grey;     /* treats all wavelengths alike, by its material's data */
+    bool emits;        /* towards wo */
+    bool is_grey;      /* treats all wavelengths alike, by its material's data */
     TrianglePoint point;
-    Bsdf  bsdf;
+    Bsdf bsdf;
 } Surface;
 
-static inline bool surface_is_display(const Scene *scene, const Surface *surface)
-{
+static inline bool surface_is_display(const Scene *scene, const Surface *surface) {
     return surface->material_id != NO_ID &&
            scene->materials[surface->material_id].display_id != NO_ID;
 }

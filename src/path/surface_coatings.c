@@ -10,8 +10,7 @@ typedef struct CoatingNeeds {
     bool metal, face, sheet, solid, cover, pane;
 } CoatingNeeds;
 
-static CoatingNeeds needs_of(const Material *m)
-{
+static CoatingNeeds needs_of(const Material *m) {
     CoatingNeeds needs = {false, false, false, false, false, false};
     bool has_nonmetal = m->metallic < 1 || m->metallic_roughness_texture.texture_id != NO_ID;
     bool has_opaque = m->transmission < 1 || m->transmission_texture.texture_id != NO_ID;
@@ -28,33 +27,28 @@ static CoatingNeeds needs_of(const Material *m)
     return needs;
 }
 
-static bool needs_any(CoatingNeeds n)
-{
+static bool needs_any(CoatingNeeds n) {
     return n.metal || n.face || n.sheet || n.solid || n.cover || n.pane;
 }
 
-static bool same_stack(const LayerStack *a, const LayerStack *b)
-{
+static bool same_stack(const LayerStack *a, const LayerStack *b) {
     if (!a || !b) return a == b;
     return a->outside == b->outside && a->faces == b->faces && a->count == b->count &&
            memcmp(a->layers, b->layers, (size_t)a->count * sizeof *a->layers) == 0;
 }
 
-static bool same_metal(const OpticalConstants *a, const OpticalConstants *b)
-{
+static bool same_metal(const OpticalConstants *a, const OpticalConstants *b) {
     return a == b || (a && b && memcmp(a, b, sizeof *a) == 0);
 }
 
 /* A texture scales the roughness by any factor in [0, 1]. */
-static AlphaSpan alphas_of(const Material *m)
-{
+static AlphaSpan alphas_of(const Material *m) {
     float most = m->roughness * m->roughness;
-    bool  varies = m->metallic_roughness_texture.texture_id != NO_ID;
+    bool varies = m->metallic_roughness_texture.texture_id != NO_ID;
     return (AlphaSpan){varies ? 0 : most, most};
 }
 
-static bool is_alike(const Material *a, const Material *b)
-{
+static bool is_alike(const Material *a, const Material *b) {
     CoatingNeeds x = needs_of(a), y = needs_of(b);
     AlphaSpan v = alphas_of(a), w = alphas_of(b);
     if (x.face && (v.least != w.least || v.most != w.most)) return false;
@@ -62,16 +56,13 @@ static bool is_alike(const Material *a, const Material *b)
            same_stack(a->coating, b->coating) && same_metal(a->conductor, b->conductor);
 }
 
-static void add_waves(const Material *m, CoatingNeeds needs, SurfaceCoating *out, Arena *arena)
-{
+static void add_waves(const Material *m, CoatingNeeds needs, SurfaceCoating *out, Arena *arena) {
     double ior = (double)m->ior;
     if (needs.metal) out->metal_waves = coating_waves(m->coating, 0, m->conductor, arena);
-    if (needs.face || needs.cover)
-        out->glass_waves = coating_waves(m->coating, ior, NULL, arena);
+    if (needs.face || needs.cover) out->glass_waves = coating_waves(m->coating, ior, NULL, arena);
 }
 
-static SurfaceCoating *tables_for(const Material *m, CoatingNeeds needs, Arena *arena)
-{
+static SurfaceCoating *tables_for(const Material *m, CoatingNeeds needs, Arena *arena) {
     SurfaceCoating *out = ARENA_NEW(arena, SurfaceCoating, 1);
     double ior = (double)m->ior;
     if (needs.metal) out->metal = coating_of_metal(m->coating, m->conductor, arena);
@@ -84,8 +75,7 @@ static SurfaceCoating *tables_for(const Material *m, CoatingNeeds needs, Arena *
 }
 
 const SurfaceCoating *const *surface_coatings_build(const Scene *scene, bool is_polarised,
-                                                    Arena *arena)
-{
+                                                    Arena *arena) {
     const SurfaceCoating **list = NULL;
     const Material *m = scene->materials;
     for (int i = 0; i < scene->material_count; i++) {

@@ -7,15 +7,14 @@
 #include "scene/point/ray_ends.h"
 
 #define SHEET_SHARE 0.5f /* of an eye's samples that follow what a thin sheet itself shows */
-#define OFF_PANE 0.05f /* of an image's shift: by which its ray starts off along its way */
+#define OFF_PANE 0.05f   /* of an image's shift: by which its ray starts off along its way */
 
 /* ---- images of panes --------------------------------------------------------------------- */
 
 /* The point `along` m along the surface from the hit, towards wi: images of a pane's far face
  * start there, and what is seen through a pane goes on there. A pane may be curved: the ray
  * starts a little along its way. */
-static Vec3 beside(const Surface *surface, Vec3 wi, float along)
-{
+static Vec3 beside(const Surface *surface, Vec3 wi, float along) {
     Vec3 n = surface->frame.z;
     Vec3 towards = vec3_normalize(vec3_along(wi, n, -vec3_dot(wi, n)));
     Vec3 place = vec3_along(ray_start(&surface->point, wi), towards, along);
@@ -25,20 +24,18 @@ static Vec3 beside(const Surface *surface, Vec3 wi, float along)
 /* It may start under the pane's frame or beyond its rim. Tested along the ray: a pane goes on
  * under its seal. */
 bool pane_image_start(const PathState *path, const Surface *surface, Vec3 wi, float along,
-                      Vec3 *out)
-{
+                      Vec3 *out) {
     float cosine = vec3_dot(wi, surface->frame.z), flat2 = 1 - cosine * cosine;
     float reach = along * (1 / sqrtf(fmaxf(flat2, 1e-6f)) + 2 * OFF_PANE); /* and a little */
-    Ray   ray = {ray_start(&surface->point, wi), wi, 0, reach};
+    Ray ray = {ray_start(&surface->point, wi), wi, 0, reach};
     path->statistics->shadow_rays++;
     *out = beside(surface, wi, along);
     return !bvh_occluded(path->context->bvh, ray, sheets_let_pass, NULL);
 }
 
 /* Only the eye's own view through a pane is shifted: no light sample has found it. */
-static void start_behind_pane(PathState *path, const Surface *surface)
-{
-    Vec3  way = path->ray.direction;
+static void start_behind_pane(PathState *path, const Surface *surface) {
+    Vec3 way = path->ray.direction;
     float cosine = fabsf(vec3_dot(surface->frame.z, way));
     float shift = bsdf_shift(&surface->bsdf, cosine);
     if (shift != 0) path->ray.origin = beside(surface, way, shift);
@@ -46,10 +43,9 @@ static void start_behind_pane(PathState *path, const Surface *surface)
 
 /* ---- straight on ------------------------------------------------------------------------- */
 
-void sheet_go_behind(PathState *path, const Surface *surface)
-{
+void sheet_go_behind(PathState *path, const Surface *surface) {
     collect_behind(path, surface);
-    Vec3  direction = path->ray.direction, ng = surface->ng;
+    Vec3 direction = path->ray.direction, ng = surface->ng;
     float cosine = fabsf(vec3_dot(ng, direction));
     if (path->stack->next < path->stack->count) return;
     path->sheets_from =
@@ -61,18 +57,15 @@ void sheet_go_behind(PathState *path, const Surface *surface)
 
 /* ---- both ways --------------------------------------------------------------------------- */
 
-static bool is_hole(const Surface *surface)
-{
+static bool is_hole(const Surface *surface) {
     return surface->alpha > 0 && surface->alpha < 1;
 }
 
-static bool is_window(const Surface *surface)
-{
+static bool is_window(const Surface *surface) {
     return surface->alpha >= 1 && bsdf_is(&surface->bsdf, BSDF_IS_SHEET);
 }
 
-bool sheet_is_followed(PathState *path, const Surface *surface)
-{
+bool sheet_is_followed(PathState *path, const Surface *surface) {
     if (path->bounce != path->first_bounce || !path->splits_left ||
         !(is_hole(surface) || is_window(surface)))
         return false;
@@ -81,8 +74,7 @@ bool sheet_is_followed(PathState *path, const Surface *surface)
 }
 
 /* Copies all of them into the room, one after the other. */
-static PathCollector *copy_collectors(const PathCollector *from, char *room)
-{
+static PathCollector *copy_collectors(const PathCollector *from, char *room) {
     PathCollector *first = NULL, **link = &first;
     for (; from; from = from->next) {
         PathCollector *copy = memcpy(room, from, from->kind->size);
@@ -94,8 +86,7 @@ static PathCollector *copy_collectors(const PathCollector *from, char *room)
     return first;
 }
 
-void sheet_branch(const PathState *path, SheetRoom *room, PathState *branch)
-{
+void sheet_branch(const PathState *path, SheetRoom *room, PathState *branch) {
     *branch = *path;
     branch->splits_left = 0;
     branch->first.is_awaited = false;
@@ -103,8 +94,7 @@ void sheet_branch(const PathState *path, SheetRoom *room, PathState *branch)
     branch->collector = copy_collectors(path->collector, room->collectors);
 }
 
-bool sheet_is_shown(PathState *path, const Surface *surface, SheetRoom *room, PathState *sheet)
-{
+bool sheet_is_shown(PathState *path, const Surface *surface, SheetRoom *room, PathState *sheet) {
     float share = path->manner.has_sheets ? 1 : SHEET_SHARE; /* of samples that follow it */
     numbers_for(path, NUMBERS_SPLIT);
     if (!(sampler_1d(path->sampler) < share)) return false;
@@ -117,25 +107,22 @@ bool sheet_is_shown(PathState *path, const Surface *surface, SheetRoom *room, Pa
     return true;
 }
 
-bool window_reflects(PathState *sheet, const Surface *surface, Vec3 wo, BsdfSample *mirror)
-{
+bool window_reflects(PathState *sheet, const Surface *surface, Vec3 wo, BsdfSample *mirror) {
     Vec3 local_wo = surface->local_wo;
-    *mirror = (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .is_delta = true,
-                           .pdf = 1};
+    *mirror =
+        (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .is_delta = true, .pdf = 1};
     if (sheet->bounce >= sheet->context->max_bounces) return false;
     path_weigh(sheet, surface, bsdf_mirror(&surface->bsdf, local_wo));
     collect_leave(sheet, surface, wo, mirror);
     return true;
 }
 
-bool pane_shows_itself(const Surface *surface, Surface *pane)
-{
+bool pane_shows_itself(const Surface *surface, Surface *pane) {
     *pane = *surface;
     return bsdf_show_itself(&pane->bsdf);
 }
 
-void sheet_pass(PathState *path, const Surface *surface, Vec3 wo)
-{
+void sheet_pass(PathState *path, const Surface *surface, Vec3 wo) {
     if (is_hole(surface)) path->throughput *= spectrum_all(1 - surface->alpha);
     else path_weigh(path, surface, bsdf_pass(&surface->bsdf, surface->local_wo));
     if (is_window(surface)) collect_pass(path, surface, wo);

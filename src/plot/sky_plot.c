@@ -18,21 +18,19 @@
 
 /* One drawing and its scale of colours. */
 typedef struct SkyDrawing {
-    Canvas        *canvas;
+    Canvas *canvas;
     const SkyPlot *plot;
-    double         low, high; /* cd m^-2 */
-    uint32_t       colour[1024];
+    double low, high; /* cd m^-2 */
+    uint32_t colour[1024];
 } SkyDrawing;
 
-static double position(const SkyDrawing *work, double value)
-{
+static double position(const SkyDrawing *work, double value) {
     double t = log(fmax(value, 1e-30) / work->low) / log(work->high / work->low);
     return fmin(1, fmax(0, t));
 }
 
 /* Three decades or more below the brightest part of the sky, in round numbers. */
-static void choose_scale(SkyDrawing *work)
-{
+static void choose_scale(SkyDrawing *work) {
     const SkyPlot *plot = work->plot;
     double most = 0, least = 1e30;
     for (int i = 0; i < plot->width * plot->height; i++) {
@@ -46,12 +44,11 @@ static void choose_scale(SkyDrawing *work)
 }
 
 /* Bilinear in the panorama; turns from north over east, share from the zenith to the nadir. */
-static double luminance_at(const SkyPlot *plot, double turns, double share)
-{
+static double luminance_at(const SkyPlot *plot, double turns, double share) {
     double x = (turns - floor(turns)) * plot->width - 0.5, y = share * plot->height - 0.5;
-    int    i = (int)floor(x), j = (int)fmin(fmax(y, 0), plot->height - 1.001);
+    int i = (int)floor(x), j = (int)fmin(fmax(y, 0), plot->height - 1.001);
     double t = x - i, u = fmin(fmax(y - j, 0), 1);
-    int    a = (i + plot->width) % plot->width, b = (a + 1) % plot->width;
+    int a = (i + plot->width) % plot->width, b = (a + 1) % plot->width;
     const float *top = plot->luminance + (size_t)j * (size_t)plot->width;
     const float *low = top + (j + 1 < plot->height ? plot->width : 0);
     return (1 - u) * ((1 - t) * (double)top[a] + t * (double)top[b]) +
@@ -63,29 +60,27 @@ typedef double Sample(const SkyDrawing *work, double x, double y);
 /* A picture whose colours come from places in [0, 1]^2; NaN: nothing there. */
 typedef struct SkyRaster {
     const SkyDrawing *work;
-    Sample           *sample;
-    int               w, h;
+    Sample *sample;
+    int w, h;
 } SkyRaster;
 
-static uint32_t pixel_at(const void *context, int i, int j)
-{
+static uint32_t pixel_at(const void *context, int i, int j) {
     const SkyRaster *raster = context;
     double v = raster->sample(raster->work, (i + 0.5) / raster->w, (j + 0.5) / raster->h);
     return isfinite(v) ? raster->work->colour[(int)(1023 * position(raster->work, v))] : 0;
 }
 
-static void paint(const SkyDrawing *work, Box box, Sample *sample)
-{
-    double    scale = work->canvas->pixels_per_point;
+static void paint(const SkyDrawing *work, Box box, Sample *sample) {
+    double scale = work->canvas->pixels_per_point;
     SkyRaster raster = {work, sample, (int)(box.w * scale), (int)(box.h * scale)};
-    canvas_image(work->canvas, box, &(CanvasRaster){raster.w, raster.h, CAIRO_FORMAT_ARGB32,
-                                                    false, pixel_at, &raster});
+    canvas_image(
+        work->canvas, box,
+        &(CanvasRaster){raster.w, raster.h, CAIRO_FORMAT_ARGB32, false, pixel_at, &raster});
 }
 
 /* ---- the chart of the dome --------------------------------------------------------------- */
 
-static double disc_sample(const SkyDrawing *work, double x, double y)
-{
+static double disc_sample(const SkyDrawing *work, double x, double y) {
     double dx = 2 * x - 1, dy = 1 - 2 * y, r = sqrt(dx * dx + dy * dy);
     if (r > 1) return NAN;
     return luminance_at(work->plot, atan2(dx, dy) / (2 * PI), 0.5 * r);
@@ -95,19 +90,21 @@ typedef struct Disc {
     double x, y, r;
 } Disc;
 
-static void disc_rings(const SkyDrawing *work, const Disc *disc)
-{
+static void disc_rings(const SkyDrawing *work, const Disc *disc) {
     Canvas *canvas = work->canvas;
-    Stroke  thin = {ink_alpha(ink_hex(0xffffff), 0.45), 0.6, DASH_NONE};
+    Stroke thin = {ink_alpha(ink_hex(0xffffff), 0.45), 0.6, DASH_NONE};
     for (int elevation = 30; elevation < 90; elevation += 30) {
         double r = disc->r * (1 - elevation / 90.0);
-        char   text[16];
+        char text[16];
         canvas_circle(canvas, disc->x, disc->y, r);
         canvas_stroke(canvas, thin);
         snprintf(text, sizeof text, "%d°", elevation);
-        canvas_text(canvas, disc->x + 3, disc->y - r, (Letters){
-            .size = SIZE_SMALL, .ink = ink_hex(0xffffff), .down = 1.1,
-            .halo = ink_alpha(ink_hex(0x14181c), 0.6)}, text);
+        canvas_text(canvas, disc->x + 3, disc->y - r,
+                    (Letters){.size = SIZE_SMALL,
+                              .ink = ink_hex(0xffffff),
+                              .down = 1.1,
+                              .halo = ink_alpha(ink_hex(0x14181c), 0.6)},
+                    text);
     }
     for (int i = 0; i < 4; i++) {
         double a = i * PI / 4;
@@ -118,8 +115,7 @@ static void disc_rings(const SkyDrawing *work, const Disc *disc)
     canvas_stroke(canvas, (Stroke){canvas->theme.ink, 1, DASH_NONE});
 }
 
-static void disc_compass(const SkyDrawing *work, const Disc *disc)
-{
+static void disc_compass(const SkyDrawing *work, const Disc *disc) {
     static const char *const names[8] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
     for (int i = 0; i < 8; i++) {
         double a = i * PI / 4;
@@ -135,12 +131,10 @@ static void disc_compass(const SkyDrawing *work, const Disc *disc)
 }
 
 /* The vehicle's way: an arrow at the rim. */
-static void disc_heading(const SkyDrawing *work, const Disc *disc)
-{
+static void disc_heading(const SkyDrawing *work, const Disc *disc) {
     Canvas *canvas = work->canvas;
-    double a = work->plot->heading, x[3], y[3],
-           r[3] = {disc->r - 2, disc->r - 18, disc->r - 18};
-    double  turn[3] = {0, 0.04, -0.04};
+    double a = work->plot->heading, x[3], y[3], r[3] = {disc->r - 2, disc->r - 18, disc->r - 18};
+    double turn[3] = {0, 0.04, -0.04};
     for (int i = 0; i < 3; i++) {
         x[i] = disc->x + r[i] * sin(a + turn[i]);
         y[i] = disc->y - r[i] * cos(a + turn[i]);
@@ -163,38 +157,34 @@ static void disc_heading(const SkyDrawing *work, const Disc *disc)
 
 typedef void Place(const void *view, double azimuth, double elevation, double *x, double *y);
 
-static void place_disc(const void *view, double azimuth, double elevation, double *x, double *y)
-{
+static void place_disc(const void *view, double azimuth, double elevation, double *x, double *y) {
     const Disc *disc = view;
-    double      r = disc->r * (1 - elevation / (PI / 2));
+    double r = disc->r * (1 - elevation / (PI / 2));
     *x = disc->x + r * sin(azimuth);
     *y = disc->y - r * cos(azimuth);
 }
 
 static void place_panorama(const void *view, double azimuth, double elevation, double *x,
-                           double *y)
-{
+                           double *y) {
     const Box *box = view;
     double turns = azimuth / (2 * PI);
     *x = box->x + (turns - floor(turns)) * box->w;
     *y = box->y + (0.5 - elevation / PI) * box->h;
 }
 
-static void draw_disc(Canvas *canvas, double x, double y, Ink ink)
-{
+static void draw_disc(Canvas *canvas, double x, double y, Ink ink) {
     canvas_circle(canvas, x, y, 5);
     canvas_fill(canvas, ink);
     canvas_circle(canvas, x, y, 5);
     canvas_stroke(canvas, (Stroke){ink_hex(0x14181c), 1, DASH_NONE});
 }
 
-static void draw_sun(const SkyDrawing *work, Place *place, const void *view, double widest)
-{
+static void draw_sun(const SkyDrawing *work, Place *place, const void *view, double widest) {
     Canvas *canvas = work->canvas;
     const SkyPlot *plot = work->plot;
-    Ink    white = ink_hex(0xffffff), dark = ink_hex(0x14181c);
+    Ink white = ink_hex(0xffffff), dark = ink_hex(0x14181c);
     double x, y, before = 0;
-    bool   is_drawing = false;
+    bool is_drawing = false;
     for (int i = 0; i < plot->path_count; i++) {
         const SkyPlotSun *at = &plot->path[i];
         if (at->elevation < plot->horizon) {
@@ -214,8 +204,12 @@ static void draw_sun(const SkyDrawing *work, Place *place, const void *view, dou
         place(view, at->azimuth, at->elevation, &x, &y);
         canvas_circle(canvas, x, y, 1.8);
         canvas_fill(canvas, white);
-        canvas_text(canvas, x, y - 4, (Letters){.size = SIZE_SMALL, .ink = white, .across = 0.5,
-                                                .down = 1, .halo = ink_alpha(dark, 0.6)},
+        canvas_text(canvas, x, y - 4,
+                    (Letters){.size = SIZE_SMALL,
+                              .ink = white,
+                              .across = 0.5,
+                              .down = 1,
+                              .halo = ink_alpha(dark, 0.6)},
                     at->label);
     }
     if (plot->has_sun) {
@@ -230,27 +224,25 @@ static void draw_sun(const SkyDrawing *work, Place *place, const void *view, dou
 
 /* ---- the panorama ------------------------------------------------------------------------ */
 
-static double panorama_sample(const SkyDrawing *work, double x, double y)
-{
+static double panorama_sample(const SkyDrawing *work, double x, double y) {
     return luminance_at(work->plot, x, y);
 }
 
-static void draw_panorama(const SkyDrawing *work, Box box)
-{
+static void draw_panorama(const SkyDrawing *work, Box box) {
     static const char *const names[5] = {"N", "E", "S", "W", "N"};
     Canvas *canvas = work->canvas;
-    Stroke  thin = {ink_alpha(ink_hex(0xffffff), 0.45), 0.6, DASH_NONE};
-    double  x, y;
+    Stroke thin = {ink_alpha(ink_hex(0xffffff), 0.45), 0.6, DASH_NONE};
+    double x, y;
     paint(work, box, panorama_sample);
     place_panorama(&box, 0, work->plot->horizon, &x, &y);
-    canvas_line(canvas, box.x, y, box.x + box.w, y,
-                (Stroke){ink_hex(0xffffff), 0.9, DASH_LONG});
+    canvas_line(canvas, box.x, y, box.x + box.w, y, (Stroke){ink_hex(0xffffff), 0.9, DASH_LONG});
     for (int i = 0; i < 5; i++) {
         double at = box.x + box.w * i / 4;
         canvas_line(canvas, at, box.y, at, box.y + box.h, thin);
-        canvas_text(canvas, at, box.y + box.h + 5,
-                    (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink, .across = 0.5,
-                              .is_bold = true}, names[i]);
+        canvas_text(
+            canvas, at, box.y + box.h + 5,
+            (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink, .across = 0.5, .is_bold = true},
+            names[i]);
     }
     for (int e = -60; e <= 60; e += 30) {
         char text[16];
@@ -267,20 +259,18 @@ static void draw_panorama(const SkyDrawing *work, Box box)
 
 /* ---- the scale and the figures ----------------------------------------------------------- */
 
-static double bar_sample(const SkyDrawing *work, double x, double y)
-{
+static double bar_sample(const SkyDrawing *work, double x, double y) {
     (void)y;
     return work->low * pow(work->high / work->low, x);
 }
 
-static void draw_scale(const SkyDrawing *work, Box box)
-{
+static void draw_scale(const SkyDrawing *work, Box box) {
     Canvas *canvas = work->canvas;
-    Ticks   ticks = ticks_log(work->low, work->high, 9);
+    Ticks ticks = ticks_log(work->low, work->high, 9);
     paint(work, box, bar_sample);
     for (int i = 0; i < ticks.count; i++) {
         double x = box.x + box.w * position(work, ticks.value[i]);
-        char   text[32];
+        char text[32];
         canvas_line(canvas, x, box.y + box.h, x, box.y + box.h + (ticks.is_labelled[i] ? 4 : 2),
                     (Stroke){canvas->theme.soft, 0.7, DASH_NONE});
         if (ticks.is_labelled[i])
@@ -288,19 +278,18 @@ static void draw_scale(const SkyDrawing *work, Box box)
                         (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink, .across = 0.5},
                         tick_text(ticks.value[i], 0, text));
     }
-    canvas_text(canvas, box.x + box.w, box.y - 4, (Letters){.size = SIZE_TICK, .across = 1,
-        .ink = canvas->theme.soft, .down = 1}, "luminance, cd/m² (without the sun's disc)");
+    canvas_text(canvas, box.x + box.w, box.y - 4,
+                (Letters){.size = SIZE_TICK, .across = 1, .ink = canvas->theme.soft, .down = 1},
+                "luminance, cd/m² (without the sun's disc)");
 }
 
-static void draw_lines(const SkyDrawing *work, double x, double y)
-{
+static void draw_lines(const SkyDrawing *work, double x, double y) {
     Canvas *canvas = work->canvas;
     for (int i = 0; i < work->plot->line_count; i++) {
         const char *line = work->plot->line[i], *bar = strchr(line, '|');
-        size_t      length = bar ? (size_t)(bar - line) : strlen(line);
-        double      column = i % 2 ? x + PANORAMA_W / 2 : x, down = y + 17 * (i / 2);
-        canvas_text(canvas, column, down,
-                    (Letters){.size = SIZE_TEXT, .ink = canvas->theme.soft},
+        size_t length = bar ? (size_t)(bar - line) : strlen(line);
+        double column = i % 2 ? x + PANORAMA_W / 2 : x, down = y + 17 * (i / 2);
+        canvas_text(canvas, column, down, (Letters){.size = SIZE_TEXT, .ink = canvas->theme.soft},
                     arena_string(canvas->arena, line, length));
         if (bar)
             canvas_text(canvas, column + 138, down,
@@ -309,18 +298,16 @@ static void draw_lines(const SkyDrawing *work, double x, double y)
     }
 }
 
-static void draw_sheet(Canvas *canvas, const void *context)
-{
+static void draw_sheet(Canvas *canvas, const void *context) {
     SkyDrawing work = {.canvas = canvas, .plot = context};
     Disc disc = {MARGIN + DISC_R + 22, MARGIN + 94 + DISC_R, DISC_R};
-    Box  panorama = {PAGE_W - MARGIN - PANORAMA_W, MARGIN + 72, PANORAMA_W, PANORAMA_W / 2};
+    Box panorama = {PAGE_W - MARGIN - PANORAMA_W, MARGIN + 72, PANORAMA_W, PANORAMA_W / 2};
     choose_scale(&work);
     canvas_text(canvas, MARGIN, MARGIN,
                 (Letters){.size = SIZE_HEADING, .ink = canvas->theme.ink, .is_bold = true},
                 work.plot->title);
-    canvas_text(canvas, MARGIN, MARGIN + 27, (Letters){.size = SIZE_TEXT,
-                                                       .ink = canvas->theme.soft},
-                work.plot->subtitle);
+    canvas_text(canvas, MARGIN, MARGIN + 27,
+                (Letters){.size = SIZE_TEXT, .ink = canvas->theme.soft}, work.plot->subtitle);
     canvas_line(canvas, MARGIN, MARGIN + 46, PAGE_W - MARGIN, MARGIN + 46,
                 (Stroke){canvas->theme.faint, 0.7, DASH_NONE});
     paint(&work, (Box){disc.x - disc.r, disc.y - disc.r, 2 * disc.r, 2 * disc.r}, disc_sample);
@@ -335,15 +322,20 @@ static void draw_sheet(Canvas *canvas, const void *context)
                 (Letters){.size = SIZE_TICK, .ink = canvas->theme.soft, .down = 0.5},
                 "plan of the sky: zenith in the middle, north on "
                 "top, east right");
-    canvas_text(canvas, PAGE_W - MARGIN, PAGE_H - MARGIN + 8, (Letters){.size = SIZE_TICK,
-        .ink = canvas->theme.soft, .across = 1, .down = 0.5}, "Parhelion " PARHELION_VERSION);
+    canvas_text(canvas, PAGE_W - MARGIN, PAGE_H - MARGIN + 8,
+                (Letters){.size = SIZE_TICK, .ink = canvas->theme.soft, .across = 1, .down = 0.5},
+                "Parhelion " PARHELION_VERSION);
 }
 
 bool sky_plot_draw(const SkyPlot *plot, bool is_svg, int width, Arena *arena, PlotBytes *out,
-                   Error *err)
-{
+                   Error *err) {
     double scale = width > 0 ? width / PAGE_W : is_svg ? 1 : 2;
-    PictureSpec spec = {.width = PAGE_W, .height = PAGE_H, .scale = scale, .is_svg = is_svg,
-                        .is_dark = plot->is_dark, .draw = draw_sheet, .context = plot};
+    PictureSpec spec = {.width = PAGE_W,
+                        .height = PAGE_H,
+                        .scale = scale,
+                        .is_svg = is_svg,
+                        .is_dark = plot->is_dark,
+                        .draw = draw_sheet,
+                        .context = plot};
     return picture_draw(&spec, arena, out, err);
 }

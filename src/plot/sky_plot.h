@@ -12,26 +12,26 @@
 #include "plot/draw/picture.h"
 
 typedef struct SkyPlotSun {
-    double      azimuth, elevation;
+    double azimuth, elevation;
     const char *label; /* NULL: none */
 } SkyPlotSun;
 
 typedef struct SkyPlot {
     const float *luminance; /* height x width, equirectangular: zenith on top, north left */
-    int          width, height;
-    double       horizon;   /* elevation, at most 0 */
-    bool         has_sun;
-    SkyPlotSun   sun;
-    bool         has_moon;
-    SkyPlotSun   moon;
+    int width, height;
+    double horizon; /* elevation, at most 0 */
+    bool has_sun;
+    SkyPlotSun sun;
+    bool has_moon;
+    SkyPlotSun moon;
     const SkyPlotSun *path; /* of the day, in order */
-    int          path_count;
-    bool         has_heading;
-    double       heading;
-    const char  *title, *subtitle;
+    int path_count;
+    bool has_heading;
+    double heading;
+    const char *title, *subtitle;
     const char *const *line; /* figures, one a line: "name|value" */
-    int          line_count;
-    bool         is_dark;
+    int line_count;
+    bool is_dark;
 } SkyPlot;
 
 /* ending: ".svg" or ".png"; width in pixels, 0: chosen. */

@@ -15,25 +15,24 @@
 /* One conversion, its numbers read: "%-12.3g". */
 typedef struct Conversion {
     char flags[8];
-    int  width, precision; /* precision: -1: none */
+    int width, precision; /* precision: -1: none */
     bool is_left;
     char length; /* l, L for ll, z; 0: an int, a double */
     char kind;
 } Conversion;
 
 typedef struct Printing {
-    FILE   *to;
+    FILE *to;
     va_list list;
-    int     written; /* characters */
+    int written; /* characters */
 } Printing;
 
 /* ---- texts ------------------------------------------------------------------------------- */
 
 /* Characters of `left` bytes as they are shown. to: NULL: they are counted only. */
-static int show(FILE *to, const char *text, size_t left)
-{
+static int show(FILE *to, const char *text, size_t left) {
     char one[PRINTABLE_ROOM];
-    int  count = 0;
+    int count = 0;
     for (size_t taken; left && *text; text += taken, left -= taken) {
         taken = printable_next(text, left, one);
         if (to) fputs(one, to);
@@ -42,8 +41,7 @@ static int show(FILE *to, const char *text, size_t left)
     return count;
 }
 
-static void put_text(Printing *out, const Conversion *how, const char *text)
-{
+static void put_text(Printing *out, const Conversion *how, const char *text) {
     size_t most = how->precision < 0 ? SIZE_MAX : (size_t)how->precision;
     if (!text) text = "(null)";
     int blanks = how->width - show(NULL, text, most);
@@ -55,8 +53,7 @@ static void put_text(Printing *out, const Conversion *how, const char *text)
 
 /* ---- numbers ----------------------------------------------------------------------------- */
 
-static int put_whole(Printing *out, const Conversion *how, const char *spec)
-{
+static int put_whole(Printing *out, const Conversion *how, const char *spec) {
     va_list *list = &out->list;
     switch (how->length) {
     case 'l': return fprintf(out->to, spec, va_arg(*list, long));
@@ -66,8 +63,7 @@ static int put_whole(Printing *out, const Conversion *how, const char *spec)
     }
 }
 
-static void put_number(Printing *out, const Conversion *how)
-{
+static void put_number(Printing *out, const Conversion *how) {
     static const char *const lengths[] = {['l'] = "l", ['L'] = "ll", ['z'] = "z"};
     char spec[SPEC_BYTES], width[16] = "", precision[16] = "";
     bool is_whole = strchr("diouxX", how->kind);
@@ -82,8 +78,7 @@ static void put_number(Printing *out, const Conversion *how)
 /* ---- the format -------------------------------------------------------------------------- */
 
 /* Digits, or a star for an argument. */
-static const char *read_number(const char *at, Printing *out, int *number)
-{
+static const char *read_number(const char *at, Printing *out, int *number) {
     char *end;
     if (*at == '*') {
         *number = va_arg(out->list, int);
@@ -94,8 +89,7 @@ static const char *read_number(const char *at, Printing *out, int *number)
 }
 
 /* Returns what follows the conversion that begins at `at`, behind its percent sign. */
-static const char *read_conversion(const char *at, Printing *out, Conversion *how)
-{
+static const char *read_conversion(const char *at, Printing *out, Conversion *how) {
     size_t flags = strspn(at, "-+ #0");
     *how = (Conversion){.precision = -1};
     snprintf(how->flags, sizeof how->flags, "%.*s", (int)flags, at);
@@ -109,9 +103,8 @@ static const char *read_conversion(const char *at, Printing *out, Conversion *ho
     return at + (*at != '\0');
 }
 
-static int print_list(FILE *to, const char *format, va_list list)
-{
-    Printing   out = {.to = to};
+static int print_list(FILE *to, const char *format, va_list list) {
+    Printing out = {.to = to};
     Conversion how;
     va_copy(out.list, list);
     for (const char *at = format; *at;) {
@@ -122,8 +115,7 @@ static int print_list(FILE *to, const char *format, va_list list)
         if (!*at) break;
         at = read_conversion(at + 1, &out, &how);
         if (how.kind == 's') put_text(&out, &how, va_arg(out.list, const char *));
-        else if (how.kind == 'c')
-            put_text(&out, &how, (char[]){(char)va_arg(out.list, int), '\0'});
+        else if (how.kind == 'c') put_text(&out, &how, (char[]){(char)va_arg(out.list, int), '\0'});
         else if (how.kind == '%') out.written += fputc('%', to) != EOF;
         else put_number(&out, &how);
     }
@@ -131,8 +123,7 @@ static int print_list(FILE *to, const char *format, va_list list)
     return out.written;
 }
 
-int print_to(FILE *to, const char *format, ...)
-{
+int print_to(FILE *to, const char *format, ...) {
     va_list list;
     va_start(list, format);
     int written = print_list(to, format, list);
@@ -140,15 +131,13 @@ int print_to(FILE *to, const char *format, ...)
     return written;
 }
 
-void print(const char *format, ...)
-{
+void print(const char *format, ...) {
     va_list list;
     va_start(list, format);
     print_list(stdout, format, list);
     va_end(list);
 }
 
-void print_own(FILE *to, const char *text)
-{
+void print_own(FILE *to, const char *text) {
     fputs(text, to);
 }

@@ -18,7 +18,6 @@ int utf8_decode(const char *at, size_t left, unsigned *code);
 int utf8_encode(unsigned code, char to[UTF8_BYTES_MAX]);
 
 /* Whether the byte continues a character that began before it. */
-static inline bool utf8_continues(char byte)
-{
+static inline bool utf8_continues(char byte) {
     return ((unsigned char)byte & 0xc0) == 0x80;
 }

@@ -13,11 +13,10 @@
 #include "text/removed.h"
 #include "text/uri.h"
 
-#define KEYS_MAX 256 /* of an object, and words of a choice */
+#define KEYS_MAX 256      /* of an object, and words of a choice */
 #define LENGTH_LEAST 1e-9 /* shorter vectors have no direction */
 
-bool record_fails(const JsonView *view, const char *key, Error *err, const char *format, ...)
-{
+bool record_fails(const JsonView *view, const char *key, Error *err, const char *format, ...) {
     va_list list;
     va_start(list, format);
     error_at_list(err, ERROR_INPUT, view->file, json_view_path(view, key), format, list);
@@ -25,51 +24,44 @@ bool record_fails(const JsonView *view, const char *key, Error *err, const char 
     return false;
 }
 
-bool record_has(const JsonView *view, const char *key)
-{
+bool record_has(const JsonView *view, const char *key) {
     return json_object_get(view->object, key) != NULL;
 }
 
-bool record_misses(const JsonView *view, const char *key, Error *err)
-{
+bool record_misses(const JsonView *view, const char *key, Error *err) {
     return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing", key);
 }
 
-bool record_one_of(const JsonView *view, const char *one, const char *other, Error *err)
-{
+bool record_one_of(const JsonView *view, const char *one, const char *other, Error *err) {
     bool has_one = record_has(view, one);
-    return has_one != record_has(view, other) ||
-           error_at(err, ERROR_INPUT, view->file, view->path,
-                    "has %s, required: one of '%s' and '%s'", has_one ? "both" : "neither",
-                    one, other);
+    return has_one != record_has(view, other) || error_at(err, ERROR_INPUT, view->file, view->path,
+                                                          "has %s, required: one of '%s' and '%s'",
+                                                          has_one ? "both" : "neither", one, other);
 }
 
-static void *at_offset(void *item, size_t offset)
-{
+static void *at_offset(void *item, size_t offset) {
     return (char *)item + offset;
 }
 
 /* ---- numbers ----------------------------------------------------------------------------- */
 
-static bool is_integer(const RecordRow *row)
-{
+static bool is_integer(const RecordRow *row) {
     return row->kind == RECORD_INTEGER || row->kind == RECORD_WHOLES;
 }
 
 /* Is it a number of the row's: in [low, high], whole? */
 static bool check_number(const JsonView *view, const RecordRow *row, const json_t *value,
-                         double *out, Error *err)
-{
+                         double *out, Error *err) {
     *out = (double)NAN;
     if (json_is_null(value) && row->flags & RECORD_NULL) return true;
     if (!json_is_number(value))
-        return json_view_wrong_kind(view, row->key, value,
-                                    row->most ? "only numbers" : "a number", err);
+        return json_view_wrong_kind(view, row->key, value, row->most ? "only numbers" : "a number",
+                                    err);
     double number = *out = json_number_value(value);
-    bool   is_above = row->flags & RECORD_ABOVE;
+    bool is_above = row->flags & RECORD_ABOVE;
     if (!isfinite(number) || number > row->high || (!is_above && number < row->low))
-        return record_fails(view, row->key, err, "is %g, required: a number from %g to %g",
-                            number, row->low, row->high);
+        return record_fails(view, row->key, err, "is %g, required: a number from %g to %g", number,
+                            row->low, row->high);
     if (is_above && !(number > row->low))
         return record_fails(view, row->key, err, "is %g, required: a number above %g", number,
                             row->low);
@@ -79,16 +71,14 @@ static bool check_number(const JsonView *view, const RecordRow *row, const json_
 }
 
 /* The i-th of them, as the row keeps it. */
-static void keep_number(const RecordRow *row, void *at, int i, double value)
-{
+static void keep_number(const RecordRow *row, void *at, int i, double value) {
     if (is_integer(row) && row->flags & RECORD_LONG) ((long *)at)[i] = (long)value;
     else if (is_integer(row)) ((int *)at)[i] = (int)value;
     else if (row->flags & RECORD_FLOAT) ((float *)at)[i] = (float)value;
     else ((double *)at)[i] = value;
 }
 
-static bool read_number(const JsonView *view, const RecordRow *row, void *out, Error *err)
-{
+static bool read_number(const JsonView *view, const RecordRow *row, void *out, Error *err) {
     double value;
     if (!check_number(view, row, json_object_get(view->object, row->key), &value, err))
         return false;
@@ -98,8 +88,7 @@ static bool read_number(const JsonView *view, const RecordRow *row, void *out, E
     return true;
 }
 
-static bool make_unit(const JsonView *view, const RecordRow *row, double *vector, Error *err)
-{
+static bool make_unit(const JsonView *view, const RecordRow *row, double *vector, Error *err) {
     double length = hypot_d(hypot_d(vector[0], vector[1]), vector[2]);
     if (!(length > LENGTH_LEAST))
         return record_fails(view, row->key, err, "is the zero vector, required: a direction");
@@ -109,10 +98,9 @@ static bool make_unit(const JsonView *view, const RecordRow *row, double *vector
 
 /* How many items an array or object has. */
 static bool find_count(const JsonView *view, const RecordRow *row, const char *what, int *count,
-                       Error *err)
-{
+                       Error *err) {
     const json_t *list = json_object_get(view->object, row->key);
-    bool          is_map = row->kind == RECORD_MAP;
+    bool is_map = row->kind == RECORD_MAP;
     if (is_map ? !json_is_object(list) : !json_is_array(list))
         return json_view_wrong_kind(view, row->key, list, what, err);
     const char *items = is_map ? "members" : "values";
@@ -125,14 +113,13 @@ static bool find_count(const JsonView *view, const RecordRow *row, const char *w
                             row->least);
     return record_fails(view, row->key, err,
                         row->most ? "has %zu %s, required: %d to %d"
-                                  : "has %zu %s, required: at least %d", size, items,
-                        row->least, row->most);
+                                  : "has %zu %s, required: at least %d",
+                        size, items, row->least, row->most);
 }
 
-static bool read_numbers(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    int           count;
-    void         *at = at_offset(item, row->offset);
+static bool read_numbers(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    int count;
+    void *at = at_offset(item, row->offset);
     const json_t *values = json_object_get(view->object, row->key);
     if (!find_count(view, row, "an array of numbers", &count, err)) return false;
     double *list = ARENA_NEW(view->arena, double, count);
@@ -149,31 +136,27 @@ static bool read_numbers(const JsonView *view, const RecordRow *row, void *item,
 
 /* ---- words ------------------------------------------------------------------------------- */
 
-static bool read_text(const JsonView *view, const RecordRow *row, const char **out, Error *err)
-{
+static bool read_text(const JsonView *view, const RecordRow *row, const char **out, Error *err) {
     const json_t *value = json_object_get(view->object, row->key);
-    if (!json_is_string(value))
-        return json_view_wrong_kind(view, row->key, value, "a text", err);
+    if (!json_is_string(value)) return json_view_wrong_kind(view, row->key, value, "a text", err);
     *out = arena_string(view->arena, json_string_value(value), json_string_length(value));
     return !(row->flags & RECORD_FILLED) || **out ||
            record_fails(view, row->key, err, "is an empty text, required: some words");
 }
 
-const char *record_word(const RecordRow *row, int i)
-{
+const char *record_word(const RecordRow *row, int i) {
     const char *word;
-    size_t      stride = row->stride ? row->stride : sizeof *row->words;
+    size_t stride = row->stride ? row->stride : sizeof *row->words;
     memcpy(&word, (const char *)row->words + (size_t)i * stride, sizeof word);
     return word;
 }
 
 /* The place of a word, and itself. */
 static bool read_word(const JsonView *view, const RecordRow *row, int *place, const char **out,
-                      Error *err)
-{
+                      Error *err) {
     const char *text, *word, *known[KEYS_MAX];
-    char        advice[256];
-    int         count = 0;
+    char advice[256];
+    int count = 0;
     if (!read_text(view, row, &text, err)) return false;
     for (; count < KEYS_MAX && (word = record_word(row, count)); count++) {
         known[count] = word;
@@ -186,28 +169,24 @@ static bool read_word(const JsonView *view, const RecordRow *row, int *place, co
                         nearest_word_advice(text, known, count, advice, sizeof advice));
 }
 
-static bool read_const(const JsonView *view, const RecordRow *row, Error *err)
-{
+static bool read_const(const JsonView *view, const RecordRow *row, Error *err) {
     const json_t *value = json_object_get(view->object, row->key);
-    const char   *text = json_string_value(value);
+    const char *text = json_string_value(value);
     if (row->words ? !text : !json_is_number(value))
-        return json_view_wrong_kind(view, row->key, value, row->words ? "a text" : "a number",
-                                    err);
+        return json_view_wrong_kind(view, row->key, value, row->words ? "a text" : "a number", err);
     if (row->words)
         return !strcmp(text, row->words[0]) ||
-               record_fails(view, row->key, err, "is '%.60s', required: '%s'", text,
-                            row->words[0]);
+               record_fails(view, row->key, err, "is '%.60s', required: '%s'", text, row->words[0]);
     return json_number_value(value) == row->low ||
            record_fails(view, row->key, err, "is %g, required: %g", json_number_value(value),
                         row->low);
 }
 
-static bool read_file(const JsonView *view, const RecordRow *row, const char **out, Error *err)
-{
-    Error         why;
+static bool read_file(const JsonView *view, const RecordRow *row, const char **out, Error *err) {
+    Error why;
     const json_t *value = json_object_get(view->object, row->key);
-    const char   *uri = json_string_value(value);
-    char         *relative;
+    const char *uri = json_string_value(value);
+    char *relative;
     if (!uri) return json_view_wrong_kind(view, row->key, value, "a file's path", err);
     size_t scheme = uri_scheme_length(uri);
     if (scheme)
@@ -224,28 +203,24 @@ static bool read_file(const JsonView *view, const RecordRow *row, const char **o
 
 /* ---- names of other items ---------------------------------------------------------------- */
 
-int record_names(const JsonView *view, const RecordNames *among, const char ***out)
-{
+int record_names(const JsonView *view, const RecordNames *among, const char ***out) {
     const char *whole = view->whole, *item;
-    int         count = *(const int *)(whole + among->count);
+    int count = *(const int *)(whole + among->count);
     memcpy(&item, whole + among->list, sizeof item);
     *out = ARENA_NEW(view->arena, const char *, count);
-    for (int i = 0; i < count; i++, item += among->size)
-        memcpy(&(*out)[i], item, sizeof **out);
+    for (int i = 0; i < count; i++, item += among->size) memcpy(&(*out)[i], item, sizeof **out);
     return count;
 }
 
-static int place_of(const char *name, const char **names, int count)
-{
+static int place_of(const char *name, const char **names, int count) {
     for (int i = 0; i < count; i++)
         if (!strcmp(names[i], name)) return i;
     return -1;
 }
 
-static bool read_refer(const JsonView *view, const RecordRow *row, int *out, Error *err)
-{
+static bool read_refer(const JsonView *view, const RecordRow *row, int *out, Error *err) {
     const char *name, **names, *key = row->among->key;
-    char        advice[256];
+    char advice[256];
     if (!read_text(view, row, &name, err)) return false;
     int count = record_names(view, row->among, &names), place = place_of(name, names, count);
     if (place >= 0) {
@@ -253,17 +228,15 @@ static bool read_refer(const JsonView *view, const RecordRow *row, int *out, Err
         return true;
     }
     if (!count)
-        return record_fails(view, row->key, err, "is '%.60s', but the file has no '%s'", name,
-                            key);
-    return record_fails(view, row->key, err, "is '%.60s', required: a name of '%s': %s", name,
-                        key, nearest_word_advice(name, names, count, advice, sizeof advice));
+        return record_fails(view, row->key, err, "is '%.60s', but the file has no '%s'", name, key);
+    return record_fails(view, row->key, err, "is '%.60s', required: a name of '%s': %s", name, key,
+                        nearest_word_advice(name, names, count, advice, sizeof advice));
 }
 
 /* A map's member has a name, one of the row's if it has some. */
-static bool check_name(const JsonView *map, const RecordRow *row, const char *name, Error *err)
-{
+static bool check_name(const JsonView *map, const RecordRow *row, const char *name, Error *err) {
     const char **names;
-    char         advice[256];
+    char advice[256];
     if (!*name)
         return error_at(err, ERROR_INPUT, map->file, map->path,
                         "has a member with an empty name, required: a name");
@@ -277,11 +250,10 @@ static bool check_name(const JsonView *map, const RecordRow *row, const char *na
 /* ---- lists and maps ---------------------------------------------------------------------- */
 
 /* A list as an object whose members' names are their places, for who reads members. */
-static json_t *by_place(const json_t *list)
-{
+static json_t *by_place(const json_t *list) {
     json_t *object = json_object(), *value;
-    size_t  i;
-    char    place[24];
+    size_t i;
+    char place[24];
     json_array_foreach(list, i, value) {
         snprintf(place, sizeof place, "%zu", i);
         json_object_set(object, place, value);
@@ -290,9 +262,8 @@ static json_t *by_place(const json_t *list)
 }
 
 static bool read_item(const JsonView *view, const RecordRow *row, const char *name, void *item,
-                      Error *err)
-{
-    JsonView            inside;
+                      Error *err) {
+    JsonView inside;
     const RecordFormat *of = row->of;
     if (of->start) of->start(item);
     if (row->kind == RECORD_MAP) {
@@ -301,27 +272,25 @@ static bool read_item(const JsonView *view, const RecordRow *row, const char *na
         memcpy(item, &kept, sizeof kept);
     }
     if (!of->value)
-        return json_view_child(view, name, &inside, err) &&
-               record_read(&inside, of, item, err);
+        return json_view_child(view, name, &inside, err) && record_read(&inside, of, item, err);
     RecordRow value = *of->value;
     value.key = name;
-    return record_read_value(view, &value, item, err) &&
-           (!of->check || of->check(view, item, err));
+    return record_read_value(view, &value, item, err) && (!of->check || of->check(view, item, err));
 }
 
-static bool read_items(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    int         count;
-    JsonView    inside = *view;
-    json_t     *value, *own = json_object_get(view->object, row->key);
+static bool read_items(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    int count;
+    JsonView inside = *view;
+    json_t *value, *own = json_object_get(view->object, row->key);
     const char *name;
-    bool        ok = true;
-    if (!find_count(view, row, row->kind == RECORD_MAP ? "an object"
-                               : row->of->value        ? "an array"
-                                                       : "an array of objects", &count, err))
+    bool ok = true;
+    if (!find_count(view, row,
+                    row->kind == RECORD_MAP ? "an object"
+                    : row->of->value        ? "an array"
+                                            : "an array of objects",
+                    &count, err))
         return false;
-    char *items = arena_alloc(view->arena, row->of->size, _Alignof(max_align_t),
-                              (size_t)count);
+    char *items = arena_alloc(view->arena, row->of->size, _Alignof(max_align_t), (size_t)count);
     memcpy(at_offset(item, row->offset), &items, sizeof items);
     *(int *)at_offset(item, row->count) = count;
     inside.path = json_view_path(view, row->key);
@@ -334,12 +303,11 @@ static bool read_items(const JsonView *view, const RecordRow *row, void *item, E
     return ok;
 }
 
-static const RecordRow    A_TEXT = {.kind = RECORD_TEXT}, A_FILE = {.kind = RECORD_FILE};
+static const RecordRow A_TEXT = {.kind = RECORD_TEXT}, A_FILE = {.kind = RECORD_FILE};
 static const RecordFormat texts = {"text", sizeof(char *), .value = &A_TEXT};
-const RecordFormat        record_files = {"file", sizeof(char *), .value = &A_FILE};
+const RecordFormat record_files = {"file", sizeof(char *), .value = &A_FILE};
 
-static bool read_texts(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_texts(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     RecordRow list = *row;
     list.of = &texts;
     return read_items(view, &list, item, err);
@@ -347,10 +315,9 @@ static bool read_texts(const JsonView *view, const RecordRow *row, void *item, E
 
 /* ---- objects and choices ----------------------------------------------------------------- */
 
-static bool read_object(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_object(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     JsonView inside;
-    void    *at = at_offset(item, row->offset);
+    void *at = at_offset(item, row->offset);
     if (!json_view_child(view, row->key, &inside, err)) return false;
     if (row->flags & RECORD_APART) {
         void *apart = arena_alloc(view->arena, row->of->size, _Alignof(max_align_t), 1);
@@ -363,8 +330,7 @@ static bool read_object(const JsonView *view, const RecordRow *row, void *item, 
     return true;
 }
 
-static bool read_flag(const JsonView *view, const RecordRow *row, bool *out, Error *err)
-{
+static bool read_flag(const JsonView *view, const RecordRow *row, bool *out, Error *err) {
     const json_t *value = json_object_get(view->object, row->key);
     if (!json_is_boolean(value))
         return json_view_wrong_kind(view, row->key, value, "true or false", err);
@@ -372,8 +338,7 @@ static bool read_flag(const JsonView *view, const RecordRow *row, bool *out, Err
     return true;
 }
 
-static bool is_of(const json_t *value, RecordKind kind)
-{
+static bool is_of(const json_t *value, RecordKind kind) {
     switch (kind) {
     case RECORD_NUMBER:
     case RECORD_INTEGER: return json_is_number(value);
@@ -389,26 +354,24 @@ static bool is_of(const json_t *value, RecordKind kind)
     }
 }
 
-static bool read_either(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    const char   *required = "";
+static bool read_either(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    const char *required = "";
     const json_t *value = json_object_get(view->object, row->key);
     for (const RecordRow *form = row->forms; form->key; form++) {
         RecordRow own = *form;
         own.key = row->key;
         if (is_of(value, form->kind))
             return record_read_value(view, &own, at_offset(item, row->offset), err);
-        required = arena_format(view->arena, "%s%s%s", required, *required ? " or " : "",
-                                form->key);
+        required =
+            arena_format(view->arena, "%s%s%s", required, *required ? " or " : "", form->key);
     }
     return json_view_wrong_kind(view, row->key, value, required, err);
 }
 
-bool record_read_kind(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    void       *at = at_offset(item, row->offset);
+bool record_read_kind(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    void *at = at_offset(item, row->offset);
     const char *word;
-    int         place;
+    int place;
     switch (row->kind) {
     case RECORD_NUMBER:
     case RECORD_INTEGER: return read_number(view, row, at, err);
@@ -424,8 +387,7 @@ bool record_read_kind(const JsonView *view, const RecordRow *row, void *item, Er
     case RECORD_CONST: return read_const(view, row, err);
     case RECORD_FILE: return read_file(view, row, at, err);
     case RECORD_PATH:
-        return read_text(view, row, &word, err) &&
-               json_view_file(view, row->key, word, at, err);
+        return read_text(view, row, &word, err) && json_view_file(view, row->key, word, at, err);
     case RECORD_REFER: return read_refer(view, row, at, err);
     case RECORD_OBJECT: return read_object(view, row, item, err);
     case RECORD_LIST:
@@ -434,18 +396,16 @@ bool record_read_kind(const JsonView *view, const RecordRow *row, void *item, Er
     }
 }
 
-bool record_read_value(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+bool record_read_value(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     return (row->read ? row->read : record_read_kind)(view, row, item, err);
 }
 
 /* Refuses a key that no row has, with the nearest one. */
 static bool check_keys(const JsonView *view, const char *format, const RecordRow *rows,
-                       Error *err)
-{
+                       Error *err) {
     const char *known[KEYS_MAX], *key;
-    json_t     *value;
-    int         count = 0;
+    json_t *value;
+    int count = 0;
     for (const RecordRow *row = rows; row->key && count < KEYS_MAX; row++)
         known[count++] = row->key;
     json_object_foreach(view->object, key, value) {
@@ -460,8 +420,7 @@ static bool check_keys(const JsonView *view, const char *format, const RecordRow
 }
 
 /* What nobody knows, of a row that says so by null. */
-static void clear(const RecordRow *row, void *item)
-{
+static void clear(const RecordRow *row, void *item) {
     void *at = at_offset(item, row->offset);
     if (row->kind == RECORD_TEXT) memset(at, 0, sizeof(const char *));
     if (row->kind == RECORD_CHOICE) memset(at, 0, sizeof(int));
@@ -474,16 +433,14 @@ static void clear(const RecordRow *row, void *item)
         if (inside->flags & RECORD_NULL) clear(inside, at);
 }
 
-bool record_read(const JsonView *outer, const RecordFormat *format, void *item, Error *err)
-{
+bool record_read(const JsonView *outer, const RecordFormat *format, void *item, Error *err) {
     JsonView own = *outer, *view = &own;
     if (!own.whole) own.whole = item;
     if (!format->takes_more && !check_keys(view, format->name, format->rows, err)) return false;
     for (const RecordRow *row = format->rows; row->key; row++) {
         const json_t *value = json_object_get(view->object, row->key);
         if (row->flags & RECORD_WRITTEN) continue;
-        if (!value && row->flags & RECORD_REQUIRED)
-            return record_misses(view, row->key, err);
+        if (!value && row->flags & RECORD_REQUIRED) return record_misses(view, row->key, err);
         if (row->flags & RECORD_NULL) clear(row, item);
         if (value && !(json_is_null(value) && row->flags & RECORD_NULL) &&
             !record_read_value(view, row, item, err))

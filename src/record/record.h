@@ -52,27 +52,27 @@ typedef enum RecordKind {
 
 enum RecordFlags {
     RECORD_REQUIRED = 1,
-    RECORD_ABOVE = 2,    /* low itself is out of range */
-    RECORD_FILLED = 4,   /* a text has something in it */
-    RECORD_WHOLE = 8,    /* of numbers: whole ones */
-    RECORD_RADIANS = 16, /* degrees in the file */
-    RECORD_METRES = 32,  /* millimetres in the file */
-    RECORD_UNIT = 64,    /* of three numbers: a direction, which becomes a unit vector */
-    RECORD_FLOAT = 128,  /* of a number, of numbers: float, not double */
-    RECORD_APART = 256,  /* of an object: const struct *; NULL: it is absent */
-    RECORD_OPEN = 512,   /* absent it means no number: the schema has no default */
-    RECORD_NULL = 1024,  /* null, or absent: of numbers NaN, of a text NULL, of a choice 0 (its
-                            words are 1, 2, ...), of an object that it is not there */
-    RECORD_LONG = 2048,  /* of an integer: long, not int */
+    RECORD_ABOVE = 2,      /* low itself is out of range */
+    RECORD_FILLED = 4,     /* a text has something in it */
+    RECORD_WHOLE = 8,      /* of numbers: whole ones */
+    RECORD_RADIANS = 16,   /* degrees in the file */
+    RECORD_METRES = 32,    /* millimetres in the file */
+    RECORD_UNIT = 64,      /* of three numbers: a direction, which becomes a unit vector */
+    RECORD_FLOAT = 128,    /* of a number, of numbers: float, not double */
+    RECORD_APART = 256,    /* of an object: const struct *; NULL: it is absent */
+    RECORD_OPEN = 512,     /* absent it means no number: the schema has no default */
+    RECORD_NULL = 1024,    /* null, or absent: of numbers NaN, of a text NULL, of a choice 0 (its
+                              words are 1, 2, ...), of an object that it is not there */
+    RECORD_LONG = 2048,    /* of an integer: long, not int */
     RECORD_WRITTEN = 4096, /* it is not read back */
-    RECORD_BRIEF = 8192  /* null, false and an empty list are not written */
+    RECORD_BRIEF = 8192    /* null, false and an empty list are not written */
 };
 
 /* Named structs of the outermost struct that is read (JsonView.whole). */
 typedef struct RecordNames {
-    const char *key, *one;   /* "eyes", "eye" */
-    size_t      list, count; /* offsets: of the pointer to the first, of the int how many */
-    size_t      size;        /* of one; its first member is its name, const char * */
+    const char *key, *one; /* "eyes", "eye" */
+    size_t list, count;    /* offsets: of the pointer to the first, of the int how many */
+    size_t size;           /* of one; its first member is its name, const char * */
 } RecordNames;
 
 typedef struct RecordFormat RecordFormat;
@@ -80,23 +80,23 @@ typedef struct RecordRow RecordRow;
 
 struct RecordRow {
     const char *key;
-    RecordKind  kind;
-    unsigned    flags;
-    size_t      offset; /* of the value in the struct */
-    double      low, high;
-    int         least, most;       /* items of a list; most 0: any number */
-    size_t      count;             /* offset of how many, or of whether it is there; 0: none */
-    const char *const  *words;     /* a NULL ends them */
-    size_t              stride;    /* bytes from one to the next: they are members of a table's
-                                      structs. 0: an array of texts */
+    RecordKind kind;
+    unsigned flags;
+    size_t offset; /* of the value in the struct */
+    double low, high;
+    int least, most;          /* items of a list; most 0: any number */
+    size_t count;             /* offset of how many, or of whether it is there; 0: none */
+    const char *const *words; /* a NULL ends them */
+    size_t stride;            /* bytes from one to the next: they are members of a table's
+                                 structs. 0: an array of texts */
     const RecordFormat *of;
-    const RecordNames  *among;
-    const RecordRow    *forms;     /* the key of each says what it is: "a name" */
+    const RecordNames *among;
+    const RecordRow *forms; /* the key of each says what it is: "a name" */
     bool (*read)(const JsonView *view, const RecordRow *row, void *item, Error *err);
-                                   /* instead of the kind's own reading; NULL: that */
+    /* instead of the kind's own reading; NULL: that */
     json_t *(*write)(const void *item); /* likewise, of the struct; record_write.h */
-    const char *schema;            /* of RECORD_OWN, JSON; ' may stand for " */
-    const char *doc;               /* one sentence; NULL: the key says it */
+    const char *schema;                 /* of RECORD_OWN, JSON; ' may stand for " */
+    const char *doc;                    /* one sentence; NULL: the key says it */
 };
 
 /* Of a row: where the value goes, and its range. */
@@ -104,14 +104,13 @@ struct RecordRow {
 #define RECORD_RANGE(bottom, top) .low = (bottom), .high = (top)
 
 /* Of a list or map, or numbers that are counted; and how many there may be. */
-#define RECORD_MANY(Type, member, counted) RECORD_AT(Type, member),                            \
-    .count = offsetof(Type, counted)
+#define RECORD_MANY(Type, member, counted) RECORD_AT(Type, member), .count = offsetof(Type, counted)
 #define RECORD_COUNT(fewest, greatest) .least = (fewest), .most = (greatest)
 
 struct RecordFormat {
-    const char      *name;  /* in a schema's "$defs" */
-    size_t           size;  /* of the struct */
-    const RecordRow *rows;  /* a key that is NULL ends them */
+    const char *name;          /* in a schema's "$defs" */
+    size_t size;               /* of the struct */
+    const RecordRow *rows;     /* a key that is NULL ends them */
     void (*start)(void *item); /* defaults of a whole file, of a list's item; NULL: zeros.
                                   A number's default that is NaN means that it has none */
     bool (*check)(const JsonView *view, void *item, Error *err); /* NULL: rows say all. View: of

@@ -11,19 +11,16 @@ static json_t *object_schema(const RecordFormat *format, const void *item);
 static json_t *item_schema(const RecordFormat *format);
 static json_t *value_schema(const RecordRow *row, const void *item);
 
-static void set(json_t *schema, const char *key, json_t *value)
-{
+static void set(json_t *schema, const char *key, json_t *value) {
     json_object_set_new(schema, key, value);
 }
 
-static json_t *kind(const char *name)
-{
+static json_t *kind(const char *name) {
     return json_pack("{s:s}", "type", name);
 }
 
 /* JSON of rows, in which ' stands for ". */
-static json_t *loaded(const char *text)
-{
+static json_t *loaded(const char *text) {
     char *copy = strdup(text);
     for (char *c = copy; c && *c; c++)
         if (*c == '\'') *c = '"';
@@ -33,41 +30,35 @@ static json_t *loaded(const char *text)
 }
 
 /* 5 as 5, 0.5 as 0.5. */
-static json_t *number(double value)
-{
+static json_t *number(double value) {
     return value == rint(value) && fabs(value) < 1e15 ? json_integer((json_int_t)value)
                                                       : json_real(value);
 }
 
-static json_t *number_schema(const RecordRow *row)
-{
-    bool    is_whole = row->kind == RECORD_INTEGER || row->kind == RECORD_WHOLES ||
-                    row->flags & RECORD_WHOLE;
+static json_t *number_schema(const RecordRow *row) {
+    bool is_whole =
+        row->kind == RECORD_INTEGER || row->kind == RECORD_WHOLES || row->flags & RECORD_WHOLE;
     json_t *schema = kind(is_whole ? "integer" : "number");
     if (isfinite(row->low))
-        set(schema, row->flags & RECORD_ABOVE ? "exclusiveMinimum" : "minimum",
-            number(row->low));
+        set(schema, row->flags & RECORD_ABOVE ? "exclusiveMinimum" : "minimum", number(row->low));
     if (isfinite(row->high)) set(schema, "maximum", number(row->high));
     return schema;
 }
 
-static json_t *text_schema(const RecordRow *row)
-{
+static json_t *text_schema(const RecordRow *row) {
     json_t *schema = kind("string");
     if (row->flags & RECORD_FILLED) set(schema, "minLength", json_integer(1));
     return schema;
 }
 
-static json_t *choice_schema(const RecordRow *row)
-{
+static json_t *choice_schema(const RecordRow *row) {
     json_t *words = json_array();
     for (int i = 0; record_word(row, i); i++)
         json_array_append_new(words, json_string(record_word(row, i)));
     return json_pack("{s:o}", "enum", words);
 }
 
-static json_t *list_schema(const RecordRow *row, json_t *items)
-{
+static json_t *list_schema(const RecordRow *row, json_t *items) {
     json_t *schema = json_pack("{s:s, s:o}", "type", "array", "items", items);
     if (row->flags & RECORD_UNIT) set(schema, "not", loaded("{'items': {'const': 0}}"));
     if (row->least) set(schema, "minItems", json_integer(row->least));
@@ -75,14 +66,12 @@ static json_t *list_schema(const RecordRow *row, json_t *items)
     return schema;
 }
 
-static json_t *file_schema(void)
-{
+static json_t *file_schema(void) {
     return json_pack("{s:s, s:i, s:s}", "type", "string", "minLength", 1, "format",
                      "uri-reference");
 }
 
-static json_t *map_schema(const RecordRow *row)
-{
+static json_t *map_schema(const RecordRow *row) {
     json_t *schema = json_pack("{s:s, s:o, s:{s:i}}", "type", "object", "additionalProperties",
                                item_schema(row->of), "propertyNames", "minLength", 1);
     if (row->least) set(schema, "minProperties", json_integer(row->least));
@@ -90,8 +79,7 @@ static json_t *map_schema(const RecordRow *row)
     return schema;
 }
 
-static json_t *either_schema(const RecordRow *row)
-{
+static json_t *either_schema(const RecordRow *row) {
     json_t *forms = json_array();
     for (const RecordRow *form = row->forms; form->key; form++) {
         json_t *one = value_schema(form, NULL);
@@ -102,8 +90,7 @@ static json_t *either_schema(const RecordRow *row)
 }
 
 /* item: holds the defaults; NULL: nobody knows them. */
-static json_t *value_schema(const RecordRow *row, const void *item)
-{
+static json_t *value_schema(const RecordRow *row, const void *item) {
     switch (row->kind) {
     case RECORD_NUMBER:
     case RECORD_INTEGER: return number_schema(row);
@@ -135,21 +122,18 @@ static json_t *value_schema(const RecordRow *row, const void *item)
 }
 
 /* The i-th of a row's. */
-static double number_at(const RecordRow *row, const void *at, int i)
-{
-    if (row->kind == RECORD_INTEGER || row->kind == RECORD_WHOLES)
-        return ((const int *)at)[i];
-    double value = row->flags & RECORD_FLOAT ? (double)((const float *)at)[i]
-                                             : ((const double *)at)[i];
+static double number_at(const RecordRow *row, const void *at, int i) {
+    if (row->kind == RECORD_INTEGER || row->kind == RECORD_WHOLES) return ((const int *)at)[i];
+    double value =
+        row->flags & RECORD_FLOAT ? (double)((const float *)at)[i] : ((const double *)at)[i];
     if (row->flags & RECORD_METRES) return 1000 * value;
     return row->flags & RECORD_RADIANS ? degrees_from_radians(value) : value;
 }
 
 /* NULL: a default that no file could state. */
-static json_t *numbers(const RecordRow *row, const void *list, int count)
-{
+static json_t *numbers(const RecordRow *row, const void *list, int count) {
     json_t *out = json_array();
-    bool    is_zero = row->flags & RECORD_UNIT;
+    bool is_zero = row->flags & RECORD_UNIT;
     for (int i = 0; i < count; i++) {
         double value = number_at(row, list, i);
         is_zero = is_zero && value == 0;
@@ -165,8 +149,7 @@ static json_t *numbers(const RecordRow *row, const void *list, int count)
 }
 
 /* What an absent member means; NULL: nothing that JSON could say. */
-static json_t *default_of(const RecordRow *row, const void *item)
-{
+static json_t *default_of(const RecordRow *row, const void *item) {
     const void *at = (const char *)item + row->offset;
     const void *count = (const char *)item + row->count;
     const void *list = row->kind == RECORD_FIGURES ? *(double *const *)at : at;
@@ -185,26 +168,22 @@ static json_t *default_of(const RecordRow *row, const void *item)
         return numbers(row, list, row->count ? *(const int *)count : row->most);
     case RECORD_FLAG: return json_boolean(*(const bool *)at);
     case RECORD_CHOICE: return json_string(record_word(row, *(const int *)at));
-    case RECORD_WORD:
-        memcpy(&word, at, sizeof word);
-        return word ? json_string(word) : NULL;
+    case RECORD_WORD: memcpy(&word, at, sizeof word); return word ? json_string(word) : NULL;
     default: return NULL;
     }
 }
 
-static json_t *object_schema(const RecordFormat *format, const void *item)
-{
+static json_t *object_schema(const RecordFormat *format, const void *item) {
     json_t *schema = kind("object"), *properties = json_object(), *required = json_array();
     for (const RecordRow *row = format->rows; row->key; row++) {
         json_t *value = value_schema(row, item);
-        bool    is_required = row->flags & RECORD_REQUIRED;
-        bool    is_open = is_required || row->read || row->flags & RECORD_OPEN;
+        bool is_required = row->flags & RECORD_REQUIRED;
+        bool is_open = is_required || row->read || row->flags & RECORD_OPEN;
         json_t *usual = is_open || !item ? NULL : default_of(row, item);
         if (usual) set(value, "default", usual);
         if (row->doc) set(value, "description", json_string(row->doc));
         set(properties, row->key, value);
-        if (is_required)
-            json_array_append_new(required, json_string(row->key));
+        if (is_required) json_array_append_new(required, json_string(row->key));
     }
     if (format->doc) set(schema, "description", json_string(format->doc));
     set(schema, "properties", properties);
@@ -219,20 +198,18 @@ static json_t *object_schema(const RecordFormat *format, const void *item)
 }
 
 /* Of a list's item, or a whole file. */
-static json_t *item_schema(const RecordFormat *format)
-{
+static json_t *item_schema(const RecordFormat *format) {
     void *item = calloc(1, format->size);
     if (item && format->start) format->start(item);
-    json_t *schema = format->value ? value_schema(format->value, NULL)
-                                   : object_schema(format, item);
+    json_t *schema =
+        format->value ? value_schema(format->value, NULL) : object_schema(format, item);
     if (format->value && format->value->doc)
         set(schema, "description", json_string(format->value->doc));
     free(item);
     return schema;
 }
 
-json_t *record_schema(const RecordFormat *format, const char *title)
-{
+json_t *record_schema(const RecordFormat *format, const char *title) {
     json_t *schema = json_pack("{s:s, s:s}", "$schema",
                                "https://json-schema.org/draft/2020-12/schema", "title", title);
     json_t *body = item_schema(format);

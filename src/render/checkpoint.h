@@ -20,9 +20,9 @@
 typedef struct Checkpoint {
     const char *path;
     const char *identity;
-    FilmPart    done;         /* samples [first_sample, end_sample) of the crop's pixels */
-    double      seconds;      /* of rendering, over all sessions */
-    bool        has_features; /* the samples' first surfaces were looked at */
+    FilmPart done;     /* samples [first_sample, end_sample) of the crop's pixels */
+    double seconds;    /* of rendering, over all sessions */
+    bool has_features; /* the samples' first surfaces were looked at */
 } Checkpoint;
 
 /* True when a file stands there that begins as a checkpoint does. */

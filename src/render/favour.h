@@ -15,12 +15,12 @@
 
 /* Which pixels of a frame are favoured. */
 typedef struct Favour {
-    const Kernel      *kernel;
+    const Kernel *kernel;
     const PathContext *context;
-    const Camera      *camera;
-    const FilmArea    *area; /* NULL: all pixels take all samples */
-    FilmRect           crop;
-    int                threads;
+    const Camera *camera;
+    const FilmArea *area; /* NULL: all pixels take all samples */
+    FilmRect crop;
+    int threads;
 } Favour;
 
 /* Of each of the crop's pixels, row by row: 1: it shows the area's display. */

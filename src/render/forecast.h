@@ -16,8 +16,8 @@
 
 typedef struct Forecast {
     uint32_t samples; /* of the last reading that growth was taken from; 0: none yet */
-    double   wanted;  /* samples that the error took then */
-    double   growth;  /* of the required samples in the last doubling, as a share */
+    double wanted;    /* samples that the error took then */
+    double growth;    /* of the required samples in the last doubling, as a share */
 } Forecast;
 
 /* The samples that the requested error takes, in fractions. error_ratio: the error after `done`

@@ -12,41 +12,41 @@
 #define POINTS_AT_ONCE 64
 
 typedef struct IlluminanceSums {
-    double        xyz[3];
+    double xyz[3];
     BrightSamples bright;
-    uint64_t      sky_finds; /* PathStatistics' */
+    uint64_t sky_finds; /* PathStatistics' */
 } IlluminanceSums;
 
 typedef struct Meter {
-    const PathContext        *context;
+    const PathContext *context;
     const IlluminanceOptions *options;
-    const LitPoint           *points; /* those at work now */
-    IlluminanceSums           sums[POINTS_AT_ONCE][BATCHES];
+    const LitPoint *points; /* those at work now */
+    IlluminanceSums sums[POINTS_AT_ONCE][BATCHES];
 } Meter;
 
 /* Samples of a batch; the first batches have one more. */
-static long batch_samples(const IlluminanceOptions *options, int batch)
-{
+static long batch_samples(const IlluminanceOptions *options, int batch) {
     return (options->samples - batch + BATCHES - 1) / BATCHES;
 }
 
 /* item: a batch of a point. */
-static void measure_batch(void *user, int item, int worker)
-{
+static void measure_batch(void *user, int item, int worker) {
     (void)worker;
     Meter *meter = user;
-    int    point = item / BATCHES, batch = item % BATCHES;
+    int point = item / BATCHES, batch = item % BATCHES;
     const IlluminanceOptions *options = meter->options;
-    PathStatistics   statistics = {0};
+    PathStatistics statistics = {0};
     IlluminanceSums *sums = &meter->sums[point][batch];
     uint32_t seed = hash_combine(hash_u32(options->seed), (uint32_t)batch);
     for (long i = 0; i < batch_samples(options, batch); i++) {
-        Sampler     sampler = sampler_start(seed, 0, 0, (uint32_t)i);
+        Sampler sampler = sampler_start(seed, 0, 0, (uint32_t)i);
         Wavelengths wavelengths;
-        float       xyz[3];
+        float xyz[3];
         wavelengths_sample(sampler_1d(&sampler), &wavelengths);
-        PathStart start = {.context = meter->context, .wavelengths = &wavelengths,
-                           .sampler = &sampler, .statistics = &statistics};
+        PathStart start = {.context = meter->context,
+                           .wavelengths = &wavelengths,
+                           .sampler = &sampler,
+                           .statistics = &statistics};
         path_from_point(&start, meter->points[point], xyz);
         for (int k = 0; k < 3; k++) sums->xyz[k] += (double)xyz[k];
         bright_add(&sums->bright, (double)xyz[1]);
@@ -55,21 +55,21 @@ static void measure_batch(void *user, int item, int worker)
 }
 
 /* What comes of the sky by openings that no sample met (review/light/reading.c), lx. */
-static double sky_unmet(const Meter *meter, int point)
-{
+static double sky_unmet(const Meter *meter, int point) {
     for (int i = 0; i < BATCHES; i++)
         if (meter->sums[point][i].sky_finds) return 0;
     return estimate_unmet(PI * (double)meter->context->selection.sky_cd_m2,
                           (double)meter->options->samples);
 }
 
-static Illuminance add_batches(const Meter *meter, int point)
-{
-    Illuminance  total = {0};
-    double       samples = (double)meter->options->samples;
-    EstimateSums y = {.batches = meter->options->samples < BATCHES
-                                     ? (int)meter->options->samples : BATCHES,
-                      .paths = meter->options->samples, .piece = 1, .share = 1,
+static Illuminance add_batches(const Meter *meter, int point) {
+    Illuminance total = {0};
+    double samples = (double)meter->options->samples;
+    EstimateSums y = {.batches = meter->options->samples < BATCHES ? (int)meter->options->samples
+                                                                   : BATCHES,
+                      .paths = meter->options->samples,
+                      .piece = 1,
+                      .share = 1,
                       .unmet = sky_unmet(meter, point)};
     for (int i = 0; i < y.batches; i++) {
         const IlluminanceSums *sums = &meter->sums[point][i];
@@ -85,21 +85,18 @@ static Illuminance add_batches(const Meter *meter, int point)
 }
 
 bool illuminance_measure(const Scene *scene, const IlluminanceOptions *options, Arena *arena,
-                         Illuminance *out, Error *err)
-{
+                         Illuminance *out, Error *err) {
     Lights *lights;
-    Bvh    *bvh;
+    Bvh *bvh;
     if (!lights_build(scene, arena, &lights, err)) return false;
     if (!bvh_create(scene, options->threads, NULL, &bvh, err)) return false;
     PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
-    Progress    progress = progress_start(options->progress, "illuminance", "points",
-                                          options->count);
-    Meter      *meter = ARENA_NEW(arena, Meter, 1);
+    Progress progress = progress_start(options->progress, "illuminance", "points", options->count);
+    Meter *meter = ARENA_NEW(arena, Meter, 1);
     for (int done = 0; done < options->count; done += POINTS_AT_ONCE) {
         int left = options->count - done;
         int count = left < POINTS_AT_ONCE ? left : POINTS_AT_ONCE;
-        *meter = (Meter){.context = &context, .options = options,
-                         .points = options->points + done};
+        *meter = (Meter){.context = &context, .options = options, .points = options->points + done};
         parallel_for(options->threads, count * BATCHES, measure_batch, meter);
         for (int i = 0; i < count; i++) out[done + i] = add_batches(meter, i);
         progress_update(&progress, done + count);

@@ -11,17 +11,17 @@
 #include "path/path.h"
 
 typedef struct IlluminanceOptions {
-    const LitPoint *points;    /* a head is at each and faces its ns */
-    int      count;
-    long     samples;          /* of each; at least 2 */
-    int      max_bounces;
+    const LitPoint *points; /* a head is at each and faces its ns */
+    int count;
+    long samples; /* of each; at least 2 */
+    int max_bounces;
     uint32_t seed;
-    int      threads;          /* at least 1 */
-    ProgressMode progress;     /* of many points */
+    int threads;           /* at least 1 */
+    ProgressMode progress; /* of many points */
 } IlluminanceOptions;
 
 typedef struct Illuminance {
-    double xyz_lx[3];  /* Y is the illuminance */
+    double xyz_lx[3];       /* Y is the illuminance */
     double low_lx, high_lx; /* 95 % interval of Y, of independent batches of samples */
 } Illuminance;
 

@@ -36,20 +36,20 @@
 #define NOISE_DOUBT 1.15
 #define NOISE_PIXELS_LEAST 512 /* of the area, or all that it has; */
 #define NOISE_PIXELS_MOST 4096
-#define NOISE_PIXELS_SHARE 64  /* else one in so many of it */
+#define NOISE_PIXELS_SHARE 64 /* else one in so many of it */
 
 typedef struct NoiseArgs {
-    const Kernel      *kernel;
+    const Kernel *kernel;
     const PathContext *context; /* with its guide */
-    const Camera      *camera;
-    FilmRect     crop;
-    FilmArea     area;          /* whose error counts */
-    SampleShares shares;        /* of the crop's pixels */
-    uint32_t     seed;          /* of the frame */
-    uint32_t     first_sample, most; /* its first sample, and how many it has at most */
-    double       error;         /* that is required: above 0 */
-    int          threads;
-    bool         stops_at_once; /* at a signal: what is found then is worth nothing */
+    const Camera *camera;
+    FilmRect crop;
+    FilmArea area;               /* whose error counts */
+    SampleShares shares;         /* of the crop's pixels */
+    uint32_t seed;               /* of the frame */
+    uint32_t first_sample, most; /* its first sample, and how many it has at most */
+    double error;                /* that is required: above 0 */
+    int threads;
+    bool stops_at_once; /* at a signal: what is found then is worth nothing */
     ProgressMode progress;
 } NoiseArgs;
 
@@ -57,15 +57,15 @@ typedef struct NoisePixel NoisePixel;
 
 /* What was found. */
 typedef struct NoiseStop {
-    uint32_t samples;  /* of the frame */
-    bool     reached;  /* by them; else they are all that it may have */
-    double   error;    /* of the pixels then; NaN: none shows the area */
-    int      pixels;   /* of the area, that decided */
-    uint64_t paths;    /* that were traced for it */
-    double   seconds;
+    uint32_t samples; /* of the frame */
+    bool reached;     /* by them; else they are all that it may have */
+    double error;     /* of the pixels then; NaN: none shows the area */
+    int pixels;       /* of the area, that decided */
+    uint64_t paths;   /* that were traced for it */
+    double seconds;
     const NoisePixel *of; /* private: all pixels, */
-    int      count;
-    double   lowest;   /* the luminance that their noise was judged by at least, cd m^-2 */
+    int count;
+    double lowest; /* the luminance that their noise was judged by at least, cd m^-2 */
     uint32_t first_sample;
 } NoiseStop;
 

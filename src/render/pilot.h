@@ -28,12 +28,12 @@
 #define PILOT_BAND 64
 
 typedef struct Pilot {
-    const Kernel      *kernel;
+    const Kernel *kernel;
     const PathContext *context; /* with its guide */
-    const Camera      *camera;
-    FilmRect           crop;
-    int                threads;
-    ProgressMode       progress;
+    const Camera *camera;
+    FilmRect crop;
+    int threads;
+    ProgressMode progress;
 } Pilot;
 
 /* Of the crop's pixels. */

@@ -26,38 +26,38 @@
 typedef struct RenderResult RenderResult;
 
 typedef struct RenderOptions {
-    int      width, height;    /* pixels of the whole frame */
-    FilmRect crop;             /* what is rendered of it */
+    int width, height; /* pixels of the whole frame */
+    FilmRect crop;     /* what is rendered of it */
     uint32_t seed;
     uint32_t first_sample, end_sample; /* half-open; the end is the most that is done */
-    double   noise;            /* as few samples as leave so much relative error; 0: all.
-                                  How many is found beforehand (noise_stop.h) */
-    FilmArea noise_area;       /* whose error decides */
+    double noise;                      /* as few samples as leave so much relative error; 0: all.
+                                          How many is found beforehand (noise_stop.h) */
+    FilmArea noise_area;               /* whose error decides */
     const FilmArea *favoured;  /* only its pixels take all samples (favour.h); NULL: all do */
-    bool     favours_noise;    /* pixels take samples as a pilot found noise (pilot.h) */
-    bool     no_guiding;       /* does not first train a guide of where light comes from */
+    bool favours_noise;        /* pixels take samples as a pilot found noise (pilot.h) */
+    bool no_guiding;           /* does not first train a guide of where light comes from */
     const char *field;         /* the trained guide: read from this file if it is there, else
                                   kept there; NULL: neither */
-    int      max_bounces;      /* 0: emission only, 1: plus direct light */
+    int max_bounces;           /* 0: emission only, 1: plus direct light */
     const PolarisedEye *eye;   /* how light is polarised counts for it (its directions are
                                   replaced by the camera's); NULL: unpolarised */
-    bool     no_mirrors;       /* sunlight via mirrors is left to chance */
+    bool no_mirrors;           /* sunlight via mirrors is left to chance */
     unsigned layers;           /* FilmLayer bits; */
     const LightGroups *lights; /* of LAYER_LIGHT; NULL: none */
-    int      threads;          /* at least 1 */
+    int threads;               /* at least 1 */
     const char *isa;           /* kernel.h's names; NULL: the best there is */
-    bool     stops_at_once;    /* not after the pass in hand: the film is no frame then */
+    bool stops_at_once;        /* not after the pass in hand: the film is no frame then */
     ProgressMode progress;
-    Progress    *within;       /* the frame is a part of that and shows nothing of its own; */
-    double       within_weight; /* of this weight. NULL: it is by itself */
-    void   (*snapshot)(void *user, const RenderResult *so_far); /* NULL: none */
-    void   (*checkpoint)(void *user, const RenderResult *so_far); /* NULL: none */
-    double   checkpoint_interval_s; /* at least this between two, after the pass in hand */
+    Progress *within;     /* the frame is a part of that and shows nothing of its own; */
+    double within_weight; /* of this weight. NULL: it is by itself */
+    void (*snapshot)(void *user, const RenderResult *so_far);   /* NULL: none */
+    void (*checkpoint)(void *user, const RenderResult *so_far); /* NULL: none */
+    double checkpoint_interval_s; /* at least this between two, after the pass in hand */
     /* After a pass that is not the last; `shown` is to be cleared before a line is printed.
      * NULL: none */
-    void   (*pass_ended)(void *user, const RenderResult *so_far, const Progress *shown);
-    void    *user;             /* of all */
-    const Checkpoint *resume;  /* what was done before; NULL: nothing. It fits these options */
+    void (*pass_ended)(void *user, const RenderResult *so_far, const Progress *shown);
+    void *user;               /* of all */
+    const Checkpoint *resume; /* what was done before; NULL: nothing. It fits these options */
 } RenderOptions;
 
 /* The layers without those that this scene can have nothing for: display.second of a scene of
@@ -69,37 +69,37 @@ unsigned render_layers(const Scene *scene, unsigned layers);
 extern const char SOURCES_HASH[];
 
 struct RenderResult {
-    Film          *film;
-    const Kernel  *kernel;     /* the one that was used */
-    SampleShares   shares;     /* of the pixels in all samples */
-    uint32_t       samples;    /* of the frame, with those done before */
-    uint32_t       resumed_samples; /* done before this session; 0: it began */
-    bool           has_features; /* the samples' first surfaces were looked at */
-    double         seconds;    /* of rendering alone, over all sessions */
-    double         build_seconds; /* of the ray tracer's and the lights' structures, now */
-    uint64_t       field_hash;    /* of the guide; 0: none */
-    double         training_seconds; /* that it took now */
-    uint64_t       training_paths;
-    double         build_peak_bytes; /* the most memory of the process until they stood */
+    Film *film;
+    const Kernel *kernel;     /* the one that was used */
+    SampleShares shares;      /* of the pixels in all samples */
+    uint32_t samples;         /* of the frame, with those done before */
+    uint32_t resumed_samples; /* done before this session; 0: it began */
+    bool has_features;        /* the samples' first surfaces were looked at */
+    double seconds;           /* of rendering alone, over all sessions */
+    double build_seconds;     /* of the ray tracer's and the lights' structures, now */
+    uint64_t field_hash;      /* of the guide; 0: none */
+    double training_seconds;  /* that it took now */
+    uint64_t training_paths;
+    double build_peak_bytes; /* the most memory of the process until they stood */
     PathStatistics statistics;
-    FilmError      error;
-    NoiseStop      stop;       /* of options' noise; */
-    double         noise;      /* the error over its area in the end; NaN where it is empty */
-    double         noise_doubt; /* the error that there may be, if light is rare; or NaN */
-    bool           complete;   /* all samples, or those that leave the noise */
-    int            stopped_by; /* SIGINT, SIGTERM, SIGHUP or 0 */
+    FilmError error;
+    NoiseStop stop;     /* of options' noise; */
+    double noise;       /* the error over its area in the end; NaN where it is empty */
+    double noise_doubt; /* the error that there may be, if light is rare; or NaN */
+    bool complete;      /* all samples, or those that leave the noise */
+    int stopped_by;     /* SIGINT, SIGTERM, SIGHUP or 0 */
 };
 
 /* All that is ready before the first sample. */
 typedef struct RenderSetup {
-    const Kernel  *kernel;
-    Bvh           *bvh;
-    PathContext    context;
-    Camera         camera;
-    uint64_t       field_hash; /* 0: no field guides the paths */
-    double         build_seconds, training_seconds;
+    const Kernel *kernel;
+    Bvh *bvh;
+    PathContext context;
+    Camera camera;
+    uint64_t field_hash; /* 0: no field guides the paths */
+    double build_seconds, training_seconds;
     PathStatistics training;
-    double         build_peak_bytes;
+    double build_peak_bytes;
 } RenderSetup;
 
 /* The options' samples, layers and checkpoint do not matter yet. Ended by render_setup_end;

@@ -9,7 +9,7 @@
 #include "path/path.h"
 
 /* Tiles of a crop, row by row; index counts from 0. */
-int      render_tile_count(FilmRect crop);
+int render_tile_count(FilmRect crop);
 FilmRect render_tile(FilmRect crop, int index);
 
 /* Samples a pixel of the pass that begins after `done` samples, for so many pixels; where no

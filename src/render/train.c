@@ -8,53 +8,47 @@
 #include "render/signals.h"
 #include "render/tiles.h"
 
-#define STEPS_MAX 16384.0     /* of the raster */
-#define CELLS 1.0             /* times the root of the frame's pixels: so many cells, or more */
+#define STEPS_MAX 16384.0 /* of the raster */
+#define CELLS 1.0         /* times the root of the frame's pixels: so many cells, or more */
 #define ROUNDS 2
-#define SEED 0x67756964u  /* not a frame's own samples */
+#define SEED 0x67756964u /* not a frame's own samples */
 
 typedef struct TrainingRun {
     const Kernel *kernel;
-    TrainingJob   job;
+    TrainingJob job;
     GuideTraining *training;
-    FilmRect      raster;
+    FilmRect raster;
     WorkerCounts *counts;
-    double       *light; /* of each cell, lx */
-    bool          stops_at_once;
+    double *light; /* of each cell, lx */
+    bool stops_at_once;
 } TrainingRun;
 
-static bool is_stopped(const TrainingRun *run)
-{
+static bool is_stopped(const TrainingRun *run) {
     return run->stops_at_once && signals_stop_requested();
 }
 
-static void find_places(void *context, int item, int worker)
-{
+static void find_places(void *context, int item, int worker) {
     TrainingRun *run = context;
     if (is_stopped(run)) return;
     run->kernel->find_places(&run->job, render_tile(run->raster, item),
                              &run->counts[worker].statistics);
 }
 
-static void trace_cell(void *context, int item, int worker)
-{
+static void trace_cell(void *context, int item, int worker) {
     TrainingRun *run = context;
     if (is_stopped(run)) return;
     run->kernel->train(&run->job, (uint32_t)item, &run->counts[worker].statistics);
 }
 
 /* The raster keeps the frame's shape. */
-static FilmRect raster_of(const Camera *camera)
-{
+static FilmRect raster_of(const Camera *camera) {
     double pixels = (double)camera->width * (double)camera->height;
     double scale = fmin(sqrt(STEPS_MAX / pixels), 1);
-    return (FilmRect){0, 0, (int)ceil(camera->width * scale),
-                      (int)ceil(camera->height * scale)};
+    return (FilmRect){0, 0, (int)ceil(camera->width * scale), (int)ceil(camera->height * scale)};
 }
 
-static GuidePlace *all_places(const TrainingRun *run, Arena *arena, uint32_t *count)
-{
-    size_t      steps = (size_t)run->raster.x1 * (size_t)run->raster.y1;
+static GuidePlace *all_places(const TrainingRun *run, Arena *arena, uint32_t *count) {
+    size_t steps = (size_t)run->raster.x1 * (size_t)run->raster.y1;
     GuidePlace *places = ARENA_NEW(arena, GuidePlace, steps * PATH_PLACES_MAX);
     *count = 0;
     for (size_t i = 0; i < steps; i++)
@@ -65,27 +59,24 @@ static GuidePlace *all_places(const TrainingRun *run, Arena *arena, uint32_t *co
     return places;
 }
 
-static void keep_cell(void *context, int item, int worker)
-{
+static void keep_cell(void *context, int item, int worker) {
     (void)worker;
     TrainingRun *run = context;
     guide_training_update(run->training, (uint32_t)item);
 }
 
-static void try_lights(void *context, int item, int worker)
-{
+static void try_lights(void *context, int item, int worker) {
     TrainingRun *run = context;
     if (is_stopped(run)) return;
     run->kernel->try_lights(&run->job, (uint32_t)item, &run->counts[worker].statistics);
 }
 
-#define NEIGHBOURS 4 /* on either side in the tree's order */
+#define NEIGHBOURS 4    /* on either side in the tree's order */
 #define NEAR_LAMPS 0.25 /* weight of what lamps gave a neighbour, by that of the cell's own */
-#define DOUBT 8      /* points of them that count as the cell's own */
+#define DOUBT 8         /* points of them that count as the cell's own */
 
 /* Light that the neighbours' samples find may reach the cell, too. */
-static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells)
-{
+static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells) {
     LightFinds own = finds[cell], all = {0};
     for (int i = cell - NEIGHBOURS; i <= cell + NEIGHBOURS; i++) {
         if (i < 0 || i >= cells) continue;
@@ -105,10 +96,9 @@ static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells)
 }
 
 /* Illuminance of a cell's points, lx, by what training passes and light samples found. */
-static void find_light(void *context, int cell, int worker)
-{
+static void find_light(void *context, int cell, int worker) {
     (void)worker;
-    TrainingRun      *run = context;
+    TrainingRun *run = context;
     const LightFinds *finds = &run->job.finds[cell];
     double total = guide_training_illuminance(run->job.training, (uint32_t)cell);
     for (int set = 0; set < LIGHT_SETS; set++)
@@ -118,36 +108,36 @@ static void find_light(void *context, int cell, int worker)
 
 /* The median of the cell's and its neighbours': a training pass that met a small patch of sun
  * by chance makes one cell a hundred times too bright. */
-static double usual_light(const TrainingRun *run, int cell)
-{
+static double usual_light(const TrainingRun *run, int cell) {
     double value[2 * NEIGHBOURS + 1];
-    int    count = 0, cells = (int)run->training->guide.cell_count;
+    int count = 0, cells = (int)run->training->guide.cell_count;
     for (int i = cell - NEIGHBOURS; i <= cell + NEIGHBOURS; i++)
         if (i >= 0 && i < cells) value[count++] = run->light[i];
     return sort_median(value, count);
 }
 
-static void weigh_cell(void *context, int item, int worker)
-{
+static void weigh_cell(void *context, int item, int worker) {
     (void)worker;
-    TrainingRun  *run = context;
+    TrainingRun *run = context;
     const Lights *lights = run->job.context->lights;
     const LightFinds *finds = run->job.finds;
-    LightGuide   *guide = &run->training->guide;
-    LightFinds    found = with_neighbours(finds, item, (int)guide->cell_count);
+    LightGuide *guide = &run->training->guide;
+    LightFinds found = with_neighbours(finds, item, (int)guide->cell_count);
     CellLight light = {run->light[item], usual_light(run, item)};
     guide->cells[item].lamps = cell_lamps_keep(&found.lamps, lights_lamp_count(lights));
     cell_lights_weigh(run->job.context, &found, light, guide->cells[item].asked);
 }
 
-static TrainingRun run_start(const Camera *camera, const TrainOptions *options, Arena *arena)
-{
-    FilmRect    raster = raster_of(camera);
-    TrainingRun run = {.kernel = options->kernel, .raster = raster,
+static TrainingRun run_start(const Camera *camera, const TrainOptions *options, Arena *arena) {
+    FilmRect raster = raster_of(camera);
+    TrainingRun run = {.kernel = options->kernel,
+                       .raster = raster,
                        .counts = ARENA_NEW(arena, WorkerCounts, options->threads),
                        .stops_at_once = options->stops_at_once};
     run.job = (TrainingJob){
-        .camera = camera, .seed = SEED, .columns = raster.x1,
+        .camera = camera,
+        .seed = SEED,
+        .columns = raster.x1,
         .stretch = {(float)camera->width / (float)raster.x1,
                     (float)camera->height / (float)raster.y1},
         .places = ARENA_NEW(arena, PathPlaces, (size_t)raster.x1 * (size_t)raster.y1)};
@@ -155,38 +145,34 @@ static TrainingRun run_start(const Camera *camera, const TrainOptions *options, 
 }
 
 /* Places of a cell, at most: a small frame is worth a short training pass. */
-static uint32_t places_a_cell(const Camera *camera, uint32_t places)
-{
+static uint32_t places_a_cell(const Camera *camera, uint32_t places) {
     double pixels = (double)camera->width * (double)camera->height;
     return (uint32_t)fmax(places / (CELLS * sqrt(pixels)), GUIDE_POINTS);
 }
 
-GuideScene train_guide_scene(const PathContext *context)
-{
+GuideScene train_guide_scene(const PathContext *context) {
     GuideScene scene = {.light_count = context->scene->light_count,
                         .lamp_count = lights_lamp_count(context->lights)};
-    for (int set = 0; set < GUIDE_LIGHTS; set++)
-        scene.has[set] = path_context_has(context, set);
+    for (int set = 0; set < GUIDE_LIGHTS; set++) scene.has[set] = path_context_has(context, set);
     return scene;
 }
 
 const LightGuide *train_guide(const PathContext *context, const Camera *camera,
-                         const TrainOptions *options, Arena *arena, PathStatistics *cost)
-{
-    GuideNode   leaf = {0};
-    LightGuide  nobody = {.nodes = &leaf, .cells = ARENA_NEW(arena, GuideCell, 1)};
+                              const TrainOptions *options, Arena *arena, PathStatistics *cost) {
+    GuideNode leaf = {0};
+    LightGuide nobody = {.nodes = &leaf, .cells = ARENA_NEW(arena, GuideCell, 1)};
     PathContext trainee = *context;
     TrainingRun run = run_start(camera, options, arena);
-    uint32_t    count;
+    uint32_t count;
     trainee.guide = &nobody;
     run.job.context = &trainee;
     parallel_for(options->threads, render_tile_count(run.raster), find_places, &run);
     *cost = (PathStatistics){0};
     if (is_stopped(&run)) return NULL;
     GuidePlace *places = all_places(&run, arena, &count);
-    GuideTraining *training = guide_training_start(
-        places, count, places_a_cell(camera, count), arena);
-    LightGuide    *guide = &training->guide;
+    GuideTraining *training =
+        guide_training_start(places, count, places_a_cell(camera, count), arena);
+    LightGuide *guide = &training->guide;
     run.job.training = run.training = training;
     run.job.finds = ARENA_NEW(arena, LightFinds, guide->cell_count);
     trainee.guide = guide;

@@ -13,8 +13,8 @@
 
 typedef struct TrainOptions {
     const Kernel *kernel;
-    int           threads;
-    bool          stops_at_once; /* where a stop is requested (signals.h): the guide is NULL */
+    int threads;
+    bool stops_at_once; /* where a stop is requested (signals.h): the guide is NULL */
 } TrainOptions;
 
 /* The facts of this light that a guide from a file must match. */
@@ -22,4 +22,4 @@ GuideScene train_guide_scene(const PathContext *context);
 
 /* context: without a guide. */
 const LightGuide *train_guide(const PathContext *context, const Camera *camera,
-                         const TrainOptions *options, Arena *arena, PathStatistics *cost);
+                              const TrainOptions *options, Arena *arena, PathStatistics *cost);

@@ -15,33 +15,33 @@
 typedef struct PaneFinding {
     const char *condition, *eye;
     const char *display, *pane;   /* node and material of each */
-    double      shown_share;      /* of the display's area; with the next three it makes 1 */
-    double      ends_share;       /* the pane ends before it */
-    double      away_share;       /* it turns its back to the pane */
-    double      covered_share;    /* something stands between; most of it */
+    double shown_share;           /* of the display's area; with the next three it makes 1 */
+    double ends_share;            /* the pane ends before it */
+    double away_share;            /* it turns its back to the pane */
+    double covered_share;         /* something stands between; most of it */
     const char *covered_by;       /* is this; NULL: nothing does */
     const char *none;             /* why there is no image; NULL: there is, and of it */
-    double      right_deg, up_deg;     /* its middle */
-    double      width_deg, height_deg; /* of what is shown of it */
+    double right_deg, up_deg;     /* its middle */
+    double width_deg, height_deg; /* of what is shown of it */
     const double *outline_deg;    /* right, up of the corners of its convex outline, in turn */
-    int         outline_count;    /* numbers: two a corner */
+    int outline_count;            /* numbers: two a corner */
     const Vec3 *corners;          /* the same corners, unit, world: to draw over a frame; NULL:
                                      of a review that was read from a file */
-    double      image;            /* the display's own light by the pane, its mean */
+    double image;                 /* the display's own light by the pane, its mean */
     MeanInterval image_range;     /* 95 % */
-    double      behind;           /* what comes through the pane there */
+    double behind;                /* what comes through the pane there */
     MeanInterval behind_range;
-    double      against;          /* all but the image: that, and what panes mirror besides; at
-                                     least what the request says */
+    double against; /* all but the image: that, and what panes mirror besides; at
+                       least what the request says */
     MeanInterval against_range;
-    double      contrast;
+    double contrast;
     MeanInterval contrast_range;
-    double      ghost_share;      /* of the image's light: a ghost by the pane's far face */
-    double      ghost_arcmin;     /* which stands so far beside; NaN: there is none */
-    const char *area;             /* in the line of sight to it; NULL: to none that is named */
-    double      off_deg;          /* from the area's axis to the nearest of the image */
-    bool        has_limit;
-    LimitVerdict limit;           /* the least of the areas that it lies in */
+    double ghost_share;  /* of the image's light: a ghost by the pane's far face */
+    double ghost_arcmin; /* which stands so far beside; NaN: there is none */
+    const char *area;    /* in the line of sight to it; NULL: to none that is named */
+    double off_deg;      /* from the area's axis to the nearest of the image */
+    bool has_limit;
+    LimitVerdict limit; /* the least of the areas that it lies in */
 } PaneFinding;
 
 /* image over against, and its 95 % interval. */

@@ -18,20 +18,20 @@
 #include "review/verdict.h"
 
 typedef struct CaseImage {
-    const char  *pane;             /* node and material */
-    double       eye_m[3];         /* of the eye's places the one by which it is read best */
-    double       shown_share;      /* of the symbol's box, 0..1 */
-    double       height_arcmin;    /* of the image, as of ReviewCase */
-    double       sent_foreground, sent_background; /* towards the pane; NaN: it turns away */
-    double       reflectance;      /* R, mean over what is shown */
+    const char *pane;     /* node and material */
+    double eye_m[3];      /* of the eye's places the one by which it is read best */
+    double shown_share;   /* of the symbol's box, 0..1 */
+    double height_arcmin; /* of the image, as of ReviewCase */
+    double sent_foreground, sent_background; /* towards the pane; NaN: it turns away */
+    double reflectance;                      /* R, mean over what is shown */
     MeanInterval reflectance_range;
-    double       foreground, background; /* R times what is sent */
-    double       against;          /* B; at least what the request says */
+    double foreground, background; /* R times what is sent */
+    double against;                /* B; at least what the request says */
     MeanInterval against_range;
-    double       contrast_ratio;   /* C; infinite before black, NaN where `sent` is */
-    double       contrast_low, contrast_high; /* 95 %: sampling, and the panel's stated error
-                                      of what it emits */
-    Verdict      verdict;          /* by the limits of visual security that apply */
+    double contrast_ratio;              /* C; infinite before black, NaN where `sent` is */
+    double contrast_low, contrast_high; /* 95 %: sampling, and the panel's stated error
+                                of what it emits */
+    Verdict verdict;                    /* by the limits of visual security that apply */
 } CaseImage;
 
 /* Sets foreground, background and the contrast with its interval from what is sent, R and B.

@@ -12,9 +12,9 @@
 #include "vision/privacy.h"
 
 #define LARGEST 1e9 /* of any number in a profile */
-#define SOURCE(source, was_read)                                                               \
-    TEXT("source", MUST | RECORD_FILLED, source, "Where it was read."),                        \
-    FLAG("read_in_the_standard", MUST, was_read, "Was that the standard itself?")
+#define SOURCE(source, was_read) \
+    TEXT("source", MUST | RECORD_FILLED, source, "Where it was read."), \
+        FLAG("read_in_the_standard", MUST, was_read, "Was that the standard itself?")
 
 /* ---- a limit ----------------------------------------------------------------------------- */
 
@@ -28,15 +28,15 @@ static const RecordRow SLOPE[] = {
     {0}};
 #undef OWNER
 _Static_assert(offsetof(LimitSlope, to_arcmin) ==
-               offsetof(LimitSlope, from_arcmin) + sizeof(double), "a pair");
+                   offsetof(LimitSlope, from_arcmin) + sizeof(double),
+               "a pair");
 
-static bool check_slope(const JsonView *view, void *item, Error *err)
-{
+static bool check_slope(const JsonView *view, void *item, Error *err) {
     const LimitSlope *slope = item;
     return slope->from_arcmin < slope->to_arcmin ||
            record_fails(view, "heights_arcmin", err,
-                        "is [%g, %g], required: [LOW, HIGH] with LOW < HIGH",
-                        slope->from_arcmin, slope->to_arcmin);
+                        "is [%g, %g], required: [LOW, HIGH] with LOW < HIGH", slope->from_arcmin,
+                        slope->to_arcmin);
 }
 
 static const RecordFormat slope_format = {
@@ -44,11 +44,10 @@ static const RecordFormat slope_format = {
     .doc = "For characters of these heights the limit is value + per_arcmin "
            "(reference_arcmin - height), for others there is none."};
 
-static bool add_ambient(const JsonView *view, const char *word, bool *ambients, Error *err)
-{
+static bool add_ambient(const JsonView *view, const char *word, bool *ambients, Error *err) {
     const char *known[AMBIENT_COUNT + 1];
-    char        advice[256];
-    bool        is_known = false;
+    char advice[256];
+    bool is_known = false;
     for (int i = 0; i < AMBIENT_COUNT; i++) known[i] = ambient_names[i];
     known[AMBIENT_COUNT] = "any";
     for (int i = 0; i < AMBIENT_COUNT; i++) {
@@ -58,22 +57,20 @@ static bool add_ambient(const JsonView *view, const char *word, bool *ambients, 
     }
     return is_known ||
            record_fails(view, "ambient", err, "is '%.60s', required: another word: %s", word,
-                        nearest_word_advice(word, known, COUNT_OF(known), advice,
-                                            sizeof advice));
+                        nearest_word_advice(word, known, COUNT_OF(known), advice, sizeof advice));
 }
 
 /* One word, or several in an array. */
-static bool read_ambients(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_ambients(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     const json_t *value = json_object_get(view->object, row->key);
-    bool         *ambients = ((ProfileLimit *)item)->ambients;
-    if (json_is_string(value))
-        return add_ambient(view, json_string_value(value), ambients, err);
+    bool *ambients = ((ProfileLimit *)item)->ambients;
+    if (json_is_string(value)) return add_ambient(view, json_string_value(value), ambients, err);
     bool ok = json_array_size(value) > 0;
     for (size_t i = 0; ok && i < json_array_size(value); i++)
         ok = json_is_string(json_array_get(value, i));
     if (!ok)
-        return record_fails(view, row->key, err, "is no such word; required: night, twilight, "
+        return record_fails(view, row->key, err,
+                            "is no such word; required: night, twilight, "
                             "day, sun or any, or an array of them");
     for (size_t i = 0; i < json_array_size(value); i++)
         if (!add_ambient(view, json_string_value(json_array_get(value, i)), ambients, err))
@@ -82,21 +79,19 @@ static bool read_ambients(const JsonView *view, const RecordRow *row, void *item
 }
 
 /* Its kind was read before. */
-static bool read_unit(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_unit(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     const LimitKindFacts *kind = &limit_kinds[((ProfileLimit *)item)->kind];
-    RecordRow             text = {.key = row->key, .kind = RECORD_TEXT};
-    const char           *unit;
+    RecordRow text = {.key = row->key, .kind = RECORD_TEXT};
+    const char *unit;
     if (!record_read_kind(view, &text, &unit, err)) return false;
     return !strcmp(unit, kind->unit) ||
-           record_fails(view, row->key, err, "is '%.60s', required: '%s' for %s", unit,
-                        kind->unit, kind->name);
+           record_fails(view, row->key, err, "is '%.60s', required: '%s' for %s", unit, kind->unit,
+                        kind->name);
 }
 
 static const char *const BOUNDS[] = {"least", "most", NULL};
 
-static bool read_bound(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_bound(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     int bound;
     if (!record_read_kind(view, row, &bound, err)) return false;
     ((ProfileLimit *)item)->is_upper = bound;
@@ -109,8 +104,8 @@ static bool read_bound(const JsonView *view, const RecordRow *row, void *item, E
 
 static const RecordRow LIMIT[] = {
     {"ambient", RECORD_OWN, MUST, .read = read_ambients,
-     .schema = "{'oneOf': [" AMBIENTS ", {'type': 'array', 'minItems': 1, 'items': "
-               AMBIENTS "}]}"},
+     .schema =
+         "{'oneOf': [" AMBIENTS ", {'type': 'array', 'minItems': 1, 'items': " AMBIENTS "}]}"},
     CHOICE("kind", MUST, kind, limit_kind_names, NULL),
     NUMBER("value", MUST | RECORD_ABOVE, value, 0, LARGEST,
            "In the kind's unit; of a modulation below 1."),
@@ -124,10 +119,9 @@ static const RecordRow LIMIT[] = {
 #undef OWNER
 
 /* "contrast ratio, day, sun" or "stroke ratio at most". */
-static const char *usual_name(const ProfileLimit *limit, Arena *arena)
-{
+static const char *usual_name(const ProfileLimit *limit, Arena *arena) {
     char *name = arena_format(arena, "%s", limit_kinds[limit->kind].name);
-    int   count = 0;
+    int count = 0;
     for (char *c = name; *c; c++)
         if (*c == '_') *c = ' ';
     if (limit->is_upper) name = arena_format(arena, "%s at most", name);
@@ -138,20 +132,24 @@ static const char *usual_name(const ProfileLimit *limit, Arena *arena)
 }
 
 /* A slope leaves the least of the largest characters. */
-static bool check_limit(const JsonView *view, void *item, Error *err)
-{
-    ProfileLimit     *limit = item;
+static bool check_limit(const JsonView *view, void *item, Error *err) {
+    ProfileLimit *limit = item;
     const LimitSlope *s = &limit->slope;
     double least = limit->value;
     if (s->has_slope) least += s->per_arcmin * (s->reference_arcmin - s->to_arcmin);
     if (!(least > 0))
-        return record_fails(view, "slope", err, "leads to a limit of %g at %g arc minutes, "
-                            "required: one above 0", least, s->to_arcmin);
+        return record_fails(view, "slope", err,
+                            "leads to a limit of %g at %g arc minutes, "
+                            "required: one above 0",
+                            least, s->to_arcmin);
     if (limit->kind == LIMIT_MODULATION && limit->value >= 1)
-        return record_fails(view, "value", err, "is %g, required: less than 1: no modulation "
-                            "is more", limit->value);
+        return record_fails(view, "value", err,
+                            "is %g, required: less than 1: no modulation "
+                            "is more",
+                            limit->value);
     if (limit->kind == LIMIT_VISUAL_SECURITY && limit->is_upper)
-        return record_fails(view, "bound", err, "is 'most', required: 'least' of visual "
+        return record_fails(view, "bound", err,
+                            "is 'most', required: 'least' of visual "
                             "security, which limits what must not be read");
     if (!limit->name) limit->name = usual_name(limit, view->arena);
     return true;
@@ -167,23 +165,20 @@ static const RecordFormat limit_format = {
 
 #define OWNER ProfileFact
 
-static const RecordRow FACT[] = {
-    TEXT("name", MUST | RECORD_FILLED, name, NULL),
-    TEXT("text", 0, text, NULL),
-    NUMBER("value", 0, value, -LARGEST, LARGEST, NULL),
-    TEXT("unit", 0, unit, NULL),
-    SOURCE(source, read_in_the_standard),
-    {0}};
+static const RecordRow FACT[] = {TEXT("name", MUST | RECORD_FILLED, name, NULL),
+                                 TEXT("text", 0, text, NULL),
+                                 NUMBER("value", 0, value, -LARGEST, LARGEST, NULL),
+                                 TEXT("unit", 0, unit, NULL),
+                                 SOURCE(source, read_in_the_standard),
+                                 {0}};
 
 #undef OWNER
 
-static void start_fact(void *item)
-{
+static void start_fact(void *item) {
     *(ProfileFact *)item = (ProfileFact){.text = "", .unit = "", .value = NAN};
 }
 
-static bool check_fact(const JsonView *view, void *item, Error *err)
-{
+static bool check_fact(const JsonView *view, void *item, Error *err) {
     const ProfileFact *fact = item;
     if (isnan(fact->value) ? !fact->unit[0] && fact->text[0] : fact->unit[0] != 0) return true;
     return error_at(err, ERROR_INPUT, view->file, view->path,
@@ -192,7 +187,11 @@ static bool check_fact(const JsonView *view, void *item, Error *err)
 }
 
 static const RecordFormat fact_format = {
-    "fact", sizeof(ProfileFact), FACT, .start = start_fact, .check = check_fact,
+    "fact",
+    sizeof(ProfileFact),
+    FACT,
+    .start = start_fact,
+    .check = check_fact,
     .rules = "{'dependentRequired': {'value': ['unit'], 'unit': ['value']}, "
              "'anyOf': [{'required': ['text']}, {'required': ['value']}]}"};
 
@@ -200,16 +199,15 @@ static const RecordFormat fact_format = {
 
 #define OWNER Profile
 
-static const RecordRow AMBIENT[] = {
-    NUMBER("night_below_lx", MUST | RECORD_ABOVE, night_below_lx, 0, LARGEST,
-           "Of the display's face."),
-    NUMBER("twilight_below_lx", MUST | RECORD_ABOVE, twilight_below_lx, 0, LARGEST,
-           "More than night_below_lx."),
-    SOURCE(ambient_source, ambient_read_in_the_standard),
-    {0}};
+static const RecordRow AMBIENT[] = {NUMBER("night_below_lx", MUST | RECORD_ABOVE, night_below_lx, 0,
+                                           LARGEST, "Of the display's face."),
+                                    NUMBER("twilight_below_lx", MUST | RECORD_ABOVE,
+                                           twilight_below_lx, 0, LARGEST,
+                                           "More than night_below_lx."),
+                                    SOURCE(ambient_source, ambient_read_in_the_standard),
+                                    {0}};
 
-static bool check_ambient(const JsonView *view, void *item, Error *err)
-{
+static bool check_ambient(const JsonView *view, void *item, Error *err) {
     const Profile *p = item;
     return p->night_below_lx < p->twilight_below_lx ||
            record_fails(view, "twilight_below_lx", err,
@@ -225,8 +223,7 @@ static const RecordRow PROFILE[] = {
     TEXT("edition", MUST | RECORD_FILLED, edition, NULL),
     FLAG("veil", 0, uses_veil,
          "Contrast counts with the veil that stray light in the eye lays over it."),
-    NUMBER("threshold_increment_max_pct", RECORD_OPEN | RECORD_ABOVE, increment_most_pct, 0,
-           1000,
+    NUMBER("threshold_increment_max_pct", RECORD_OPEN | RECORD_ABOVE, increment_most_pct, 0, 1000,
            "Of a gaze at a road that is lit by night, per cent. Your own: no profile that "
            "ships has one."),
     {"ambient", RECORD_OBJECT, MUST, .of = &ambient_format,
@@ -235,26 +232,24 @@ static const RecordRow PROFILE[] = {
     LIST("facts", 0, facts, fact_count, 0, 0, fact_format, "What readers should know."),
     {0}};
 
-static void start_profile(void *item)
-{
+static void start_profile(void *item) {
     *(Profile *)item = (Profile){.increment_most_pct = NAN};
 }
 
-const RecordFormat profile_format = {"profile", sizeof(Profile), PROFILE,
-                                     .start = start_profile,
+const RecordFormat profile_format = {"profile", sizeof(Profile), PROFILE, .start = start_profile,
                                      .doc = "assets/schemas/profile.md explains the keys."};
 
 /* ---- what must not be read --------------------------------------------------------------- */
 
-static ProfileLimit security_of(double least, const char *source)
-{
-    return (ProfileLimit){.name = "visual security", .kind = LIMIT_VISUAL_SECURITY,
-                          .ambients = {true, true, true, true}, .value = least,
+static ProfileLimit security_of(double least, const char *source) {
+    return (ProfileLimit){.name = "visual security",
+                          .kind = LIMIT_VISUAL_SECURITY,
+                          .ambients = {true, true, true, true},
+                          .value = least,
                           .source = source};
 }
 
-const Profile *profile_with_security(const Profile *profile, double least, Arena *arena)
-{
+const Profile *profile_with_security(const Profile *profile, double least, Arena *arena) {
     Profile *own = ARENA_NEW(arena, Profile, 1);
     *own = *profile;
     own->security = security_of(least, "the review's own: privacy, security_min_s");
@@ -264,8 +259,7 @@ const Profile *profile_with_security(const Profile *profile, double least, Arena
 
 /* ---- where it stands --------------------------------------------------------------------- */
 
-const char *profile_names(Arena *arena)
-{
+const char *profile_names(Arena *arena) {
     const char *names = "";
     for (int i = 0; i < profile_count; i++)
         names = arena_format(arena, "%s%s%s", names, i ? ", " : "", profile_table[i].name);
@@ -273,50 +267,48 @@ const char *profile_names(Arena *arena)
 }
 
 /* One of the program's own, as if it were a file. */
-static bool open_shipped(const char *name, Arena *arena, JsonView *out, Error *err)
-{
+static bool open_shipped(const char *name, Arena *arena, JsonView *out, Error *err) {
     for (int i = 0; i < profile_count; i++) {
         if (strcmp(name, profile_table[i].name)) continue;
         json_error_t fault;
         json_t *root = json_loads(profile_table[i].text, JSON_REJECT_DUPLICATES, &fault);
         const char *file = arena_format(arena, "assets/profiles/%s.json", name);
-        if (!root)
-            return error_at(err, ERROR_INPUT, file, "", "not valid JSON: %s", fault.text);
+        if (!root) return error_at(err, ERROR_INPUT, file, "", "not valid JSON: %s", fault.text);
         *out = (JsonView){.object = root, .file = file, .path = "", .arena = arena};
         return true;
     }
-    return error_set(err, ERROR_INPUT, "there is no profile \"%s\"; required: %s, or a file by "
-                     "a path that holds '/' or ends in .json", name, profile_names(arena));
+    return error_set(err, ERROR_INPUT,
+                     "there is no profile \"%s\"; required: %s, or a file by "
+                     "a path that holds '/' or ends in .json",
+                     name, profile_names(arena));
 }
 
-bool profile_load(const char *name_or_path, Arena *arena, const Profile **out, Error *err)
-{
+bool profile_load(const char *name_or_path, Arena *arena, const Profile **out, Error *err) {
     JsonView root;
-    bool     is_path = strchr(name_or_path, '/') || !strcmp(path_ending(name_or_path), ".json");
-    bool     ok = is_path ? json_view_open(name_or_path, arena, &root, err)
-                          : open_shipped(name_or_path, arena, &root, err);
+    bool is_path = strchr(name_or_path, '/') || !strcmp(path_ending(name_or_path), ".json");
+    bool ok = is_path ? json_view_open(name_or_path, arena, &root, err)
+                      : open_shipped(name_or_path, arena, &root, err);
     if (!ok) return false;
     Profile *profile = ARENA_NEW(arena, Profile, 1);
     profile_format.start(profile);
     profile->id = arena_string(arena, name_or_path, strlen(name_or_path));
     profile->file_hash = root.hash;
-    profile->security = security_of(SECURITY_OBSCURED, "assumed: from there on a picture is "
-                                    "usually called obscured; no source of that was read");
+    profile->security =
+        security_of(SECURITY_OBSCURED, "assumed: from there on a picture is "
+                                       "usually called obscured; no source of that was read");
     ok = record_read(&root, &profile_format, profile, err);
     json_view_close(&root);
     if (ok) *out = profile;
     return ok;
 }
 
-Ambient profile_ambient(const Profile *profile, double display_lux, bool sun_on_display)
-{
+Ambient profile_ambient(const Profile *profile, double display_lux, bool sun_on_display) {
     if (sun_on_display) return AMBIENT_SUN;
     if (display_lux < profile->night_below_lx) return AMBIENT_NIGHT;
     return display_lux < profile->twilight_below_lx ? AMBIENT_TWILIGHT : AMBIENT_DAY;
 }
 
-bool profile_has(const Profile *profile, LimitKind kind)
-{
+bool profile_has(const Profile *profile, LimitKind kind) {
     for (int i = 0; i < profile->limit_count; i++)
         if (profile->limits[i].kind == kind) return true;
     return false;

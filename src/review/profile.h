@@ -22,48 +22,48 @@ enum { AMBIENT_COUNT = 4 };
 /* A limit that rises as characters get smaller: for heights of from_arcmin to to_arcmin it is
  * value + per_arcmin (reference_arcmin - height), and there is none beyond them. */
 typedef struct LimitSlope {
-    bool   has_slope;
+    bool has_slope;
     double per_arcmin, reference_arcmin, from_arcmin, to_arcmin;
 } LimitSlope;
 
 typedef struct ProfileLimit {
     const char *name;
-    LimitKind   kind;
-    bool        ambients[AMBIENT_COUNT]; /* under which it is required */
-    bool        is_upper;                /* the most, not the least */
-    bool        is_advice;               /* preferred, not required: shown and not counted */
-    double      value;                   /* above 0 */
-    LimitSlope  slope;
+    LimitKind kind;
+    bool ambients[AMBIENT_COUNT]; /* under which it is required */
+    bool is_upper;                /* the most, not the least */
+    bool is_advice;               /* preferred, not required: shown and not counted */
+    double value;                 /* above 0 */
+    LimitSlope slope;
     const char *source;
-    bool        read_in_the_standard;
+    bool read_in_the_standard;
 } ProfileLimit;
 
 /* Further content of the standard, for readers: its measuring light, its terms. */
 typedef struct ProfileFact {
     const char *name, *text, *unit; /* text: its meaning, or ""; unit: "" without a value */
-    double      value;              /* NaN: none */
+    double value;                   /* NaN: none */
     const char *source;
-    bool        read_in_the_standard;
+    bool read_in_the_standard;
 } ProfileFact;
 
 typedef struct Profile {
-    const char *id;              /* "iso-15008", or the file's path */
-    uint64_t    file_hash;       /* of that file (text/json_view.h); 0: inside the program */
+    const char *id;     /* "iso-15008", or the file's path */
+    uint64_t file_hash; /* of that file (text/json_view.h); 0: inside the program */
     const char *title, *edition;
-    bool        uses_veil;       /* contrast counts with the veil over it */
-    double      increment_most_pct; /* threshold increment of a gaze at a road by night, at
-                                       most; NaN: no limit is set */
-    double      night_below_lx, twilight_below_lx; /* of the display's face */
+    bool uses_veil;            /* contrast counts with the veil over it */
+    double increment_most_pct; /* threshold increment of a gaze at a road by night, at
+                                  most; NaN: no limit is set */
+    double night_below_lx, twilight_below_lx; /* of the display's face */
     const char *ambient_source;
-    bool        ambient_read_in_the_standard;
-    const ProfileLimit *limits;  /* those of visual security are for what must not be read,
-                                    all others for all else */
-    int         limit_count;     /* 0: it sets none */
-    ProfileLimit security;       /* of what must not be read, where `limits` have none for its
-                                    light, or whatever they have: */
-    bool        is_security_own; /* the review's own (profile_with_security) */
+    bool ambient_read_in_the_standard;
+    const ProfileLimit *limits; /* those of visual security are for what must not be read,
+                                   all others for all else */
+    int limit_count;            /* 0: it sets none */
+    ProfileLimit security;      /* of what must not be read, where `limits` have none for its
+                                   light, or whatever they have: */
+    bool is_security_own;       /* the review's own (profile_with_security) */
     const ProfileFact *facts;
-    int         fact_count;
+    int fact_count;
 } Profile;
 
 extern const RecordFormat profile_format; /* of a Profile */

@@ -13,4 +13,4 @@ typedef struct ProfileText {
 } ProfileText;
 
 extern const ProfileText profile_table[]; /* in the order of their names */
-extern const int         profile_count;
+extern const int profile_count;

@@ -20,23 +20,23 @@ typedef enum LimitKind {
     LIMIT_CONTRAST_RATIO,
     LIMIT_LUMINANCE_CONTRAST,
     LIMIT_MODULATION,
-    LIMIT_CHARACTER_HEIGHT,   /* arc minutes */
-    LIMIT_STROKE_RATIO,       /* stroke over the character's height */
-    LIMIT_WIDTH_RATIO,        /* width over height: not measured here */
-    LIMIT_VISIBILITY_LEVEL,   /* times what somebody of an age just sees */
-    LIMIT_VISUAL_SECURITY,    /* S, of what must not be read */
+    LIMIT_CHARACTER_HEIGHT, /* arc minutes */
+    LIMIT_STROKE_RATIO,     /* stroke over the character's height */
+    LIMIT_WIDTH_RATIO,      /* width over height: not measured here */
+    LIMIT_VISIBILITY_LEVEL, /* times what somebody of an age just sees */
+    LIMIT_VISUAL_SECURITY,  /* S, of what must not be read */
     LIMIT_KIND_COUNT
 } LimitKind;
 
 typedef struct LimitKindFacts {
     const char *name, *unit;
-    bool        is_contrast, is_measured;
-    bool        is_of_light; /* it hangs on the light, as contrasts do */
-    bool        falls; /* as the contrast rises */
+    bool is_contrast, is_measured;
+    bool is_of_light; /* it hangs on the light, as contrasts do */
+    bool falls;       /* as the contrast rises */
 } LimitKindFacts;
 
 extern const LimitKindFacts limit_kinds[LIMIT_KIND_COUNT];
-extern const char *const    limit_kind_names[LIMIT_KIND_COUNT + 1]; /* the last one NULL */
+extern const char *const limit_kind_names[LIMIT_KIND_COUNT + 1]; /* the last one NULL */
 
 /* LIMIT_KIND_COUNT: none has that name, or it is NULL. */
 LimitKind limit_kind_named(const char *name);

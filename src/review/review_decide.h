@@ -26,13 +26,13 @@ ReviewCounts review_count(const Review *review);
 
 /* All cases, then the sweeps' worst, one by one; and how many that are. */
 const ReviewCase *review_case_at(const Review *review, int i);
-int               review_case_count(const Review *review);
+int review_case_count(const Review *review);
 
 /* By names, of which NULL is ""; NULL: there is none. */
-const ReviewCase  *review_case_named(const Review *review, const char *condition,
-                                     const char *eye, const char *symbol);
-const ReviewSweep *review_sweep_named(const Review *review, const char *condition,
-                                      const char *eye, const char *symbol);
+const ReviewCase *review_case_named(const Review *review, const char *condition, const char *eye,
+                                    const char *symbol);
+const ReviewSweep *review_sweep_named(const Review *review, const char *condition, const char *eye,
+                                      const char *symbol);
 
 /* Its worst's, which fresh paths decide: steps may fail where that does not. */
 Verdict sweep_verdict(const ReviewSweep *sweep);
@@ -74,8 +74,8 @@ const ReviewCase *review_case_like(const Review *review, const ReviewCase *like)
  * worst of sweeps. */
 typedef struct ReviewPlaces {
     const ReviewCase *at;
-    double            passing_share; /* 0..1 of its points: those that can read it; of what
-                                        must not be read those that surely cannot */
+    double passing_share; /* 0..1 of its points: those that can read it; of what
+                             must not be read those that surely cannot */
 } ReviewPlaces;
 
 /* In the order of the cases; 0: no eye has several places. */

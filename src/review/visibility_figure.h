@@ -26,7 +26,7 @@ const CaseVisibility *visibility_decisive(const ReviewCase *c, bool is_upper);
  * lessen, and whether of the rest the veil's part is more than the panel's. */
 typedef struct LevelDoubt {
     double sampling; /* 0 .. 1 */
-    bool   is_veils;
+    bool is_veils;
 } LevelDoubt;
 
 LevelDoubt visibility_doubt(const ReviewCase *c, const CaseVisibility *of, bool is_below);

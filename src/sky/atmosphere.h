@@ -36,30 +36,30 @@
 #include "sky/cloud_relief.h"
 
 typedef struct AtmosphereInput {
-    Air    air;              /* pressure: at sea level; ground_albedo: of the floor */
+    Air air;                    /* pressure: at sea level; ground_albedo: of the floor */
     double observer_m, floor_m; /* above sea level */
-    double sun_elevation; /* radians, as seen: by day its light is taken to come straight from
-                           * there, in twilight from where refraction lifts it from */
-    int    threads;
-    int    steps;            /* of a ray; 0: 48 */
-    bool   sun_alone;        /* sun_passing is made, and no table: no direction may be
-                                evaluated */
-    double   relief_m;      /* of the floor, a cloud deck's (cloud_relief.h); 0: it is even */
-    double   sun_azimuth;   /* compass, radians: where the relief is lit from */
+    double sun_elevation;       /* radians, as seen: by day its light is taken to come straight from
+                                 * there, in twilight from where refraction lifts it from */
+    int threads;
+    int steps;          /* of a ray; 0: 48 */
+    bool sun_alone;     /* sun_passing is made, and no table: no direction may be
+                           evaluated */
+    double relief_m;    /* of the floor, a cloud deck's (cloud_relief.h); 0: it is even */
+    double sun_azimuth; /* compass, radians: where the relief is lit from */
 } AtmosphereInput;
 
 typedef struct Atmosphere {
     AtmosphereInput input;
     AirOptics optics;
-    double    horizon;      /* elevation of the floor's edge, radians, at most 0 */
-    Spectrum  sun_passing;  /* transmittance from the sun's centre to the observer */
-    Spectrum  floor_exitance; /* light that the floor under the observer sends up, relative */
+    double horizon;          /* elevation of the floor's edge, radians, at most 0 */
+    Spectrum sun_passing;    /* transmittance from the sun's centre to the observer */
+    Spectrum floor_exitance; /* light that the floor under the observer sends up, relative */
     /* [below][row][column]: what molecules and aerosol scatter once, without their phase
      * functions, and the rest; row 0 touches the horizon */
     Spectrum *molecules, *aerosol, *rest;
     /* with a relief, else NULL: of `rest` what the floor reflects of the beam, and of the light
      * of the sky, [row][column] below the horizon */
-    Spectrum    *floor_beam, *floor_sky;
+    Spectrum *floor_beam, *floor_sky;
     CloudRelief *relief;
 } Atmosphere;
 

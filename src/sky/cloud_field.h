@@ -16,18 +16,18 @@
 #pragma once
 #include "base/arena.h"
 
-#define CLOUD_FIELD_SIZE 2048      /* texels a side of the finest level */
+#define CLOUD_FIELD_SIZE 2048 /* texels a side of the finest level */
 #define CLOUD_FIELD_TEXEL_M 60.0f
-#define CLOUD_FIELD_LEVELS 10      /* each half as fine as the one before */
+#define CLOUD_FIELD_LEVELS 10 /* each half as fine as the one before */
 
 typedef struct CloudSample {
     float height, shade;
 } CloudSample;
 
 typedef struct CloudFieldInput {
-    double relief_m;        /* from hollows to tops: four standard deviations of the height */
+    double relief_m;           /* from hollows to tops: four standard deviations of the height */
     double azimuth, elevation; /* of the light, radians; below the horizontal: its glow */
-    int    threads;
+    int threads;
 } CloudFieldInput;
 
 typedef struct CloudField {

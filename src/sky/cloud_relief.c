@@ -4,19 +4,17 @@
 #include "base/mathf.h"
 #include "base/units.h"
 
-float cloud_relief_row(const CloudRelief *relief, float elevation)
-{
+float cloud_relief_row(const CloudRelief *relief, float elevation) {
     float below = relief->horizon - elevation;
     return (safe_sqrtf(relief->first + below) - safe_sqrtf(relief->first)) * relief->rows;
 }
 
-float cloud_relief_factor(const CloudRelief *relief, float elevation, float azimuth)
-{
+float cloud_relief_factor(const CloudRelief *relief, float elevation, float azimuth) {
     float turns = azimuth * (0.5f * INV_PI_F);
     float x = (turns - floorf(turns)) * CLOUD_RELIEF_COLUMNS; /* a column's own azimuth */
     float y = cloud_relief_row(relief, elevation) - 0.5f;     /* a row's middle */
     y = clampf(y, 0, CLOUD_RELIEF_ROWS - 1.001f);
-    int   i = (int)y, j = (int)x;
+    int i = (int)y, j = (int)x;
     float t = y - (float)i, u = x - (float)j;
     j = j < CLOUD_RELIEF_COLUMNS ? j : 0;
     int next = j + 1 < CLOUD_RELIEF_COLUMNS ? j + 1 : 0;

@@ -12,10 +12,10 @@
 #define CLOUD_RELIEF_COLUMNS 4096
 
 typedef struct CloudRelief {
-    float     horizon;
-    float     first, rows; /* a row: (sqrt(first + angle below horizon) - sqrt(first)) rows */
-    float     diffuse;     /* share of the modulation that the sky's light has */
-    uint16_t *factor;      /* [row][column], over CLOUD_RELIEF_ONE */
+    float horizon;
+    float first, rows; /* a row: (sqrt(first + angle below horizon) - sqrt(first)) rows */
+    float diffuse;     /* share of the modulation that the sky's light has */
+    uint16_t *factor;  /* [row][column], over CLOUD_RELIEF_ONE */
 } CloudRelief;
 
 #define CLOUD_RELIEF_ONE 8192.0f

@@ -14,12 +14,12 @@
 #define ROWS CLOUD_RELIEF_ROWS
 #define COLUMNS CLOUD_RELIEF_COLUMNS
 #define FIRST (4 * PI / 180) /* rows are even in angle for so much, then widen */
-#define FADE 4.0f /* rows at the horizon over which the relief grows from none */
-#define STRIDE 1.6 /* of a step, in widths of what it averages */
+#define FADE 4.0f            /* rows at the horizon over which the relief grows from none */
+#define STRIDE 1.6           /* of a step, in widths of what it averages */
 #define STEPS_MAX 6000
 #define ORDERS 4
 #define TERMS (2 * ORDERS + 1) /* of the mean's Fourier series in the azimuth */
-#define SMOOTH 40 /* rows to each side over which means are taken */
+#define SMOOTH 40              /* rows to each side over which means are taken */
 
 /* A step outwards from the observer's foot, the same in every azimuth. */
 typedef struct Stride {
@@ -29,19 +29,18 @@ typedef struct Stride {
 typedef struct ViewBuild {
     const CloudViewInput *input;
     CloudRelief *out;
-    CloudField   field;
-    Stride      *stride;
-    int          count;
-    float       *seen;    /* [column][row] */
-    float      (*term)[COLUMNS]; /* of the series, at every column */
-    double     (*mean)[TERMS]; /* of each row */
-    double      *sum;     /* of each row, once divided, times its cells' solid angle */
-    double       whole;
+    CloudField field;
+    Stride *stride;
+    int count;
+    float *seen;            /* [column][row] */
+    float (*term)[COLUMNS]; /* of the series, at every column */
+    double (*mean)[TERMS];  /* of each row */
+    double *sum;            /* of each row, once divided, times its cells' solid angle */
+    double whole;
 } ViewBuild;
 
 /* About one texel of the field, or one column of the table, whichever is wider. */
-static void place_strides(ViewBuild *b)
-{
+static void place_strides(ViewBuild *b) {
     double edge = -b->input->horizon * AIR_EARTH_M, at = 0;
     b->count = 0;
     while (at < edge && b->count < STEPS_MAX) {
@@ -55,8 +54,7 @@ static void place_strides(ViewBuild *b)
 }
 
 /* Adds what fills the rows from `low` up to `high` (towards the horizon: row numbers fall). */
-static void cover(float *seen, float low, float high, float shade)
-{
+static void cover(float *seen, float low, float high, float shade) {
     for (int i = (int)high; i < ROWS && (float)i < low; i++) {
         float share = fminf(low, (float)(i + 1)) - fmaxf(high, (float)i);
         seen[i] += share * shade;
@@ -64,19 +62,18 @@ static void cover(float *seen, float low, float high, float shade)
 }
 
 /* One azimuth, from below the observer to the horizon. */
-static void fill_column(void *context, int column, int worker)
-{
+static void fill_column(void *context, int column, int worker) {
     ViewBuild *b = context;
     double azimuth = b->input->azimuth + 2 * PI * column / COLUMNS;
-    float  east = (float)sin_d(azimuth), north = (float)cos_d(azimuth), row = ROWS;
-    float  height = (float)b->input->height_m, earth = (float)AIR_EARTH_M;
+    float east = (float)sin_d(azimuth), north = (float)cos_d(azimuth), row = ROWS;
+    float height = (float)b->input->height_m, earth = (float)AIR_EARTH_M;
     float *seen = b->seen + (size_t)column * ROWS;
     CloudSample before = cloud_field_at(&b->field, 0, 0, 0);
     (void)worker;
     for (int i = 0; i < b->count; i++) {
         const Stride *s = &b->stride[i];
-        CloudSample at = cloud_field_at(&b->field, s->distance * east, s->distance * north,
-                                        s->level);
+        CloudSample at =
+            cloud_field_at(&b->field, s->distance * east, s->distance * north, s->level);
         float up = at.height - height - (earth + at.height) * s->versed;
         float elevation = atan2_f(up, (earth + at.height) * s->sine);
         float now = elevation < b->out->horizon ? cloud_relief_row(b->out, elevation) : 0;
@@ -91,8 +88,7 @@ static void fill_column(void *context, int column, int worker)
 
 /* ---- means ------------------------------------------------------------------------------- */
 
-static void fill_terms(ViewBuild *b)
-{
+static void fill_terms(ViewBuild *b) {
     for (int k = 0; k < TERMS; k++)
         for (int j = 0; j < COLUMNS; j++) {
             double angle = 2 * PI * ((k + 1) / 2) * j / COLUMNS;
@@ -100,8 +96,7 @@ static void fill_terms(ViewBuild *b)
         }
 }
 
-static void row_means(void *context, int row, int worker)
-{
+static void row_means(void *context, int row, int worker) {
     ViewBuild *b = context;
     (void)worker;
     for (int k = 0; k < TERMS; k++) {
@@ -112,23 +107,19 @@ static void row_means(void *context, int row, int worker)
     }
 }
 
-static double row_elevation(const CloudRelief *out, double row)
-{
+static double row_elevation(const CloudRelief *out, double row) {
     double root = row / (double)out->rows + sqrt((double)out->first);
     return (double)out->horizon - (root * root - (double)out->first);
 }
 
 /* Solid angle of a cell of a row. */
-static double row_area(const CloudRelief *out, int row)
-{
-    return (sin_d(row_elevation(out, row)) - sin_d(row_elevation(out, row + 1))) * 2 * PI /
-           COLUMNS;
+static double row_area(const CloudRelief *out, int row) {
+    return (sin_d(row_elevation(out, row)) - sin_d(row_elevation(out, row + 1))) * 2 * PI / COLUMNS;
 }
 
 /* Of the rows around one, by their solid angles: a ring at the foot has few cells, whose own
  * mean would be no mean. */
-static void smooth_mean(const ViewBuild *b, int row, double out[TERMS])
-{
+static void smooth_mean(const ViewBuild *b, int row, double out[TERMS]) {
     double weight = 0;
     for (int k = 0; k < TERMS; k++) out[k] = 0;
     for (int i = row - SMOOTH; i <= row + SMOOTH; i++) {
@@ -141,12 +132,11 @@ static void smooth_mean(const ViewBuild *b, int row, double out[TERMS])
 }
 
 /* At the foot all azimuths are one place: there the series is drawn in to its first term. */
-static void divide_row(void *context, int row, int worker)
-{
+static void divide_row(void *context, int row, int worker) {
     ViewBuild *b = context;
     double mean[TERMS], sum = 0, level = cos_d(row_elevation(b->out, row + 0.5));
     double drawn = fmin(1, 4 * level * level);
-    float  strength = clampf((float)row / FADE, 0, 1);
+    float strength = clampf((float)row / FADE, 0, 1);
     (void)worker;
     smooth_mean(b, row, mean);
     for (int j = 0; j < COLUMNS; j++) {
@@ -159,8 +149,7 @@ static void divide_row(void *context, int row, int worker)
     b->sum[row] = sum * row_area(b->out, row);
 }
 
-static void store_row(void *context, int row, int worker)
-{
+static void store_row(void *context, int row, int worker) {
     ViewBuild *b = context;
     (void)worker;
     for (int j = 0; j < COLUMNS; j++) {
@@ -174,24 +163,21 @@ static void store_row(void *context, int row, int worker)
 
 /* The sky's light comes from everywhere by day, so that it has less relief; in twilight it is
  * all there is, and comes from the side of the sun. */
-static float diffuse_share(double elevation)
-{
+static float diffuse_share(double elevation) {
     double t = fmax(0, fmin(1, (elevation * 180 / PI + 3) / 6));
     return (float)(1 - 0.25 * t * t * (3 - 2 * t));
 }
 
-static void take_scratch(ViewBuild *b, Arena *scratch)
-{
+static void take_scratch(ViewBuild *b, Arena *scratch) {
     b->stride = ARENA_NEW(scratch, Stride, STEPS_MAX);
-    b->seen = ARENA_NEW(scratch, float, ROWS * COLUMNS);
+    b->seen = ARENA_NEW(scratch, float, ROWS *COLUMNS);
     b->term = arena_alloc(scratch, sizeof *b->term, 64, TERMS);
     b->mean = arena_alloc(scratch, sizeof *b->mean, 64, ROWS);
     b->sum = ARENA_NEW(scratch, double, ROWS);
 }
 
 /* Exactly: the sums of all rows over the solid angle below the horizon. */
-static void find_whole(ViewBuild *b)
-{
+static void find_whole(ViewBuild *b) {
     double sum = 0, area = 0;
     for (int i = 0; i < ROWS; i++) {
         sum += b->sum[i];
@@ -200,11 +186,10 @@ static void find_whole(ViewBuild *b)
     b->whole = sum / area;
 }
 
-static void build(const CloudViewInput *in, CloudRelief *out, Arena scratch)
-{
+static void build(const CloudViewInput *in, CloudRelief *out, Arena scratch) {
     ViewBuild b = {.input = in, .out = out};
-    CloudFieldInput field = {fmin(in->relief_m, 0.5 * in->height_m), in->azimuth,
-                             in->elevation, in->threads};
+    CloudFieldInput field = {fmin(in->relief_m, 0.5 * in->height_m), in->azimuth, in->elevation,
+                             in->threads};
     take_scratch(&b, &scratch);
     cloud_field_build(&field, &scratch, &b.field);
     place_strides(&b);
@@ -216,12 +201,12 @@ static void build(const CloudViewInput *in, CloudRelief *out, Arena scratch)
     parallel_for(in->threads, ROWS, store_row, &b);
 }
 
-void cloud_view_build(const CloudViewInput *input, Arena *arena, CloudRelief *out)
-{
+void cloud_view_build(const CloudViewInput *input, Arena *arena, CloudRelief *out) {
     double reach = PI / 2 + input->horizon; /* from the horizon to the foot */
-    *out = (CloudRelief){.horizon = (float)input->horizon, .first = (float)FIRST,
+    *out = (CloudRelief){.horizon = (float)input->horizon,
+                         .first = (float)FIRST,
                          .rows = (float)(ROWS / (sqrt(FIRST + reach) - sqrt(FIRST))),
                          .diffuse = diffuse_share(input->elevation)};
-    out->factor = ARENA_NEW(arena, uint16_t, ROWS * COLUMNS);
+    out->factor = ARENA_NEW(arena, uint16_t, ROWS *COLUMNS);
     build(input, out, *arena);
 }

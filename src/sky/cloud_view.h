@@ -20,11 +20,11 @@
 #include "sky/cloud_relief.h"
 
 typedef struct CloudViewInput {
-    double height_m;       /* of the observer over the deck */
-    double relief_m;       /* cloud_field.h; held at half of the height at most */
-    double horizon;        /* elevation of the deck's edge */
+    double height_m;           /* of the observer over the deck */
+    double relief_m;           /* cloud_field.h; held at half of the height at most */
+    double horizon;            /* elevation of the deck's edge */
     double azimuth, elevation; /* of the light: compass, as seen */
-    int    threads;
+    int threads;
 } CloudViewInput;
 
 void cloud_view_build(const CloudViewInput *input, Arena *arena, CloudRelief *out);

@@ -39,29 +39,29 @@ typedef enum WaterSource { WATER_ASSUMED, WATER_GIVEN, WATER_DEW_POINT } WaterSo
 
 typedef struct DaylightInput {
     DaylightKind kind;
-    bool     has_time, has_sun;  /* one of them at least, except for uniform and overcast CIE */
-    SkyTime  when;
+    bool has_time, has_sun; /* one of them at least, except for uniform and overcast CIE */
+    SkyTime when;
     SkyPlace where;
-    double   sun_azimuth, sun_elevation; /* has_sun: apparent; overrides the time's */
-    double   sun_lux;            /* direct normal; negative: the model's own, of Perez what is
-                                    measured, whose shape and diffuse light it leaves */
-    int      cie_type;           /* 1..16 */
-    double   diffuse_lux;        /* CIE, or Perez with has_lux: horizontal */
-    double   direct_w_m2, diffuse_w_m2; /* Perez: normal, horizontal; they give the shape, */
-    bool     has_lux;            /* and the lux, unless these are given: */
-    double   direct_lux;         /* normal; and diffuse_lux */
-    double   turbidity;          /* or, when above 0, visibility_km at 550 nm instead */
-    double   visibility_km;
-    double   ozone_atm_cm, water_cm, albedo; /* albedo below 0: the floor's own */
+    double sun_azimuth, sun_elevation; /* has_sun: apparent; overrides the time's */
+    double sun_lux;                    /* direct normal; negative: the model's own, of Perez what is
+                                          measured, whose shape and diffuse light it leaves */
+    int cie_type;                      /* 1..16 */
+    double diffuse_lux;                /* CIE, or Perez with has_lux: horizontal */
+    double direct_w_m2, diffuse_w_m2;  /* Perez: normal, horizontal; they give the shape, */
+    bool has_lux;                      /* and the lux, unless these are given: */
+    double direct_lux;                 /* normal; and diffuse_lux */
+    double turbidity;                  /* or, when above 0, visibility_km at 550 nm instead */
+    double visibility_km;
+    double ozone_atm_cm, water_cm, albedo; /* albedo below 0: the floor's own */
     WaterSource water_source;
     FloorKind floor;
-    double   cloud_top_m;
-    double   cloud_relief_m;     /* clear, of clouds: cloud_relief.h; 0: an even floor */
-    bool     no_moon;            /* clear: as if there were none */
-    int      integral_steps;     /* CIE, Perez: of the quadrature; 0: 1000, which takes 0.1 s
-                                    (its error by steps: sky_shape_integral) */
-    bool     sun_alone;          /* clear: of its light nothing but the sun's is required */
-    int      threads;
+    double cloud_top_m;
+    double cloud_relief_m; /* clear, of clouds: cloud_relief.h; 0: an even floor */
+    bool no_moon;          /* clear: as if there were none */
+    int integral_steps;    /* CIE, Perez: of the quadrature; 0: 1000, which takes 0.1 s
+                              (its error by steps: sky_shape_integral) */
+    bool sun_alone;        /* clear: of its light nothing but the sun's is required */
+    int threads;
 } DaylightInput;
 
 DaylightInput daylight_input_default(DaylightKind kind);
@@ -76,26 +76,26 @@ typedef struct DaylightMetrics {
                                   or sun_lux is given */
     double zenith_cd_m2, sun_xy[2], zenith_xy[2], floor_cd_m2;
     double air_mass;
-    bool   is_sun_up; /* part of its disc at least */
+    bool is_sun_up;     /* part of its disc at least */
     NightMetrics night; /* clear; its light is part of the figures above */
 } DaylightMetrics;
 
 typedef struct Daylight {
-    DaylightInput   input;
+    DaylightInput input;
     DaylightMetrics metrics;
-    double   horizon;     /* elevation of the edge between sky and floor, radians */
+    double horizon; /* elevation of the edge between sky and floor, radians */
     /* CIE, Perez */
     SkyShape shape;
-    float    shape_scale; /* cd m^-2 per unit of the shape */
-    Curve    sky_curve, floor_curve; /* spectral radiance of 1 cd m^-2; of the floor, whole */
+    float shape_scale;            /* cd m^-2 per unit of the shape */
+    Curve sky_curve, floor_curve; /* spectral radiance of 1 cd m^-2; of the floor, whole */
     /* clear */
-    LitAir   sunlight;
-    Night   *night;       /* NULL: part of the sun is up */
+    LitAir sunlight;
+    Night *night; /* NULL: part of the sun is up */
     /* the sun */
-    bool     has_sun;
-    double   sun_azimuth, sun_elevation, sun_radius;
-    Curve    sun_mean;    /* disc's mean radiance */
-    Curve    limb[6];     /* sun_disc.h's coefficients, every nm */
+    bool has_sun;
+    double sun_azimuth, sun_elevation, sun_radius;
+    Curve sun_mean; /* disc's mean radiance */
+    Curve limb[6];  /* sun_disc.h's coefficients, every nm */
 } Daylight;
 
 bool daylight_build(const DaylightInput *input, Arena *arena, Daylight *out, Error *err);

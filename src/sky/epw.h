@@ -16,24 +16,24 @@
 #include "sky/sun_position.h"
 
 typedef struct WeatherHour {
-    int    line, year, month, day;
+    int line, year, month, day;
     double label_h; /* end of its span, hours after midnight of the zone, above 0 to 24 */
     double direct_normal_w_m2, diffuse_horizontal_w_m2; /* negative: missing */
-    double global_horizontal_w_m2; /* negative: missing */
-    double direct_normal_lx, diffuse_horizontal_lx; /* negative: missing */
+    double global_horizontal_w_m2;                      /* negative: missing */
+    double direct_normal_lx, diffuse_horizontal_lx;     /* negative: missing */
     double dew_point_c;
-    bool   has_light, has_dew_point;
+    bool has_light, has_dew_point;
 } WeatherHour;
 
 typedef struct Weather {
-    const char  *city;
-    SkyPlace     place;
-    double       zone_h;
-    int          rows_per_hour, fields; /* fields: of every row */
-    bool         has_comment_offset; /* a comment "Irradiance Time Offset (h):" (PVGIS) */
-    double       comment_offset_h;
+    const char *city;
+    SkyPlace place;
+    double zone_h;
+    int rows_per_hour, fields; /* fields: of every row */
+    bool has_comment_offset;   /* a comment "Irradiance Time Offset (h):" (PVGIS) */
+    double comment_offset_h;
     WeatherHour *hour;
-    int          count;
+    int count;
 } Weather;
 
 bool weather_read(const char *file, Arena *arena, Weather *out, Error *err);

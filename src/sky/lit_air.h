@@ -11,9 +11,9 @@
 
 typedef struct LitAir {
     Atmosphere atmosphere;
-    Curve   beam;              /* spectral irradiance outside the air, less what gases take */
+    Curve beam;                /* spectral irradiance outside the air, less what gases take */
     uint8_t node[CURVE_COUNT]; /* lane of air.h below each nm */
-    float   luminance_weight[SPECTRUM_LANES]; /* luminance of a relative radiance */
+    float luminance_weight[SPECTRUM_LANES]; /* luminance of a relative radiance */
 } LitAir;
 
 bool lit_air_build(const AtmosphereInput *input, const Curve *beam, Arena *arena, LitAir *out,
@@ -29,5 +29,5 @@ Spectrum lit_air_polarisation(const LitAir *air, float elevation, float azimuth,
 
 /* For a relative quantity at the lanes of air.h: its spectrum at every nm, and its luminance
  * (illuminance, where it is an irradiance). */
-void   lit_air_curve(const LitAir *air, Spectrum relative, Curve *out);
+void lit_air_curve(const LitAir *air, Spectrum relative, Curve *out);
 double lit_air_luminance(const LitAir *air, Spectrum relative);

@@ -21,8 +21,7 @@ typedef struct LuminousEfficacy {
     double global;  /* of the global horizontal one: a fit of its own */
 } LuminousEfficacy;
 
-LuminousEfficacy luminous_efficacy(const PerezState *state, double sun_zenith,
-                                   double water_cm);
+LuminousEfficacy luminous_efficacy(const PerezState *state, double sun_zenith, double water_cm);
 
 /* Precipitable water above a place, by the dew point at the ground. */
 double water_from_dew_point_cm(double celsius);

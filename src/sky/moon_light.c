@@ -14,30 +14,26 @@
 #define PHASE_MAX (175 * PI / 180)
 #define MEAN_STEPS 400
 
-double moon_angular_radius(double distance_km)
-{
+double moon_angular_radius(double distance_km) {
     return asin_d(MOON_RADIUS_KM / distance_km);
 }
 
-void moon_over_sun(const MoonDistances *at, Curve *out)
-{
+void moon_over_sun(const MoonDistances *at, Curve *out) {
     double a = at->phase_angle_deg, nearer = MEAN_KM / at->observer_km;
     double magnitude = -12.73 + 0.026 * a + 4e-9 * a * a * a * a;
-    double ratio = pow_d(10, 0.4 * (SUN_V - magnitude)) * nearer * nearer /
-                   (at->sun_au * at->sun_au);
+    double ratio =
+        pow_d(10, 0.4 * (SUN_V - magnitude)) * nearer * nearer / (at->sun_au * at->sun_au);
     for (int i = 0; i < CURVE_COUNT; i++)
         out->value[i] = (float)(ratio * pow_d((CURVE_FIRST_NM + i) / V_NM, REDNESS));
 }
 
-static float shade(float sine, float cosine, float x, float distance2)
-{
+static float shade(float sine, float cosine, float x, float distance2) {
     float mu = safe_sqrtf(1 - distance2), mu0 = x * sine + mu * cosine;
     return mu0 > 0 ? mu0 / (mu0 + mu) : 0;
 }
 
 /* The mean from columns between the terminator, x = -cos a sqrt(1 - y^2), and the lit limb. */
-MoonDisc moon_disc(double phase_angle)
-{
+MoonDisc moon_disc(double phase_angle) {
     double phase = fmin(phase_angle, PHASE_MAX), sum = 0;
     MoonDisc disc = {(float)sin_d(phase), (float)cos_d(phase), 1};
     for (int j = 0; j < MEAN_STEPS; j++) {
@@ -53,7 +49,6 @@ MoonDisc moon_disc(double phase_angle)
     return disc;
 }
 
-float moon_disc_shade(const MoonDisc *disc, float x, float distance2)
-{
+float moon_disc_shade(const MoonDisc *disc, float x, float distance2) {
     return disc->scale * shade(disc->sine, disc->cosine, x, distance2);
 }

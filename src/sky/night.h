@@ -18,9 +18,9 @@
 
 /* For people and scripts. */
 typedef struct NightMetrics {
-    bool   has_moon;    /* its place is known, whether or not it gives light */
-    bool   is_moon_up;  /* part of its disc at least */
-    bool   is_moon_lit; /* the sky has its light */
+    bool has_moon;    /* its place is known, whether or not it gives light */
+    bool is_moon_up;  /* part of its disc at least */
+    bool is_moon_lit; /* the sky has its light */
     double moon_azimuth_deg, moon_elevation_deg; /* apparent */
     double moon_distance_km, elongation_deg, phase_angle_deg, illuminated;
     double moon_normal_lx, moon_sky_lx; /* by its disc; by its light in the air, horizontal */
@@ -29,21 +29,21 @@ typedef struct NightMetrics {
 } NightMetrics;
 
 typedef struct NightInput {
-    AtmosphereInput air;   /* the sun's elevation is not used */
-    Air    above;          /* what lies above the observer */
+    AtmosphereInput air; /* the sun's elevation is not used */
+    Air above;           /* what lies above the observer */
     double altitude_m, horizon;
     const MoonPosition *moon; /* NULL: none */
 } NightInput;
 
 typedef struct Night {
-    NightMetrics    metrics;
+    NightMetrics metrics;
     NightBackground background;
-    bool   has_moonlight;  /* in the air */
+    bool has_moonlight; /* in the air */
     LitAir moonlight;
-    bool   has_moon;       /* its disc */
+    bool has_moon; /* its disc */
     double moon_azimuth, moon_elevation, moon_radius;
     double sun_azimuth, sun_elevation; /* where its light comes from */
-    Curve    moon_mean;    /* disc's mean radiance */
+    Curve moon_mean;                   /* disc's mean radiance */
     MoonDisc disc;
 } Night;
 
@@ -63,5 +63,4 @@ float night_luminance(const Night *night, float elevation, float azimuth);
 void night_add_zenith(const Night *night, Curve *zenith);
 
 /* HOT. Radiance of the moon's disc at a place of it (moon_light.h). */
-Spectrum night_moon(const Night *night, float x, float distance2,
-                    const Wavelengths *wavelengths);
+Spectrum night_moon(const Night *night, float x, float distance2, const Wavelengths *wavelengths);

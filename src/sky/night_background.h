@@ -19,12 +19,12 @@
 #include "spectrum/curve.h"
 
 typedef struct NightBackground {
-    float  zenith_cd_m2; /* above the air */
-    float  depth;        /* optical, straight up, for the eye */
-    float  horizon;      /* elevation of the edge of the floor */
-    float  floor_cd_m2;
+    float zenith_cd_m2; /* above the air */
+    float depth;        /* optical, straight up, for the eye */
+    float horizon;      /* elevation of the edge of the floor */
+    float floor_cd_m2;
     double horizontal_lx;
-    Curve  curve;        /* spectral radiance of 1 cd m^-2 */
+    Curve curve; /* spectral radiance of 1 cd m^-2 */
 } NightBackground;
 
 typedef struct NightBackgroundInput {

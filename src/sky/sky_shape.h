@@ -21,15 +21,15 @@ typedef struct SkyShape {
 SkyShape sky_shape_cie(int type);
 
 typedef struct PerezInput {
-    double sun_zenith;           /* radians, below pi / 2 */
+    double sun_zenith;                                  /* radians, below pi / 2 */
     double direct_normal_w_m2, diffuse_horizontal_w_m2; /* at least 0; above 0 */
-    int    day;                  /* of the year, from 1 */
+    int day;                                            /* of the year, from 1 */
 } PerezInput;
 
 /* The parameters that the model derives from its input. */
 typedef struct PerezState {
     double air_mass, brightness, clearness; /* m, Delta, epsilon */
-    int    bin;                             /* 1..8 */
+    int bin;                                /* 1..8 */
 } PerezState;
 
 /* *state may be NULL. Clearness is held in [1, 12.01), brightness in [0.01, 0.6]: the fit has

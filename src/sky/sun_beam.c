@@ -11,16 +11,14 @@
 /* Chapman's grazing incidence function for a zenith angle up to 90 degrees, x radii of the
  * sphere a scale height: sqrt(pi x / 2) exp(y^2) erfc(y), y = sqrt(x / 2) cos z (Smith and
  * Smith 1972, their first term). */
-static double grazing(double x, double cosine)
-{
+static double grazing(double x, double cosine) {
     double y = sqrt(x / 2) * cosine;
     if (y > 8) return 1 / cosine;
     return sqrt(PI * x / 2) * exp_d(y * y) * erfc_d(y);
 }
 
 /* Water along the ray over that straight above sea level. */
-static double water_column(const SunBeamPath *path)
-{
+static double water_column(const SunBeamPath *path) {
     double r = AIR_EARTH_M + path->observer_m, sine = sin_d(path->elevation);
     double here = exp_d(-path->observer_m / SUN_BEAM_WATER_SCALE_M);
     double up = grazing(r / SUN_BEAM_WATER_SCALE_M, fabs(sine));
@@ -31,12 +29,11 @@ static double water_column(const SunBeamPath *path)
 }
 
 /* SPECTRL2 straight up through as much of everything as lies along the ray. */
-SunBeam sun_beam(const Air *air, const SunBeamPath *path, double distance_au)
-{
+SunBeam sun_beam(const Air *air, const SunBeamPath *path, double distance_au) {
     AirOptics optics = air_optics(air);
-    Air       along = *air;
-    double    column[AIR_PARTS], above[AIR_PARTS];
-    Curve     visible;
+    Air along = *air;
+    double column[AIR_PARTS], above[AIR_PARTS];
+    Curve visible;
     air_column(&optics, path->observer_m, sin_d(path->elevation), path->floor_m - 1, column);
     air_vertical(&optics, path->observer_m, AIR_TOP_M, above);
     along.pressure_mbar *= column[AIR_MOLECULES];

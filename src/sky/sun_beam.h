@@ -19,7 +19,7 @@ typedef struct SunBeamPath {
 } SunBeamPath;
 
 typedef struct SunBeam {
-    double air_mass; /* air along the ray over that straight above the observer */
+    double air_mass;  /* air along the ray over that straight above the observer */
     double lux, w_m2; /* on a plane that faces the sun, of its whole disc */
 } SunBeam;
 

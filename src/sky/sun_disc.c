@@ -24,22 +24,19 @@ static const double limb[BANDS][6] = {
     {0.364007, 1.27316, -1.73824, 2.28535, -1.70203, 0.517758},
     {0.389704, 1.2448, -1.69708, 2.14061, -1.51803, 0.440004}};
 
-double sun_angular_radius(double distance_au)
-{
+double sun_angular_radius(double distance_au) {
     return asin_d(SUN_RADIUS_KM / (ASTRONOMICAL_UNIT_KM * distance_au));
 }
 
-double disc_share_above(double above)
-{
+double disc_share_above(double above) {
     if (above >= 1) return 1;
     if (above <= -1) return 0;
     return 0.5 + (above * sqrt(1 - above * above) + asin_d(above)) / PI;
 }
 
-void sun_limb(double nm, double coefficient[6])
-{
+void sun_limb(double nm, double coefficient[6]) {
     double at = fmax(0, fmin((nm - FIRST_NM) / STEP_NM, BANDS - 1.000001)), mean = 0;
-    int    i = (int)at;
+    int i = (int)at;
     for (int k = 0; k < 6; k++) {
         coefficient[k] = limb[i][k] + (at - i) * (limb[i + 1][k] - limb[i][k]);
         mean += 2 * coefficient[k] / (k + 2);
@@ -47,8 +44,7 @@ void sun_limb(double nm, double coefficient[6])
     for (int k = 0; k < 6; k++) coefficient[k] /= mean;
 }
 
-void sun_limb_curves(Curve limb_curve[SUN_LIMB_TERMS])
-{
+void sun_limb_curves(Curve limb_curve[SUN_LIMB_TERMS]) {
     for (int i = 0; i < CURVE_COUNT; i++) {
         double c[SUN_LIMB_TERMS];
         sun_limb(CURVE_FIRST_NM + i, c);
@@ -57,9 +53,8 @@ void sun_limb_curves(Curve limb_curve[SUN_LIMB_TERMS])
 }
 
 Spectrum sun_limb_shade(const Curve limb_curve[SUN_LIMB_TERMS], float share,
-                        const Wavelengths *wavelengths)
-{
-    float    mu = safe_sqrtf(1 - share * share);
+                        const Wavelengths *wavelengths) {
+    float mu = safe_sqrtf(1 - share * share);
     Spectrum value = spectrum_all(0);
     for (int k = SUN_LIMB_TERMS - 1; k >= 0; k--)
         value = value * spectrum_all(mu) + curve_lookup(&limb_curve[k], wavelengths);

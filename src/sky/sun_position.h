@@ -13,7 +13,7 @@
 
 /* A moment, proleptic Gregorian (Julian before 1582-10-15), with the zone's offset from UTC. */
 typedef struct SkyTime {
-    int    year, month, day, hour, minute;
+    int year, month, day, hour, minute;
     double second;
     double zone_h; /* hours east of UTC */
 } SkyTime;

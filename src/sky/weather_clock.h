@@ -25,12 +25,12 @@ typedef enum WeatherClockSource {
 typedef struct WeatherClock {
     WeatherClockSource source;
     double offset_h;
-    int    rows;              /* that count; 0: too few have sun and all three irradiances */
-    bool   closes;            /* within a tenth of mean_global_w_m2, somewhere */
-    double closure_w_m2;      /* mean of |GHI - DHI - DNI sin el| at offset_h */
+    int rows;                  /* that count; 0: too few have sun and all three irradiances */
+    bool closes;               /* within a tenth of mean_global_w_m2, somewhere */
+    double closure_w_m2;       /* mean of |GHI - DHI - DNI sin el| at offset_h */
     double means_closure_w_m2; /* the same, read as means that end at the label */
     double best_offset_h, best_closure_w_m2;
-    double mean_global_w_m2;  /* of the rows that count */
+    double mean_global_w_m2; /* of the rows that count */
 } WeatherClock;
 
 /* given_h: the user's offset, or NULL. scratch: 48 bytes a row. */

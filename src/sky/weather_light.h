@@ -17,9 +17,12 @@
 typedef enum WeatherLux { WEATHER_LUX_PEREZ, WEATHER_LUX_FILE } WeatherLux;
 
 typedef enum WeatherRowState {
-    WEATHER_ROW_LIT, WEATHER_ROW_DARK, /* dark: no light at all */
+    WEATHER_ROW_LIT,
+    WEATHER_ROW_DARK, /* dark: no light at all */
     /* it cannot be taken: */
-    WEATHER_ROW_WITHOUT_VALUES, WEATHER_ROW_WITHOUT_SKY, WEATHER_ROW_TOO_BRIGHT,
+    WEATHER_ROW_WITHOUT_VALUES,
+    WEATHER_ROW_WITHOUT_SKY,
+    WEATHER_ROW_TOO_BRIGHT,
     WEATHER_ROW_WITHOUT_LUX
 } WeatherRowState;
 

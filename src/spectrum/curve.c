@@ -12,16 +12,13 @@
 #define MAX_POINTS 4096 /* 0.1 nm over the visible range */
 #define VALUE_MAX 1e12
 
-void curve_from_points(const double *nm, const double *value, int count, Curve *out)
-{
+void curve_from_points(const double *nm, const double *value, int count, Curve *out) {
     int next = 0; /* first point at or above the nanometre */
     for (int i = 0; i < CURVE_COUNT; i++) {
         double here = CURVE_FIRST_NM + i;
         while (next < count && nm[next] < here) next++;
-        if (next == 0)
-            out->value[i] = (float)value[0];
-        else if (next == count)
-            out->value[i] = (float)value[count - 1];
+        if (next == 0) out->value[i] = (float)value[0];
+        else if (next == count) out->value[i] = (float)value[count - 1];
         else {
             double t = (here - nm[next - 1]) / (nm[next] - nm[next - 1]);
             out->value[i] = (float)(value[next - 1] + t * (value[next] - value[next - 1]));
@@ -31,17 +28,15 @@ void curve_from_points(const double *nm, const double *value, int count, Curve *
 
 #define SLACK_NM 1.0 /* wavelengths are rounded */
 
-bool curve_reaches(double first_nm, double last_nm, CurveEnds dark)
-{
+bool curve_reaches(double first_nm, double last_nm, CurveEnds dark) {
     return (dark.first || first_nm <= CURVE_SEEN_FIRST_NM + SLACK_NM) &&
            (dark.last || last_nm >= CURVE_SEEN_LAST_NM - SLACK_NM);
 }
 
-double curve_beyond(double first_nm, double last_nm, CurveEnds dark)
-{
+double curve_beyond(double first_nm, double last_nm, CurveEnds dark) {
     double all = 0, beyond = 0;
-    bool   below = !dark.first && first_nm > CURVE_WHOLE_FIRST_NM + SLACK_NM;
-    bool   above = !dark.last && last_nm < CURVE_WHOLE_LAST_NM - SLACK_NM;
+    bool below = !dark.first && first_nm > CURVE_WHOLE_FIRST_NM + SLACK_NM;
+    bool above = !dark.last && last_nm < CURVE_WHOLE_LAST_NM - SLACK_NM;
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
         double nm = SPECTRAL_FIRST_NM + i, v = (double)spectral_table[i].y;
         all += v;
@@ -50,8 +45,7 @@ double curve_beyond(double first_nm, double last_nm, CurveEnds dark)
     return beyond / all;
 }
 
-CurveEnds curve_dark_ends(const double *value, int count, double share)
-{
+CurveEnds curve_dark_ends(const double *value, int count, double share) {
     double most = 0;
     for (int i = 0; i < count; i++) most = fmax(most, fabs(value[i]));
     return (CurveEnds){fabs(value[0]) <= share * most, fabs(value[count - 1]) <= share * most};
@@ -61,21 +55,19 @@ CurveEnds curve_dark_ends(const double *value, int count, double share)
 
 typedef struct Points {
     double nm[MAX_POINTS], value[COLUMNS_MAX][MAX_POINTS];
-    int    count, columns;
+    int count, columns;
     CurveRange range; /* of one column */
 } Points;
 
 /* Nothing but white space from here on? */
-static bool is_blank(const char *text)
-{
+static bool is_blank(const char *text) {
     while (*text == ' ' || *text == '\t' || *text == '\r' || *text == '\n') text++;
     return *text == '\0';
 }
 
 /* The wavelength and `columns` numbers, with a comma, semicolon or white space between, the
  * same in all of the row. */
-static bool parse_row(const char *line, int columns, double number[1 + COLUMNS_MAX])
-{
+static bool parse_row(const char *line, int columns, double number[1 + COLUMNS_MAX]) {
     char between[1 + COLUMNS_MAX] = {0};
     for (int i = 0; i <= columns; i++) {
         char *end;
@@ -91,8 +83,7 @@ static bool parse_row(const char *line, int columns, double number[1 + COLUMNS_M
 
 /* Of a line that is no row: a comma between digits may be the reason, unless commas part
  * numbers with points. */
-static const char *comma_hint(const char *line)
-{
+static const char *comma_hint(const char *line) {
     if (strchr(line, '.') && !strchr(line, ';')) return "";
     for (const char *at = strchr(line, ','); at; at = strchr(at + 1, ','))
         if (at > line && isdigit((unsigned char)at[-1]) && isdigit((unsigned char)at[1]))
@@ -101,36 +92,37 @@ static const char *comma_hint(const char *line)
 }
 
 static bool check_value(const Points *points, const char *path, const char *place,
-                        const double *number, Error *err)
-{
+                        const double *number, Error *err) {
     double nm = number[0], value = number[1];
     if (!(nm > 0 && nm < 1e6 && fabs(value) <= VALUE_MAX))
         return error_at(err, ERROR_INPUT, path, place,
                         "wavelength %g nm with value %g: required: finite numbers, nm above 0, "
-                        "up to %g", nm, value, VALUE_MAX);
+                        "up to %g",
+                        nm, value, VALUE_MAX);
     bool is_low = points->range != CURVE_NUMBERS && value < 0;
     bool is_high = points->range == CURVE_SHARES && value > 1;
-    return !is_low && !is_high ? true :
-           error_at(err, ERROR_INPUT, path, place, "holds %.9g; %s is required", value,
-                    points->range == CURVE_SHARES ? "0 to 1" : "0 or more");
+    return !is_low && !is_high
+               ? true
+               : error_at(err, ERROR_INPUT, path, place, "holds %.9g; %s is required", value,
+                          points->range == CURVE_SHARES ? "0 to 1" : "0 or more");
 }
 
 static bool check_values(const Points *points, const char *path, const char *place,
-                         const double *number, Error *err)
-{
+                         const double *number, Error *err) {
     double nm = number[0], n = number[1], k = number[2];
     if (points->columns == 1) return check_value(points, path, place, number, err);
     bool is_index = n >= 0 && n <= INDEX_MAX && k >= 0 && k <= INDEX_MAX && n + k > 0;
-    return nm > 0 && nm < 1e6 && is_index ? true :
-           error_at(err, ERROR_INPUT, path, place,
-                    "wavelength %g nm with n %g and k %g: required: nm above 0, n and k from "
-                    "0 to %g, not both 0", nm, n, k, INDEX_MAX);
+    return nm > 0 && nm < 1e6 && is_index
+               ? true
+               : error_at(err, ERROR_INPUT, path, place,
+                          "wavelength %g nm with n %g and k %g: required: nm above 0, n and k from "
+                          "0 to %g, not both 0",
+                          nm, n, k, INDEX_MAX);
 }
 
 static bool add_row(Points *points, const char *path, const char *place, const double *number,
-                    Error *err)
-{
-    int    n = points->count;
+                    Error *err) {
+    int n = points->count;
     double nm = number[0];
     if (!check_values(points, path, place, number, err)) return false;
     if (n && !(nm > points->nm[n - 1]))
@@ -146,8 +138,7 @@ static bool add_row(Points *points, const char *path, const char *place, const d
 }
 
 /* Copies a line of text, or as much of it as fits, and returns what follows it. */
-static const char *next_line(const char *text, char *line, size_t size)
-{
+static const char *next_line(const char *text, char *line, size_t size) {
     size_t length = strcspn(text, "\n");
     snprintf(line, size, "%.*s", (int)(length < size ? length : size - 1), text);
     return text + length + (text[length] == '\n');
@@ -156,42 +147,40 @@ static const char *next_line(const char *text, char *line, size_t size)
 #define DARK_END 1e-3 /* of the largest value */
 
 /* Light that has ended does not come back; a filter's share may. */
-static CurveEnds dark_ends(const Points *points)
-{
+static CurveEnds dark_ends(const Points *points) {
     if (points->columns > 1 || points->range != CURVE_AMOUNTS) return (CurveEnds){false, false};
     return curve_dark_ends(points->value[0], points->count, DARK_END);
 }
 
 /* Wavelengths in um or m, or of an invisible range, would give the same value everywhere. */
-static bool check_reach(const Points *points, const char *path, Error *err)
-{
+static bool check_reach(const Points *points, const char *path, Error *err) {
     double first = points->nm[0], last = points->nm[points->count - 1];
     const char *unit = first > 0.1 && last < 20 ? " — in micrometres? Required are nm" : "";
     return curve_reaches(first, last, dark_ends(points)) ||
-           error_at(err, ERROR_INPUT, path, NULL, "holds wavelengths from %g to %g nm, "
-                    "required from %d to %d nm or beyond%s%s", first, last, CURVE_SEEN_FIRST_NM,
-                    CURVE_SEEN_LAST_NM, points->range == CURVE_AMOUNTS && points->columns == 1
-                    ? ", but where light has ended" : "", unit);
+           error_at(err, ERROR_INPUT, path, NULL,
+                    "holds wavelengths from %g to %g nm, "
+                    "required from %d to %d nm or beyond%s%s",
+                    first, last, CURVE_SEEN_FIRST_NM, CURVE_SEEN_LAST_NM,
+                    points->range == CURVE_AMOUNTS && points->columns == 1
+                        ? ", but where light has ended"
+                        : "",
+                    unit);
 }
 
-static double beyond_of(const Points *points)
-{
+static double beyond_of(const Points *points) {
     return curve_beyond(points->nm[0], points->nm[points->count - 1], dark_ends(points));
 }
 
 /* Numbers that are too few or too many are no names of columns. */
-static bool is_header(const char *line)
-{
+static bool is_header(const char *line) {
     return !strchr("+-.0123456789", line[strspn(line, " \t")]);
 }
 
 /* One line may be a header: the first that is neither blank nor a comment. */
-static bool read_points(const char *text, const char *path, Points *points, Error *err)
-{
+static bool read_points(const char *text, const char *path, Points *points, Error *err) {
     char line[512], place[32];
     bool may_be_header = true;
-    const char *names = points->columns == 1 ? "two numbers: nm,value" :
-                                               "three numbers: nm,n,k";
+    const char *names = points->columns == 1 ? "two numbers: nm,value" : "three numbers: nm,n,k";
     if (strncmp(text, "\xef\xbb\xbf", 3) == 0) text += 3; /* an editor's mark of UTF-8 */
     for (int row = 1; *text; row++) {
         double number[1 + COLUMNS_MAX] = {0};
@@ -202,9 +191,10 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
             if (!add_row(points, path, place, number, err)) return false;
         } else if (!may_be_header || !is_header(line)) {
             line[strcspn(line, "\r\n")] = '\0';
-            return error_at(err, ERROR_INPUT, path, place, "found \"%.60s\", required: "
-                            "%s%s", line,
-                            names, comma_hint(line));
+            return error_at(err, ERROR_INPUT, path, place,
+                            "found \"%.60s\", required: "
+                            "%s%s",
+                            line, names, comma_hint(line));
         }
         may_be_header = false;
     }
@@ -213,14 +203,12 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
     return check_reach(points, path, err);
 }
 
-static bool no_memory(const char *path, Error *err)
-{
+static bool no_memory(const char *path, Error *err) {
     return error_at(err, ERROR_MEMORY, path, NULL, "no memory to read it");
 }
 
-bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out,
-                 double *beyond, Error *err)
-{
+bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out, double *beyond,
+                 Error *err) {
     Points *points = calloc(1, sizeof *points);
     if (!points) return no_memory(path, err);
     points->columns = 1;
@@ -233,8 +221,7 @@ bool curve_parse(const char *text, const char *path, CurveRange range, Curve *ou
 }
 
 bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, double *beyond,
-                       Error *err)
-{
+                       Error *err) {
     Points *points = calloc(1, sizeof *points);
     if (!points) return no_memory(path, err);
     points->columns = 2;
@@ -246,9 +233,8 @@ bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, d
     return ok;
 }
 
-Spectrum curve_lookup(const Curve *curve, const Wavelengths *wavelengths)
-{
-    Spectrum     place = wavelengths->nm - spectrum_all(CURVE_FIRST_NM), low, high;
+Spectrum curve_lookup(const Curve *curve, const Wavelengths *wavelengths) {
+    Spectrum place = wavelengths->nm - spectrum_all(CURVE_FIRST_NM), low, high;
     SpectrumMask cell = __builtin_convertvector(place, SpectrumMask);
     cell -= 1 + ((cell - (CURVE_COUNT - 1)) >> 31); /* the last wavelength ends the last cell */
     spectrum_neighbours(curve->value, cell, &low, &high);

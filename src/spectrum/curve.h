@@ -52,15 +52,16 @@ bool curve_reaches(double first_nm, double last_nm, CurveEnds dark);
 double curve_beyond(double first_nm, double last_nm, CurveEnds dark);
 
 /* File, per cent, CURVE_WHOLE_FIRST_NM, CURVE_WHOLE_LAST_NM. */
-#define CURVE_BEYOND_WARNING "%s: %.2g %% of V(lambda) is extrapolated: its end values stand " \
+#define CURVE_BEYOND_WARNING \
+    "%s: %.2g %% of V(lambda) is extrapolated: its end values stand " \
     "for what is missing of %d to %d nm"
 
 /* A CSV of `nm,value` rows (header line and # comments allowed) in memory, terminated; path: of
  * the file, for messages, which name the line of a value that is out of range. It is refused
  * where it does not reach (above); CURVE_AMOUNTS may end in the dark. *beyond (or NULL):
  * curve_beyond. */
-bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out,
-                 double *beyond, Error *err);
+bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out, double *beyond,
+                 Error *err);
 
 #define INDEX_MAX 100.0
 

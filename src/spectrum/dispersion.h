@@ -13,8 +13,7 @@
 #define LINE_D_NM 587.6
 
 /* dispersion: 20 / V, as glTF has it, 0 and up. */
-static inline double dispersion_index(double nd, double dispersion, double nm)
-{
+static inline double dispersion_index(double nd, double dispersion, double nm) {
     const double f = 1 / (486.1 * 486.1), c = 1 / (656.3 * 656.3);
     const double d = 1 / (LINE_D_NM * LINE_D_NM);
     double spread = (nd - 1) * dispersion / 20;

@@ -19,8 +19,7 @@ typedef struct Fresnel {
 
 /* eta: index behind the boundary over the index in front of it, > 0. cosine: in front, [0, 1].
  * *cosine_behind: of the refracted direction, 0 under total reflection; may be NULL. */
-static inline Fresnel fresnel_dielectric(float cosine, float eta, float *cosine_behind)
-{
+static inline Fresnel fresnel_dielectric(float cosine, float eta, float *cosine_behind) {
     float sine2 = (1 - cosine * cosine) / (eta * eta);
     float behind = sine2 < 1 ? sqrtf(1 - sine2) : 0.0f;
     if (cosine_behind) *cosine_behind = behind;
@@ -31,20 +30,17 @@ static inline Fresnel fresnel_dielectric(float cosine, float eta, float *cosine_
 }
 
 /* Light without polarisation. */
-static inline float fresnel_mean(Fresnel face)
-{
+static inline float fresnel_mean(Fresnel face) {
     return 0.5f * (face.s + face.p);
 }
 
-static inline float fresnel_unpolarised(float cosine, float eta)
-{
+static inline float fresnel_unpolarised(float cosine, float eta) {
     return fresnel_mean(fresnel_dielectric(cosine, eta, NULL));
 }
 
 /* The same in double precision, for what is made before the first ray. cosine in [0, 1];
  * behind the critical angle 1. */
-static inline double fresnel_unpolarised_d(double cosine, double eta)
-{
+static inline double fresnel_unpolarised_d(double cosine, double eta) {
     double behind = sqrt(fmax(0, 1 - (1 - cosine * cosine) / (eta * eta)));
     double s = (cosine - eta * behind) / (cosine + eta * behind);
     double p = (eta * cosine - behind) / (eta * cosine + behind);
@@ -52,24 +48,21 @@ static inline double fresnel_unpolarised_d(double cosine, double eta)
 }
 
 /* Reflectance at normal incidence. */
-static inline float fresnel_normal(float eta)
-{
+static inline float fresnel_normal(float eta) {
     float r = (eta - 1) / (eta + 1);
     return r * r;
 }
 
 /* The exact curve's rise from 0 at normal incidence to 1 at grazing; 0 where there is no
  * boundary. */
-static inline float fresnel_shape(float eta, float cosine)
-{
+static inline float fresnel_shape(float eta, float cosine) {
     if (!(eta > 1)) return 0;
     float f0 = fresnel_normal(eta);
     return (fresnel_unpolarised(cosine, eta) - f0) / (1 - f0);
 }
 
 /* (1 - cosine)^5 */
-static inline float schlick_weight(float cosine)
-{
+static inline float schlick_weight(float cosine) {
     float m = clampf(1 - cosine, 0, 1), m2 = m * m;
     return m2 * m2 * m;
 }
@@ -77,8 +70,7 @@ static inline float schlick_weight(float cosine)
 #pragma GCC diagnostic push /* inline: no vector goes from one file to another */
 #pragma GCC diagnostic ignored "-Wpsabi"
 /* Metals: f0 + (1 - f0)(1 - cosine)^5 per lane. */
-static inline Spectrum fresnel_schlick(Spectrum f0, float cosine)
-{
+static inline Spectrum fresnel_schlick(Spectrum f0, float cosine) {
     return f0 + (spectrum_all(1) - f0) * spectrum_all(schlick_weight(cosine));
 }
 #pragma GCC diagnostic pop

@@ -39,8 +39,8 @@ double gamut_coverage(const GamutTriangle *panel, const GamutTriangle *standard)
  * 2/3 v'). */
 typedef struct ColourTemperature {
     double kelvin;
-    double duv;        /* distance from the locus there, above 0 on the green side */
-    bool   is_defined; /* no further than 0.05 from it, between 1000 and 25000 K */
+    double duv;      /* distance from the locus there, above 0 on the green side */
+    bool is_defined; /* no further than 0.05 from it, between 1000 and 25000 K */
 } ColourTemperature;
 
 ColourTemperature colour_temperature(const double uv[2]);

@@ -20,7 +20,7 @@ typedef struct GlazingLayer {
 typedef struct Glazing {
     GlazingLayer layers[GLAZING_LAYERS_MAX]; /* the first is on the front of the triangles, from
                                               * where their vertices run counter-clockwise */
-    int   layer_count;
+    int layer_count;
     Curve absorbance;    /* -ln of what all layers let through along the normal, no faces */
     float absorbing_ior; /* of what absorbs, a mean: for the length of a slanted way */
     float wedge[2];      /* by how much the thickness grows per length towards +u and +v */

@@ -15,9 +15,9 @@
 #define LUMINOUS_EFFICACY_MAX 683.002
 
 typedef struct SpectralRow {
-    float x, y, z;             /* CIE 1931 2 degree observer */
-    float red, green, blue;    /* reflectances of the linear Rec.709 primaries; sum 1 */
-    float d65, illuminant_a;   /* W m^-2 sr^-1 nm^-1 of a source of 1 cd m^-2 */
+    float x, y, z;           /* CIE 1931 2 degree observer */
+    float red, green, blue;  /* reflectances of the linear Rec.709 primaries; sum 1 */
+    float d65, illuminant_a; /* W m^-2 sr^-1 nm^-1 of a source of 1 cd m^-2 */
 } SpectralRow;
 
 extern const SpectralRow spectral_table[SPECTRAL_COUNT];

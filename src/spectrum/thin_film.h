@@ -34,7 +34,7 @@ typedef enum CoatedFaces { COATED_BOTH, COATED_FRONT, COATED_BACK } CoatedFaces;
 typedef struct LayerStack {
     double outside; /* index of the medium in front, which absorbs nothing, > 0 */
     const ThinLayer *layers;
-    int    count;   /* 0 .. THIN_LAYERS_MAX */
+    int count;         /* 0 .. THIN_LAYERS_MAX */
     CoatedFaces faces; /* of sheets */
 } LayerStack;
 
@@ -45,9 +45,9 @@ typedef struct ThinMedium {
 
 /* A stack at one wavelength. The media in front and behind have no thickness. */
 typedef struct ThinMedia {
-    double     nm; /* wavelength in vacuum */
+    double nm;                              /* wavelength in vacuum */
     ThinMedium medium[THIN_LAYERS_MAX + 2]; /* in front (k = 0), layers, behind */
-    int        count; /* at least 2 */
+    int count;                              /* at least 2 */
 } ThinMedia;
 
 /* reflect_along + i reflect_turned is a_s times the conjugate of a_p, a the amplitudes of the

@@ -8,8 +8,7 @@ typedef float Row __attribute__((vector_size(32), aligned(32)));
 typedef float Quarter __attribute__((vector_size(16)));
 _Static_assert(sizeof(SpectralRow) == sizeof(Row), "a row is eight floats");
 
-static inline Row row_between(int cell, float t)
-{
+static inline Row row_between(int cell, float t) {
     Row low, high;
     memcpy(&low, &spectral_table[cell], sizeof low);
     memcpy(&high, &spectral_table[cell + 1], sizeof high);
@@ -17,23 +16,20 @@ static inline Row row_between(int cell, float t)
 }
 
 /* Columns of four rows of four, to where the lanes of four quantities stand. */
-static inline void put_columns(const Quarter row[4], float *const to[4])
-{
+static inline void put_columns(const Quarter row[4], float *const to[4]) {
     Quarter a = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
     Quarter b = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
     Quarter c = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
     Quarter d = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
-    const Quarter column[4] = {__builtin_shufflevector(a, b, 0, 1, 4, 5),
-                               __builtin_shufflevector(a, b, 2, 3, 6, 7),
-                               __builtin_shufflevector(c, d, 0, 1, 4, 5),
-                               __builtin_shufflevector(c, d, 2, 3, 6, 7)};
+    const Quarter column[4] = {
+        __builtin_shufflevector(a, b, 0, 1, 4, 5), __builtin_shufflevector(a, b, 2, 3, 6, 7),
+        __builtin_shufflevector(c, d, 0, 1, 4, 5), __builtin_shufflevector(c, d, 2, 3, 6, 7)};
     for (int k = 0; k < 4; k++) memcpy(to[k], &column[k], sizeof column[k]);
 }
 
 /* The interpolated rows of all lanes: value[quantity], eight of them. */
 static inline void read_rows(const SpectrumMask *cell, const Spectrum *t,
-                             float value[8][SPECTRUM_LANES])
-{
+                             float value[8][SPECTRUM_LANES]) {
     for (int i = 0; i < SPECTRUM_LANES; i += 4) {
         Quarter half[2][4];
         for (int k = 0; k < 4; k++) {
@@ -47,8 +43,7 @@ static inline void read_rows(const SpectrumMask *cell, const Spectrum *t,
     }
 }
 
-static inline Spectrum load(const float value[SPECTRUM_LANES])
-{
+static inline Spectrum load(const float value[SPECTRUM_LANES]) {
     Spectrum lanes;
     memcpy(&lanes, value, sizeof lanes);
     return lanes;
@@ -56,16 +51,15 @@ static inline Spectrum load(const float value[SPECTRUM_LANES])
 
 /* The density is constant within a nanometre, so the inverse of its integral is linear there.
  * Shares are whole multiples of 2^-24, so their differences are exact. */
-void wavelengths_sample(float offset, Wavelengths *out)
-{
+void wavelengths_sample(float offset, Wavelengths *out) {
     const float k_m = (float)(LUMINOUS_EFFICACY_MAX / SPECTRUM_LANES) * 0x1p24f;
     const Spectrum lane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     Spectrum share = (lane + spectrum_all(offset)) * spectrum_all(0x1p24f / SPECTRUM_LANES);
     share = spectrum_min(share, spectrum_all(0x1p24f - 1)); /* lane + offset may round up */
-    SpectrumMask cell = __builtin_convertvector(
-        share * spectrum_all(WAVELENGTH_GUIDES * 0x1p-24f), SpectrumMask);
+    SpectrumMask cell =
+        __builtin_convertvector(share * spectrum_all(WAVELENGTH_GUIDES * 0x1p-24f), SpectrumMask);
     Spectrum begin, end;
-    float    value[8][SPECTRUM_LANES];
+    float value[8][SPECTRUM_LANES];
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         int at = wavelength_guide[cell[i]];
         while (wavelength_steps[at + 1] <= share[i]) at++;

@@ -25,22 +25,19 @@ void wavelengths_sample(float offset, Wavelengths *out);
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 /* Reflectance of a linear Rec.709 colour (each in [0, 1]; the result then lies there too). */
-static inline Spectrum spectrum_from_rgb(const Wavelengths *w, const float rgb[3])
-{
+static inline Spectrum spectrum_from_rgb(const Wavelengths *w, const float rgb[3]) {
     return w->rgb[0] * spectrum_all(rgb[0]) + w->rgb[1] * spectrum_all(rgb[1]) +
            w->rgb[2] * spectrum_all(rgb[2]);
 }
 
 /* Spectral radiance of a source whose linear Rec.709 colour is rgb in cd m^-2: its luminance
  * is 0.2126 R + 0.7152 G + 0.0722 B. */
-static inline Spectrum spectrum_from_rgb_emission(const Wavelengths *w, const float rgb[3])
-{
+static inline Spectrum spectrum_from_rgb_emission(const Wavelengths *w, const float rgb[3]) {
     return spectrum_from_rgb(w, rgb) * w->d65;
 }
 
 /* Adds the tristimulus values (cd m^-2) of a spectral radiance to xyz. */
-static inline void spectrum_add_xyz(const Wavelengths *w, Spectrum radiance, float xyz[3])
-{
+static inline void spectrum_add_xyz(const Wavelengths *w, Spectrum radiance, float xyz[3]) {
     for (int i = 0; i < 3; i++) xyz[i] += spectrum_sum(radiance * w->xyz[i]);
 }
 

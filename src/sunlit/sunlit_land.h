@@ -6,16 +6,15 @@
 #include "scene/point/ray_ends.h"
 
 typedef struct SunlitTools {
-    const Scene  *scene;
-    const Bvh    *bvh;
+    const Scene *scene;
+    const Bvh *bvh;
     const Lights *lights;
 } SunlitTools;
 
 #define SUNLIT_SHEETS 16 /* that a ray passes */
 
 /* The first surface that lets nothing through by holes or as a window. */
-static inline bool sunlit_land(const Scene *scene, const Bvh *bvh, Ray ray, Hit *hit)
-{
+static inline bool sunlit_land(const Scene *scene, const Bvh *bvh, Ray ray, Hit *hit) {
     for (int i = 0; i < SUNLIT_SHEETS && bvh_intersect(bvh, ray, 0, hit); i++) {
         if (hit->triangle < scene->opaque_count) return true;
         ray = ray_behind(scene, ray, hit);

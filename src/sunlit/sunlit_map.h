@@ -23,45 +23,45 @@
 #include "base/vec.h"
 #include "light/lit_point.h"
 
-#define SUNLIT_LEVELS 9 /* of quarters: 2^9 pixels along the square's side; where few are lit
-                           they are cut further */
+#define SUNLIT_LEVELS \
+    9 /* of quarters: 2^9 pixels along the square's side; where few are lit \
+         they are cut further */
 #define SUNLIT_SIDE (1 << SUNLIT_LEVELS)
 
 /* Four quarters side by side: the surfaces on which their rays end. Number k is the one of
  * i and j low (0), i high (1), j high (2) or both (3). */
 typedef struct SunlitQuarters {
-    float    centre[3][4]; /* x, y, z of the spheres about them, m */
-    float    square[4];    /* of the spheres' radii, m^2 */
-    float    axis[3][4];   /* unit: the mean of their normals, to the sun's side */
-    float    cosine[4], sine[4]; /* of the cone about it that holds them; -1: light leaves to
-                                    all sides */
-    float    power[4];     /* relative; 0: there is nothing */
-    uint32_t child[4];     /* number of the four that a quarter is cut into; 0: a leaf */
+    float centre[3][4];       /* x, y, z of the spheres about them, m */
+    float square[4];          /* of the spheres' radii, m^2 */
+    float axis[3][4];         /* unit: the mean of their normals, to the sun's side */
+    float cosine[4], sine[4]; /* of the cone about it that holds them; -1: light leaves to
+                                 all sides */
+    float power[4];           /* relative; 0: there is nothing */
+    uint32_t child[4];        /* number of the four that a quarter is cut into; 0: a leaf */
 } SunlitQuarters;
 
 typedef struct SunlitMap {
     const SunlitQuarters *nodes; /* the first are the square's; NULL: no ray of the sun ends
                                     inside */
-    Frame frame;       /* z: unit, to the sun's middle; x, y: of s and t */
-    Vec3  corner;      /* m: (s, t) = (0, 0), in the plane across the region */
-    float side;        /* m, of the square */
-    float above, below; /* m, from the plane along z: where the region ends */
-    float unseen_lm;   /* of a beam as wide as a pixel, which may come in unseen where no ray
-                          ended inside; 0 where some did, and without a sun or a region */
+    Frame frame;                 /* z: unit, to the sun's middle; x, y: of s and t */
+    Vec3 corner;                 /* m: (s, t) = (0, 0), in the plane across the region */
+    float side;                  /* m, of the square */
+    float above, below;          /* m, from the plane along z: where the region ends */
+    float unseen_lm; /* of a beam as wide as a pixel, which may come in unseen where no ray
+                        ended inside; 0 where some did, and without a sun or a region */
 } SunlitMap;
 
 /* The most, cd m^-2, that a white surface has of the unseen beam, which ends on a pale one a
  * metre before it: two Lambert's, of reflectance SUNLIT_PALE and 1, that face each other. */
 #define SUNLIT_PALE 0.8f
-static inline float sunlit_map_unseen(const SunlitMap *map)
-{
+static inline float sunlit_map_unseen(const SunlitMap *map) {
     return map->unseen_lm * SUNLIT_PALE * INV_PI_F * INV_PI_F;
 }
 
 /* A ray of the sun, chosen from a lit point. */
 typedef struct SunlitRay {
-    float s, t;     /* m */
-    float density;  /* m^-2 */
+    float s, t;    /* m */
+    float density; /* m^-2 */
 } SunlitRay;
 
 /* u in [0, 1)^3. False: nothing of the map lights the point. HOT. */

@@ -10,12 +10,11 @@
 
 typedef struct Walks {
     const SunlitTools *tools;
-    SunlitReceivers          out;
+    SunlitReceivers out;
 } Walks;
 
 /* About n (unit), by the cosine. */
-static Vec3 cosine_direction(Vec3 n, Vec2 u)
-{
+static Vec3 cosine_direction(Vec3 n, Vec2 u) {
     Frame frame = frame_from_z(n);
     float sine, cosine, r = sqrtf(u.x);
     sincos_turns(u.y, &sine, &cosine);
@@ -23,8 +22,7 @@ static Vec3 cosine_direction(Vec3 n, Vec2 u)
 }
 
 /* What lets light through is passed. */
-static void walk(Walks *walks, Ray ray, Sampler *sampler)
-{
+static void walk(Walks *walks, Ray ray, Sampler *sampler) {
     const SunlitTools *tools = walks->tools;
     for (int step = 0; step < WALK_STEPS; step++) {
         Hit hit;
@@ -39,22 +37,20 @@ static void walk(Walks *walks, Ray ray, Sampler *sampler)
     }
 }
 
-static bool is_display(const Scene *scene, uint32_t triangle)
-{
+static bool is_display(const Scene *scene, uint32_t triangle) {
     return scene->materials[scene_part(scene, triangle)->material_id].display_id != NO_ID;
 }
 
 /* The displays' triangles, and the sums of their areas so far, m^2. */
 typedef struct Fronts {
     uint32_t *triangle;
-    float    *until;
-    int       count;
+    float *until;
+    int count;
 } Fronts;
 
-static Fronts find_fronts(const Scene *scene, Arena *arena)
-{
+static Fronts find_fronts(const Scene *scene, Arena *arena) {
     Fronts fronts = {0};
-    float  sum = 0;
+    float sum = 0;
     for (uint32_t i = 0; i < scene->triangle_count; i++) fronts.count += is_display(scene, i);
     fronts.triangle = ARENA_NEW(arena, uint32_t, fronts.count);
     fronts.until = ARENA_NEW(arena, float, fronts.count);
@@ -71,51 +67,47 @@ static Fronts find_fronts(const Scene *scene, Arena *arena)
 }
 
 /* A place of a display is a receiver itself. */
-static void walk_from_displays(Walks *walks, Arena scratch)
-{
+static void walk_from_displays(Walks *walks, Arena scratch) {
     const Scene *scene = walks->tools->scene;
-    Fronts       fronts = find_fronts(scene, &scratch);
+    Fronts fronts = find_fronts(scene, &scratch);
     for (int k = 0; k < WALKS && fronts.count; k++) {
         Sampler sampler = sampler_start(SEED, 0, 0, (uint32_t)k);
-        float   at = sampler_2d(&sampler).x * fronts.until[fronts.count - 1];
-        Vec2    u = sampler_2d(&sampler);
-        int     i = 0;
+        float at = sampler_2d(&sampler).x * fronts.until[fronts.count - 1];
+        Vec2 u = sampler_2d(&sampler);
+        int i = 0;
         while (i + 1 < fronts.count && fronts.until[i] <= at) i++;
         if (u.x + u.y > 1) u = (Vec2){1 - u.x, 1 - u.y};
         TrianglePoint point = triangle_point(scene, fronts.triangle[i], u.x, u.y);
         Vec3 way = cosine_direction(point.ng, sampler_2d(&sampler));
         Vec3 place = ray_start(&point, point.ng);
-        Ray  ray = {ray_start(&point, way), way, 0, INFINITY};
+        Ray ray = {ray_start(&point, way), way, 0, INFINITY};
         walks->out.at[walks->out.count++] = (SunlitReceiver){place, point.ng};
         walk(walks, ray, &sampler);
     }
 }
 
 /* Even over the picture's plane; a camera without perspective looks straight on. */
-static Vec3 view_direction(const SceneCamera *camera, Vec2 u)
-{
+static Vec3 view_direction(const SceneCamera *camera, Vec2 u) {
     float sine, cosine, aspect = camera->aspect > 0 ? camera->aspect : 1;
     float half = camera->is_perspective ? camera->yfov / 2 : 0;
     sincos_turns(half / (2 * PI_F), &sine, &cosine);
     float high = sine / fmaxf(cosine, 1e-3f);
-    Vec3  local = vec3((2 * u.x - 1) * high * aspect, (2 * u.y - 1) * high, -1);
+    Vec3 local = vec3((2 * u.x - 1) * high * aspect, (2 * u.y - 1) * high, -1);
     return vec3_normalize(transform_vector(&camera->world_from_camera, local));
 }
 
-static void walk_from_cameras(Walks *walks)
-{
+static void walk_from_cameras(Walks *walks) {
     const Scene *scene = walks->tools->scene;
     for (int k = 0; k < WALKS && scene->camera_count; k++) {
         const SceneCamera *camera = &scene->cameras[k % scene->camera_count];
         Sampler sampler = sampler_start(SEED, 1, 0, (uint32_t)k);
-        Vec3    eye = transform_point(&camera->world_from_camera, vec3(0, 0, 0));
-        Vec3    way = view_direction(camera, sampler_2d(&sampler));
+        Vec3 eye = transform_point(&camera->world_from_camera, vec3(0, 0, 0));
+        Vec3 way = view_direction(camera, sampler_2d(&sampler));
         walk(walks, (Ray){eye, way, 0, INFINITY}, &sampler);
     }
 }
 
-SunlitReceivers sunlit_receivers(const SunlitTools *tools, Arena *arena)
-{
+SunlitReceivers sunlit_receivers(const SunlitTools *tools, Arena *arena) {
     Walks walks = {.tools = tools};
     walks.out.at = ARENA_NEW(arena, SunlitReceiver, 2 * WALKS * (WALK_STEPS + 1));
     walk_from_displays(&walks, *arena);

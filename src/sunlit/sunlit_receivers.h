@@ -19,7 +19,7 @@ typedef struct SunlitReceiver {
 
 typedef struct SunlitReceivers {
     SunlitReceiver *at;
-    int       count;
+    int count;
 } SunlitReceivers;
 
 SunlitReceivers sunlit_receivers(const SunlitTools *tools, Arena *arena);

@@ -11,26 +11,26 @@
 
 /* A quarter of any size. */
 typedef struct SunlitNode {
-    Vec3     centre, axis;
-    float    radius, cosine, power;
+    Vec3 centre, axis;
+    float radius, cosine, power;
     uint32_t child;
 } SunlitNode;
 
 typedef struct SunlitTree {
     const SunlitGrid *grid;
-    SunlitQuarters    *nodes;
-    uint32_t           count, room;
-    Arena             *arena; /* nothing else allocates from it meanwhile */
+    SunlitQuarters *nodes;
+    uint32_t count, room;
+    Arena *arena; /* nothing else allocates from it meanwhile */
 } SunlitTree;
 
-static SunlitNode node_of(const SunlitTree *tree, const SunlitPixel *pixel)
-{
-    Vec3  across = vec3_sub(pixel->high, pixel->low);
+static SunlitNode node_of(const SunlitTree *tree, const SunlitPixel *pixel) {
+    Vec3 across = vec3_sub(pixel->high, pixel->low);
     float length = vec3_length(pixel->normals);
     /* its corners may lie farther out than its rays landed */
     SunlitNode node = {.centre = vec3_scale(vec3_add(pixel->low, pixel->high), 0.5f),
                        .radius = 0.5f * vec3_length(across) + tree->grid->pitch,
-                       .power = pixel->power, .cosine = -1};
+                       .power = pixel->power,
+                       .cosine = -1};
     if (!(length > 0)) return node;
     node.axis = vec3_scale(pixel->normals, 1 / length);
     float mean = length / (float)pixel->landed; /* 1: all alike */
@@ -39,18 +39,16 @@ static SunlitNode node_of(const SunlitTree *tree, const SunlitPixel *pixel)
 }
 
 /* Half the angles' sum, by cosines: of a cone about `axis` that holds another. */
-static float cone_about(Vec3 axis, const SunlitNode *node)
-{
+static float cone_about(Vec3 axis, const SunlitNode *node) {
     float away = vec3_dot(axis, node->axis);
     float sines = safe_sqrtf(1 - away * away) * safe_sqrtf(1 - node->cosine * node->cosine);
-    bool  is_all = node->cosine <= -1 || away <= -node->cosine;
+    bool is_all = node->cosine <= -1 || away <= -node->cosine;
     return is_all ? -1 : away * node->cosine - sines;
 }
 
-static SunlitNode joined(const SunlitNode four[4])
-{
+static SunlitNode joined(const SunlitNode four[4]) {
     SunlitNode all = {.cosine = 1};
-    Vec3       low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low), axis = {0};
+    Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low), axis = {0};
     for (int k = 0; k < 4; k++) {
         const SunlitNode *n = &four[k];
         if (!(n->power > 0)) continue;
@@ -73,8 +71,7 @@ static SunlitNode joined(const SunlitNode four[4])
     return all;
 }
 
-static bool is_one_leaf(const SunlitNode *all, const SunlitNode four[4])
-{
+static bool is_one_leaf(const SunlitNode *all, const SunlitNode four[4]) {
     float least = INFINITY, most = 0, radius = 0;
     for (int k = 0; k < 4; k++) {
         if (four[k].child) return false;
@@ -85,13 +82,12 @@ static bool is_one_leaf(const SunlitNode *all, const SunlitNode four[4])
     return least >= EVEN * most && all->cosine >= FLAT && all->radius <= SMOOTH * radius;
 }
 
-static SunlitQuarters side_by_side(const SunlitNode four[4])
-{
+static SunlitQuarters side_by_side(const SunlitNode four[4]) {
     SunlitQuarters out;
     for (int k = 0; k < 4; k++) {
         const SunlitNode *n = &four[k];
-        const Vec3        c = n->centre, axis = n->axis;
-        const float       centre[3] = {c.x, c.y, c.z}, normal[3] = {axis.x, axis.y, axis.z};
+        const Vec3 c = n->centre, axis = n->axis;
+        const float centre[3] = {c.x, c.y, c.z}, normal[3] = {axis.x, axis.y, axis.z};
         for (int i = 0; i < 3; i++) {
             out.centre[i][k] = centre[i];
             out.axis[i][k] = normal[i];
@@ -106,11 +102,10 @@ static SunlitQuarters side_by_side(const SunlitNode four[4])
 }
 
 /* Returns their number. */
-static uint32_t add_four(SunlitTree *tree, const SunlitNode four[4])
-{
+static uint32_t add_four(SunlitTree *tree, const SunlitNode four[4]) {
     if (tree->count == tree->room) {
-        tree->nodes = ARENA_GROW(tree->arena, SunlitQuarters, tree->nodes, tree->count,
-                                 2 * tree->room);
+        tree->nodes =
+            ARENA_GROW(tree->arena, SunlitQuarters, tree->nodes, tree->count, 2 * tree->room);
         tree->room *= 2;
     }
     tree->nodes[tree->count] = side_by_side(four);
@@ -118,8 +113,7 @@ static uint32_t add_four(SunlitTree *tree, const SunlitNode four[4])
 }
 
 /* The square of 2^level pixels a side from (i, j) on. */
-static SunlitNode grow(SunlitTree *tree, int level, int i, int j)
-{
+static SunlitNode grow(SunlitTree *tree, int level, int i, int j) {
     const SunlitGrid *grid = tree->grid;
     if (level <= grid->fine) {
         const SunlitPixel *pixel = sunlit_pixel(grid, i, j);
@@ -128,7 +122,7 @@ static SunlitNode grow(SunlitTree *tree, int level, int i, int j)
         if (!level) return is_lit ? node_of(tree, pixel) : (SunlitNode){.power = 0};
     }
     SunlitNode four[4];
-    int        half = 1 << (level - 1);
+    int half = 1 << (level - 1);
     for (int k = 0; k < 4; k++)
         four[k] = grow(tree, level - 1, i + (k & 1) * half, j + (k >> 1) * half);
     SunlitNode all = joined(four);
@@ -137,8 +131,7 @@ static SunlitNode grow(SunlitTree *tree, int level, int i, int j)
     return all;
 }
 
-const SunlitQuarters *sunlit_tree(const SunlitGrid *grid, Arena *arena)
-{
+const SunlitQuarters *sunlit_tree(const SunlitGrid *grid, Arena *arena) {
     SunlitTree tree = {grid, NULL, 1, 256, arena};
     tree.nodes = ARENA_NEW(arena, SunlitQuarters, tree.room);
     SunlitNode root = grow(&tree, SUNLIT_LEVELS + grid->fine, 0, 0);

@@ -8,11 +8,10 @@
 #include "scene/point/ray_ends.h"
 
 bool sunlit_way_choose(const SunlitTools *tools, const SunlitMap *map, const LitPoint *from,
-                       const float u[6], SunlitWay *way)
-{
+                       const float u[6], SunlitWay *way) {
     SunlitRay ray;
-    Hit       hit;
-    float     length;
+    Hit hit;
+    float length;
     if (!sunlit_map_choose(map, from, u, &ray) ||
         !lights_sample(tools->lights, LIGHTS_SUN, *from, u + 3, &way->sun))
         return false;
@@ -21,10 +20,13 @@ bool sunlit_way_choose(const SunlitTools *tools, const SunlitMap *map, const Lit
     if (!sunlit_land(tools->scene, tools->bvh, (Ray){entry, vec3_neg(sun), 0, length}, &hit))
         return false;
     LightSample *y = &way->y;
-    *y = (LightSample){.set = LIGHTS_EMITTERS, .is_emitter = true, .triangle = hit.triangle,
-                       .u = hit.u, .v = hit.v,
+    *y = (LightSample){.set = LIGHTS_EMITTERS,
+                       .is_emitter = true,
+                       .triangle = hit.triangle,
+                       .u = hit.u,
+                       .v = hit.v,
                        .point = triangle_point(tools->scene, hit.triangle, hit.u, hit.v)};
-    Vec3  to_y = vec3_sub(y->point.position, from->position);
+    Vec3 to_y = vec3_sub(y->point.position, from->position);
     float distance2 = vec3_dot(to_y, to_y);
     if (!(distance2 > 0)) return false;
     y->distance = sqrtf(distance2);
@@ -37,20 +39,17 @@ bool sunlit_way_choose(const SunlitTools *tools, const SunlitMap *map, const Lit
 
 /* ---- before the first path --------------------------------------------------------------- */
 
-static bool let_pass(void *user, const Hit *hit)
-{
+static bool let_pass(void *user, const Hit *hit) {
     (void)user, (void)hit;
     return true;
 }
 
-static bool arrives(const SunlitTools *tools, const LitPoint *from, const SunlitWay *way)
-{
+static bool arrives(const SunlitTools *tools, const LitPoint *from, const SunlitWay *way) {
     const TrianglePoint *y = &way->y.point;
     Vec3 sun = way->sun.wi;
-    Ray  up = {ray_start(y, sun), sun, 0, INFINITY};
+    Ray up = {ray_start(y, sun), sun, 0, INFINITY};
     return vec3_dot(from->ns, way->y.wi) > 0 &&
-           !bvh_occluded(tools->bvh, lights_ray(from->position, &way->y), let_pass,
-                         NULL) &&
+           !bvh_occluded(tools->bvh, lights_ray(from->position, &way->y), let_pass, NULL) &&
            !bvh_occluded(tools->bvh, up, let_pass, NULL);
 }
 
@@ -58,13 +57,12 @@ static bool arrives(const SunlitTools *tools, const LitPoint *from, const Sunlit
 
 /* Luminance that y sends to x, about, if it is lit from that side: a Lambert surface's, without
  * its textures. */
-static double luminance(const SunlitTools *tools, const SunlitWay *way, float u)
-{
-    const Scene    *scene = tools->scene;
+static double luminance(const SunlitTools *tools, const SunlitWay *way, float u) {
+    const Scene *scene = tools->scene;
     const Material *m = &scene->materials[scene_part(scene, way->y.triangle)->material_id];
-    Vec3     sun = way->sun.wi, ng = way->y.point.ng;
+    Vec3 sun = way->sun.wi, ng = way->y.point.ng;
     LitPoint facing = {way->y.point.position, sun, false};
-    bool     is_behind = vec3_dot(ng, sun) * vec3_dot(ng, way->y.wi) > 0;
+    bool is_behind = vec3_dot(ng, sun) * vec3_dot(ng, way->y.wi) > 0;
     if (is_behind && !m->is_solid && !material_sends_through(m)) return 0;
     float albedo = (m->base_color[0] + m->base_color[1] + m->base_color[2]) / 3;
     float cosine = fabsf(vec3_dot(ng, sun));
@@ -72,9 +70,8 @@ static double luminance(const SunlitTools *tools, const SunlitWay *way, float u)
            (double)(fmaxf(albedo, LEAST_ALBEDO) * cosine * INV_PI_F);
 }
 
-bool sunlit_try(const SunlitTools *tools, const SunlitMap *map, LitPoint point,
-                const float u[6], SunlitTry *out)
-{
+bool sunlit_try(const SunlitTools *tools, const SunlitMap *map, LitPoint point, const float u[6],
+                SunlitTry *out) {
     SunlitWay way;
     if (!map->nodes || !sunlit_way_choose(tools, map, &point, u, &way) ||
         !arrives(tools, &point, &way))
@@ -88,8 +85,7 @@ bool sunlit_try(const SunlitTools *tools, const SunlitMap *map, LitPoint point,
 
 static const float PROB[SUNLIT_PROBS] = {1 / 64.0f, 1 / 16.0f, 1 / 8.0f, 1 / 3.0f, 1};
 
-void sunlit_finds_add(SunlitFinds *finds, const SunlitTry *found, float own)
-{
+void sunlit_finds_add(SunlitFinds *finds, const SunlitTry *found, float own) {
     double ratio = (double)found->pdf / fmax((double)own, 1e-9);
     for (int k = 0; k < SUNLIT_PROBS; k++)
         finds->variance[k] += found->lx * found->lx * ratio / (1 + (double)PROB[k] * ratio);
@@ -98,10 +94,9 @@ void sunlit_finds_add(SunlitFinds *finds, const SunlitTry *found, float own)
 /* A sample takes so much of the time of all else that a vertex does. */
 #define SAMPLE_TIME 0.4
 
-float sunlit_finds_prob(const SunlitFinds *finds, double points, double rest)
-{
+float sunlit_finds_prob(const SunlitFinds *finds, double points, double rest) {
     double least = (double)INFINITY;
-    float  best = PROB[0];
+    float best = PROB[0];
     for (int k = 0; k < SUNLIT_PROBS && points > 0; k++) {
         double variance = rest + finds->variance[k] / points;
         double work = variance * (1 + SAMPLE_TIME * (double)PROB[k]);

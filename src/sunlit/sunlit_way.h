@@ -25,16 +25,15 @@ bool sunlit_way_choose(const SunlitTools *tools, const SunlitMap *map, const Lit
 
 /* Density of directions at x, sr^-1, by that of rays; y_sun, y_x: cosines at y; 0: y is seen
  * edge on. */
-static inline float sunlit_way_at_x(float density, float y_sun, float y_x, float distance2)
-{
+static inline float sunlit_way_at_x(float density, float y_sun, float y_x, float distance2) {
     return y_x > 1e-6f ? density * y_sun * distance2 / y_x : 0;
 }
 
 /* Before the first path: illuminance, lx, about, by one such path to a white point; and the
  * direction that it came from, with its density, sr^-1. */
 typedef struct SunlitTry {
-    Vec3   wi;
-    float  pdf;
+    Vec3 wi;
+    float pdf;
     double lx;
 } SunlitTry;
 
@@ -54,5 +53,5 @@ void sunlit_finds_add(SunlitFinds *finds, const SunlitTry *found, float own);
 float sunlit_finds_prob(const SunlitFinds *finds, double points, double rest);
 
 /* u in [0, 1)^6. False: it finds none. */
-bool sunlit_try(const SunlitTools *tools, const SunlitMap *map, LitPoint point,
-                const float u[6], SunlitTry *out);
+bool sunlit_try(const SunlitTools *tools, const SunlitMap *map, LitPoint point, const float u[6],
+                SunlitTry *out);

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "text/base64.h"
 
-void base64_encode(Text *text, const void *bytes, size_t size)
-{
-    static const char DIGITS[] =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+void base64_encode(Text *text, const void *bytes, size_t size) {
+    static const char DIGITS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     const unsigned char *from = bytes;
     char *to = text_extend(text, (size + 2) / 3 * 4);
     for (size_t i = 0; i < size; i += 3) {
-        size_t   left = size - i;
+        size_t left = size - i;
         unsigned three = (unsigned)from[i] << 16 | (left > 1 ? (unsigned)from[i + 1] << 8 : 0) |
                          (left > 2 ? from[i + 2] : 0);
         *to++ = DIGITS[three >> 18];
@@ -18,8 +16,7 @@ void base64_encode(Text *text, const void *bytes, size_t size)
     }
 }
 
-static int base64_digit(unsigned char c)
-{
+static int base64_digit(unsigned char c) {
     if (c >= 'A' && c <= 'Z') return c - 'A';
     if (c >= 'a' && c <= 'z') return c - 'a' + 26;
     if (c >= '0' && c <= '9') return c - '0' + 52;
@@ -27,8 +24,7 @@ static int base64_digit(unsigned char c)
 }
 
 bool base64_decode(const char *digits, size_t length, unsigned char *out, size_t *size,
-                   Error *err)
-{
+                   Error *err) {
     while (length && digits[length - 1] == '=') length--;
     unsigned bits = 0;
     int count = 0;

@@ -13,5 +13,4 @@ void base64_encode(Text *text, const void *bytes, size_t size);
 
 /* `length` digits of either alphabet, the padding optional. `out` holds 3/4 of the length.
  * Fails for what is no digit and for a length that none has. */
-bool base64_decode(const char *digits, size_t length, unsigned char *out, size_t *size,
-                   Error *err);
+bool base64_decode(const char *digits, size_t length, unsigned char *out, size_t *size, Error *err);

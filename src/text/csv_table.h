@@ -17,12 +17,12 @@
 #define CSV_COLUMNS_MAX 2048
 
 typedef struct CsvTable {
-    const char  *file;
-    const char **name;   /* per column, blanks around it removed */
-    int          columns, rows;
-    const float *cell;   /* rows x columns */
-    const int   *line;   /* of every row, from 1 */
-    size_t       bytes;  /* size of the file */
+    const char *file;
+    const char **name; /* per column, blanks around it removed */
+    int columns, rows;
+    const float *cell; /* rows x columns */
+    const int *line;   /* of every row, from 1 */
+    size_t bytes;      /* size of the file */
 } CsvTable;
 
 bool csv_table_read(const char *file, Arena *arena, CsvTable *out, Error *err);

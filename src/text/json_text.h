@@ -35,7 +35,7 @@ bool json_dump_text(Text *text, const json_t *value, size_t flags);
 /* A number has `digits` digits where they are enough to give the same double again, else as
  * many as it takes, 17 at most; or `digits` of them at most. */
 typedef struct JsonDigits {
-    int  digits; /* 1 to 17 */
+    int digits;  /* 1 to 17 */
     bool is_cut; /* no more than that, even with a loss */
 } JsonDigits;
 

@@ -18,15 +18,15 @@
 #include "base/problems.h"
 
 typedef struct JsonView {
-    json_t     *object;
-    const char *file;   /* as the user named it */
-    const char *path;   /* JSON path of the object, "" for the root */
-    Arena      *arena;
+    json_t *object;
+    const char *file; /* as the user named it */
+    const char *path; /* JSON path of the object, "" for the root */
+    Arena *arena;
     const char *root;   /* a folder whose files it may name besides its own; NULL: none */
-    Lines      *named;  /* gets the files that it names; NULL: not needed */
-    uint64_t    hash;   /* XXH3 64 of the bytes that were read of the file; of no file 0 */
-    Problems   *problems; /* gets warnings; NULL: not needed */
-    void       *whole;    /* the outermost struct that is filled from it; NULL: the next one */
+    Lines *named;       /* gets the files that it names; NULL: not needed */
+    uint64_t hash;      /* XXH3 64 of the bytes that were read of the file; of no file 0 */
+    Problems *problems; /* gets warnings; NULL: not needed */
+    void *whole;        /* the outermost struct that is filled from it; NULL: the next one */
 } JsonView;
 
 #define JSON_FILE_BYTES_MAX ((size_t)64 << 20)

@@ -11,8 +11,7 @@
 enum { MOST_ENTRIES = 100000 };
 
 /* The name without escapes. */
-static const char *plain_name(const char *name, Arena *arena)
-{
+static const char *plain_name(const char *name, Arena *arena) {
     Error ignored;
     char *plain;
     return uri_decode(name, arena, &plain, &ignored) ? plain : name;
@@ -20,10 +19,9 @@ static const char *plain_name(const char *name, Arena *arena)
 
 /* ---- one folder -------------------------------------------------------------------------- */
 
-static const char *find_like(const char *folder, const char *name, Arena *arena)
-{
+static const char *find_like(const char *folder, const char *name, Arena *arena) {
     const char *wanted = plain_name(name, arena), *found = NULL;
-    DIR        *entries = opendir(folder);
+    DIR *entries = opendir(folder);
     for (int i = 0; entries && i < MOST_ENTRIES; i++) {
         const struct dirent *entry = readdir(entries);
         if (!entry) break;
@@ -39,16 +37,14 @@ static const char *find_like(const char *folder, const char *name, Arena *arena)
 /* In what the names differ; bits. */
 enum { BY_CASE = 1, BY_ESCAPES = 2 };
 
-static unsigned differences(const char *name, const char *found, Arena scratch)
-{
+static unsigned differences(const char *name, const char *found, Arena scratch) {
     const char *a = plain_name(name, &scratch), *b = plain_name(found, &scratch);
-    unsigned    out = strcmp(a, b) != 0 ? BY_CASE : 0;
+    unsigned out = strcmp(a, b) != 0 ? BY_CASE : 0;
     if (!out || !strcmp(a, name) != !strcmp(b, found)) out |= BY_ESCAPES;
     return out;
 }
 
-static const char *words_of(unsigned differs, Arena *arena)
-{
+static const char *words_of(unsigned differs, Arena *arena) {
     const char *words = differs & BY_CASE ? "its letter case differs" : "";
     if (differs & BY_ESCAPES)
         words = arena_format(arena, "%s%sonly its percent escapes (%%20) differ", words,
@@ -58,12 +54,11 @@ static const char *words_of(unsigned differs, Arena *arena)
 
 /* ---- the whole path ---------------------------------------------------------------------- */
 
-const char *name_hint(const char *path, Arena *arena)
-{
-    unsigned    differs = 0;
+const char *name_hint(const char *path, Arena *arena) {
+    unsigned differs = 0;
     const char *done = path[0] == '/' ? "/" : "", *tail = "";
     for (const char *at = path; *at;) {
-        size_t      length = strcspn(at, "/");
+        size_t length = strcspn(at, "/");
         const char *name = arena_string(arena, at, length), *own = name;
         at += length + strspn(at + length, "/");
         if (!length) continue;

@@ -7,8 +7,7 @@
 
 #define LETTERS 64 /* that are compared: what follows counts as different */
 
-static int edit_distance(const char *a, const char *b)
-{
+static int edit_distance(const char *a, const char *b) {
     int row[LETTERS + 1];
     int length_a = (int)strnlen(a, LETTERS), length_b = (int)strnlen(b, LETTERS);
     for (int j = 0; j <= length_b; j++) row[j] = j;
@@ -25,9 +24,7 @@ static int edit_distance(const char *a, const char *b)
     return row[length_b] + (int)(strlen(a + length_a) + strlen(b + length_b));
 }
 
-const char *nearest_word_within(const char *word, const char *const *known, int count,
-                                int limit)
-{
+const char *nearest_word_within(const char *word, const char *const *known, int count, int limit) {
     const char *nearest = NULL;
     for (int i = 0; i < count; i++) {
         int distance = edit_distance(word, known[i]);
@@ -38,23 +35,20 @@ const char *nearest_word_within(const char *word, const char *const *known, int 
     return nearest;
 }
 
-const char *nearest_word(const char *word, const char *const *known, int count)
-{
+const char *nearest_word(const char *word, const char *const *known, int count) {
     return nearest_word_within(word, known, count, INT_MAX);
 }
 
-const char *nearest_word_meant(const char *word, const char *const *known, int count)
-{
+const char *nearest_word_meant(const char *word, const char *const *known, int count) {
     size_t dashes = strspn(word, "-"), letters = strlen(word) - dashes;
     for (int i = 0; i < count && letters; i++)
         if (letters > 1 && !strncmp(word, known[i], strlen(word))) return known[i];
     return letters ? nearest_word_within(word, known, count, (int)letters / 3 + 1) : NULL;
 }
 
-const char *nearest_key(const char *key, const char *const *known, int count, int limit)
-{
+const char *nearest_key(const char *key, const char *const *known, int count, int limit) {
     const char *near = nearest_word_within(key, known, count, limit), *same = NULL;
-    size_t      stem = strcspn(key, "_");
+    size_t stem = strcspn(key, "_");
     for (int i = 0; i < count && !near && !same && stem; i++)
         if (stem == strcspn(known[i], "_") && !strncmp(key, known[i], stem)) same = known[i];
     return near ? near : same;
@@ -62,36 +56,33 @@ const char *nearest_key(const char *key, const char *const *known, int count, in
 
 /* ---- what would be right ----------------------------------------------------------------- */
 
-static const char *quote_of(const char *name)
-{
+static const char *quote_of(const char *name) {
     return !*name || strpbrk(name, " ,\"") ? "\"" : "";
 }
 
 /* Room for ", ", quotes, and " and 1000000 more" behind every name but the last. */
-static bool has_room(const char *name, bool is_last, int length, int size)
-{
+static bool has_room(const char *name, bool is_last, int length, int size) {
     return length + (int)strlen(name) + 4 + (is_last ? 0 : 18) < size;
 }
 
-const char *nearest_word_advice(const char *word, const char *const *known, int count,
-                                char *buffer, int size)
-{
+const char *nearest_word_advice(const char *word, const char *const *known, int count, char *buffer,
+                                int size) {
     const char *near = nearest_word_meant(word, known, count);
-    int         length = 0;
+    int length = 0;
     if (!count) return snprintf(buffer, (size_t)size, "there are none"), buffer;
     if (near && (int)strlen(near) + 48 < size)
         length = snprintf(buffer, (size_t)size, "did you mean %s%s%s? ", quote_of(near), near,
                           quote_of(near));
-    length += snprintf(buffer + length, (size_t)(size - length), "%s are",
-                       length ? "There" : "there");
+    length +=
+        snprintf(buffer + length, (size_t)(size - length), "%s are", length ? "There" : "there");
     for (int i = 0; i < count; i++) {
         const char *name = known[i], *quote = quote_of(name);
         if (!has_room(name, i + 1 == count, length, size)) {
             snprintf(buffer + length, (size_t)(size - length), " and %d more", count - i);
             break;
         }
-        length += snprintf(buffer + length, (size_t)(size - length), "%s%s%s%s",
-                           i ? ", " : " ", quote, name, quote);
+        length += snprintf(buffer + length, (size_t)(size - length), "%s%s%s%s", i ? ", " : " ",
+                           quote, name, quote);
     }
     return buffer;
 }

@@ -13,8 +13,7 @@
 const char *nearest_word(const char *word, const char *const *known, int count);
 
 /* The nearest at most `limit` letters away, or NULL. */
-const char *nearest_word_within(const char *word, const char *const *known, int count,
-                                int limit);
+const char *nearest_word_within(const char *word, const char *const *known, int count, int limit);
 
 /* The one that somebody who typed `word` may have meant: it begins so, or is near for a word of
  * that length. NULL when none is. */
@@ -30,5 +29,5 @@ const char *nearest_key(const char *key, const char *const *known, int count, in
  *     did you mean cluster? There are cluster, "leather black" and 41 more
  * Names with blanks, commas or nothing in them stand in quotes. Fills and returns buffer, which
  * holds at least size chars; size at least 64. */
-const char *nearest_word_advice(const char *word, const char *const *known, int count,
-                                char *buffer, int size);
+const char *nearest_word_advice(const char *word, const char *const *known, int count, char *buffer,
+                                int size);

@@ -15,8 +15,7 @@
 
 static const char *const NAMES[COLUMNS] = {"x", "y", "z", "nx", "ny", "nz"};
 
-bool point_row_set(const double values[6], FacingPoint *out)
-{
+bool point_row_set(const double values[6], FacingPoint *out) {
     const double *n = values + 3;
     double most = fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2])));
     if (!(most > 0)) return false;
@@ -34,42 +33,36 @@ bool point_row_set(const double values[6], FacingPoint *out)
 /* A file that is read line by line. */
 typedef struct PointLines {
     const char *file, *next, *end;
-    int         line;
-    Arena      *arena;
-    Error      *err;
+    int line;
+    Arena *arena;
+    Error *err;
 } PointLines;
 
 /* Up to COLUMNS + 1 of its words, which point into the text. */
 typedef struct PointWords {
     const char *begin[COLUMNS + 1];
-    int         length[COLUMNS + 1], count;
+    int length[COLUMNS + 1], count;
 } PointWords;
 
-static bool bad_line(const PointLines *in, const char *what, const char *text, int length)
-{
-    return error_at(in->err, ERROR_INPUT, in->file,
-                    arena_format(in->arena, "line %d", in->line), "%s'%.*s', " REQUIRED, what,
-                    length < 40 ? length : 40, text);
+static bool bad_line(const PointLines *in, const char *what, const char *text, int length) {
+    return error_at(in->err, ERROR_INPUT, in->file, arena_format(in->arena, "line %d", in->line),
+                    "%s'%.*s', " REQUIRED, what, length < 40 ? length : 40, text);
 }
 
-static bool is_blank(char c)
-{
+static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-static bool is_mark(char c)
-{
+static bool is_mark(char c) {
     return c == ',' || c == ';';
 }
 
 /* Between two words one comma or semicolon at most: two would hide a number that is missing. */
-static bool split(const PointLines *in, const char *at, const char *stop, PointWords *out)
-{
+static bool split(const PointLines *in, const char *at, const char *stop, PointWords *out) {
     *out = (PointWords){.count = 0};
     for (bool expects = false;;) {
         while (at < stop && is_blank(*at)) at++;
-        if (at == stop || *at == '#')
-            return !expects || bad_line(in, "ends with ", ",", 1);
+        if (at == stop || *at == '#') return !expects || bad_line(in, "ends with ", ",", 1);
         const char *begin = at;
         if (is_mark(*at)) return bad_line(in, "has no number before ", at, 1);
         while (at < stop && !is_blank(*at) && !is_mark(*at)) at++;
@@ -84,8 +77,7 @@ static bool split(const PointLines *in, const char *at, const char *stop, PointW
 }
 
 /* The next line with words; false at the end of the file, and after an error. */
-static bool next_words(PointLines *in, PointWords *out)
-{
+static bool next_words(PointLines *in, PointWords *out) {
     while (in->next < in->end) {
         const char *at = in->next;
         const char *feed = memchr(at, '\n', (size_t)(in->end - at));
@@ -101,8 +93,7 @@ static bool next_words(PointLines *in, PointWords *out)
 /* ---- what they mean ---------------------------------------------------------------------- */
 
 /* A header begins with a letter, and is no "nan" or "inf". */
-static bool is_header(const PointWords *words)
-{
+static bool is_header(const PointWords *words) {
     static const char *const numbers[] = {"nan", "inf"};
     const char *word = words->begin[0];
     for (int i = 0; i < 2; i++)
@@ -110,16 +101,14 @@ static bool is_header(const PointWords *words)
     return isalpha((unsigned char)*word);
 }
 
-static int column_of(const char *word, int length)
-{
+static int column_of(const char *word, int length) {
     for (int k = 0; k < COLUMNS; k++)
         if ((int)strlen(NAMES[k]) == length && !strncasecmp(word, NAMES[k], (size_t)length))
             return k;
     return -1;
 }
 
-static bool read_header(const PointLines *in, const PointWords *words, int order[COLUMNS])
-{
+static bool read_header(const PointLines *in, const PointWords *words, int order[COLUMNS]) {
     bool is_there[COLUMNS] = {false};
     for (int i = 0; i < words->count; i++) {
         const char *word = words->begin[i];
@@ -134,8 +123,7 @@ static bool read_header(const PointLines *in, const PointWords *words, int order
                     words->length[words->count - 1]);
 }
 
-static bool read_number(const PointLines *in, const char *word, int length, double *out)
-{
+static bool read_number(const PointLines *in, const char *word, int length, double *out) {
     char text[64], *end;
     if (length >= (int)sizeof text) return bad_line(in, "holds ", word, length);
     memcpy(text, word, (size_t)length);
@@ -147,40 +135,34 @@ static bool read_number(const PointLines *in, const char *word, int length, doub
 }
 
 static bool read_point(const PointLines *in, const PointWords *words, const int order[COLUMNS],
-                       FacingPoint *out)
-{
+                       FacingPoint *out) {
     double values[COLUMNS];
     if (words->count != COLUMNS)
         return error_at(in->err, ERROR_INPUT, in->file,
                         arena_format(in->arena, "line %d", in->line),
                         words->count > COLUMNS ? "has more than 6 numbers, " REQUIRED
-                                               : "has %d numbers, " REQUIRED, words->count);
+                                               : "has %d numbers, " REQUIRED,
+                        words->count);
     for (int i = 0; i < COLUMNS; i++)
-        if (!read_number(in, words->begin[i], words->length[i], &values[order[i]]))
-            return false;
+        if (!read_number(in, words->begin[i], words->length[i], &values[order[i]])) return false;
     return point_row_set(values, out) ||
-           error_at(in->err, ERROR_INPUT, in->file,
-                    arena_format(in->arena, "line %d", in->line),
-                    "the normal (%g, %g, %g) has no direction", values[3], values[4],
-                    values[5]);
+           error_at(in->err, ERROR_INPUT, in->file, arena_format(in->arena, "line %d", in->line),
+                    "the normal (%g, %g, %g) has no direction", values[3], values[4], values[5]);
 }
 
-static int count_lines(const PointLines *in)
-{
+static int count_lines(const PointLines *in) {
     int count = 1;
     for (const char *at = in->next; at < in->end; at++) count += *at == '\n';
     return count;
 }
 
-bool point_rows_read(const char *file, Arena *arena, FacingPoint **list, int *count, Error *err)
-{
+bool point_rows_read(const char *file, Arena *arena, FacingPoint **list, int *count, Error *err) {
     FileBytes bytes;
-    PointWords     words;
-    int       order[COLUMNS] = {0, 1, 2, 3, 4, 5};
-    bool      is_first = true;
+    PointWords words;
+    int order[COLUMNS] = {0, 1, 2, 3, 4, 5};
+    bool is_first = true;
     if (!file_read(file, FILE_BYTES_MAX, arena, &bytes, err)) return false;
-    PointLines in = {.file = file, .next = (const char *)bytes.data, .arena = arena,
-                     .err = err};
+    PointLines in = {.file = file, .next = (const char *)bytes.data, .arena = arena, .err = err};
     in.end = in.next + bytes.size;
     if (bytes.size >= 3 && !memcmp(in.next, "\xEF\xBB\xBF", 3)) in.next += 3;
     *list = ARENA_NEW(arena, FacingPoint, count_lines(&in));
@@ -193,6 +175,5 @@ bool point_rows_read(const char *file, Arena *arena, FacingPoint **list, int *co
             return false;
     }
     if (err->text[0]) return false;
-    return *count > 0 || error_at(err, ERROR_INPUT, file, "", "has no points, " REQUIRED
-                                  " a line");
+    return *count > 0 || error_at(err, ERROR_INPUT, file, "", "has no points, " REQUIRED " a line");
 }

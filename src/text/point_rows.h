@@ -20,5 +20,4 @@ typedef struct FacingPoint {
 /* values: x, y, z, nx, ny, nz; finite. False: the normal has no direction. */
 bool point_row_set(const double values[6], FacingPoint *out);
 
-bool point_rows_read(const char *file, Arena *arena, FacingPoint **list, int *count,
-                     Error *err);
+bool point_rows_read(const char *file, Arena *arena, FacingPoint **list, int *count, Error *err);

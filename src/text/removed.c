@@ -5,18 +5,23 @@
 #include <string.h>
 
 const RemovedWord removed_words[] = {
-    {"render", "--tev", "write --live FILE.exr and open it by `tev --watch FILE.exr`, which "
-                        "reads it again by itself"},
-    {"road", "twilight_steps", "write a condition an hour, and name them in 'conditions' of "
-                               "the road"},
+    {"render", "--tev",
+     "write --live FILE.exr and open it by `tev --watch FILE.exr`, which "
+     "reads it again by itself"},
+    {"road", "twilight_steps",
+     "write a condition an hour, and name them in 'conditions' of "
+     "the road"},
     {"road", "sky_cd_m2_per_lx", "add the sky's part to 'luminance_cd_m2' of the road"},
-    {"help", "--man", "the build makes the pages: man parhelion-COMMAND; help --json has all that "
-                      "they say"},
-    {"help", "--completion", "an installation has it for bash; help --json lists options and "
-                             "their values"},
+    {"help", "--man",
+     "the build makes the pages: man parhelion-COMMAND; help --json has all that "
+     "they say"},
+    {"help", "--completion",
+     "an installation has it for bash; help --json lists options and "
+     "their values"},
     {"review", "glare", "measure --glare of a fisheye frame of the eye has UGR, DGP and DGI"},
-    {"condition", "route", "write its points as conditions with 'when', 'where' and "
-                           "'heading_deg'; `parhelion help glare-review` has a script for GPX"},
+    {"condition", "route",
+     "write its points as conditions with 'when', 'where' and "
+     "'heading_deg'; `parhelion help glare-review` has a script for GPX"},
     {"condition", "when", "state it in 'environment'"},
     {"condition", "weather", "state it in 'sweep' of a year"},
     {"condition", "weather_lux", "state it in 'sweep' of a year"},
@@ -25,33 +30,41 @@ const RemovedWord removed_words[] = {
     {"review", "--watch", "run the same command again: responses of its sweeps are kept"},
     {"parhelion", "part", "`render --part K/N` makes part K of N, and `merge` the frame"},
     {"parhelion", "status", "`merge` names the parts that are missing, `squeue` the tasks"},
-    {"render", "--slurm", "let each task of an array `render --part K/N`, then `merge`: "
-                          "assets/slurm/render.sbatch"},
+    {"render", "--slurm",
+     "let each task of an array `render --part K/N`, then `merge`: "
+     "assets/slurm/render.sbatch"},
     {"render", "--split", "--part K/N deals samples, --crop X0,Y0,X1,Y1 takes a rectangle"},
     {"render", "--job", "name each part by -o, and `merge` the files"},
     {"render", "--submit", "hand assets/slurm/render.sbatch to sbatch"},
-    {"review", "--slurm", "give each task conditions of its own (--only CONDITION) and `merge` "
-                          "the reviews"},
+    {"review", "--slurm",
+     "give each task conditions of its own (--only CONDITION) and `merge` "
+     "the reviews"},
     {"review", "--job", "name each review by -o DIR, and `merge` them"},
     {"review", "--submit", "hand a script to sbatch: assets/slurm"},
     {"parhelion", "probe", "explain SCENE --pixel X,Y gives the same"},
-    {"explain", "-o", "--json has the rays as lists of points; a review's page draws them over "
-                      "the frame"},
-    {"explain", "--outlook", "render --projection fisheye --eye X,Y,Z --look-at X,Y,Z shows what "
-                             "is seen from there"},
-    {"review", "--mend", "find the value by bisection over reviews: the script in parhelion help "
-                         "glare-review, What would mend it?"},
-    {"review", "sensitivity", "name the values as variants, which a script can write: parhelion "
-                              "help glare-review, What would mend it?"},
+    {"explain", "-o",
+     "--json has the rays as lists of points; a review's page draws them over "
+     "the frame"},
+    {"explain", "--outlook",
+     "render --projection fisheye --eye X,Y,Z --look-at X,Y,Z shows what "
+     "is seen from there"},
+    {"review", "--mend",
+     "find the value by bisection over reviews: the script in parhelion help "
+     "glare-review, What would mend it?"},
+    {"review", "sensitivity",
+     "name the values as variants, which a script can write: parhelion "
+     "help glare-review, What would mend it?"},
     {"render", "--display-state", "name the state's panel file by --panel MATERIAL=FILE.panel"},
     {"explain", "--display-state", "name the state's panel file by --panel MATERIAL=FILE.panel"},
     {"measure", "--display-state", "name the state's panel file by --panel MATERIAL=FILE.panel"},
     {"PARHELION_display", "state", "name the panel file of the state as 'panel'"},
     {"variant", "states", "name the panel file of the state in 'panels'"},
-    {"panel", "join", "keep a panel file of each state, and choose one by --panel "
-                      "MATERIAL=FILE.panel"},
-    {"panel", "wavelets", "panel fit --basis haar makes a panel, panel info --levels says how far "
-                          "each level is off"},
+    {"panel", "join",
+     "keep a panel file of each state, and choose one by --panel "
+     "MATERIAL=FILE.panel"},
+    {"panel", "wavelets",
+     "panel fit --basis haar makes a panel, panel info --levels says how far "
+     "each level is off"},
     {"panel import", "--state", "import the files of each state as a set of its own"},
     {"import_declaration", "states", "import the files of each state as a set of its own"},
     {"measurement_set", "states", "write a manifest of each state, and fit a panel of each"},
@@ -62,8 +75,9 @@ const RemovedWord removed_words[] = {
     {"--layer", "display.weber", "display.contrast less one"},
     {"--layer", "display.michelson", "by display.contrast C: (C - 1) / (C + 1)"},
     {"--layer", "display.luminance_error", "display.reflected over display.emitted"},
-    {"--layer", "display.colour_error", "a review judges whether symbols can be read; in "
-                                        "numbers display.emitted beside display.reflected"},
+    {"--layer", "display.colour_error",
+     "a review judges whether symbols can be read; in "
+     "numbers display.emitted beside display.reflected"},
     {"--format", "ssdd", "export it as text, which is read (help measuring-a-panel)"},
     {"--format", "window", "export it as text, which is read (help measuring-a-panel)"},
     {"--format", "pbsdf", "export it as text, which is read (help measuring-a-panel)"},
@@ -73,8 +87,7 @@ const RemovedWord removed_words[] = {
     {NULL, NULL, NULL},
 };
 
-const char *removed_instead(const char *where, const char *word)
-{
+const char *removed_instead(const char *where, const char *word) {
     for (const RemovedWord *row = removed_words; row->word; row++)
         if (!strcmp(row->where, where) && !strcmp(row->word, word)) return row->instead;
     return NULL;

@@ -10,16 +10,14 @@
 #include "print/utf8.h"
 
 /* Room for `size` more bytes and the zero behind them. */
-static void make_room(Text *text, size_t size)
-{
+static void make_room(Text *text, size_t size) {
     size_t wanted = 2 * (text->size + size) + 4096;
     if (text->size + size < text->capacity) return;
     text->data = arena_grow(text->arena, text->data, text->capacity, wanted, 1);
     text->capacity = wanted;
 }
 
-char *text_extend(Text *text, size_t size)
-{
+char *text_extend(Text *text, size_t size) {
     make_room(text, size);
     char *room = text->data + text->size;
     text->size += size;
@@ -27,24 +25,21 @@ char *text_extend(Text *text, size_t size)
     return room;
 }
 
-void text_add_bytes(Text *text, const void *bytes, size_t size)
-{
+void text_add_bytes(Text *text, const void *bytes, size_t size) {
     if (size) memcpy(text_extend(text, size), bytes, size);
 }
 
-void text_add(Text *text, const char *string)
-{
+void text_add(Text *text, const char *string) {
     text_add_bytes(text, string, strlen(string));
 }
 
-void text_format(Text *text, const char *format, ...)
-{
+void text_format(Text *text, const char *format, ...) {
     va_list arguments, again;
     va_start(arguments, format);
     va_copy(again, arguments);
     make_room(text, 1);
     size_t left = text->capacity - text->size;
-    int    length = vsnprintf(text->data + text->size, left, format, arguments);
+    int length = vsnprintf(text->data + text->size, left, format, arguments);
     if (length > 0 && (size_t)length >= left) {
         make_room(text, (size_t)length);
         vsnprintf(text->data + text->size, (size_t)length + 1, format, again);
@@ -54,15 +49,13 @@ void text_format(Text *text, const char *format, ...)
     va_end(arguments);
 }
 
-bool text_write(const Text *text, const char *path, Error *err)
-{
+bool text_write(const Text *text, const char *path, Error *err) {
     return file_write(path, text->data ? text->data : "", text->size, err);
 }
 
 /* ---- inside languages that give some characters a meaning -------------------------------- */
 
-void text_add_printable(Text *text, const char *bytes, size_t size)
-{
+void text_add_printable(Text *text, const char *bytes, size_t size) {
     char one[PRINTABLE_ROOM];
     for (size_t taken; size; bytes += taken, size -= taken) {
         taken = printable_next(bytes, size, one);
@@ -70,8 +63,7 @@ void text_add_printable(Text *text, const char *bytes, size_t size)
     }
 }
 
-void escape_markup(Text *text, const char *string)
-{
+void escape_markup(Text *text, const char *string) {
     char one[PRINTABLE_ROOM];
     for (const char *c = string ? string : ""; *c;) {
         c += printable_next(c, UTF8_BYTES_MAX, one);
@@ -86,8 +78,7 @@ void escape_markup(Text *text, const char *string)
     }
 }
 
-const char *escape_shell(const char *word, Arena *arena)
-{
+const char *escape_shell(const char *word, Arena *arena) {
     const char *quoted = "'", *rest = word;
     if (*word && !word[strcspn(word, " \t\n'\"\\$&|;<>()*?#!`~{}[]")]) return word;
     for (const char *mark; (mark = strchr(rest, '\'')); rest = mark + 1)
@@ -96,8 +87,7 @@ const char *escape_shell(const char *word, Arena *arena)
 }
 
 /* Adds the part that begins at `text` to the word, and returns its end; NULL: it has none. */
-static const char *add_part(const char *text, Text *word)
-{
+static const char *add_part(const char *text, Text *word) {
     if (*text == '\'') {
         const char *end = strchr(text + 1, '\'');
         if (end) text_add_bytes(word, text + 1, (size_t)(end - text - 1));
@@ -115,8 +105,7 @@ static const char *add_part(const char *text, Text *word)
     return *text ? text + 1 : NULL;
 }
 
-bool shell_words(const char *line, Lines *words)
-{
+bool shell_words(const char *line, Lines *words) {
     for (;;) {
         Text word = {.arena = words->arena};
         line += strspn(line, " \t\r\n");

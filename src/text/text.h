@@ -15,7 +15,7 @@
 
 typedef struct Text {
     Arena *arena;
-    char  *data; /* data[size] is 0; NULL while empty */
+    char *data; /* data[size] is 0; NULL while empty */
     size_t size, capacity;
 } Text;
 

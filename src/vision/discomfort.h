@@ -27,7 +27,7 @@ typedef struct GlareSettings {
     double task_factor;     /* above 0: the threshold is this times the task's luminance */
     double task_deg;        /* full width of the cone about the line of sight that is it */
     double peak_cd_m2;      /* what is brighter is a source apart from what surrounds it */
-    bool   low_light;       /* DGP times discomfort_dgp_low_light */
+    bool low_light;         /* DGP times discomfort_dgp_low_light */
 } GlareSettings;
 
 /* evalglare's (NREL/Radiance): -b 2000, peaks of 50,000 cd/m2; but the low-light factor is on,
@@ -37,8 +37,7 @@ typedef struct GlareSettings {
 #define GLARE_THRESHOLD_CD_M2 2000.0
 #define GLARE_TASK_DEG 40.0
 #define GLARE_PEAK_CD_M2 50000.0
-#define GLARE_SETTINGS_DEFAULT \
-    {GLARE_THRESHOLD_CD_M2, 0, GLARE_TASK_DEG, GLARE_PEAK_CD_M2, true}
+#define GLARE_SETTINGS_DEFAULT {GLARE_THRESHOLD_CD_M2, 0, GLARE_TASK_DEG, GLARE_PEAK_CD_M2, true}
 
 /* task_cd_m2: the task's mean luminance; not used without a task factor. */
 double glare_threshold(const GlareSettings *settings, double task_cd_m2);
@@ -72,7 +71,7 @@ GlareSource glare_sum_source(const GlareSum *sum);
 /* What an eye sees. */
 typedef struct GlareView {
     const GlareSource *sources;
-    int    count;
+    int count;
     double source_lx;     /* of the sources on the pupil's plane, */
     double background_lx; /* and of all else: both are sums of their own, no difference */
 } GlareView;
@@ -90,8 +89,8 @@ typedef enum GlareNone {
 
 typedef struct GlareFigures {
     GlareNone none;
-    double    background_cd_m2;
-    double    ugr, dgp, dgi; /* UGR and DGI of weak sources may be below 0 */
+    double background_cd_m2;
+    double ugr, dgp, dgi; /* UGR and DGI of weak sources may be below 0 */
 } GlareFigures;
 
 GlareFigures discomfort_figures(const GlareSettings *settings, const GlareView *view);

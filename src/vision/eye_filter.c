@@ -24,13 +24,13 @@
  * 2 * width - 1 columns from -(width - 1) on. Mirrored: that at (-dx, dy), at (dx, -dy). */
 typedef struct ConvolutionKernel {
     const double *values;
-    bool          is_mirrored_x, is_mirrored_y;
+    bool is_mirrored_x, is_mirrored_y;
 } ConvolutionKernel;
 
 /* A term of the sum: a kernel, and the light that it is convolved with. */
 typedef struct ConvolutionTerm {
     ConvolutionKernel kernel;
-    const void       *context;
+    const void *context;
     /* 2 * width numbers: two planes' light at (0, y), at (1, y) ...; pair: which two. Called
      * from several threads. */
     void (*light_row)(const void *context, int pair, int y, double *values);
@@ -41,30 +41,27 @@ typedef struct ConvolutionTerm {
 enum { COLUMNS = 4 };
 
 typedef struct Convolution {
-    int      width, height; /* of the planes */
-    int      pairs, threads; /* planes in pairs */
-    int      wide, high; /* padded */
-    double  *kernel;     /* high rows of wide, rows transformed */
-    double **light;      /* [pair] height rows of wide, rows transformed */
-    double **sums;       /* [pair] wide columns of high, transformed */
-    double **scratch;    /* one a worker */
+    int width, height;  /* of the planes */
+    int pairs, threads; /* planes in pairs */
+    int wide, high;     /* padded */
+    double *kernel;     /* high rows of wide, rows transformed */
+    double **light;     /* [pair] height rows of wide, rows transformed */
+    double **sums;      /* [pair] wide columns of high, transformed */
+    double **scratch;   /* one a worker */
     Fourier *row_forwards, *row_backwards, *column_forwards, *column_backwards;
-    const ConvolutionTerm *term;       /* at work */
+    const ConvolutionTerm *term; /* at work */
 } Convolution;
 
-static int smaller(int a, int b)
-{
+static int smaller(int a, int b) {
     return a < b ? a : b;
 }
 
-static int larger(int a, int b)
-{
+static int larger(int a, int b) {
     return a > b ? a : b;
 }
 
 /* The next length that the transform is quick with. */
-static int quick_length(int least)
-{
+static int quick_length(int least) {
     for (int length = larger(least, 2);; length++) {
         int rest = length;
         while (rest % 2 == 0) rest /= 2;
@@ -74,13 +71,11 @@ static int quick_length(int least)
     }
 }
 
-static double *new_plane(int wide, int high, Arena *arena)
-{
+static double *new_plane(int wide, int high, Arena *arena) {
     return ARENA_NEW(arena, double, 2 * (size_t)wide * (size_t)high);
 }
 
-static void convolution_destroy(Convolution *convolution)
-{
+static void convolution_destroy(Convolution *convolution) {
     fourier_destroy(convolution->row_forwards);
     fourier_destroy(convolution->row_backwards);
     fourier_destroy(convolution->column_forwards);
@@ -88,9 +83,8 @@ static void convolution_destroy(Convolution *convolution)
 }
 
 /* To be destroyed. Fails when memory is out. */
-static bool convolution_create(const EyeFilter *filter, int pairs, Arena *arena,
-                               Convolution **out, Error *err)
-{
+static bool convolution_create(const EyeFilter *filter, int pairs, Arena *arena, Convolution **out,
+                               Error *err) {
     Convolution *c = ARENA_NEW(arena, Convolution, 1);
     c->width = filter->view.width;
     c->height = filter->view.height;
@@ -119,28 +113,25 @@ static bool convolution_create(const EyeFilter *filter, int pairs, Arena *arena,
     return true;
 }
 
-static double *row_of(double *plane, int wide, int row)
-{
+static double *row_of(double *plane, int wide, int row) {
     return plane + 2 * (size_t)wide * (size_t)row;
 }
 
 /* ---- a term ------------------------------------------------------------------------------ */
 
 /* At (0, dy). */
-static const double *kernel_middle(const Convolution *c, int dy)
-{
+static const double *kernel_middle(const Convolution *c, int dy) {
     const ConvolutionKernel *kernel = &c->term->kernel;
     int row = (kernel->is_mirrored_y ? -dy : dy) + c->height - 1;
     return kernel->values + (size_t)row * (size_t)(2 * c->width - 1) + (c->width - 1);
 }
 
 /* Offset 0 comes first, those below it from the end backwards; what lies between is nothing. */
-static void do_kernel_row(void *context, int row, int worker)
-{
+static void do_kernel_row(void *context, int row, int worker) {
     const Convolution *c = context;
     double *in = c->scratch[worker], *out = row_of(c->kernel, c->wide, row);
-    int     dy = row < c->height ? row : row - c->high;
-    int     sign = c->term->kernel.is_mirrored_x ? -1 : 1;
+    int dy = row < c->height ? row : row - c->high;
+    int sign = c->term->kernel.is_mirrored_x ? -1 : 1;
     if (dy <= -c->height) {
         memset(out, 0, sizeof *out * 2 * (size_t)c->wide);
         return;
@@ -152,10 +143,9 @@ static void do_kernel_row(void *context, int row, int worker)
     fourier_transform(c->row_forwards, in, out);
 }
 
-static void do_light_row(void *context, int item, int worker)
-{
+static void do_light_row(void *context, int item, int worker) {
     const Convolution *c = context;
-    int     pair = item / c->height, y = item % c->height;
+    int pair = item / c->height, y = item % c->height;
     double *in = c->scratch[worker];
     memset(in, 0, sizeof *in * 2 * (size_t)c->wide);
     c->term->light_row(c->term->context, pair, y, in);
@@ -164,13 +154,12 @@ static void do_light_row(void *context, int item, int worker)
 
 /* COLUMNS of them, or what is left. */
 typedef struct ColumnsAtWork {
-    int     first, count;
+    int first, count;
     double *in, *kernel, *light; /* each for COLUMNS columns of `high` */
 } ColumnsAtWork;
 
-static ColumnsAtWork columns_of(const Convolution *c, int item, int worker)
-{
-    size_t  size = 2 * (size_t)COLUMNS * (size_t)c->high;
+static ColumnsAtWork columns_of(const Convolution *c, int item, int worker) {
+    size_t size = 2 * (size_t)COLUMNS * (size_t)c->high;
     double *scratch = c->scratch[worker];
     return (ColumnsAtWork){item * COLUMNS, smaller(COLUMNS, c->wide - item * COLUMNS), scratch,
                            scratch + size, scratch + 2 * size};
@@ -178,8 +167,7 @@ static ColumnsAtWork columns_of(const Convolution *c, int item, int worker)
 
 /* Out of a plane of `rows` rows, one column behind the other. */
 static void transform_columns(const Convolution *c, const ColumnsAtWork *columns,
-                              const double *plane, int rows, double *out)
-{
+                              const double *plane, int rows, double *out) {
     for (int y = 0; y < c->high; y++) {
         const double *from = plane + 2 * ((size_t)c->wide * (size_t)y + (size_t)columns->first);
         for (int k = 0; k < columns->count; k++) {
@@ -189,37 +177,32 @@ static void transform_columns(const Convolution *c, const ColumnsAtWork *columns
         }
     }
     for (int k = 0; k < columns->count; k++)
-        fourier_transform(c->column_forwards, columns->in + 2 * k * c->high,
-                          out + 2 * k * c->high);
+        fourier_transform(c->column_forwards, columns->in + 2 * k * c->high, out + 2 * k * c->high);
 }
 
-static void add_products(double *sum, const double *a, const double *b, int count)
-{
+static void add_products(double *sum, const double *a, const double *b, int count) {
     for (int i = 0; i < count; i++) {
         sum[2 * i] += a[2 * i] * b[2 * i] - a[2 * i + 1] * b[2 * i + 1];
         sum[2 * i + 1] += a[2 * i] * b[2 * i + 1] + a[2 * i + 1] * b[2 * i];
     }
 }
 
-static void do_columns(void *context, int item, int worker)
-{
+static void do_columns(void *context, int item, int worker) {
     const Convolution *c = context;
     ColumnsAtWork columns = columns_of(c, item, worker);
     transform_columns(c, &columns, c->kernel, c->high, columns.kernel);
     for (int pair = 0; pair < c->pairs; pair++) {
         transform_columns(c, &columns, c->light[pair], c->height, columns.light);
-        add_products(row_of(c->sums[pair], c->high, columns.first), columns.light,
-                     columns.kernel, columns.count * c->high);
+        add_products(row_of(c->sums[pair], c->high, columns.first), columns.light, columns.kernel,
+                     columns.count * c->high);
     }
 }
 
-static int column_items(const Convolution *c)
-{
+static int column_items(const Convolution *c) {
     return (c->wide + COLUMNS - 1) / COLUMNS;
 }
 
-static void convolution_add(Convolution *convolution, const ConvolutionTerm *term)
-{
+static void convolution_add(Convolution *convolution, const ConvolutionTerm *term) {
     Convolution *c = convolution;
     c->term = term;
     parallel_for(c->threads, c->high, do_kernel_row, c);
@@ -229,14 +212,12 @@ static void convolution_add(Convolution *convolution, const ConvolutionTerm *ter
 }
 
 /* Columns back, of which only the picture's rows are kept, in the place of the light. */
-static void finish_columns(void *context, int item, int worker)
-{
+static void finish_columns(void *context, int item, int worker) {
     const Convolution *c = context;
-    int     pair = item / column_items(c);
+    int pair = item / column_items(c);
     ColumnsAtWork columns = columns_of(c, item % column_items(c), worker);
     for (int k = 0; k < columns.count; k++)
-        fourier_transform(c->column_backwards,
-                          row_of(c->sums[pair], c->high, columns.first + k),
+        fourier_transform(c->column_backwards, row_of(c->sums[pair], c->high, columns.first + k),
                           columns.in + 2 * k * c->high);
     for (int y = 0; y < c->height; y++) {
         double *to = row_of(c->light[pair], c->wide, y) + 2 * columns.first;
@@ -247,27 +228,24 @@ static void finish_columns(void *context, int item, int worker)
     }
 }
 
-static void finish_row(void *context, int item, int worker)
-{
+static void finish_row(void *context, int item, int worker) {
     const Convolution *c = context;
     double *row = row_of(c->light[item / c->height], c->wide, item % c->height);
     double *in = c->scratch[worker];
-    double  scale = 1.0 / ((double)c->wide * c->high);
+    double scale = 1.0 / ((double)c->wide * c->high);
     for (int i = 0; i < 2 * c->wide; i++) in[i] = scale * row[i];
     fourier_transform(c->row_backwards, in, row);
 }
 
 /* After the last term, once: ends the sums. */
-static void convolution_finish(Convolution *convolution)
-{
+static void convolution_finish(Convolution *convolution) {
     Convolution *c = convolution;
     parallel_for(c->threads, c->pairs * column_items(c), finish_columns, c);
     parallel_for(c->threads, c->pairs * c->height, finish_row, c);
 }
 
 /* 2 * width numbers: row y of two planes, as light_row has them. */
-static const double *convolution_row(const Convolution *convolution, int pair, int y)
-{
+static const double *convolution_row(const Convolution *convolution, int pair, int y) {
     return row_of(convolution->light[pair], convolution->wide, y);
 }
 
@@ -290,24 +268,22 @@ enum { NODES_MAX = 48 };
 /* A node at work, and the light that it shares in. */
 typedef struct NodeWork {
     const EyeFilter *filter;
-    const EyeLayer  *layers;
-    int              layer_count;
-    const double *omega;         /* of each pixel, 0 where nothing is to be spread */
-    double        node_x, node_y; /* pixels: of the kernel, */
-    double       *kernel;         /* ConvolutionKernel's */
-    double       *weights_x, *weights_y; /* one a column or row */
+    const EyeLayer *layers;
+    int layer_count;
+    const double *omega;           /* of each pixel, 0 where nothing is to be spread */
+    double node_x, node_y;         /* pixels: of the kernel, */
+    double *kernel;                /* ConvolutionKernel's */
+    double *weights_x, *weights_y; /* one a column or row */
 } NodeWork;
 
 /* Tangents of a place given in pixels. */
-static void tangents(const EyeView *view, double x, double y, double out[2])
-{
+static void tangents(const EyeView *view, double x, double y, double out[2]) {
     out[0] = (x - view->axis_x) * view->pixel;
     out[1] = (y - view->axis_y) * view->pixel;
 }
 
 /* Between the directions (a, 1) and (b, 1). Their cross product gives small angles exactly. */
-static double angle_deg(const double a[2], const double b[2])
-{
+static double angle_deg(const double a[2], const double b[2]) {
     double dx = b[0] - a[0], dy = b[1] - a[1], turn = a[0] * b[1] - a[1] * b[0];
     double cross = sqrt(dx * dx + dy * dy + turn * turn);
     return degrees_from_radians(atan2_d(cross, 1 + a[0] * b[0] + a[1] * b[1]));
@@ -315,18 +291,16 @@ static double angle_deg(const double a[2], const double b[2])
 
 /* How finely a pixel is divided at that many pixels from the light: f falls about as the cube
  * of the distance, which leaves 0.1 % in its mean. */
-static int divisions(int dx, int dy)
-{
+static int divisions(int dx, int dy) {
     int far_x = abs(dx), far_y = abs(dy), distance = far_x > far_y ? far_x : far_y;
     return distance <= 2 ? 32 : distance <= 8 ? 8 : distance <= 32 ? 2 : 1;
 }
 
 /* Mean of f over the pixel at (dx, dy) from the node, beyond 90 degrees as at 90; 0 at the
  * node's own, which keeps what it does not send away. */
-static double kernel_value(const NodeWork *k, int dx, int dy)
-{
+static double kernel_value(const NodeWork *k, int dx, int dy) {
     const EyeFilter *filter = k->filter;
-    int    count = divisions(dx, dy);
+    int count = divisions(dx, dy);
     double sum = 0, node[2], place[2];
     if (dx == 0 && dy == 0) return 0;
     tangents(&filter->view, k->node_x, k->node_y, node);
@@ -339,18 +313,16 @@ static double kernel_value(const NodeWork *k, int dx, int dy)
     return sum / (count * count);
 }
 
-static void kernel_row(void *context, int row, int worker)
-{
+static void kernel_row(void *context, int row, int worker) {
     (void)worker;
     const NodeWork *work = context;
-    const EyeView  *view = &work->filter->view;
+    const EyeView *view = &work->filter->view;
     double *values = work->kernel + (size_t)row * (size_t)(2 * view->width - 1);
     for (int dx = 1 - view->width; dx < view->width; dx++)
         *values++ = kernel_value(work, dx, row - (view->height - 1));
 }
 
-static void make_kernel(NodeWork *work, double x, double y)
-{
+static void make_kernel(NodeWork *work, double x, double y) {
     work->node_x = x;
     work->node_y = y;
     parallel_for(work->filter->threads, 2 * work->filter->view.height - 1, kernel_row, work);
@@ -359,56 +331,49 @@ static void make_kernel(NodeWork *work, double x, double y)
 /* ---- nodes ------------------------------------------------------------------------------- */
 
 typedef struct Nodes {
-    int    count;
+    int count;
     double place[NODES_MAX]; /* pixels */
 } Nodes;
 
 /* Over `size` pixels; half_tangent: of half of them. */
-static Nodes make_nodes(int size, double half_tangent)
-{
+static Nodes make_nodes(int size, double half_tangent) {
     double t = half_tangent, ratio = (1 + sqrt(1 + t * t)) / t;
-    int    count = 2 + (int)ceil(-log_d(INTERPOLATION_BOUND) / log_d(ratio));
-    Nodes  nodes = {.count = count > NODES_MAX ? NODES_MAX : count};
+    int count = 2 + (int)ceil(-log_d(INTERPOLATION_BOUND) / log_d(ratio));
+    Nodes nodes = {.count = count > NODES_MAX ? NODES_MAX : count};
     for (int i = 0; i < nodes.count; i++)
         nodes.place[i] = size / 2.0 * (1 - cos_d((2 * i + 1) * PI / (2 * nodes.count)));
     return nodes;
 }
 
 /* Lagrange's polynomial of a node. */
-static double node_weight(const Nodes *nodes, int node, double place)
-{
+static double node_weight(const Nodes *nodes, int node, double place) {
     double weight = 1;
     for (int i = 0; i < nodes->count; i++)
-        if (i != node)
-            weight *= (place - nodes->place[i]) / (nodes->place[node] - nodes->place[i]);
+        if (i != node) weight *= (place - nodes->place[i]) / (nodes->place[node] - nodes->place[i]);
     return weight;
 }
 
 /* The node's weight at every pixel of a row or column. */
-static void set_weights(const Nodes *nodes, int node, int size, double *out)
-{
+static void set_weights(const Nodes *nodes, int node, int size, double *out) {
     for (int i = 0; i < size; i++) out[i] = node_weight(nodes, node, i + 0.5);
 }
 
 /* ---- the sum over all pixels ------------------------------------------------------------- */
 
 /* Planes are a layer's R, G and B, then the next one's, then a constant 1; two are a pair. */
-static int plane_count(int layers)
-{
+static int plane_count(int layers) {
     return 3 * layers + 1;
 }
 
 /* Times solid angle and the node's weight. */
-static void light_row(const void *context, int pair, int y, double *values)
-{
+static void light_row(const void *context, int pair, int y, double *values) {
     const NodeWork *work = context;
-    size_t          width = (size_t)work->filter->view.width, start = (size_t)y * width;
+    size_t width = (size_t)work->filter->view.width, start = (size_t)y * width;
     for (int k = 0; k < 2; k++) {
-        int          plane = 2 * pair + k;
-        bool         is_light = plane < 3 * work->layer_count;
-        bool         is_one = plane == 3 * work->layer_count;
-        const float *light =
-            is_light ? work->layers[plane / 3].rgb[plane % 3] + start : NULL;
+        int plane = 2 * pair + k;
+        bool is_light = plane < 3 * work->layer_count;
+        bool is_one = plane == 3 * work->layer_count;
+        const float *light = is_light ? work->layers[plane / 3].rgb[plane % 3] + start : NULL;
         for (size_t x = 0; x < width; x++) {
             double omega = work->omega[start + x];
             double share = omega * work->weights_x[x] * work->weights_y[y];
@@ -419,26 +384,23 @@ static void light_row(const void *context, int pair, int y, double *values)
 }
 
 /* A square pixel of side a on the plane at distance 1: a^2 cos^3 of the angle from the axis. */
-static double solid_angle(const EyeView *view, int x, int y)
-{
+static double solid_angle(const EyeView *view, int x, int y) {
     double t[2];
     tangents(view, x + 0.5, y + 0.5, t);
     double square = 1 + t[0] * t[0] + t[1] * t[1];
     return view->pixel * view->pixel / (square * sqrt(square));
 }
 
-static bool is_finite_in_all(const NodeWork *work, size_t pixel)
-{
+static bool is_finite_in_all(const NodeWork *work, size_t pixel) {
     for (int plane = 0; plane < 3 * work->layer_count; plane++)
         if (!isfinite(work->layers[plane / 3].rgb[plane % 3][pixel])) return false;
     return true;
 }
 
-static const double *solid_angles(const NodeWork *work, Arena *arena)
-{
+static const double *solid_angles(const NodeWork *work, Arena *arena) {
     const EyeView *view = &work->filter->view;
-    size_t  width = (size_t)view->width, height = (size_t)view->height;
-    double *omega = ARENA_NEW(arena, double, width * height);
+    size_t width = (size_t)view->width, height = (size_t)view->height;
+    double *omega = ARENA_NEW(arena, double, width *height);
     for (size_t i = 0; i < width * height; i++)
         if (is_finite_in_all(work, i))
             omega[i] = solid_angle(view, (int)(i % width), (int)(i / width));
@@ -451,11 +413,10 @@ static const double *solid_angles(const NodeWork *work, Arena *arena)
  * a node is mirrored what belongs to the one on the other side. */
 typedef struct NodeGrid {
     Nodes x, y;
-    bool  is_even_x, is_even_y;
+    bool is_even_x, is_even_y;
 } NodeGrid;
 
-static NodeGrid make_grid(const EyeView *view)
-{
+static NodeGrid make_grid(const EyeView *view) {
     return (NodeGrid){.x = make_nodes(view->width, view->width * view->pixel / 2),
                       .y = make_nodes(view->height, view->height * view->pixel / 2),
                       .is_even_x = 2 * view->axis_x == view->width,
@@ -463,9 +424,8 @@ static NodeGrid make_grid(const EyeView *view)
 }
 
 static void add_node(NodeWork *work, const NodeGrid *grid, int i, int j,
-                     const ConvolutionKernel *kernel, Convolution *convolution)
-{
-    const EyeView        *view = &work->filter->view;
+                     const ConvolutionKernel *kernel, Convolution *convolution) {
+    const EyeView *view = &work->filter->view;
     const ConvolutionTerm term = {*kernel, work, light_row};
     set_weights(&grid->x, i, view->width, work->weights_x);
     set_weights(&grid->y, j, view->height, work->weights_y);
@@ -474,8 +434,7 @@ static void add_node(NodeWork *work, const NodeGrid *grid, int i, int j,
 
 /* The node, and those whose kernels are its own, mirrored. */
 static void add_mirrored(NodeWork *work, const NodeGrid *grid, int i, int j,
-                         Convolution *convolution)
-{
+                         Convolution *convolution) {
     int other_i = grid->is_even_x ? grid->x.count - 1 - i : i;
     int other_j = grid->is_even_y ? grid->y.count - 1 - j : j;
     make_kernel(work, grid->x.place[i], grid->y.place[j]);
@@ -487,8 +446,7 @@ static void add_mirrored(NodeWork *work, const NodeGrid *grid, int i, int j,
     }
 }
 
-static void add_nodes(NodeWork *work, Convolution *convolution)
-{
+static void add_nodes(NodeWork *work, Convolution *convolution) {
     const NodeGrid grid = make_grid(&work->filter->view);
     int across_x = grid.is_even_x ? (grid.x.count + 1) / 2 : grid.x.count;
     int across_y = grid.is_even_y ? (grid.y.count + 1) / 2 : grid.y.count;
@@ -499,20 +457,18 @@ static void add_nodes(NodeWork *work, Convolution *convolution)
 
 /* ---- out --------------------------------------------------------------------------------- */
 
-static double plane_at(const Convolution *sums, int plane, int x, int y)
-{
+static double plane_at(const Convolution *sums, int plane, int x, int y) {
     return convolution_row(sums, plane / 2, y)[2 * x + plane % 2];
 }
 
 /* Adds what arrived in a row and takes off what went; no pixel sends more than it has. */
-static void exchange_row(const NodeWork *work, const Convolution *sums, int y)
-{
+static void exchange_row(const NodeWork *work, const Convolution *sums, int y) {
     int width = work->filter->view.width;
     for (int plane = 0; plane < 3 * work->layer_count; plane++) {
         const EyeLayer *layer = &work->layers[plane / 3];
-        size_t          start = (size_t)y * (size_t)width;
-        const float    *from = layer->rgb[plane % 3] + start;
-        float          *to = layer->out[plane % 3] + start;
+        size_t start = (size_t)y * (size_t)width;
+        const float *from = layer->rgb[plane % 3] + start;
+        float *to = layer->out[plane % 3] + start;
         for (int x = 0; x < width; x++) {
             double light = (double)from[x], went = plane_at(sums, 3 * work->layer_count, x, y);
             double seen = light * fmax(1 - went, 0) + plane_at(sums, plane, x, y);
@@ -522,14 +478,15 @@ static void exchange_row(const NodeWork *work, const Convolution *sums, int y)
 }
 
 bool eye_filter(const EyeFilter *filter, const EyeLayer *layers, int count, Arena scratch,
-                Error *err)
-{
-    const EyeView  *view = &filter->view;
-    Convolution    *sums;
+                Error *err) {
+    const EyeView *view = &filter->view;
+    Convolution *sums;
     if (!convolution_create(filter, (plane_count(count) + 1) / 2, &scratch, &sums, err))
         return false;
-    size_t   kernel = (size_t)(2 * view->width - 1) * (size_t)(2 * view->height - 1);
-    NodeWork work = {.filter = filter, .layers = layers, .layer_count = count,
+    size_t kernel = (size_t)(2 * view->width - 1) * (size_t)(2 * view->height - 1);
+    NodeWork work = {.filter = filter,
+                     .layers = layers,
+                     .layer_count = count,
                      .kernel = ARENA_NEW(&scratch, double, kernel),
                      .weights_x = ARENA_NEW(&scratch, double, view->width),
                      .weights_y = ARENA_NEW(&scratch, double, view->height)};

@@ -34,22 +34,22 @@
 #include "vision/human_eye.h"
 
 typedef struct EyeView {
-    int    width, height;   /* pixels of the planes */
-    double axis_x, axis_y;  /* where the camera looks, in pixels from the planes' upper left
-                               corner; may lie outside of them */
-    double pixel;           /* side of a square pixel on a plane at distance 1 */
+    int width, height;     /* pixels of the planes */
+    double axis_x, axis_y; /* where the camera looks, in pixels from the planes' upper left
+                              corner; may lie outside of them */
+    double pixel;          /* side of a square pixel on a plane at distance 1 */
 } EyeView;
 
 typedef struct EyeFilter {
-    EyeView  view;
+    EyeView view;
     HumanEye eye;
-    int      threads; /* at least 1 */
+    int threads; /* at least 1 */
 } EyeFilter;
 
 /* A picture, and where it goes as the eye has it; these must not overlap. */
 typedef struct EyeLayer {
     const float *rgb[3];
-    float       *out[3];
+    float *out[3];
 } EyeLayer;
 
 /* Layers of one view, count: at least 1, take less time together. A pixel with a value that is

@@ -11,8 +11,7 @@
 #define DARKER_CD_M2 0.1
 #define JUMP_YEARS 1.0
 
-static double square(double x)
-{
+static double square(double x) {
     return x * x;
 }
 
@@ -22,8 +21,7 @@ typedef struct Adapted {
     double small, large;
 } Adapted;
 
-static Adapted adapted_at(double cd_m2)
-{
+static Adapted adapted_at(double cd_m2) {
     double lg = log10_d(cd_m2);
     if (cd_m2 >= BRIGHT_CD_M2)
         return (Adapted){log10_d(4.1925 * pow_d(cd_m2, 0.1556)) + 0.1684 * pow_d(cd_m2, 0.5867),
@@ -36,26 +34,22 @@ static Adapted adapted_at(double cd_m2)
 }
 
 /* Of a lighter target, for somebody of AF 1 who looks at leisure. */
-static double plain_threshold(double size_arcmin, double cd_m2)
-{
+static double plain_threshold(double size_arcmin, double cd_m2) {
     Adapted at = adapted_at(cd_m2);
     return NEARLY_ALWAYS * square(at.small / size_arcmin + at.large);
 }
 
-static bool is_positive(double size_arcmin, double cd_m2)
-{
+static bool is_positive(double size_arcmin, double cd_m2) {
     return size_arcmin > 0 && cd_m2 > 0 && isfinite(size_arcmin) && isfinite(cd_m2);
 }
 
-double visibility_age_factor(double age_years)
-{
+double visibility_age_factor(double age_years) {
     if (!(age_years >= VISIBILITY_AGE_MIN && age_years <= VISIBILITY_AGE_MAX)) return NAN;
     return age_years < VISIBILITY_AGE_JUMP ? square(age_years - 19) / 2160 + 0.99
                                            : square(age_years - 56.6) / 116.3 + 1.43;
 }
 
-double visibility_polarity_factor(double size_arcmin, double adapted_cd_m2)
-{
+double visibility_polarity_factor(double size_arcmin, double adapted_cd_m2) {
     if (!is_positive(size_arcmin, adapted_cd_m2)) return NAN;
     if (adapted_cd_m2 <= VISIBILITY_DARKER_MIN) return 1;
     double slope = adapted_cd_m2 >= DARKER_CD_M2 ? 0.125 : 0.075;
@@ -65,8 +59,7 @@ double visibility_polarity_factor(double size_arcmin, double adapted_cd_m2)
                    (2.4 * plain_threshold(size_arcmin, adapted_cd_m2));
 }
 
-double visibility_glance_factor(double size_arcmin, double adapted_cd_m2, double glance_s)
-{
+double visibility_glance_factor(double size_arcmin, double adapted_cd_m2, double glance_s) {
     if (!is_positive(size_arcmin, adapted_cd_m2) || !(glance_s > 0)) return NAN;
     if (glance_s >= VISIBILITY_GLANCE_LONG) return 1;
     double x = log10_d(size_arcmin) + 0.523, y = log10_d(adapted_cd_m2) + 6;
@@ -75,8 +68,7 @@ double visibility_glance_factor(double size_arcmin, double adapted_cd_m2, double
     return (hypot_d(by_size, by_light) / 2.1 + glance_s) / glance_s;
 }
 
-double visibility_threshold(const VisibilityTarget *target)
-{
+double visibility_threshold(const VisibilityTarget *target) {
     const VisibilityTarget *t = target;
     if (!is_positive(t->size_arcmin, t->adapted_cd_m2)) return NAN;
     double threshold = plain_threshold(t->size_arcmin, t->adapted_cd_m2);
@@ -85,25 +77,24 @@ double visibility_threshold(const VisibilityTarget *target)
     return threshold * visibility_age_factor(t->age_years);
 }
 
-double visibility_level(const VisibilityTarget *target, double difference_cd_m2)
-{
+double visibility_level(const VisibilityTarget *target, double difference_cd_m2) {
     return fabs(difference_cd_m2) / visibility_threshold(target);
 }
 
-unsigned visibility_doubts(const VisibilityTarget *target)
-{
+unsigned visibility_doubts(const VisibilityTarget *target) {
     const VisibilityTarget *t = target;
     bool is_aged = t->age_years >= VISIBILITY_AGE_MIN && t->age_years <= VISIBILITY_AGE_MAX;
     bool is_at_jump = fabs(t->age_years - VISIBILITY_AGE_JUMP) <= JUMP_YEARS;
     bool is_large = t->size_arcmin > VISIBILITY_SIZE_LARGE;
-    bool is_among_people = t->adapted_cd_m2 >= VISIBILITY_PEOPLE_MIN &&
-                           t->adapted_cd_m2 <= VISIBILITY_PEOPLE_MAX;
+    bool is_among_people =
+        t->adapted_cd_m2 >= VISIBILITY_PEOPLE_MIN && t->adapted_cd_m2 <= VISIBILITY_PEOPLE_MAX;
     bool has_polarity = !t->is_darker || t->adapted_cd_m2 > VISIBILITY_DARKER_MIN;
-    const bool DOUBTS[VISIBILITY_DOUBTS] = {
-        [VISIBILITY_DOUBT_AGE] = !is_aged, [VISIBILITY_DOUBT_JUMP] = is_at_jump,
-        [VISIBILITY_DOUBT_GLANCE] = is_large && t->glance_s < VISIBILITY_GLANCE_LONG,
-        [VISIBILITY_DOUBT_DARKER] = !has_polarity,
-        [VISIBILITY_DOUBT_LUMINANCE] = !is_among_people};
+    const bool DOUBTS[VISIBILITY_DOUBTS] = {[VISIBILITY_DOUBT_AGE] = !is_aged,
+                                            [VISIBILITY_DOUBT_JUMP] = is_at_jump,
+                                            [VISIBILITY_DOUBT_GLANCE] =
+                                                is_large && t->glance_s < VISIBILITY_GLANCE_LONG,
+                                            [VISIBILITY_DOUBT_DARKER] = !has_polarity,
+                                            [VISIBILITY_DOUBT_LUMINANCE] = !is_among_people};
     unsigned bits = 0;
     for (int i = 0; i < VISIBILITY_DOUBTS; i++) bits |= (unsigned)DOUBTS[i] << i;
     return bits;

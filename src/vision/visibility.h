@@ -27,7 +27,8 @@
 
 #define VISIBILITY_AGE_MIN 23.0 /* years */
 #define VISIBILITY_AGE_MAX 75.0
-#define VISIBILITY_AGE_JUMP 64.0    /* where AF falls from 1.9275 to 1.9009, though it should
+#define VISIBILITY_AGE_JUMP \
+    64.0                            /* where AF falls from 1.9275 to 1.9009, though it should \
                                        rise */
 #define VISIBILITY_GLANCE_LONG 2.0  /* s: from here on the glance's time counts for nothing */
 #define VISIBILITY_SIZE_LARGE 60.0  /* arc minutes: whether TF holds above is open */
@@ -41,7 +42,7 @@ typedef struct VisibilityTarget {
     double adapted_cd_m2; /* background and veil, above 0 */
     double age_years;     /* VISIBILITY_AGE_MIN .. _MAX */
     double glance_s;      /* above 0; infinite: as long as it takes */
-    bool   is_darker;     /* than its background */
+    bool is_darker;       /* than its background */
 } VisibilityTarget;
 
 /* dL. */

@@ -20,8 +20,8 @@
 #define READ_PATHS 1024
 #define CASE_PATHS 4096
 #define EXPLAIN_PATHS 4096
-#define NEVER 1e-9        /* a precision that no reading reaches */
-#define TOLERANCE 0.02    /* of the contrast, where no limit decides before */
+#define NEVER 1e-9     /* a precision that no reading reaches */
+#define TOLERANCE 0.02 /* of the contrast, where no limit decides before */
 #define CLEAR 0.05
 #define ASKED_MOST 16384
 #define FRAME_WIDTH 12
@@ -30,24 +30,23 @@
 #define FRAME_DEG 0.5
 
 typedef struct Moment {
-    ReviewRequest     *request; /* whose seed and precision are the trials' */
-    Setup             *setup;
+    ReviewRequest *request; /* whose seed and precision are the trials' */
+    Setup *setup;
     const SetupSymbol *symbol;
-    ProbeAim           aim;
-    const char        *name;
-    int                runs;
-    Arena              scratch;
+    ProbeAim aim;
+    const char *name;
+    int runs;
+    Arena scratch;
 } Moment;
 
 /* ---- readings ---------------------------------------------------------------------------- */
 
-static void cover_readings(const Moment *m, Arena arena)
-{
+static void cover_readings(const Moment *m, Arena arena) {
     ReadingGoal goal = {.most = READ_PATHS};
-    int         count = 2 * m->runs;
-    Trial      *list = ARENA_NEW(&arena, Trial, count);
+    int count = 2 * m->runs;
+    Trial *list = ARENA_NEW(&arena, Trial, count);
     PathContext without = m->setup->context;
-    ProbeAim    aim = m->aim;
+    ProbeAim aim = m->aim;
     without.without_mirrored_sun = true; /* cases add it */
     aim.context = &without;
     for (int i = 0; i < count; i++) {
@@ -61,14 +60,13 @@ static void cover_readings(const Moment *m, Arena arena)
 /* ---- cases ------------------------------------------------------------------------------- */
 
 /* What a review says with so many seeds. */
-static Trial *cases_under(const Moment *m, const Profile *profile, unsigned seed, Arena *arena)
-{
-    Trial    *list = ARENA_NEW(arena, Trial, m->runs);
+static Trial *cases_under(const Moment *m, const Profile *profile, unsigned seed, Arena *arena) {
+    Trial *list = ARENA_NEW(arena, Trial, m->runs);
     CaseTools tools = {.setup = m->setup, .profile = profile};
     for (int i = 0; i < m->runs; i++) {
-        Arena      room = m->scratch;
+        Arena room = m->scratch;
         ReviewCase c = {.display_lux = 1000};
-        Error      err = {0};
+        Error err = {0};
         m->request->seed = seed + (unsigned)i;
         if (!setup_verdict(&tools, m->symbol, &m->request->eyes[0], &room, &c, &err))
             trials_stop(&err);
@@ -78,40 +76,37 @@ static Trial *cases_under(const Moment *m, const Profile *profile, unsigned seed
     return list;
 }
 
-static double contrast_at(const Moment *m, double reflected)
-{
-    SymbolLook look = {&m->symbol->surface, &m->symbol->split, m->aim.eye,
-                       m->setup->tools.threads};
+static double contrast_at(const Moment *m, double reflected) {
+    SymbolLook look = {&m->symbol->surface, &m->symbol->split, m->aim.eye, m->setup->tools.threads};
     SymbolEmission shown =
         symbol_emission(&look, setup_level(m->setup, m->symbol->display.display_id));
     return luminance_contrast(shown.foreground_xyz[1], shown.background_xyz[1], reflected);
 }
 
-static Truth cover_cases(const Moment *m, Arena arena)
-{
+static Truth cover_cases(const Moment *m, Arena arena) {
     Profile open = {.id = "none"};
     m->request->precision_contrast = m->request->precision_clear = NEVER;
     m->request->precision_paths = CASE_PATHS;
     Trial *list = cases_under(m, &open, 1u << 20, &arena);
-    Truth  truth = trials_mean(list, m->runs);
+    Truth truth = trials_mean(list, m->runs);
     trials_report(m->name, "case of 4,096 paths", list, m->runs, truth);
     return truth;
 }
 
-static void cover_asked(const Moment *m, Truth truth, Arena arena)
-{
+static void cover_asked(const Moment *m, Truth truth, Arena arena) {
     static const double limits[] = {1, 1.02, 1.1, 1.25, 2};
     m->request->precision_contrast = TOLERANCE;
     m->request->precision_clear = CLEAR;
     m->request->precision_paths = ASKED_MOST;
     for (int k = 0; k < 5; k++) {
-        char         what[64];
-        ProfileLimit limit = {.name = "limit", .kind = LIMIT_CONTRAST_RATIO,
+        char what[64];
+        ProfileLimit limit = {.name = "limit",
+                              .kind = LIMIT_CONTRAST_RATIO,
                               .ambients = {true, true, true, true},
                               .value = contrast_at(m, limits[k] * truth.value)};
-        Profile      profile = {.id = "one", .limits = &limit, .limit_count = 1};
-        Arena        room = arena;
-        Trial       *list = cases_under(m, &profile, (unsigned)(k + 2) << 20, &room);
+        Profile profile = {.id = "one", .limits = &limit, .limit_count = 1};
+        Arena room = arena;
+        Trial *list = cases_under(m, &profile, (unsigned)(k + 2) << 20, &room);
         snprintf(what, sizeof what, "case, limit at %g", limits[k]);
         trials_report(m->name, what, list, m->runs, truth);
     }
@@ -119,27 +114,24 @@ static void cover_asked(const Moment *m, Truth truth, Arena arena)
 
 /* ---- explain ----------------------------------------------------------------------------- */
 
-static Trial trial_of(ChainFigure figure, long paths)
-{
+static Trial trial_of(ChainFigure figure, long paths) {
     return (Trial){figure.cd_m2, figure.low, figure.high, (double)paths};
 }
 
-static const Chain *find_chain(const Chains *chains, const ChainKey *key)
-{
+static const Chain *find_chain(const Chains *chains, const ChainKey *key) {
     for (int i = 0; i < chains->count; i++)
         if (!memcmp(&chains->list[i].key, key, sizeof *key)) return &chains->list[i];
     return NULL;
 }
 
 /* All of it, and the cause that was the greatest in the first run: its light and its share. */
-static void cover_explain(const Moment *m, Arena arena)
-{
-    Trial   *all = ARENA_NEW(&arena, Trial, m->runs), *one = ARENA_NEW(&arena, Trial, m->runs);
+static void cover_explain(const Moment *m, Arena arena) {
+    Trial *all = ARENA_NEW(&arena, Trial, m->runs), *one = ARENA_NEW(&arena, Trial, m->runs);
     ProbeAim aim = m->aim;
     ChainKey key;
-    int      found = 0;
-    ChainArgs args = {.aim = &aim, .tools = &m->setup->tools, .paths = EXPLAIN_PATHS,
-                    .most = CAUSES_MOST};
+    int found = 0;
+    ChainArgs args = {
+        .aim = &aim, .tools = &m->setup->tools, .paths = EXPLAIN_PATHS, .most = CAUSES_MOST};
     memset(&key, 0, sizeof key);
     for (int i = 0; i < m->runs; i++) {
         Arena room = m->scratch;
@@ -157,19 +149,17 @@ static void cover_explain(const Moment *m, Arena arena)
 
 /* ---- measure ----------------------------------------------------------------------------- */
 
-static Trial trial_of_measured(Measured figure)
-{
+static Trial trial_of_measured(Measured figure) {
     return (Trial){figure.value, figure.low, figure.high, FRAME_SAMPLES};
 }
 
 static FrameMeasurement measure_once(const Moment *m, const RenderSetup *setup,
-                                     RenderOptions *options, uint32_t seed)
-{
-    Arena            room = m->scratch;
-    RenderResult     result;
+                                     RenderOptions *options, uint32_t seed) {
+    Arena room = m->scratch;
+    RenderResult result;
     FrameMeasurement measured;
-    MeasureRequest   request = {.frame_name = "frame"};
-    Error            err = {0};
+    MeasureRequest request = {.frame_name = "frame"};
+    Error err = {0};
     options->seed = seed;
     if (!render_prepared(setup, options, &room, &result, &err)) trials_stop(&err);
     FrameImage frame = film_to_frame(result.film, 8, &room);
@@ -177,24 +167,26 @@ static FrameMeasurement measure_once(const Moment *m, const RenderSetup *setup,
     return measured;
 }
 
-static RenderOptions frame_options(const Moment *m)
-{
-    return (RenderOptions){
-        .width = FRAME_WIDTH, .height = FRAME_HEIGHT, .crop = {0, 0, FRAME_WIDTH, FRAME_HEIGHT},
-        .end_sample = FRAME_SAMPLES, .max_bounces = SETUP_BOUNCES, .threads = 1,
-        .layers = LAYER_VARIANCE | LAYER_HALVES | LAYER_DISPLAYS | LAYER_ID,
-        .progress = PROGRESS_NONE, .no_guiding = !m->setup->context.guide};
+static RenderOptions frame_options(const Moment *m) {
+    return (RenderOptions){.width = FRAME_WIDTH,
+                           .height = FRAME_HEIGHT,
+                           .crop = {0, 0, FRAME_WIDTH, FRAME_HEIGHT},
+                           .end_sample = FRAME_SAMPLES,
+                           .max_bounces = SETUP_BOUNCES,
+                           .threads = 1,
+                           .layers = LAYER_VARIANCE | LAYER_HALVES | LAYER_DISPLAYS | LAYER_ID,
+                           .progress = PROGRESS_NONE,
+                           .no_guiding = !m->setup->context.guide};
 }
 
-static void cover_measure(const Moment *m, Arena arena)
-{
+static void cover_measure(const Moment *m, Arena arena) {
     Trial *light = ARENA_NEW(&arena, Trial, m->runs);
     Trial *ratio = ARENA_NEW(&arena, Trial, m->runs);
     double reflected = 0;
-    Error  err = {0};
+    Error err = {0};
     FrameMeasurement f = {.pixels = 0};
-    RenderSetup      setup;
-    RenderOptions    options = frame_options(m);
+    RenderSetup setup;
+    RenderOptions options = frame_options(m);
     SceneCamera camera = camera_look_at(m->aim.eye, symbol_middle(m->symbol).position,
                                         (float)(FRAME_DEG * 3.14159265 / 180));
     if (!render_prepare(m->setup->scene, &camera, &options, &arena, &setup, &err))
@@ -213,8 +205,7 @@ static void cover_measure(const Moment *m, Arena arena)
 
 /* ---- moments ----------------------------------------------------------------------------- */
 
-static void cover(const Moment *m, const char *ways, Arena arena)
-{
+static void cover(const Moment *m, const char *ways, Arena arena) {
     Truth truth = {0, 0};
     if (strchr(ways, 'r')) cover_readings(m, arena);
     if (strpbrk(ways, "ca")) truth = cover_cases(m, arena);
@@ -224,16 +215,15 @@ static void cover(const Moment *m, const char *ways, Arena arena)
 }
 
 static void cover_moment(ReviewRequest *request, const ReviewCondition *c, const char *ways,
-                         int runs, Problems *problems)
-{
-    SetupOptions options = {.request = request, .condition = c,
-                            .means = {.root = "/", .threads = 1}};
-    Arena        arena = arena_reserve((size_t)1 << 36);
-    Setup        setup;
+                         int runs, Problems *problems) {
+    SetupOptions options = {
+        .request = request, .condition = c, .means = {.root = "/", .threads = 1}};
+    Arena arena = arena_reserve((size_t)1 << 36);
+    Setup setup;
     SetupSymbol *symbols;
-    int          count;
-    Vec3         eye;
-    Error        err = {0};
+    int count;
+    Vec3 eye;
+    Error err = {0};
     request->seed = 0;
     if (!setup_open(&options, &arena, problems, &setup, &err) ||
         !setup_light(&setup, c->has_environment ? &c->environment : NULL, &arena, &err) ||
@@ -243,8 +233,13 @@ static void cover_moment(ReviewRequest *request, const ReviewCondition *c, const
         trials_stop(&err);
     const SymbolSurface *surface = &symbols[0].surface;
     bool *is_visible = ARENA_NEW(&arena, bool, surface->point_count);
-    Moment m = {request, &setup, &symbols[0], {.context = &setup.context, .eye = eye}, c->name,
-                runs, arena_reserve((size_t)1 << 33)};
+    Moment m = {request,
+                &setup,
+                &symbols[0],
+                {.context = &setup.context, .eye = eye},
+                c->name,
+                runs,
+                arena_reserve((size_t)1 << 33)};
     symbol_visibility(surface, &setup.context, eye, is_visible);
     symbol_aim(surface, is_visible, &arena, &m.aim);
     if (m.aim.target_count) cover(&m, ways, arena);
@@ -253,19 +248,17 @@ static void cover_moment(ReviewRequest *request, const ReviewCondition *c, const
     arena_release(&arena);
 }
 
-int main(int argc, char **argv)
-{
-    Arena         arena = arena_reserve((size_t)1 << 30);
-    Error         err = {0};
-    Problems      problems = problems_start(&arena);
+int main(int argc, char **argv) {
+    Arena arena = arena_reserve((size_t)1 << 30);
+    Error err = {0};
+    Problems problems = problems_start(&arena);
     ReviewRequest request;
-    int           runs = argc == 4 ? atoi(argv[2]) : 0;
+    int runs = argc == 4 ? atoi(argv[2]) : 0;
     if (runs < 2) {
         fprintf(stderr, "bench_coverage WAYS RUNS REVIEW.json\n");
         return 1;
     }
-    if (!review_request_read(argv[3], "/", &arena, &problems, &request, &err))
-        trials_stop(&err);
+    if (!review_request_read(argv[3], "/", &arena, &problems, &request, &err)) trials_stop(&err);
     for (int i = 0; i < request.condition_count; i++)
         if (request.conditions[i].kind == CONDITION_MOMENT)
             cover_moment(&request, &request.conditions[i], argv[1], runs, &problems);

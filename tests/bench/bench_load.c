@@ -22,20 +22,19 @@
 #define MEGABYTE 1e6
 
 typedef struct Bench {
-    int         threads;
+    int threads;
     const char *const *paths;
-    int         path_count;
-    double      clock_s, processor_s; /* when the step began */
-    Scene      *scene;
-    Bvh        *bvh;
-    Lights     *lights;
-    Camera      camera;
+    int path_count;
+    double clock_s, processor_s; /* when the step began */
+    Scene *scene;
+    Bvh *bvh;
+    Lights *lights;
+    Camera camera;
     PathContext context;
     const Kernel *kernel;
 } Bench;
 
-static double held_bytes(void)
-{
+static double held_bytes(void) {
     unsigned long all = 0, resident = 0; /* proc(5), statm: pages */
     FILE *file = fopen("/proc/self/statm", "r");
     if (file && fscanf(file, "%lu %lu", &all, &resident) != 2) resident = 0;
@@ -43,59 +42,55 @@ static double held_bytes(void)
     return (double)resident * (double)sysconf(_SC_PAGESIZE);
 }
 
-static void begin(Bench *bench)
-{
+static void begin(Bench *bench) {
     bench->clock_s = clock_seconds(CLOCK_MONOTONIC);
     bench->processor_s = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
 }
 
-static void end(Bench *bench, const char *name)
-{
+static void end(Bench *bench, const char *name) {
     printf("%s %.3f %.3f %.1f %.1f\n", name, clock_seconds(CLOCK_MONOTONIC) - bench->clock_s,
-           clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - bench->processor_s,
-           held_bytes() / MEGABYTE, machine_peak_bytes() / MEGABYTE);
+           clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - bench->processor_s, held_bytes() / MEGABYTE,
+           machine_peak_bytes() / MEGABYTE);
     fflush(stdout);
     begin(bench);
 }
 
-static bool read_alone(Bench *bench, Error *err)
-{
+static bool read_alone(Bench *bench, Error *err) {
     FileBytes bytes;
-    Arena     scratch = arena_reserve((size_t)8 << 30);
-    bool      done = file_read(bench->paths[0], (size_t)4 << 30, &scratch, &bytes, err);
+    Arena scratch = arena_reserve((size_t)8 << 30);
+    bool done = file_read(bench->paths[0], (size_t)4 << 30, &scratch, &bytes, err);
     arena_release(&scratch);
     return done;
 }
 
-static bool load(Bench *bench, Arena *arena, Error *err)
-{
+static bool load(Bench *bench, Arena *arena, Error *err) {
     SceneOptions options = {.paths = bench->paths, .path_count = bench->path_count};
-    Problems     problems = problems_start(arena);
+    Problems problems = problems_start(arena);
     return scene_load(&options, arena, &problems, &bench->scene, err);
 }
 
-static void render_tile_once(Bench *bench, Arena *arena)
-{
-    FilmRect       whole = {0, 0, SIDE, SIDE};
+static void render_tile_once(Bench *bench, Arena *arena) {
+    FilmRect whole = {0, 0, SIDE, SIDE};
     PathStatistics statistics = {0};
-    TileJob job = {.context = &bench->context, .camera = &bench->camera,
-                   .film = film_create(SIDE, SIDE, whole, 0, NULL, arena), .seed = 1,
-                   .first_sample = 0, .end_sample = 1};
+    TileJob job = {.context = &bench->context,
+                   .camera = &bench->camera,
+                   .film = film_create(SIDE, SIDE, whole, 0, NULL, arena),
+                   .seed = 1,
+                   .first_sample = 0,
+                   .end_sample = 1};
     bench->kernel->render(&job, whole, &statistics);
 }
 
-static void make_context(Bench *bench, Arena *arena)
-{
+static void make_context(Bench *bench, Arena *arena) {
     const Scene *scene = bench->scene;
-    SceneCamera  camera = scene->camera_count ? scene->cameras[0] : camera_frame_scene(scene);
+    SceneCamera camera = scene->camera_count ? scene->cameras[0] : camera_frame_scene(scene);
     bench->camera = camera_from_scene(&camera, SIDE, SIDE);
     bench->context = path_context_build(scene, bench->bvh, bench->lights, 64, arena);
 }
 
-static bool measure(Bench *bench, Arena *arena, Error *err)
-{
+static bool measure(Bench *bench, Arena *arena, Error *err) {
     const TrainOptions train = {bench->kernel, bench->threads, false};
-    PathStatistics     ignored = {0};
+    PathStatistics ignored = {0};
     begin(bench);
     end(bench, "start");
     if (!load(bench, arena, err)) return false;
@@ -106,8 +101,7 @@ static bool measure(Bench *bench, Arena *arena, Error *err)
     if (!lights_build(bench->scene, arena, &bench->lights, err)) return false;
     make_context(bench, arena);
     end(bench, "lights");
-    bench->context.guide =
-        train_guide(&bench->context, &bench->camera, &train, arena, &ignored);
+    bench->context.guide = train_guide(&bench->context, &bench->camera, &train, arena, &ignored);
     end(bench, "learning");
     render_tile_once(bench, arena);
     end(bench, "pixel");
@@ -117,11 +111,10 @@ static bool measure(Bench *bench, Arena *arena, Error *err)
     return true;
 }
 
-int main(int argc, char **argv)
-{
+int main(int argc, char **argv) {
     Error err = {0};
     Bench bench = {.threads = argc > 1 ? atoi(argv[1]) : 0};
-    char  line[2048];
+    char line[2048];
     if (argc < 3 || bench.threads < 1) {
         fprintf(stderr, "usage: bench_load THREADS SCENE [LIGHTS...]\n");
         return 2;

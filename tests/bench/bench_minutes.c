@@ -24,8 +24,8 @@
 #include "review/light/setup.h"
 
 #define DAYS 365
-#define DAY 1440   /* minutes: one piece of work */
-#define PIECE 64   /* paths */
+#define DAY 1440 /* minutes: one piece of work */
+#define PIECE 64 /* paths */
 #define LIMITS_MOST 8
 #define SKY_COLUMNS 12
 #define SKY_PATHS 16384
@@ -36,60 +36,56 @@
 static const double row_elevation[] = {0, 5, 16, 36, 66};
 enum { SKY_ROWS = sizeof row_elevation / sizeof *row_elevation };
 
-static double beam_elevation(int i)
-{
+static double beam_elevation(int i) {
     return 0.09 * i * i;
 }
 
 typedef struct Brute {
-    Setup        setup;
-    ProbeAim     aim;
-    PathContext  by_sun; /* of all suns; lights are each one's own */
+    Setup setup;
+    ProbeAim aim;
+    PathContext by_sun; /* of all suns; lights are each one's own */
     DaylightInput air;
-    int          paths, every;
-    double       shown[2];                  /* cd m^-2 */
-    double       sky[SKY_ROWS][SKY_COLUMNS]; /* and the display's own light */
-    double       beam[BEAMS];               /* lx */
-    double       limits[LIMITS_MOST];
-    int          limit_count;
-    double       heading_deg;
-    long         failed[PARALLEL_THREADS_MAX][LIMITS_MOST], up[PARALLEL_THREADS_MAX];
-    Arena        rooms[PARALLEL_THREADS_MAX];
+    int paths, every;
+    double shown[2];                   /* cd m^-2 */
+    double sky[SKY_ROWS][SKY_COLUMNS]; /* and the display's own light */
+    double beam[BEAMS];                /* lx */
+    double limits[LIMITS_MOST];
+    int limit_count;
+    double heading_deg;
+    long failed[PARALLEL_THREADS_MAX][LIMITS_MOST], up[PARALLEL_THREADS_MAX];
+    Arena rooms[PARALLEL_THREADS_MAX];
 } Brute;
 
-static _Noreturn void stop(const Error *err)
-{
+static _Noreturn void stop(const Error *err) {
     fprintf(stderr, "%s: %s\n", err->path, err->text);
     exit(2);
 }
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-static Environment environment_at(const Brute *b, SunAngles sun, double heading_deg)
-{
+static Environment environment_at(const Brute *b, SunAngles sun, double heading_deg) {
     const double *forward = b->setup.request->forward;
-    return (Environment){
-        .forward = vec3((float)forward[0], (float)forward[1], (float)forward[2]),
-        .heading = (float)radians_from_degrees(heading_deg), .daylight = b->air,
-        .has_sun = true, .sun_azimuth = (float)radians_from_degrees(sun.azimuth_deg),
-        .sun_elevation = (float)radians_from_degrees(sun.elevation_deg),
-        .sun_angular_radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG)};
+    return (Environment){.forward = vec3((float)forward[0], (float)forward[1], (float)forward[2]),
+                         .heading = (float)radians_from_degrees(heading_deg),
+                         .daylight = b->air,
+                         .has_sun = true,
+                         .sun_azimuth = (float)radians_from_degrees(sun.azimuth_deg),
+                         .sun_elevation = (float)radians_from_degrees(sun.elevation_deg),
+                         .sun_angular_radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG)};
 }
 
-static double beam_at(const Brute *b, double elevation_deg)
-{
-    int    i = (int)sqrt(fmax(elevation_deg, 0) / beam_elevation(1));
+static double beam_at(const Brute *b, double elevation_deg) {
+    int i = (int)sqrt(fmax(elevation_deg, 0) / beam_elevation(1));
     double low = beam_elevation(i), high = beam_elevation(i + 1);
     return b->beam[i] * pow(b->beam[i + 1] / b->beam[i], (elevation_deg - low) / (high - low));
 }
 
-static void fill_beam(void *user, int i, int worker)
-{
-    Brute        *b = user;
-    Arena         room = b->rooms[worker];
+static void fill_beam(void *user, int i, int worker) {
+    Brute *b = user;
+    Arena room = b->rooms[worker];
     DaylightInput input = b->air;
-    Daylight      sky;
-    Error         err = {0};
+    Daylight sky;
+    Error err = {0};
     input.sun_elevation = radians_from_degrees(beam_elevation(i));
     input.threads = 1;
     if (!daylight_build(&input, &room, &sky, &err)) stop(&err);
@@ -97,11 +93,10 @@ static void fill_beam(void *user, int i, int worker)
 }
 
 /* Under a sky with its sun (lux -1) or without (0), heading north. */
-static double reading_under(Brute *b, SunAngles sun, float lux, Arena arena)
-{
+static double reading_under(Brute *b, SunAngles sun, float lux, Arena arena) {
     Environment environment = environment_at(b, sun, 0);
     ReadingGoal goal = {.precision = SKY_PRECISION, .most = SKY_PATHS};
-    Error       err = {0};
+    Error err = {0};
     environment.kind = ENVIRONMENT_SKY;
     environment.sun_illuminance_lx = lux;
     if (!setup_light(&b->setup, &environment, &arena, &err)) stop(&err);
@@ -110,22 +105,18 @@ static double reading_under(Brute *b, SunAngles sun, float lux, Arena arena)
 }
 
 /* Between four values, the place is `along` from b to c (Catmull and Rom's cubic). */
-static double between(double a, double b, double c, double d, double along)
-{
+static double between(double a, double b, double c, double d, double along) {
     double bend = 2 * a - 5 * b + 4 * c - d, twist = 3 * (b - c) + d - a;
     return b + 0.5 * along * (c - a + along * (bend + along * twist));
 }
 
-static double row_at(const double *row, double azimuth_deg)
-{
+static double row_at(const double *row, double azimuth_deg) {
     double place = fmod(azimuth_deg + 720, 360) * SKY_COLUMNS / 360;
-    int    i = (int)place, n = SKY_COLUMNS;
-    return between(row[(i + n - 1) % n], row[i % n], row[(i + 1) % n], row[(i + 2) % n],
-                   place - i);
+    int i = (int)place, n = SKY_COLUMNS;
+    return between(row[(i + n - 1) % n], row[i % n], row[(i + 1) % n], row[(i + 2) % n], place - i);
 }
 
-static double sky_at(const Brute *b, SunAngles of_vehicle)
-{
+static double sky_at(const Brute *b, SunAngles of_vehicle) {
     int row = 0;
     while (row < SKY_ROWS - 2 && row_elevation[row + 1] <= of_vehicle.elevation_deg) row++;
     double low = row_elevation[row], high = row_elevation[row + 1];
@@ -137,19 +128,18 @@ static double sky_at(const Brute *b, SunAngles of_vehicle)
 /* ---- a minute ---------------------------------------------------------------------------- */
 
 /* What paths bring of the sun alone. */
-static double sun_reading(const Brute *b, SunAngles sun, double heading_deg, Arena room)
-{
-    Scene   scene = *b->setup.scene; /* with light of its own */
+static double sun_reading(const Brute *b, SunAngles sun, double heading_deg, Arena room) {
+    Scene scene = *b->setup.scene; /* with light of its own */
     Lights *lights;
-    Error   err = {0};
+    Error err = {0};
     scene.environment = environment_at(b, sun, heading_deg);
     scene.environment.sun_illuminance_lx = (float)beam_at(b, sun.elevation_deg);
     if (!lights_build(&scene, &room, &lights, &err)) stop(&err);
     PathContext context = b->by_sun;
-    ProbeAim    aim = b->aim;
+    ProbeAim aim = b->aim;
     context.lights = lights;
     PathStatistics statistics = {0};
-    double      sum = 0, found = 0;
+    double sum = 0, found = 0;
     aim.context = &context;
     aim.is_spread = true;
     aim.seed = hash_combine(hash_u32((uint32_t)(1e5 * sun.elevation_deg)),
@@ -165,41 +155,37 @@ static double sun_reading(const Brute *b, SunAngles sun, double heading_deg, Are
     return sum / found;
 }
 
-static void look_at_day(void *user, int item, int worker)
-{
-    Brute          *b = user;
-    int             day = item * b->every;
+static void look_at_day(void *user, int item, int worker) {
+    Brute *b = user;
+    int day = item * b->every;
     const SkyPlace *where = &b->setup.condition->where;
-    SkyTime         start = {.year = b->setup.condition->year, .month = 1, .day = 1};
-    double          mbar, celsius;
+    SkyTime start = {.year = b->setup.condition->year, .month = 1, .day = 1};
+    double mbar, celsius;
     standard_atmosphere(where->altitude_m, &mbar, &celsius);
     for (int minute = 0; minute < DAY; minute++) {
         double when = sky_julian_day(&start) + day + (minute + 0.5) / DAY;
         SunPosition at = sun_position(when, sky_delta_t_s(when), where);
-        SunAngles   sun = {at.azimuth_deg, at.elevation_deg +
-                           sun_refraction_deg(at.elevation_deg, mbar, celsius)};
+        SunAngles sun = {at.azimuth_deg,
+                         at.elevation_deg + sun_refraction_deg(at.elevation_deg, mbar, celsius)};
         if (sun.elevation_deg < 0) continue;
         SunAngles of_vehicle = {sun.azimuth_deg - b->heading_deg, sun.elevation_deg};
-        double reflected = (sky_at(b, of_vehicle) +
-                            sun_reading(b, sun, b->heading_deg, b->rooms[worker])) /
-                           (at.distance_au * at.distance_au);
+        double reflected =
+            (sky_at(b, of_vehicle) + sun_reading(b, sun, b->heading_deg, b->rooms[worker])) /
+            (at.distance_au * at.distance_au);
         double contrast = luminance_contrast(b->shown[0], b->shown[1], reflected);
         b->up[worker]++;
-        for (int i = 0; i < b->limit_count; i++)
-            b->failed[worker][i] += contrast < b->limits[i];
+        for (int i = 0; i < b->limit_count; i++) b->failed[worker][i] += contrast < b->limits[i];
     }
 }
 
-static void set_levels(Brute *b, float level)
-{
+static void set_levels(Brute *b, float level) {
     for (int i = 0; i < b->setup.scene->display_count; i++)
         b->setup.scene->displays[i].level = level;
 }
 
 /* ---- a year ------------------------------------------------------------------------------ */
 
-static void prepare(Brute *b, Arena arena)
-{
+static void prepare(Brute *b, Arena arena) {
     b->air = daylight_input_default(DAYLIGHT_CLEAR);
     b->air.where = b->setup.condition->where;
     b->air.has_sun = b->air.no_moon = true;
@@ -212,22 +198,19 @@ static void prepare(Brute *b, Arena arena)
 }
 
 /* What suns alone need besides themselves. Beams off mirrors are left to chance. */
-static void prepare_suns(Brute *b, Arena *arena)
-{
+static void prepare_suns(Brute *b, Arena *arena) {
     Lights *lights;
-    Error   err = {0};
+    Error err = {0};
     b->setup.scene->environment = environment_at(b, (SunAngles){0, 45}, 0);
     b->setup.scene->environment.sun_illuminance_lx = 1;
     set_levels(b, 0);
     if (!lights_build(b->setup.scene, arena, &lights, &err)) stop(&err);
-    b->by_sun =
-        path_context_build(b->setup.scene, b->setup.bvh, lights, SETUP_BOUNCES, arena);
+    b->by_sun = path_context_build(b->setup.scene, b->setup.bvh, lights, SETUP_BOUNCES, arena);
     b->by_sun.beams = (MirrorBeams){0};
 }
 
 /* Readings of the same sun with its own spectrum and with a black body's. */
-static void compare_spectra(Brute *b, Arena arena)
-{
+static void compare_spectra(Brute *b, Arena arena) {
     for (int row = 1; row < SKY_ROWS; row += 3) {
         double own = 0, black = 0;
         for (int c = 0; c < SKY_COLUMNS; c += 6) {
@@ -236,14 +219,13 @@ static void compare_spectra(Brute *b, Arena arena)
             set_levels(b, 0);
             black += b->sky[row][c] + sun_reading(b, sun, 0, arena);
         }
-        printf("sun %4.1f degrees high: black body %.4f of its own spectrum\n",
-               row_elevation[row], black / own);
+        printf("sun %4.1f degrees high: black body %.4f of its own spectrum\n", row_elevation[row],
+               black / own);
     }
     fflush(stdout);
 }
 
-static void tell_year(Brute *b, double heading_deg)
-{
+static void tell_year(Brute *b, double heading_deg) {
     int threads = b->setup.tools.threads;
     b->heading_deg = heading_deg;
     for (int w = 0; w < threads; w++) {
@@ -254,20 +236,19 @@ static void tell_year(Brute *b, double heading_deg)
     for (int i = 0; i < b->limit_count; i++) {
         long failed = 0, up = 0;
         for (int w = 0; w < threads; w++) failed += b->failed[w][i], up += b->up[w];
-        printf("heading %g limit %g: %ld of %ld minutes\n", heading_deg, b->limits[i], failed,
-               up);
+        printf("heading %g limit %g: %ld of %ld minutes\n", heading_deg, b->limits[i], failed, up);
     }
     fflush(stdout);
 }
 
-static void open_first(Brute *b, const ReviewRequest *request, Problems *problems, Arena *arena)
-{
-    SetupOptions options = {.request = request, .condition = &request->conditions[0],
+static void open_first(Brute *b, const ReviewRequest *request, Problems *problems, Arena *arena) {
+    SetupOptions options = {.request = request,
+                            .condition = &request->conditions[0],
                             .means.threads = parallel_default_threads()};
     SetupSymbol *symbols;
-    int          count;
-    Vec3         eye;
-    Error        err = {0};
+    int count;
+    Vec3 eye;
+    Error err = {0};
     if (!setup_open(&options, arena, problems, &b->setup, &err) ||
         !setup_light(&b->setup, NULL, arena, &err) ||
         !setup_symbols(&b->setup, arena, &symbols, &count, &err) ||
@@ -287,14 +268,13 @@ static void open_first(Brute *b, const ReviewRequest *request, Problems *problem
     b->shown[1] = seen.transmittance * shown.background_xyz[1];
 }
 
-int main(int argc, char **argv)
-{
+int main(int argc, char **argv) {
     static Brute brute;
-    Brute        *b = &brute;
-    Arena         arena = arena_reserve((size_t)1 << 34);
-    Problems      problems = problems_start(&arena);
+    Brute *b = &brute;
+    Arena arena = arena_reserve((size_t)1 << 34);
+    Problems problems = problems_start(&arena);
     ReviewRequest request;
-    Error         err = {0};
+    Error err = {0};
     b->paths = argc > 4 ? atoi(argv[1]) / PIECE * PIECE : 0;
     b->every = argc > 4 ? atoi(argv[2]) : 0;
     if (b->paths < PIECE || b->every < 1) {
@@ -305,11 +285,9 @@ int main(int argc, char **argv)
         b->limits[b->limit_count++] = atof(argv[i]);
     if (!review_request_read(argv[3], NULL, &arena, &problems, &request, &err)) stop(&err);
     open_first(b, &request, &problems, &arena);
-    for (int w = 0; w < b->setup.tools.threads; w++)
-        b->rooms[w] = arena_reserve((size_t)1 << 28);
+    for (int w = 0; w < b->setup.tools.threads; w++) b->rooms[w] = arena_reserve((size_t)1 << 28);
     prepare(b, arena);
-    printf("skies and beams: %.0f s of processor time\n",
-           clock_seconds(CLOCK_PROCESS_CPUTIME_ID));
+    printf("skies and beams: %.0f s of processor time\n", clock_seconds(CLOCK_PROCESS_CPUTIME_ID));
     fflush(stdout);
     prepare_suns(b, &arena);
     compare_spectra(b, arena);

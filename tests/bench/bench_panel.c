@@ -39,7 +39,7 @@
 /* What every work walks through. */
 typedef struct Arguments {
     Vec3 wo[CALLS], wi[CALLS];
-    int  code[CALLS][3];
+    int code[CALLS][3];
     float u[CALLS][3];
 } Arguments;
 
@@ -49,13 +49,12 @@ typedef struct Arguments {
 
 typedef struct Probe {
     double theta_i, theta_o, phi; /* phi from the mirror direction */
-    int    code[3];
+    int code[3];
 } Probe;
 
 /* Leaving directions to 80 degrees, incidences of 10 to 60; half of them within 6 degrees of
  * the mirror direction, where a reflection changes fastest. */
-static void make_probes(Probe *probe)
-{
+static void make_probes(Probe *probe) {
     uint32_t seed = 1;
     for (int i = 0; i < PROBES; i++) {
         double u[6];
@@ -71,8 +70,7 @@ static void make_probes(Probe *probe)
     }
 }
 
-static void truth_xyz(const SyntheticPanel *recipe, const Probe *probe, double xyz[3])
-{
+static void truth_xyz(const SyntheticPanel *recipe, const Probe *probe, double xyz[3]) {
     double angles[2] = {probe->theta_o, probe->phi}, add[3];
     closed_form_black_xyz(recipe, angles, xyz);
     for (int p = 0; p < 3; p++) {
@@ -83,11 +81,10 @@ static void truth_xyz(const SyntheticPanel *recipe, const Probe *probe, double x
 
 /* Bilinear in the nodes around the probe, which are made here: no table is needed. */
 static void interpolated_xyz(const SyntheticPanel *recipe, const FlatEmission *flat,
-                             const Probe *probe, float xyz[3])
-{
-    float        nodes[4][4 * (3 * SYNTHETIC_LEVELS_MAX + 1)];
+                             const Probe *probe, float xyz[3]) {
+    float nodes[4][4 * (3 * SYNTHETIC_LEVELS_MAX + 1)];
     const float *node[4] = {nodes[0], nodes[1], nodes[2], nodes[3]};
-    int   t, p;
+    int t, p;
     float x = place_on((float)probe->theta_o * flat->theta_scale, flat->thetas - 2, &t);
     float y = place_on((float)probe->phi * flat->phi_scale, flat->phis - 1, &p);
     for (int c = 0; c < 4; c++)
@@ -99,12 +96,11 @@ static void interpolated_xyz(const SyntheticPanel *recipe, const FlatEmission *f
 
 /* rms relative error; flat NULL: the panel's. */
 static double emission_error(const SyntheticPanel *recipe, const Panel *panel,
-                             const FlatEmission *flat, const Probe *probe)
-{
+                             const FlatEmission *flat, const Probe *probe) {
     double squares = 0;
     for (int i = 0; i < PROBES; i++) {
         double truth[3];
-        float  xyz[3], rgb[3];
+        float xyz[3], rgb[3];
         for (int k = 0; k < 3; k++) rgb[k] = (float)probe[i].code[k];
         truth_xyz(recipe, &probe[i], truth);
         if (flat) interpolated_xyz(recipe, flat, &probe[i], xyz);
@@ -116,11 +112,10 @@ static double emission_error(const SyntheticPanel *recipe, const Panel *panel,
 }
 
 static double interpolated_brdf(const SyntheticPanel *recipe, const FlatBrdf *flat,
-                                const Probe *probe)
-{
-    int    i, o, p;
+                                const Probe *probe) {
+    int i, o, p;
     double sum = 0;
-    int    last = flat->thetas - 2;
+    int last = flat->thetas - 2;
     double x = (double)place_on((float)probe->theta_i * flat->theta_scale, last, &i);
     double y = (double)place_on((float)probe->theta_o * flat->theta_scale, last, &o);
     double z = (double)place_on((float)probe->phi * flat->phi_scale, flat->phis - 2, &p);
@@ -134,43 +129,42 @@ static double interpolated_brdf(const SyntheticPanel *recipe, const FlatBrdf *fl
 }
 
 static double brdf_error(const SyntheticPanel *recipe, const Panel *panel, const FlatBrdf *flat,
-                         const Probe *probe)
-{
+                         const Probe *probe) {
     Wavelengths w = {0};
-    double      squares = 0;
+    double squares = 0;
     for (int i = 0; i < LANES; i++) w.nm[i] = 550;
     for (int i = 0; i < PROBES; i++) {
-        double truth = closed_form_brdf(recipe, probe[i].theta_i, probe[i].theta_o,
-                                        probe[i].phi, 550);
-        double found = flat ? interpolated_brdf(recipe, flat, &probe[i])
-            : (double)panel_brdf(panel, direction_of(probe[i].theta_o, probe[i].phi),
-                                 direction_of(probe[i].theta_i, PI), &w)[0];
+        double truth =
+            closed_form_brdf(recipe, probe[i].theta_i, probe[i].theta_o, probe[i].phi, 550);
+        double found = flat
+                           ? interpolated_brdf(recipe, flat, &probe[i])
+                           : (double)panel_brdf(panel, direction_of(probe[i].theta_o, probe[i].phi),
+                                                direction_of(probe[i].theta_i, PI), &w)[0];
         squares += (found / truth - 1) * (found / truth - 1);
     }
     return sqrt(squares / PROBES);
 }
 
-static const double STEPS[] = {10, 6, 5, 4, 3, 2, 1.5, 1, 0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15,
-                               0.1};
+static const double STEPS[] = {10,   6,   5,   4,   3,    2,   1.5,  1,
+                               0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1};
 #define STEP_COUNT ((int)(sizeof STEPS / sizeof *STEPS))
 
 /* ---- time ------------------------------------------------------------------------------ */
 
 typedef struct Input {
-    const Panel       *panel;
-    const Arguments   *arguments;
+    const Panel *panel;
+    const Arguments *arguments;
     const FlatEmission *emission;
-    const FlatBrdf     *brdf;
+    const FlatBrdf *brdf;
     const FlatSampling *sampling;
     Wavelengths wavelengths;
-    PanelLanes  lanes; /* the panel at the wavelengths */
-    float       sink; /* keeps results alive */
+    PanelLanes lanes; /* the panel at the wavelengths */
+    float sink;       /* keeps results alive */
 } Input;
 
 typedef void (*Work)(Input *in);
 
-static void panel_emission(Input *in)
-{
+static void panel_emission(Input *in) {
     for (int i = 0; i < CALLS; i++) {
         const int *code = in->arguments->code[i];
         float rgb[3] = {(float)code[0], (float)code[1], (float)code[2]}, xyz[3];
@@ -179,8 +173,7 @@ static void panel_emission(Input *in)
     }
 }
 
-static void flat_emission_work(Input *in)
-{
+static void flat_emission_work(Input *in) {
     for (int i = 0; i < CALLS; i++) {
         float xyz[3];
         flat_emission_xyz(in->emission, in->arguments->wo[i], in->arguments->code[i], xyz);
@@ -188,43 +181,38 @@ static void flat_emission_work(Input *in)
     }
 }
 
-static void panel_brdf_work(Input *in)
-{
+static void panel_brdf_work(Input *in) {
     for (int i = 0; i < CALLS; i++) {
-        Spectrum f = panel_brdf_at(in->panel, in->arguments->wo[i], in->arguments->wi[i],
-                                   &in->lanes);
+        Spectrum f =
+            panel_brdf_at(in->panel, in->arguments->wo[i], in->arguments->wi[i], &in->lanes);
         in->sink += f[0] + f[15];
     }
 }
 
-static void panel_lanes_work(Input *in)
-{
+static void panel_lanes_work(Input *in) {
     for (int i = 0; i < CALLS; i++) {
         panel_lanes(in->panel, &in->wavelengths, &in->lanes);
         in->sink += in->lanes.basis[0][i % LANES];
     }
 }
 
-static void flat_brdf_work(Input *in)
-{
+static void flat_brdf_work(Input *in) {
     for (int i = 0; i < CALLS; i++) {
         Spectrum f = flat_brdf_value(in->brdf, in->arguments->wo[i], in->arguments->wi[i]);
         in->sink += f[0] + f[15];
     }
 }
 
-static void panel_sampling(Input *in)
-{
+static void panel_sampling(Input *in) {
     for (int i = 0; i < CALLS; i++) {
-        Vec3  wi = {0, 0, 0};
+        Vec3 wi = {0, 0, 0};
         float pdf = 0;
         panel_sample(in->panel, in->arguments->wo[i], in->arguments->u[i], &wi, &pdf);
         in->sink += wi.x + pdf;
     }
 }
 
-static void flat_sampling_work(Input *in)
-{
+static void flat_sampling_work(Input *in) {
     for (int i = 0; i < CALLS; i++) {
         Vec3 wi;
         in->sink += flat_sample(in->sampling, in->arguments->wo[i], in->arguments->u[i], &wi);
@@ -234,8 +222,7 @@ static void flat_sampling_work(Input *in)
 
 /* Median nanoseconds a call, and the line about it; beside: what the ratio refers to. */
 static double time_work(const char *name, Work work, Input *in, int runs, double bytes,
-                        double beside)
-{
+                        double beside) {
     double ns[MAX_RUNS];
     for (int run = -1; run < runs; run++) { /* the first warms up */
         double start = thread_seconds();
@@ -251,8 +238,7 @@ static double time_work(const char *name, Work work, Input *in, int runs, double
     return median;
 }
 
-static void make_arguments(Arguments *a)
-{
+static void make_arguments(Arguments *a) {
     uint32_t seed = 7;
     for (int i = 0; i < CALLS; i++) {
         float u[7];
@@ -270,24 +256,21 @@ static void make_arguments(Arguments *a)
 
 typedef struct Setting {
     const SyntheticPanel *recipe;
-    const Panel  *panel;
-    const Probe  *probe;
-    double        panel_bytes;
-    int           runs;
+    const Panel *panel;
+    const Probe *probe;
+    double panel_bytes;
+    int runs;
 } Setting;
 
 static void name_table(char name[96], const char *what, double step, const char *which,
-                       double error)
-{
+                       double error) {
     snprintf(name, 96, "%s, flat, %g deg, %s (%.3f%%)", what, step, which, 100 * error);
 }
 
-static void bench_emission(const Setting *s, Input *in, Arena arena)
-{
+static void bench_emission(const Setting *s, Input *in, Arena arena) {
     double error = emission_error(s->recipe, s->panel, NULL, s->probe);
-    double panel = time_work("emission XYZ, panel", panel_emission, in, s->runs, s->panel_bytes,
-                             0);
-    int    equal = -1, large = STEP_COUNT - 1;
+    double panel = time_work("emission XYZ, panel", panel_emission, in, s->runs, s->panel_bytes, 0);
+    int equal = -1, large = STEP_COUNT - 1;
     for (int i = 0; i < STEP_COUNT && equal < 0; i++) {
         FlatEmission shape = flat_emission_shape(s->recipe, STEPS[i]);
         if (emission_error(s->recipe, s->panel, &shape, s->probe) <= error) equal = i;
@@ -297,8 +280,8 @@ static void bench_emission(const Setting *s, Input *in, Arena arena)
     printf("  rms error of the panel %.3f%%\n", 100 * error);
     for (int k = 0; k < 2; k++) {
         Arena scratch = arena;
-        char  name[96];
-        int   i = k ? large : equal < 0 ? STEP_COUNT - 1 : equal;
+        char name[96];
+        int i = k ? large : equal < 0 ? STEP_COUNT - 1 : equal;
         FlatEmission flat = flat_emission(s->recipe, STEPS[i], &scratch);
         in->emission = &flat;
         name_table(name, "emission XYZ", STEPS[i], k ? "large" : "equal error",
@@ -307,15 +290,13 @@ static void bench_emission(const Setting *s, Input *in, Arena arena)
     }
 }
 
-static double bench_brdf(const Setting *s, Input *in, Arena arena)
-{
+static double bench_brdf(const Setting *s, Input *in, Arena arena) {
     double error = brdf_error(s->recipe, s->panel, NULL, s->probe);
     panel_lanes(in->panel, &in->wavelengths, &in->lanes);
-    double panel = time_work("BRDF at 16 wavelengths, panel", panel_brdf_work, in, s->runs,
-                             s->panel_bytes, 0);
-    time_work("its 16 wavelengths, once a path", panel_lanes_work, in, s->runs, s->panel_bytes,
-              0);
-    int    equal = -1, large = STEP_COUNT - 1;
+    double panel =
+        time_work("BRDF at 16 wavelengths, panel", panel_brdf_work, in, s->runs, s->panel_bytes, 0);
+    time_work("its 16 wavelengths, once a path", panel_lanes_work, in, s->runs, s->panel_bytes, 0);
+    int equal = -1, large = STEP_COUNT - 1;
     for (int i = 0; i < STEP_COUNT && equal < 0; i++) {
         FlatBrdf shape = flat_brdf_shape(STEPS[i]);
         if (brdf_error(s->recipe, s->panel, &shape, s->probe) <= error) equal = i;
@@ -324,9 +305,9 @@ static double bench_brdf(const Setting *s, Input *in, Arena arena)
         if ((double)flat_brdf_shape(STEPS[i]).bytes >= FILL_BYTES) large = i;
     printf("  rms error of the panel %.3f%%\n", 100 * error);
     for (int k = 0; k < 2; k++) {
-        Arena  scratch = arena;
-        char   name[96];
-        int    i = k ? large : equal < 0 ? STEP_COUNT - 1 : equal;
+        Arena scratch = arena;
+        char name[96];
+        int i = k ? large : equal < 0 ? STEP_COUNT - 1 : equal;
         FlatBrdf shape = flat_brdf_shape(STEPS[i]);
         double at = 100 * brdf_error(s->recipe, s->panel, &shape, s->probe);
         if (!k)
@@ -342,15 +323,14 @@ static double bench_brdf(const Setting *s, Input *in, Arena arena)
     return panel;
 }
 
-static void bench_sampling(const Setting *s, Input *in, double brdf, Arena arena)
-{
+static void bench_sampling(const Setting *s, Input *in, double brdf, Arena arena) {
     static const double steps[2][2] = {{2, 1}, {1, 0.25}}; /* slices, cells, degrees */
-    double panel = time_work("sample and pdf, panel", panel_sampling, in, s->runs,
-                             s->panel_bytes, 0);
+    double panel =
+        time_work("sample and pdf, panel", panel_sampling, in, s->runs, s->panel_bytes, 0);
     printf("  %.2f BRDF queries\n", panel / brdf);
     for (int k = 0; k < 2; k++) {
         Arena scratch = arena;
-        char  name[96];
+        char name[96];
         FlatSampling flat = flat_sampling(s->recipe, steps[k][0], steps[k][1], &scratch);
         in->sampling = &flat;
         snprintf(name, sizeof name, "sample and pdf, flat, slices of %g, cells of %g deg",
@@ -359,30 +339,28 @@ static void bench_sampling(const Setting *s, Input *in, double brdf, Arena arena
     }
 }
 
-static double file_bytes(const char *path)
-{
+static double file_bytes(const char *path) {
     FILE *file = fopen(path, "rb");
-    long  size = file && !fseek(file, 0, SEEK_END) ? ftell(file) : 0;
+    long size = file && !fseek(file, 0, SEEK_END) ? ftell(file) : 0;
     if (file) fclose(file);
     return (double)size;
 }
 
-int main(int argc, char **argv)
-{
+int main(int argc, char **argv) {
     if (argc != 4 || atoi(argv[1]) < 1 || atoi(argv[1]) > MAX_RUNS) {
         fprintf(stderr, "bench_panel RUNS RECIPE.json X.panel\n");
         return 2;
     }
-    Arena  arena = arena_reserve((size_t)8 << 30);
+    Arena arena = arena_reserve((size_t)8 << 30);
     SyntheticPanel recipe;
     Panel *panel = NULL;
     if (!bench_panel_files("bench_panel", argv + 2, &arena, &recipe, &panel)) return 3;
-    Probe     *probe = ARENA_NEW(&arena, Probe, PROBES);
+    Probe *probe = ARENA_NEW(&arena, Probe, PROBES);
     Arguments *arguments = ARENA_NEW(&arena, Arguments, 1);
     make_probes(probe);
     make_arguments(arguments);
     Setting setting = {&recipe, panel, probe, file_bytes(argv[3]), atoi(argv[1])};
-    Input   in = {.panel = panel, .arguments = arguments};
+    Input in = {.panel = panel, .arguments = arguments};
     for (int i = 0; i < LANES; i++) in.wavelengths.nm[i] = 400 + 20 * (float)i;
     bench_emission(&setting, &in, arena);
     if (panel_reflects(panel)) {

@@ -11,10 +11,9 @@
 #include "panel/set/synthetic_format.h"
 
 static inline bool bench_panel_files(const char *program, char *const paths[2], Arena *arena,
-                                     SyntheticPanel *recipe, Panel **panel)
-{
+                                     SyntheticPanel *recipe, Panel **panel) {
     Error err = {0};
-    char  line[2048];
+    char line[2048];
     if (synthetic_panel_read(paths[0], arena, recipe, &err) &&
         panel_open(paths[1], arena, panel, &err))
         return true;

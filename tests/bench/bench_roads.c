@@ -20,36 +20,33 @@
 static const double margins[MARGINS] = {-10, -5, -2, 2, 5, 10};
 
 typedef struct Roads {
-    ReviewRequest    *request;
-    const Setup      *setup;
+    ReviewRequest *request;
+    const Setup *setup;
     const ReviewRoad *road;
-    Vec3              eye, towards;
-    Arena             scratch;
+    Vec3 eye, towards;
+    Arena scratch;
 } Roads;
 
-static GazeRoad *judged(const Roads *r, const RoadReading *reading, double limit, Arena *arena)
-{
+static GazeRoad *judged(const Roads *r, const RoadReading *reading, double limit, Arena *arena) {
     Profile profile = {.id = "one", .increment_most_pct = limit};
     return road_of(r->setup, r->road, reading, &profile, arena);
 }
 
-static RoadReading read_road(const Roads *r, unsigned seed, Arena *room)
-{
-    RoadAges    ages = road_ages(r->request, r->road, room);
+static RoadReading read_road(const Roads *r, unsigned seed, Arena *room) {
+    RoadAges ages = road_ages(r->request, r->road, room);
     RoadReading out = road_reading_start(ages.count, r->setup->scene->display_count, room);
-    EyeLook     look = {r->eye, r->towards, ROUNDS, NULL, false,
-                        road_veils_start(r->setup->scene, &ages, room)};
+    EyeLook look = {r->eye, r->towards, ROUNDS,
+                    NULL,   false,      road_veils_start(r->setup->scene, &ages, room)};
     r->request->seed = seed;
     eye_read(r->setup, &look, *room);
     road_veils_read(look.road, &out);
     return out;
 }
 
-static Truth true_increment(const Roads *r, int trials, Arena arena)
-{
+static Truth true_increment(const Roads *r, int trials, Arena arena) {
     Trial *list = ARENA_NEW(&arena, Trial, trials);
     for (int i = 0; i < trials; i++) {
-        Arena       room = r->scratch;
+        Arena room = r->scratch;
         RoadReading reading = read_road(r, (1u << 28) + (unsigned)i, &room);
         list[i].found = judged(r, &reading, 1, &room)->ages[0].increment_pct;
     }
@@ -61,15 +58,14 @@ static Truth true_increment(const Roads *r, int trials, Arena arena)
 }
 
 /* One reading is held against all limits. */
-static void try_road(const Roads *r, int trials, Arena arena)
-{
+static void try_road(const Roads *r, int trials, Arena arena) {
     Truth truth = true_increment(r, trials, arena);
-    int   count[MARGINS][4] = {{0}};
+    int count[MARGINS][4] = {{0}};
     for (int i = 0; i < trials; i++) {
-        Arena       room = r->scratch;
+        Arena room = r->scratch;
         RoadReading reading = read_road(r, 1u + (unsigned)i, &room);
         for (int m = 0; m < MARGINS; m++) {
-            Arena  own = room;
+            Arena own = room;
             double limit = truth.value * (1 + margins[m] / 100);
             count[m][judged(r, &reading, limit, &own)->ages[0].limit.verdict]++;
         }
@@ -81,13 +77,12 @@ static void try_road(const Roads *r, int trials, Arena arena)
 }
 
 static void try_moment(ReviewRequest *request, const ReviewCondition *c, int trials,
-                       Problems *problems)
-{
-    SetupOptions options = {.request = request, .condition = c,
-                            .means = {.root = "/", .threads = 2}};
-    Arena        arena = arena_reserve((size_t)1 << 36);
-    Setup        setup;
-    Error        err = {0};
+                       Problems *problems) {
+    SetupOptions options = {
+        .request = request, .condition = c, .means = {.root = "/", .threads = 2}};
+    Arena arena = arena_reserve((size_t)1 << 36);
+    Setup setup;
+    Error err = {0};
     Roads r = {.request = request, .setup = &setup, .scratch = arena_reserve((size_t)1 << 34)};
     for (int g = 0; g < request->gaze_count && !r.road; g++) {
         r.road = request->gazes[g].road;
@@ -107,19 +102,17 @@ static void try_moment(ReviewRequest *request, const ReviewCondition *c, int tri
     arena_release(&arena);
 }
 
-int main(int argc, char **argv)
-{
-    Arena         arena = arena_reserve((size_t)1 << 30);
-    Error         err = {0};
-    Problems      problems = problems_start(&arena);
+int main(int argc, char **argv) {
+    Arena arena = arena_reserve((size_t)1 << 30);
+    Error err = {0};
+    Problems problems = problems_start(&arena);
     ReviewRequest request;
-    int           trials = argc == 3 ? atoi(argv[1]) : 0;
+    int trials = argc == 3 ? atoi(argv[1]) : 0;
     if (trials < 2) {
         fprintf(stderr, "bench_roads TRIALS REVIEW.json\n");
         return 1;
     }
-    if (!review_request_read(argv[2], "/", &arena, &problems, &request, &err))
-        trials_stop(&err);
+    if (!review_request_read(argv[2], "/", &arena, &problems, &request, &err)) trials_stop(&err);
     for (int i = 0; i < request.condition_count; i++)
         if (request.conditions[i].kind == CONDITION_MOMENT)
             try_moment(&request, &request.conditions[i], trials, &problems);

@@ -26,27 +26,26 @@
 #define NEVER 1e-9
 
 typedef struct SweepTrials {
-    ReviewRequest     *request;
-    Setup             *setup;
+    ReviewRequest *request;
+    Setup *setup;
     const SetupSymbol *symbol;
-    ProbeAim           aim;
-    SkyTable           table;
-    SweepSuns          suns;
-    int                runs;
-    Arena              scratch;
+    ProbeAim aim;
+    SkyTable table;
+    SweepSuns suns;
+    int runs;
+    Arena scratch;
 } SweepTrials;
 
 /* What paths say of one sun, as a review does of a moment. */
-static Trial moment_trial(const SweepTrials *t, int sun, int paths, unsigned seed)
-{
-    Arena       room = t->scratch;
-    Setup       setup = *t->setup;
-    Profile     open = {.id = "none"};
-    CaseTools   tools = {.setup = &setup, .profile = &open};
-    ReviewCase  c = {.display_lux = 1000};
+static Trial moment_trial(const SweepTrials *t, int sun, int paths, unsigned seed) {
+    Arena room = t->scratch;
+    Setup setup = *t->setup;
+    Profile open = {.id = "none"};
+    CaseTools tools = {.setup = &setup, .profile = &open};
+    ReviewCase c = {.display_lux = 1000};
     Environment light = sweep_environment(t->setup, &t->suns.list[sun]);
     Environment dark = setup.scene->environment;
-    Error       err = {0};
+    Error err = {0};
     t->request->precision_contrast = t->request->precision_clear = NEVER;
     t->request->precision_paths = paths;
     t->request->seed = seed;
@@ -59,14 +58,14 @@ static Trial moment_trial(const SweepTrials *t, int sun, int paths, unsigned see
 }
 
 /* Of every sun, all by one seed's response. */
-static void read_steps(SweepTrials *t, bool is_full, double own, unsigned seed,
-                       Trial *out)
-{
-    Arena    room = t->scratch;
-    DistantTools tools = {.setup = t->setup, .table = &t->table,
+static void read_steps(SweepTrials *t, bool is_full, double own, unsigned seed, Trial *out) {
+    Arena room = t->scratch;
+    DistantTools tools = {.setup = t->setup,
+                          .table = &t->table,
                           .paths = is_full ? FULL_PATHS : STEP_PATHS,
                           .precision = is_full ? FULL_PRECISION : 0,
-                          .suns = {t->suns.distant, t->suns.count}, .sun_paths = SYMBOL_POINTS,
+                          .suns = {t->suns.distant, t->suns.count},
+                          .sun_paths = SYMBOL_POINTS,
                           .has_mirror = true};
     DistantProbe probe = {.aim = t->aim};
     probe.aim.seed = seed;
@@ -82,36 +81,31 @@ static void read_steps(SweepTrials *t, bool is_full, double own, unsigned seed,
     }
 }
 
-static void read_all_steps(SweepTrials *t, bool is_full, double own, Trial *out)
-{
+static void read_all_steps(SweepTrials *t, bool is_full, double own, Trial *out) {
     for (int k = 0; k < t->runs; k++)
         read_steps(t, is_full, own, (1u << 20) + (unsigned)k, out + k * t->suns.count);
 }
 
 /* ---- what is reported -------------------------------------------------------------------- */
 
-static const char *sun_name(const SweepTrials *t, int sun, Arena *arena)
-{
+static const char *sun_name(const SweepTrials *t, int sun, Arena *arena) {
     const SweepSun *at = &t->suns.list[sun];
     return arena_format(arena, "sun %.0f, %.0f", at->azimuth_deg, at->elevation_deg);
 }
 
 /* truths: NULL: each step's own mean. */
 static void tell_steps(const SweepTrials *t, const char *way, const Trial *steps,
-                       const Truth *truths, Arena arena)
-{
+                       const Truth *truths, Arena arena) {
     for (int i = 0; i < t->suns.count; i++) {
-        Arena  room = arena;
+        Arena room = arena;
         Trial *list = ARENA_NEW(&room, Trial, t->runs);
         for (int k = 0; k < t->runs; k++) list[k] = steps[k * t->suns.count + i];
         const char *name = sun_name(t, i, &room);
-        trials_report(name, way, list, t->runs, truths ? truths[i] : trials_mean(list,
-                                                                                 t->runs));
+        trials_report(name, way, list, t->runs, truths ? truths[i] : trials_mean(list, t->runs));
     }
 }
 
-static int worst_of(const Trial *steps, int count)
-{
+static int worst_of(const Trial *steps, int count) {
     int worst = 0;
     for (int i = 1; i < count; i++)
         if (steps[i].found > steps[worst].found) worst = i;
@@ -119,16 +113,14 @@ static int worst_of(const Trial *steps, int count)
 }
 
 /* Of each run the most reflected light: as a share of that sun's truth. */
-static void tell_worst(const SweepTrials *t, const Trial *steps, const Truth *truths,
-                       Arena arena)
-{
-    int    count = t->suns.count;
+static void tell_worst(const SweepTrials *t, const Trial *steps, const Truth *truths, Arena arena) {
+    int count = t->suns.count;
     Trial *list = ARENA_NEW(&arena, Trial, t->runs), *step = ARENA_NEW(&arena, Trial, t->runs);
     for (int k = 0; k < t->runs; k++) {
-        int    sun = worst_of(steps + k * count, count);
+        int sun = worst_of(steps + k * count, count);
         double truth = truths[sun].value;
-        Trial  r = moment_trial(t, sun, WORST_PATHS, (1u << 22) + (unsigned)k);
-        Trial  s = steps[k * count + sun];
+        Trial r = moment_trial(t, sun, WORST_PATHS, (1u << 22) + (unsigned)k);
+        Trial s = steps[k * count + sun];
         list[k] = (Trial){r.found / truth, r.low / truth, r.high / truth, r.paths};
         step[k] = (Trial){s.found / truth, s.low / truth, s.high / truth, s.paths};
     }
@@ -136,17 +128,15 @@ static void tell_worst(const SweepTrials *t, const Trial *steps, const Truth *tr
     trials_report("all suns", "worst, read again", list, t->runs, (Truth){1, 0});
 }
 
-static double own_light(const SweepTrials *t)
-{
+static double own_light(const SweepTrials *t) {
     ReadingGoal goal = {.most = TRUTH_PATHS};
-    Lights     *lights = (Lights *)(void *)t->setup->context.lights;
+    Lights *lights = (Lights *)(void *)t->setup->context.lights;
     if (!lights_has(lights, LIGHTS_EMITTERS) && !lights_has(lights, LIGHTS_PUNCTUAL)) return 0;
     return reading_take(&t->aim, &goal, &t->setup->tools, t->scratch).reflected;
 }
 
 /* Of every sun, by paths traced for it. */
-static Truth *find_truths(const SweepTrials *t, Arena *arena)
-{
+static Truth *find_truths(const SweepTrials *t, Arena *arena) {
     Truth *truths = ARENA_NEW(arena, Truth, t->suns.count);
     for (int i = 0; i < t->suns.count; i++) {
         Trial longest[TRUTH_RUNS];
@@ -157,9 +147,8 @@ static Truth *find_truths(const SweepTrials *t, Arena *arena)
     return truths;
 }
 
-static void cover(SweepTrials *t, const char *ways, Arena arena)
-{
-    int    count = t->suns.count;
+static void cover(SweepTrials *t, const char *ways, Arena arena) {
+    int count = t->suns.count;
     double own = own_light(t);
     Trial *steps = ARENA_NEW(&arena, Trial, t->runs * count);
     if (strchr(ways, 'f')) {
@@ -177,10 +166,9 @@ static void cover(SweepTrials *t, const char *ways, Arena arena)
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static void make_table(SweepTrials *t, Arena *arena)
-{
+static void make_table(SweepTrials *t, Arena *arena) {
     DaylightInput air = daylight_input_default(DAYLIGHT_CLEAR);
-    double        low = 90, high = -90;
+    double low = 90, high = -90;
     air.threads = 1;
     for (int i = 0; i < t->suns.count; i++) {
         low = fmin(low, t->suns.list[i].elevation_deg);
@@ -190,18 +178,16 @@ static void make_table(SweepTrials *t, Arena *arena)
 }
 
 static void cover_sweep(ReviewRequest *request, const ReviewCondition *c, const char *ways,
-                        int runs, Problems *problems)
-{
-    SetupOptions options = {.request = request, .condition = c,
-                            .means = {.root = "/", .threads = 1}};
-    Arena        arena = arena_reserve((size_t)1 << 36);
-    SweepTrials  t = {.request = request, .runs = runs,
-                      .scratch = arena_reserve((size_t)1 << 34)};
-    Setup        setup;
+                        int runs, Problems *problems) {
+    SetupOptions options = {
+        .request = request, .condition = c, .means = {.root = "/", .threads = 1}};
+    Arena arena = arena_reserve((size_t)1 << 36);
+    SweepTrials t = {.request = request, .runs = runs, .scratch = arena_reserve((size_t)1 << 34)};
+    Setup setup;
     SetupSymbol *symbols;
-    int          count;
-    Vec3         eye;
-    Error        err = {0};
+    int count;
+    Vec3 eye;
+    Error err = {0};
     t.setup = &setup;
     if (!setup_open(&options, &arena, problems, &setup, &err) ||
         !sweep_light_dark(&setup, 1, &arena, &err) ||
@@ -221,19 +207,17 @@ static void cover_sweep(ReviewRequest *request, const ReviewCondition *c, const 
     arena_release(&arena);
 }
 
-int main(int argc, char **argv)
-{
-    Arena         arena = arena_reserve((size_t)1 << 30);
-    Error         err = {0};
-    Problems      problems = problems_start(&arena);
+int main(int argc, char **argv) {
+    Arena arena = arena_reserve((size_t)1 << 30);
+    Error err = {0};
+    Problems problems = problems_start(&arena);
     ReviewRequest request;
-    int           runs = argc == 4 ? atoi(argv[2]) : 0;
+    int runs = argc == 4 ? atoi(argv[2]) : 0;
     if (runs < 2) {
         fprintf(stderr, "bench_sweeps WAYS RUNS REVIEW.json\n");
         return 1;
     }
-    if (!review_request_read(argv[3], "/", &arena, &problems, &request, &err))
-        trials_stop(&err);
+    if (!review_request_read(argv[3], "/", &arena, &problems, &request, &err)) trials_stop(&err);
     for (int i = 0; i < request.condition_count; i++)
         if (request.conditions[i].kind == CONDITION_SUN_SWEEP) {
             cover_sweep(&request, &request.conditions[i], argv[1], runs, &problems);

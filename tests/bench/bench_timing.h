@@ -8,28 +8,24 @@
 #include <stdlib.h>
 #include <time.h>
 
-static inline double clock_seconds(clockid_t clock)
-{
+static inline double clock_seconds(clockid_t clock) {
     struct timespec t;
     clock_gettime(clock, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* Of this thread alone. */
-static inline double thread_seconds(void)
-{
+static inline double thread_seconds(void) {
     return clock_seconds(CLOCK_THREAD_CPUTIME_ID);
 }
 
-static inline int ascending(const void *a, const void *b)
-{
+static inline int ascending(const void *a, const void *b) {
     double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
 /* Sorts the runs, so that the first is the least and the last the most; returns the median. */
-static inline double median_of(double *runs, int count)
-{
+static inline double median_of(double *runs, int count) {
     qsort(runs, (size_t)count, sizeof *runs, ascending);
     return runs[count / 2];
 }

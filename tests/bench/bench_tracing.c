@@ -20,43 +20,42 @@
 #define RAYS_MAX 20000000
 
 typedef struct Bench {
-    PathContext   context;
-    Camera        camera;
-    Bvh          *bvh;
+    PathContext context;
+    Camera camera;
+    Bvh *bvh;
     const Kernel *kernel;
-    BvhRecorder   recorder;
+    BvhRecorder recorder;
 } Bench;
 
 static void print_row(const char *scene, const char *what, const char *unit, double *values,
-                      int runs)
-{
+                      int runs) {
     double median = median_of(values, runs);
-    printf("%-28s %-22s %10.4g %-10s (%.4g to %.4g)\n", scene, what, median, unit,
-           values[0], values[runs - 1]);
+    printf("%-28s %-22s %10.4g %-10s (%.4g to %.4g)\n", scene, what, median, unit, values[0],
+           values[runs - 1]);
 }
 
 /* One frame; its time in seconds. */
-static double render_once(const Bench *bench, Arena scratch, PathStatistics *statistics)
-{
+static double render_once(const Bench *bench, Arena scratch, PathStatistics *statistics) {
     FilmRect whole = {0, 0, WIDTH, HEIGHT};
-    TileJob  job = {.context = &bench->context, .camera = &bench->camera,
-                    .film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &scratch), .seed = 1,
-                    .first_sample = 0, .end_sample = SAMPLES};
+    TileJob job = {.context = &bench->context,
+                   .camera = &bench->camera,
+                   .film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &scratch),
+                   .seed = 1,
+                   .first_sample = 0,
+                   .end_sample = SAMPLES};
     double begun = thread_seconds();
     bench->kernel->render(&job, whole, statistics);
     return thread_seconds() - begun;
 }
 
-static bool always(void *user, const Hit *hit)
-{
+static bool always(void *user, const Hit *hit) {
     (void)user;
     (void)hit;
     return true;
 }
 
-static double replay_once(const Bench *bench)
-{
-    long   hits = 0;
+static double replay_once(const Bench *bench) {
+    long hits = 0;
     double begun = thread_seconds();
     for (size_t i = 0; i < bench->recorder.count; i++) {
         Hit hit;
@@ -67,8 +66,7 @@ static double replay_once(const Bench *bench)
     return hits < 0 ? 0 : thread_seconds() - begun;
 }
 
-static void measure(Bench *bench, const char *name, int runs, Arena *arena)
-{
+static void measure(Bench *bench, const char *name, int runs, Arena *arena) {
     double render_s[RUNS_MAX], replay_s[RUNS_MAX], share[RUNS_MAX], rate[RUNS_MAX];
     PathStatistics counted = {0}, ignored = {0};
     bvh_record(bench->bvh, &bench->recorder);
@@ -90,11 +88,10 @@ static void measure(Bench *bench, const char *name, int runs, Arena *arena)
     print_row(name, "tracing share", "", share, runs);
 }
 
-static bool prepare(const char *const *paths, int count, Arena *arena, Bench *bench, Error *err)
-{
+static bool prepare(const char *const *paths, int count, Arena *arena, Bench *bench, Error *err) {
     Problems problems = problems_start(arena);
-    Scene   *scene;
-    Lights  *lights;
+    Scene *scene;
+    Lights *lights;
     SceneOptions options = {.paths = paths, .path_count = count};
     if (!scene_load(&options, arena, &problems, &scene, err)) return false;
     if (!kernel_choose(NULL, &bench->kernel, err)) return false;
@@ -109,13 +106,12 @@ static bool prepare(const char *const *paths, int count, Arena *arena, Bench *be
     return true;
 }
 
-int main(int argc, char **argv)
-{
+int main(int argc, char **argv) {
     Arena arena = arena_reserve((size_t)16 << 30);
     Error err = {0};
     Bench bench = {0};
-    int   runs = argc > 1 ? atoi(argv[1]) : 5;
-    char  line[2048];
+    int runs = argc > 1 ? atoi(argv[1]) : 5;
+    char line[2048];
     if (argc < 3 || runs < 1 || runs > RUNS_MAX) {
         fprintf(stderr, "usage: bench_tracing RUNS SCENE [LIGHTS...]\n");
         return 2;

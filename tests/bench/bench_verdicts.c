@@ -22,37 +22,33 @@
 #define NEVER 1e-9
 
 typedef struct Verdicts {
-    ReviewRequest     *request;
-    const Setup       *setup;
+    ReviewRequest *request;
+    const Setup *setup;
     const SetupSymbol *symbol;
-    int                trials;
-    Arena              scratch;
+    int trials;
+    Arena scratch;
 } Verdicts;
 
-static ReviewCase judged(const Verdicts *v, const Profile *profile, unsigned seed)
-{
-    Arena      room = v->scratch;
-    CaseTools  tools = {.setup = v->setup, .profile = profile};
+static ReviewCase judged(const Verdicts *v, const Profile *profile, unsigned seed) {
+    Arena room = v->scratch;
+    CaseTools tools = {.setup = v->setup, .profile = profile};
     ReviewCase c = {.display_lux = 1000};
-    Error      err = {0};
+    Error err = {0};
     v->request->seed = seed;
-    if (!setup_verdict(&tools, v->symbol, &v->request->eyes[0], &room, &c, &err))
-        trials_stop(&err);
+    if (!setup_verdict(&tools, v->symbol, &v->request->eyes[0], &room, &c, &err)) trials_stop(&err);
     return c;
 }
 
-static double contrast_in_glass(const CaseImage *image, double mirrored, double against)
-{
-    return luminance_contrast(mirrored * image->sent_foreground,
-                              mirrored * image->sent_background, against);
+static double contrast_in_glass(const CaseImage *image, double mirrored, double against) {
+    return luminance_contrast(mirrored * image->sent_foreground, mirrored * image->sent_background,
+                              against);
 }
 
 /* Of a symbol that the eye sees in the first pane alone: the contrast that the means of the
  * share that is mirrored and of what lies behind make. */
-static double true_contrast_in_glass(const Verdicts *v, const Profile *open, Arena arena)
-{
-    Trial    *mirrored = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
-    Trial    *against = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
+static double true_contrast_in_glass(const Verdicts *v, const Profile *open, Arena arena) {
+    Trial *mirrored = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
+    Trial *against = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
     CaseImage image = {0};
     for (int i = 0; i < TRUTH_RUNS; i++) {
         ReviewCase c = judged(v, open, (1u << 28) + (unsigned)i);
@@ -60,10 +56,9 @@ static double true_contrast_in_glass(const Verdicts *v, const Profile *open, Are
         mirrored[i].found = image.reflectance;
         against[i].found = image.against;
     }
-    Truth  share = trials_mean(mirrored, TRUTH_RUNS), behind = trials_mean(against, TRUTH_RUNS);
+    Truth share = trials_mean(mirrored, TRUTH_RUNS), behind = trials_mean(against, TRUTH_RUNS);
     double ratio = contrast_in_glass(&image, share.value, behind.value);
-    double off = contrast_in_glass(&image, share.value + share.error,
-                                   behind.value - behind.error);
+    double off = contrast_in_glass(&image, share.value + share.error, behind.value - behind.error);
     printf("%s\ttruth\t%.5f\t%.4f\n", v->setup->condition->name, ratio,
            100 * fabs(off / ratio - 1));
     fflush(stdout);
@@ -71,14 +66,12 @@ static double true_contrast_in_glass(const Verdicts *v, const Profile *open, Are
 }
 
 /* The contrast that the mean of the reflected light makes. */
-static double true_contrast(const Verdicts *v, Arena arena)
-{
+static double true_contrast(const Verdicts *v, Arena arena) {
     ReviewRequest *r = v->request, asked = *r;
-    Profile        open = {.id = "none",
-                           .security = {.kind = LIMIT_VISUAL_SECURITY, .value = 1}};
-    Trial         *list = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
+    Profile open = {.id = "none", .security = {.kind = LIMIT_VISUAL_SECURITY, .value = 1}};
+    Trial *list = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
     CaseLuminances l = {0};
-    CaseBox        part = {0};
+    CaseBox part = {0};
     ReviewCase first = judged(v, &open, 1u << 28);
     if (first.image_count && !(first.visible_share > 0))
         return true_contrast_in_glass(v, &open, arena);
@@ -91,29 +84,29 @@ static double true_contrast(const Verdicts *v, Arena arena)
         list[i].found = l.reflected;
     }
     *r = asked;
-    Truth  truth = trials_mean(list, TRUTH_RUNS);
+    Truth truth = trials_mean(list, TRUTH_RUNS);
     double ratio = luminance_contrast(l.foreground, l.background, truth.value);
     double off = luminance_contrast(l.foreground, l.background, truth.value + truth.error);
-    printf("%s\ttruth\t%.5f\t%.4f\t%.6g\t%.6g\t%.9g\t%.9g\t%.9g\t%.9g\n",
-           v->setup->condition->name, ratio, 100 * fabs(off / ratio - 1), l.foreground,
-           l.background, part.left, part.top, part.right, part.bottom);
+    printf("%s\ttruth\t%.5f\t%.4f\t%.6g\t%.6g\t%.9g\t%.9g\t%.9g\t%.9g\n", v->setup->condition->name,
+           ratio, 100 * fabs(off / ratio - 1), l.foreground, l.background, part.left, part.top,
+           part.right, part.bottom);
     fflush(stdout);
     return ratio;
 }
 
-static bool is_private(const Verdicts *v)
-{
+static bool is_private(const Verdicts *v) {
     return review_is_private(v->request, v->symbol->symbol_id, &v->request->eyes[0]);
 }
 
-static void try_margin(const Verdicts *v, double ratio, double percent, unsigned seed)
-{
-    LimitKind    kind = is_private(v) ? LIMIT_VISUAL_SECURITY : LIMIT_CONTRAST_RATIO;
-    ProfileLimit limit = {.name = "limit", .kind = kind, .ambients = {true, true, true, true},
+static void try_margin(const Verdicts *v, double ratio, double percent, unsigned seed) {
+    LimitKind kind = is_private(v) ? LIMIT_VISUAL_SECURITY : LIMIT_CONTRAST_RATIO;
+    ProfileLimit limit = {.name = "limit",
+                          .kind = kind,
+                          .ambients = {true, true, true, true},
                           .value = contrast_from_ratio(kind, ratio) / (1 + percent / 100)};
-    Profile      profile = {.id = "one", .limits = &limit, .limit_count = 1};
-    int          count[4] = {0};
-    double       paths = 0;
+    Profile profile = {.id = "one", .limits = &limit, .limit_count = 1};
+    int count[4] = {0};
+    double paths = 0;
     for (int i = 0; i < v->trials; i++) {
         ReviewCase c = judged(v, &profile, seed + (unsigned)i);
         count[c.verdict]++;
@@ -125,18 +118,16 @@ static void try_margin(const Verdicts *v, double ratio, double percent, unsigned
 }
 
 static void try_moment(ReviewRequest *request, const ReviewCondition *c, int trials,
-                       Problems *problems)
-{
+                       Problems *problems) {
     static const double margins[] = {-10, -5, -2, -1, 1, 2, 5, 10};
-    SetupOptions options = {.request = request, .condition = c,
-                            .means = {.root = "/", .threads = 1}};
-    Arena        arena = arena_reserve((size_t)1 << 36);
-    Verdicts     v = {.request = request, .trials = trials,
-                      .scratch = arena_reserve((size_t)1 << 33)};
-    Setup        setup;
+    SetupOptions options = {
+        .request = request, .condition = c, .means = {.root = "/", .threads = 1}};
+    Arena arena = arena_reserve((size_t)1 << 36);
+    Verdicts v = {.request = request, .trials = trials, .scratch = arena_reserve((size_t)1 << 33)};
+    Setup setup;
     SetupSymbol *symbols;
-    int          count;
-    Error        err = {0};
+    int count;
+    Error err = {0};
     request->seed = 0;
     if (!setup_open(&options, &arena, problems, &setup, &err) ||
         !setup_light(&setup, c->has_environment ? &c->environment : NULL, &arena, &err) ||
@@ -154,19 +145,17 @@ static void try_moment(ReviewRequest *request, const ReviewCondition *c, int tri
     arena_release(&arena);
 }
 
-int main(int argc, char **argv)
-{
-    Arena         arena = arena_reserve((size_t)1 << 30);
-    Error         err = {0};
-    Problems      problems = problems_start(&arena);
+int main(int argc, char **argv) {
+    Arena arena = arena_reserve((size_t)1 << 30);
+    Error err = {0};
+    Problems problems = problems_start(&arena);
     ReviewRequest request;
-    int           trials = argc == 3 ? atoi(argv[1]) : 0;
+    int trials = argc == 3 ? atoi(argv[1]) : 0;
     if (trials < 1) {
         fprintf(stderr, "bench_verdicts TRIALS REVIEW.json\n");
         return 1;
     }
-    if (!review_request_read(argv[2], "/", &arena, &problems, &request, &err))
-        trials_stop(&err);
+    if (!review_request_read(argv[2], "/", &arena, &problems, &request, &err)) trials_stop(&err);
     for (int i = 0; i < request.condition_count; i++)
         if (request.conditions[i].kind == CONDITION_MOMENT)
             try_moment(&request, &request.conditions[i], trials, &problems);

@@ -9,10 +9,9 @@
 
 #include "vision/visibility.h"
 
-int main(void)
-{
+int main(void) {
     VisibilityTarget t;
-    int              darker, got;
+    int darker, got;
     while ((got = scanf("%lf %lf %lf %lf %d", &t.size_arcmin, &t.adapted_cd_m2, &t.age_years,
                         &t.glance_s, &darker)) == 5) {
         t.is_darker = darker;

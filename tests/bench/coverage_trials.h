@@ -23,16 +23,14 @@ typedef struct Truth {
     double value, error;
 } Truth;
 
-static inline _Noreturn void trials_stop(const Error *err)
-{
+static inline _Noreturn void trials_stop(const Error *err) {
     char line[2048];
     error_line(err, line, sizeof line);
     fprintf(stderr, "%s\n", line);
     exit(2);
 }
 
-static inline Truth trials_mean(const Trial *list, int count)
-{
+static inline Truth trials_mean(const Trial *list, int count) {
     double sum = 0, squares = 0;
     for (int i = 0; i < count; i++) {
         sum += list[i].found;
@@ -43,21 +41,18 @@ static inline Truth trials_mean(const Trial *list, int count)
 }
 
 /* Of a trial about the truth, relative. */
-static inline double trials_error(const Trial *list, int count, double truth)
-{
+static inline double trials_error(const Trial *list, int count, double truth) {
     double squares = 0;
-    for (int i = 0; i < count; i++)
-        squares += (list[i].found - truth) * (list[i].found - truth);
+    for (int i = 0; i < count; i++) squares += (list[i].found - truth) * (list[i].found - truth);
     return sqrt(squares / count) / truth;
 }
 
 /* moment, way, trials, held, lie below the truth, above, paths, error of a trial, half an
  * interval, the mean's offset, the truth's error; the last four in percent of the truth. */
-static inline void trials_report(const char *moment, const char *way, const Trial *list,
-                                 int count, Truth truth)
-{
+static inline void trials_report(const char *moment, const char *way, const Trial *list, int count,
+                                 Truth truth) {
     double paths = 0, half = 0;
-    int    held = 0, below = 0;
+    int held = 0, below = 0;
     for (int i = 0; i < count; i++) {
         held += list[i].low <= truth.value && truth.value <= list[i].high;
         below += list[i].high < truth.value;

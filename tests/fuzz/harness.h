@@ -30,12 +30,12 @@ typedef size_t FuzzMutate(uint8_t *data, size_t size, size_t max_size, unsigned 
 typedef size_t FuzzMake(uint8_t *data, size_t max_size, unsigned number, Arena *arena);
 
 typedef struct FuzzTarget {
-    const char *name;    /* of its folders in corpus/ and found/, and of its dictionary */
-    FuzzRun    *run;
-    FuzzMutate *mutate;  /* NULL: libFuzzer's own */
-    size_t      max_size;
-    const char *more;    /* for the run function: which importer */
-    FuzzMake   *make;    /* NULL: corpus/ has all there are */
+    const char *name; /* of its folders in corpus/ and found/, and of its dictionary */
+    FuzzRun *run;
+    FuzzMutate *mutate; /* NULL: libFuzzer's own */
+    size_t max_size;
+    const char *more; /* for the run function: which importer */
+    FuzzMake *make;   /* NULL: corpus/ has all there are */
 } FuzzTarget;
 
 /* All of them; the last one's name is NULL. */
@@ -85,8 +85,7 @@ FuzzMake fuzz_make_field, fuzz_make_response, fuzz_make_condition;
 
 /* ---- targets ----------------------------------------------------------------------------- */
 
-FuzzRun fuzz_scene, fuzz_panel, fuzz_import, fuzz_import_any, fuzz_import_text,
-    fuzz_declaration, fuzz_image, fuzz_frame, fuzz_manifest, fuzz_recipe, fuzz_table,
-    fuzz_weather, fuzz_curve, fuzz_primaries, fuzz_environment, fuzz_cli, fuzz_uri,
-    fuzz_part, fuzz_checkpoint, fuzz_review, fuzz_field, fuzz_response,
-    fuzz_condition;
+FuzzRun fuzz_scene, fuzz_panel, fuzz_import, fuzz_import_any, fuzz_import_text, fuzz_declaration,
+    fuzz_image, fuzz_frame, fuzz_manifest, fuzz_recipe, fuzz_table, fuzz_weather, fuzz_curve,
+    fuzz_primaries, fuzz_environment, fuzz_cli, fuzz_uri, fuzz_part, fuzz_checkpoint, fuzz_review,
+    fuzz_field, fuzz_response, fuzz_condition;

@@ -16,23 +16,21 @@ typedef struct Span {
 
 typedef struct Json {
     char text[TEXT_MAX + 1];
-    int  size, room; /* the text may grow up to room */
+    int size, room; /* the text may grow up to room */
     Span value[VALUES_MAX];
-    int  count;
+    int count;
     uint64_t state;
 } Json;
 
 /* ---- where the values are ---------------------------------------------------------------- */
 
-static int skip_blanks(const Json *json, int at)
-{
+static int skip_blanks(const Json *json, int at) {
     while (at < json->size && strchr(" \t\r\n", json->text[at]) && json->text[at]) at++;
     return at;
 }
 
 /* Behind a text; -1 when it does not end. */
-static int skip_text(const Json *json, int at)
-{
+static int skip_text(const Json *json, int at) {
     for (at++; at < json->size && json->text[at] != '"'; at++)
         if (json->text[at] == '\\') at++;
     return at < json->size ? at + 1 : -1;
@@ -41,8 +39,7 @@ static int skip_text(const Json *json, int at)
 static int find_values(Json *json, int at, int name, int depth);
 
 /* Members or items up to the closing bracket. */
-static int find_items(Json *json, int at, int depth)
-{
+static int find_items(Json *json, int at, int depth) {
     bool is_object = json->text[at] == '{';
     char close = is_object ? '}' : ']';
     at = skip_blanks(json, at + 1);
@@ -66,8 +63,7 @@ static int find_items(Json *json, int at, int depth)
 
 /* Notes the value at a place and those inside it; returns the place behind it, -1 where the
  * text is not JSON. */
-static int find_values(Json *json, int at, int name, int depth)
-{
+static int find_values(Json *json, int at, int name, int depth) {
     if (depth > DEPTH_MAX || json->count == VALUES_MAX || at >= json->size) return -1;
     int index = json->count++, end = at;
     if (json->text[at] == '{' || json->text[at] == '[') end = find_items(json, at, depth);
@@ -79,22 +75,19 @@ static int find_values(Json *json, int at, int name, int depth)
     return end;
 }
 
-static bool find_all(Json *json)
-{
+static bool find_all(Json *json) {
     json->count = 0;
     return find_values(json, skip_blanks(json, 0), -1, 0) >= 0;
 }
 
 /* ---- changes ----------------------------------------------------------------------------- */
 
-static int below(Json *json, int count)
-{
+static int below(Json *json, int count) {
     return (int)(fuzz_random(&json->state) % (unsigned)count);
 }
 
 /* Puts a text in place of [begin, end); nothing happens when it does not fit. */
-static void splice(Json *json, int begin, int end, const char *with, int length)
-{
+static void splice(Json *json, int begin, int end, const char *with, int length) {
     static char kept[TEXT_MAX];
     int rest = json->size - end;
     if (begin + length + rest > json->room || length > TEXT_MAX) return;
@@ -106,69 +99,275 @@ static void splice(Json *json, int begin, int end, const char *with, int length)
 }
 
 static const char *const strange[] = {
-    "-1", "0", "1", "2", "3", "7", "16", "255", "256", "5120", "5121", "5123", "5125", "5126",
-    "65535", "65536", "16777216", "2147483647", "2147483648", "4294967295", "4294967296",
-    "9007199254740993", "-9223372036854775808", "18446744073709551616", "1e300", "-1e300",
-    "1e39", "3.5e38", "1e-40", "1e-320", "-0.0", "0.5", "-0.5", "1.0000001", "90", "360",
+    "-1",
+    "0",
+    "1",
+    "2",
+    "3",
+    "7",
+    "16",
+    "255",
+    "256",
+    "5120",
+    "5121",
+    "5123",
+    "5125",
+    "5126",
+    "65535",
+    "65536",
+    "16777216",
+    "2147483647",
+    "2147483648",
+    "4294967295",
+    "4294967296",
+    "9007199254740993",
+    "-9223372036854775808",
+    "18446744073709551616",
+    "1e300",
+    "-1e300",
+    "1e39",
+    "3.5e38",
+    "1e-40",
+    "1e-320",
+    "-0.0",
+    "0.5",
+    "-0.5",
+    "1.0000001",
+    "90",
+    "360",
     "1e999",
-    "\"\"", "\"x\"", "\"\\u0000\"", "\"\\ud800\"", "\"SCALAR\"", "\"VEC3\"", "\"MAT4\"", "null",
-    "true", "false", "[]", "{}", "[[]]", "[0]", "[0,0,0]", "[1,0,0,0]", "[0,0,0,0]",
-    "\"data:;base64,\"", "\"data:application/octet-stream;base64,AAAA\"", "\"../x\"", "\"NaN\"",
-    "\"MASK\"", "\"BLEND\"", "\"red.csv\"", "\"i{incidence}.csv\"", "[[[[[[[[[[[[]]]]]]]]]]]]",
+    "\"\"",
+    "\"x\"",
+    "\"\\u0000\"",
+    "\"\\ud800\"",
+    "\"SCALAR\"",
+    "\"VEC3\"",
+    "\"MAT4\"",
+    "null",
+    "true",
+    "false",
+    "[]",
+    "{}",
+    "[[]]",
+    "[0]",
+    "[0,0,0]",
+    "[1,0,0,0]",
+    "[0,0,0,0]",
+    "\"data:;base64,\"",
+    "\"data:application/octet-stream;base64,AAAA\"",
+    "\"../x\"",
+    "\"NaN\"",
+    "\"MASK\"",
+    "\"BLEND\"",
+    "\"red.csv\"",
+    "\"i{incidence}.csv\"",
+    "[[[[[[[[[[[[]]]]]]]]]]]]",
 };
 
 /* Names that this program's files have. */
 static const char *const names[] = {
-    "scene", "scenes", "nodes", "meshes", "primitives", "attributes", "POSITION", "NORMAL",
-    "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0", "JOINTS_0", "WEIGHTS_0", "indices",
-    "mode", "material",
-    "targets", "weights", "mesh", "skin", "skins", "joints", "inverseBindMatrices",
-    "skeleton", "camera", "cameras", "perspective", "orthographic", "yfov", "znear", "zfar",
-    "xmag", "ymag", "aspectRatio", "children", "matrix", "rotation", "scale", "translation",
-    "buffers", "bufferViews", "buffer", "byteOffset", "byteLength", "byteStride", "target",
-    "uri", "accessors", "bufferView", "componentType", "count", "type", "normalized", "min",
-    "max", "sparse", "values", "images", "mimeType", "textures", "source", "sampler",
-    "samplers", "wrapS", "wrapT", "magFilter", "minFilter", "materials", "index", "texCoord",
-    "pbrMetallicRoughness", "baseColorFactor", "baseColorTexture", "metallicFactor",
-    "roughnessFactor", "metallicRoughnessTexture", "normalTexture", "emissiveFactor",
-    "emissiveTexture", "occlusionTexture", "alphaMode", "alphaCutoff", "doubleSided", "name",
-    "extensions", "extras", "extensionsUsed", "extensionsRequired", "asset", "version",
-    "animations", "channels", "path", "node", "input", "output", "interpolation",
-    "KHR_materials_clearcoat", "KHR_materials_ior", "KHR_materials_transmission",
-    "KHR_materials_volume", "KHR_materials_specular", "KHR_materials_emissive_strength",
-    "KHR_materials_unlit", "KHR_texture_transform", "KHR_lights_punctual", "EXT_lights_ies",
-    "KHR_mesh_quantization", "PARHELION_display", "PARHELION_environment", "PARHELION_spectral",
-    "light", "lights", "intensity", "color", "range", "spot", "innerConeAngle",
-    "outerConeAngle", "panel", "content", "level", "sun", "luminance", "azimuth_deg",
-    "elevation_deg", "illuminance_lx", "kind", "heading_deg", "forward", "when", "where",
-    "emission", "reflection", "red", "green", "blue", "black", "white", "levels", "files",
-    "spectra", "incidence_deg", "incidence_phi_deg", "wavelengths_nm", "instrument",
-    "fwhm_deg", "pixels", "size_mm", "note", "peaks_nm", "fwhm_nm", "luminance_cd_m2", "shift",
-    "gamma", "leak", "lobe", "coating", "haze_share", "haze_width", "haze_power",
-    "floor_albedo", "theta_step_deg", "phi_step_deg", "noise_relative", "roles", "skip",
-    "format", "area_mm", "primaries", "isotropic", "symmetry", "no_black", "accept",
-    "backlight", "peaks_nm", "columns",
+    "scene",
+    "scenes",
+    "nodes",
+    "meshes",
+    "primitives",
+    "attributes",
+    "POSITION",
+    "NORMAL",
+    "TANGENT",
+    "TEXCOORD_0",
+    "TEXCOORD_1",
+    "COLOR_0",
+    "JOINTS_0",
+    "WEIGHTS_0",
+    "indices",
+    "mode",
+    "material",
+    "targets",
+    "weights",
+    "mesh",
+    "skin",
+    "skins",
+    "joints",
+    "inverseBindMatrices",
+    "skeleton",
+    "camera",
+    "cameras",
+    "perspective",
+    "orthographic",
+    "yfov",
+    "znear",
+    "zfar",
+    "xmag",
+    "ymag",
+    "aspectRatio",
+    "children",
+    "matrix",
+    "rotation",
+    "scale",
+    "translation",
+    "buffers",
+    "bufferViews",
+    "buffer",
+    "byteOffset",
+    "byteLength",
+    "byteStride",
+    "target",
+    "uri",
+    "accessors",
+    "bufferView",
+    "componentType",
+    "count",
+    "type",
+    "normalized",
+    "min",
+    "max",
+    "sparse",
+    "values",
+    "images",
+    "mimeType",
+    "textures",
+    "source",
+    "sampler",
+    "samplers",
+    "wrapS",
+    "wrapT",
+    "magFilter",
+    "minFilter",
+    "materials",
+    "index",
+    "texCoord",
+    "pbrMetallicRoughness",
+    "baseColorFactor",
+    "baseColorTexture",
+    "metallicFactor",
+    "roughnessFactor",
+    "metallicRoughnessTexture",
+    "normalTexture",
+    "emissiveFactor",
+    "emissiveTexture",
+    "occlusionTexture",
+    "alphaMode",
+    "alphaCutoff",
+    "doubleSided",
+    "name",
+    "extensions",
+    "extras",
+    "extensionsUsed",
+    "extensionsRequired",
+    "asset",
+    "version",
+    "animations",
+    "channels",
+    "path",
+    "node",
+    "input",
+    "output",
+    "interpolation",
+    "KHR_materials_clearcoat",
+    "KHR_materials_ior",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
+    "KHR_materials_specular",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",
+    "KHR_texture_transform",
+    "KHR_lights_punctual",
+    "EXT_lights_ies",
+    "KHR_mesh_quantization",
+    "PARHELION_display",
+    "PARHELION_environment",
+    "PARHELION_spectral",
+    "light",
+    "lights",
+    "intensity",
+    "color",
+    "range",
+    "spot",
+    "innerConeAngle",
+    "outerConeAngle",
+    "panel",
+    "content",
+    "level",
+    "sun",
+    "luminance",
+    "azimuth_deg",
+    "elevation_deg",
+    "illuminance_lx",
+    "kind",
+    "heading_deg",
+    "forward",
+    "when",
+    "where",
+    "emission",
+    "reflection",
+    "red",
+    "green",
+    "blue",
+    "black",
+    "white",
+    "levels",
+    "files",
+    "spectra",
+    "incidence_deg",
+    "incidence_phi_deg",
+    "wavelengths_nm",
+    "instrument",
+    "fwhm_deg",
+    "pixels",
+    "size_mm",
+    "note",
+    "peaks_nm",
+    "fwhm_nm",
+    "luminance_cd_m2",
+    "shift",
+    "gamma",
+    "leak",
+    "lobe",
+    "coating",
+    "haze_share",
+    "haze_width",
+    "haze_power",
+    "floor_albedo",
+    "theta_step_deg",
+    "phi_step_deg",
+    "noise_relative",
+    "roles",
+    "skip",
+    "format",
+    "area_mm",
+    "primaries",
+    "isotropic",
+    "symmetry",
+    "no_black",
+    "accept",
+    "backlight",
+    "peaks_nm",
+    "columns",
     "layout",
-    "unit", "mask", "comment", "azimuth_zero", "azimuth_sense", "angles", "quantity",
+    "unit",
+    "mask",
+    "comment",
+    "azimuth_zero",
+    "azimuth_sense",
+    "angles",
+    "quantity",
 };
 
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
-static void put_strange(Json *json, Span at)
-{
+static void put_strange(Json *json, Span at) {
     const char *text = strange[below(json, COUNT(strange))];
     splice(json, at.begin, at.end, text, (int)strlen(text));
 }
 
-static void put_other(Json *json, Span at)
-{
+static void put_other(Json *json, Span at) {
     Span other = json->value[below(json, json->count)];
     splice(json, at.begin, at.end, json->text + other.begin, other.end - other.begin);
 }
 
 /* With one comma, before it or behind it. */
-static void take_out(Json *json, Span at)
-{
+static void take_out(Json *json, Span at) {
     int begin = at.name >= 0 ? at.name : at.begin, end = skip_blanks(json, at.end);
     if (end < json->size && json->text[end] == ',') end++;
     else {
@@ -178,8 +377,7 @@ static void take_out(Json *json, Span at)
     splice(json, begin, end, "", 0);
 }
 
-static void double_it(Json *json, Span at)
-{
+static void double_it(Json *json, Span at) {
     static char twice[TEXT_MAX];
     int begin = at.name >= 0 ? at.name : at.begin, length = at.end - begin;
     if (2 * length + 1 > TEXT_MAX) return;
@@ -189,10 +387,9 @@ static void double_it(Json *json, Span at)
     splice(json, begin, at.end, twice, 2 * length + 1);
 }
 
-static void change_number(Json *json, Span at)
-{
+static void change_number(Json *json, Span at) {
     static const double steps[] = {1, -1, 0.5, 1e-3, 4, -4, 100};
-    char   text[64], *end;
+    char text[64], *end;
     double number = strtod(json->text + at.begin, &end);
     if (end == json->text + at.begin) {
         put_strange(json, at);
@@ -207,29 +404,25 @@ static void change_number(Json *json, Span at)
     splice(json, at.begin, at.end, text, snprintf(text, sizeof text, "%.9g", number));
 }
 
-static void change_name(Json *json, Span at)
-{
-    char        text[80];
+static void change_name(Json *json, Span at) {
+    char text[80];
     const char *name = names[below(json, COUNT(names))];
-    int         length = snprintf(text, sizeof text, "\"%s\"", name);
-    if (at.name >= 0)
-        splice(json, at.name, skip_text(json, at.name), text, length);
-    else
-        splice(json, at.begin, at.end, text, length);
+    int length = snprintf(text, sizeof text, "\"%s\"", name);
+    if (at.name >= 0) splice(json, at.name, skip_text(json, at.name), text, length);
+    else splice(json, at.begin, at.end, text, length);
 }
 
 /* A member or an item that was not there, at the beginning of an object or array. */
-static void put_in(Json *json, Span at)
-{
-    char        text[256];
+static void put_in(Json *json, Span at) {
+    char text[256];
     const char *name = names[below(json, COUNT(names))];
     const char *value = strange[below(json, COUNT(strange))];
-    bool        is_object = json->text[at.begin] == '{';
+    bool is_object = json->text[at.begin] == '{';
     if (!is_object && json->text[at.begin] != '[') {
         put_strange(json, at);
         return;
     }
-    int         next = skip_blanks(json, at.begin + 1);
+    int next = skip_blanks(json, at.begin + 1);
     const char *comma = json->text[next] == '}' || json->text[next] == ']' ? "" : ",";
     int length = is_object ? snprintf(text, sizeof text, "\"%s\":%s%s", name, value, comma)
                            : snprintf(text, sizeof text, "%s%s", value, comma);
@@ -240,10 +433,9 @@ static void put_in(Json *json, Span at)
 
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-static int bytes_of_base64(const char *text, int length, uint8_t *bytes)
-{
+static int bytes_of_base64(const char *text, int length, uint8_t *bytes) {
     uint32_t word = 0;
-    int      count = 0, have = 0;
+    int count = 0, have = 0;
     for (int i = 0; i < length && text[i] != '='; i++) {
         const char *digit = strchr(digits, text[i]);
         if (!digit || !text[i]) break;
@@ -254,8 +446,7 @@ static int bytes_of_base64(const char *text, int length, uint8_t *bytes)
     return count;
 }
 
-static int base64_of_bytes(const uint8_t *bytes, int count, char *text)
-{
+static int base64_of_bytes(const uint8_t *bytes, int count, char *text) {
     int length = 0;
     for (int i = 0; i < count; i += 3) {
         uint32_t word = 0;
@@ -266,10 +457,9 @@ static int base64_of_bytes(const uint8_t *bytes, int count, char *text)
     return length;
 }
 
-static void change_data_uri(Json *json, int begin, int end)
-{
+static void change_data_uri(Json *json, int begin, int end) {
     static uint8_t bytes[TEXT_MAX];
-    static char    text[2 * TEXT_MAX];
+    static char text[2 * TEXT_MAX];
     int count = bytes_of_base64(json->text + begin, end - begin, bytes);
     if (below(json, 4)) {
         fuzz_mutate_places(bytes, (size_t)count, fuzz_random(&json->state));
@@ -280,8 +470,7 @@ static void change_data_uri(Json *json, int begin, int end)
     splice(json, begin, end, text, base64_of_bytes(bytes, count, text));
 }
 
-static void change_text(Json *json, Span at)
-{
+static void change_text(Json *json, Span at) {
     static uint8_t text[TEXT_MAX];
     int begin = at.begin + 1, end = at.end - 1, room = json->room - json->size + end - begin;
     if (json->text[at.begin] != '"' || room <= 0) {
@@ -302,17 +491,15 @@ static void change_text(Json *json, Span at)
 
 /* ---- one mutation ------------------------------------------------------------------------ */
 
-static void change_once(Json *json)
-{
+static void change_once(Json *json) {
     static void (*const changes[])(Json *, Span) = {
-        put_strange, put_strange, put_other, put_other, take_out, double_it, change_number,
-        change_number, change_number, change_name, put_in, put_in, change_text, change_text};
+        put_strange,   put_strange,   put_other,   put_other, take_out, double_it,   change_number,
+        change_number, change_number, change_name, put_in,    put_in,   change_text, change_text};
     Span at = json->value[below(json, json->count)];
     changes[below(json, COUNT(changes))](json, at);
 }
 
-size_t fuzz_mutate_json(uint8_t *data, size_t size, size_t max_size, unsigned seed)
-{
+size_t fuzz_mutate_json(uint8_t *data, size_t size, size_t max_size, unsigned seed) {
     static Json json;
     json.state = seed;
     json.size = (int)size;

@@ -16,30 +16,27 @@
 enum { MUTATIONS = 2, ROOM = 2, MADE_MUTATIONS = 200 };
 
 /* What a mutator makes beyond its own changes: here nothing. */
-size_t fuzz_mutate_bytes(uint8_t *data, size_t size, size_t max_size)
-{
+size_t fuzz_mutate_bytes(uint8_t *data, size_t size, size_t max_size) {
     (void)data;
     return size < max_size ? size : max_size;
 }
 
 /* In a block of exactly its size, so that the address sanitizer sees a step beyond. */
-static void run_exact(const FuzzTarget *target, const uint8_t *data, size_t size)
-{
+static void run_exact(const FuzzTarget *target, const uint8_t *data, size_t size) {
     uint8_t *exact = malloc(size + !size);
     memcpy(exact, data, size);
     fuzz_run(target, exact, size);
     free(exact);
 }
 
-static int replay_file(const FuzzTarget *target, const char *path, Arena arena)
-{
-    Error     err = {0};
+static int replay_file(const FuzzTarget *target, const char *path, Arena arena) {
+    Error err = {0};
     FileBytes bytes;
     if (!file_read(path, FUZZ_ARENA_BYTES, &arena, &bytes, &err)) return 0;
     fprintf(stderr, "%s\n", path);
     run_exact(target, bytes.data, bytes.size);
     for (unsigned i = 0; target->mutate && i < MUTATIONS; i++) {
-        size_t   room = ROOM * bytes.size + 64;
+        size_t room = ROOM * bytes.size + 64;
         uint8_t *changed = ARENA_NEW(&arena, uint8_t, room);
         memcpy(changed, bytes.data, bytes.size);
         run_exact(target, changed, target->mutate(changed, bytes.size, room, i));
@@ -47,26 +44,22 @@ static int replay_file(const FuzzTarget *target, const char *path, Arena arena)
     return 1;
 }
 
-static int replay_folder(const FuzzTarget *target, const char *folder, Arena arena)
-{
-    int  count = 0;
+static int replay_folder(const FuzzTarget *target, const char *folder, Arena arena) {
+    int count = 0;
     DIR *inputs = opendir(arena_format(&arena, "%s/%s", folder, target->name));
     if (!inputs) return 0;
     for (struct dirent *e; (e = readdir(inputs));)
         if (e->d_name[0] != '.')
-            count += replay_file(target,
-                                 arena_format(&arena, "%s/%s/%s", folder, target->name,
-                                              e->d_name),
-                                 arena);
+            count += replay_file(
+                target, arena_format(&arena, "%s/%s/%s", folder, target->name, e->d_name), arena);
     closedir(inputs);
     return count;
 }
 
 /* What the target makes itself, and many mutations of it: no corpus holds them. */
-static int replay_made(const FuzzTarget *target, Arena arena)
-{
-    int      count = 0;
-    size_t   size;
+static int replay_made(const FuzzTarget *target, Arena arena) {
+    int count = 0;
+    size_t size;
     uint8_t *made = ARENA_NEW(&arena, uint8_t, target->max_size);
     uint8_t *changed = ARENA_NEW(&arena, uint8_t, target->max_size);
     for (; (size = fuzz_make(target, made, (unsigned)count)) > 0; count++) {
@@ -80,9 +73,8 @@ static int replay_made(const FuzzTarget *target, Arena arena)
     return count;
 }
 
-int main(int argc, char **argv)
-{
-    int   count = 0, empty = 0;
+int main(int argc, char **argv) {
+    int count = 0, empty = 0;
     Arena arena = arena_reserve(FUZZ_ARENA_BYTES);
     for (const FuzzTarget *target = fuzz_targets; target->name; target++) {
         int before = count;

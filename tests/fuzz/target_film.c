@@ -14,20 +14,17 @@
 
 #define FILM_BYTES_MAX ((size_t)1 << 24) /* the program compares with the machine's memory */
 
-static Film *film_of(const FilmPart *part, Arena *arena)
-{
+static Film *film_of(const FilmPart *part, Arena *arena) {
     fuzz_claim(part->crop.x0 >= 0 && part->crop.x0 < part->crop.x1 &&
                    part->crop.x1 <= part->width && part->crop.y0 >= 0 &&
                    part->crop.y0 < part->crop.y1 && part->crop.y1 <= part->height,
                "a film's crop lies in the frame");
     fuzz_claim(part->first_sample <= part->end_sample, "samples are a range");
     if (film_bytes(part->crop, part->layers, part->lights.count) > FILM_BYTES_MAX) return NULL;
-    return film_create(part->width, part->height, part->crop, part->layers, &part->lights,
-                       arena);
+    return film_create(part->width, part->height, part->crop, part->layers, &part->lights, arena);
 }
 
-static void claim_film(const Film *film, const FilmPart *part, Arena *arena)
-{
+static void claim_film(const Film *film, const FilmPart *part, Arena *arena) {
     for (int y = part->crop.y0; y < part->crop.y1; y++)
         for (int x = part->crop.x0; x < part->crop.x1; x++) {
             FilmPixel pixel = film_pixel(film, x, y);
@@ -50,13 +47,10 @@ static const uint8_t begin[AT_FILE_BYTES] = {
     'P', 'R', 'H', 'L', 'C', 'K', 'P', 'T', 4, 3, 2, 1, CHECKPOINT_VERSION};
 
 /* The checksum would keep everything from the reader: most changes get the right one. */
-size_t fuzz_mutate_checkpoint(uint8_t *data, size_t size, size_t max_size, unsigned seed)
-{
+size_t fuzz_mutate_checkpoint(uint8_t *data, size_t size, size_t max_size, unsigned seed) {
     uint64_t state = seed, bytes, checksum;
-    if (fuzz_random(&state) % 4)
-        fuzz_mutate_places(data, size, fuzz_random(&state));
-    else
-        size = fuzz_mutate_bytes(data, size, max_size);
+    if (fuzz_random(&state) % 4) fuzz_mutate_places(data, size, fuzz_random(&state));
+    else size = fuzz_mutate_bytes(data, size, max_size);
     if (size < LEAST_BYTES || fuzz_random(&state) % 16 == 0) return size;
     bytes = size;
     memcpy(data, begin, sizeof begin);
@@ -66,10 +60,9 @@ size_t fuzz_mutate_checkpoint(uint8_t *data, size_t size, size_t max_size, unsig
     return size;
 }
 
-void fuzz_checkpoint(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error       err = {0};
-    Checkpoint  found;
+void fuzz_checkpoint(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
+    Checkpoint found;
     const char *path = fuzz_file("a.checkpoint", data, size, arena);
     checkpoint_is_there(path);
     if (!checkpoint_open(path, arena, &found, &err)) {
@@ -87,16 +80,15 @@ void fuzz_checkpoint(const uint8_t *data, size_t size, Arena *arena)
 
 /* ---- parts of a frame -------------------------------------------------------------------- */
 
-void fuzz_part(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error          err = {0};
+void fuzz_part(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
     FilmPartReader from;
-    const char    *path = fuzz_file("part.exr", data, size, arena);
+    const char *path = fuzz_file("part.exr", data, size, arena);
     if (!film_part_open(path, arena, &from, &err)) {
         fuzz_claim_refusal(&err);
         return;
     }
-    bool  ok = true;
+    bool ok = true;
     Film *film = film_of(&from.part, arena);
     while (film && ok && from.next_y < from.part.crop.y1)
         ok = film_part_add_band(&from, film, *arena, &err);

@@ -21,14 +21,14 @@ typedef struct SmallFile {
 } SmallFile;
 
 static const SmallFile small_files[] = {
-    {"white.csv", WHITE}, {"black.csv", BLACK}, {"spectra.csv", SPECTRA},
-    {"red_127.csv", BLACK}, {"red_255.csv", WHITE}, {"green_255.csv", WHITE},
-    {"blue_255.csv", WHITE}, {"i20.csv", LIGHT}, {"i50.csv", LIGHT}, {"i20_a0.csv", LIGHT},
-    {"i50_a0.csv", LIGHT}, {"i20_a180.csv", LIGHT}, {"i50_a180.csv", LIGHT},
+    {"white.csv", WHITE},    {"black.csv", BLACK},   {"spectra.csv", SPECTRA},
+    {"red_127.csv", BLACK},  {"red_255.csv", WHITE}, {"green_255.csv", WHITE},
+    {"blue_255.csv", WHITE}, {"i20.csv", LIGHT},     {"i50.csv", LIGHT},
+    {"i20_a0.csv", LIGHT},   {"i50_a0.csv", LIGHT},  {"i20_a180.csv", LIGHT},
+    {"i50_a180.csv", LIGHT},
 };
 
-static void write_small_files(Arena *arena)
-{
+static void write_small_files(Arena *arena) {
     struct stat info;
     if (!stat(fuzz_path("i50_a180.csv", arena), &info)) return;
     for (size_t i = 0; i < sizeof small_files / sizeof *small_files; i++)
@@ -37,18 +37,17 @@ static void write_small_files(Arena *arena)
 
 /* ---- targets ----------------------------------------------------------------------------- */
 
-static void claim_table(const AngleTable *table)
-{
+static void claim_table(const AngleTable *table) {
     for (int i = 0; i < table->rows; i++)
         fuzz_claim(table->theta[i] >= 0 && table->theta[i] < 1.571f && table->phi[i] >= 0 &&
-                       table->phi[i] < 6.2832f, "a direction is on the hemisphere");
+                       table->phi[i] < 6.2832f,
+                   "a direction is on the hemisphere");
     for (int i = 0; i < table->rows * table->channels; i++)
         fuzz_claim(isfinite(table->value[i]), "a value is finite");
 }
 
-void fuzz_manifest(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error        err = {0};
+void fuzz_manifest(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
     Measurement *set = ARENA_NEW(arena, Measurement, 1);
     write_small_files(arena);
     const char *path = fuzz_file("MANIFEST.json", data, size, arena);
@@ -59,17 +58,15 @@ void fuzz_manifest(const uint8_t *data, size_t size, Arena *arena)
     for (int p = 0; p < 3; p++)
         for (int i = 0; i < set->primary[p].level_count; i++)
             claim_table(&set->primary[p].table[i]);
-    for (int i = 0; i < set->incidence_count * set->azimuth_count; i++)
-        claim_table(&set->brdf[i]);
+    for (int i = 0; i < set->incidence_count * set->azimuth_count; i++) claim_table(&set->brdf[i]);
 }
 
-void fuzz_recipe(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error           err = {0};
+void fuzz_recipe(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
     SyntheticPanel *recipe = ARENA_NEW(arena, SyntheticPanel, 1);
-    const char     *path = fuzz_file("recipe.json", data, size, arena);
-    const double    angles[2] = {0.7, 2};
-    double          xyz[3];
+    const char *path = fuzz_file("recipe.json", data, size, arena);
+    const double angles[2] = {0.7, 2};
+    double xyz[3];
     if (!synthetic_panel_read(path, arena, recipe, &err)) {
         fuzz_claim_refusal(&err);
         return;
@@ -83,11 +80,10 @@ void fuzz_recipe(const uint8_t *data, size_t size, Arena *arena)
         fuzz_claim(closed_form_brdf(recipe, 0.3, 0.4, 0.5, 550) >= 0, "a BRDF is not negative");
 }
 
-void fuzz_declaration(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error          err = {0};
+void fuzz_declaration(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
     ImportRequest *request = ARENA_NEW(arena, ImportRequest, 1);
-    const char    *path = fuzz_file("declaration.json", data, size, arena);
+    const char *path = fuzz_file("declaration.json", data, size, arena);
     if (!import_request_read(path, arena, request, &err)) {
         fuzz_claim_refusal(&err);
         return;
@@ -98,10 +94,9 @@ void fuzz_declaration(const uint8_t *data, size_t size, Arena *arena)
 }
 
 /* A table of directions: luminances, and a reflection of three wavelengths. */
-void fuzz_table(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error       err = {0};
-    AngleTable  table;
+void fuzz_table(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
+    AngleTable table;
     const float nm[3] = {450, 550, 650};
     const char *path = fuzz_file("table.csv", data, size, arena);
     if (angle_table_read_xyz(path, "white", arena, &table, &err)) claim_table(&table);

@@ -16,17 +16,15 @@
 #include "review/light/response_file.h"
 
 /* A file that was written, as an input. */
-static size_t take_file(const char *path, uint8_t *data, size_t max_size, Arena scratch)
-{
+static size_t take_file(const char *path, uint8_t *data, size_t max_size, Arena scratch) {
     FileBytes bytes;
-    Error     err = {0};
+    Error err = {0};
     fuzz_claim(file_read(path, max_size, &scratch, &bytes, &err), "an input fits its target");
     memcpy(data, bytes.data, bytes.size);
     return bytes.size;
 }
 
-static size_t change(uint8_t *data, size_t size, size_t max_size, uint64_t *state)
-{
+static size_t change(uint8_t *data, size_t size, size_t max_size, uint64_t *state) {
     if (fuzz_random(state) % 4) fuzz_mutate_places(data, size, fuzz_random(state));
     else size = fuzz_mutate_bytes(data, size, max_size);
     return size;
@@ -35,15 +33,13 @@ static size_t change(uint8_t *data, size_t size, size_t max_size, uint64_t *stat
 /* What all have in common (keep/kept.c): a head, and a checksum at the end. */
 enum { KEPT_HEAD = 32, AT_ORDER = 8, AT_BYTES = 16, AT_IDENTITY = 24 };
 
-static void mend_head(uint8_t *data, const char *magic, uint32_t version)
-{
+static void mend_head(uint8_t *data, const char *magic, uint32_t version) {
     const uint32_t order[2] = {0x01020304u, version};
     memcpy(data, magic, 8);
     memcpy(data + AT_ORDER, order, sizeof order);
 }
 
-static void mend_file(uint8_t *data, size_t size)
-{
+static void mend_file(uint8_t *data, size_t size) {
     uint64_t bytes = size, checksum;
     memcpy(data + AT_BYTES, &bytes, sizeof bytes);
     checksum = XXH3_64bits(data, size - sizeof checksum);
@@ -54,10 +50,11 @@ static void mend_file(uint8_t *data, size_t size)
 
 enum { FIELD_HEAD = KEPT_HEAD + 16, FIELD_NODE = 16, FIELD_CELL = 1120 };
 
-static LightGuide *make_guide(uint32_t cells, Arena *arena)
-{
+static LightGuide *make_guide(uint32_t cells, Arena *arena) {
     LightGuide *guide = ARENA_NEW(arena, LightGuide, 1);
-    *guide = (LightGuide){.node_count = 2 * cells - 1, .cell_count = cells, .asks = true,
+    *guide = (LightGuide){.node_count = 2 * cells - 1,
+                          .cell_count = cells,
+                          .asks = true,
                           .nodes = ARENA_NEW(arena, GuideNode, 2 * cells - 1),
                           .cells = ARENA_NEW(arena, GuideCell, cells)};
     for (uint32_t i = 0; i + 1 < cells; i++) { /* each cuts off one cell */
@@ -76,9 +73,8 @@ static LightGuide *make_guide(uint32_t cells, Arena *arena)
     return guide;
 }
 
-size_t fuzz_make_field(uint8_t *data, size_t max_size, unsigned number, Arena *arena)
-{
-    Error       err = {0};
+size_t fuzz_make_field(uint8_t *data, size_t max_size, unsigned number, Arena *arena) {
+    Error err = {0};
     const char *path = fuzz_path("made.field", arena);
     if (number > 3) return 0;
     fuzz_claim(guide_write(path, make_guide(1 + 2 * number, arena), *arena, &err),
@@ -86,14 +82,12 @@ size_t fuzz_make_field(uint8_t *data, size_t max_size, unsigned number, Arena *a
     return take_file(path, data, max_size, *arena);
 }
 
-size_t fuzz_mutate_field(uint8_t *data, size_t size, size_t max_size, unsigned seed)
-{
+size_t fuzz_mutate_field(uint8_t *data, size_t size, size_t max_size, unsigned seed) {
     const uint64_t no_identity = 0;
-    uint64_t       state = seed;
+    uint64_t state = seed;
     size = change(data, size, max_size, &state);
-    if (size < FIELD_HEAD + FIELD_NODE + FIELD_CELL + 8 || !(fuzz_random(&state) % 16))
-        return size;
-    size_t   each = 2 * FIELD_NODE + FIELD_CELL; /* a cell more is two nodes more */
+    if (size < FIELD_HEAD + FIELD_NODE + FIELD_CELL + 8 || !(fuzz_random(&state) % 16)) return size;
+    size_t each = 2 * FIELD_NODE + FIELD_CELL; /* a cell more is two nodes more */
     uint32_t cells = (uint32_t)((size - FIELD_HEAD - 8 + FIELD_NODE) / each);
     uint32_t facts[3] = {2 * cells - 1, cells, GUIDE_BINS};
     mend_head(data, "PRHLFELD", GUIDE_VERSION);
@@ -104,31 +98,33 @@ size_t fuzz_mutate_field(uint8_t *data, size_t size, size_t max_size, unsigned s
     return size;
 }
 
-static void claim_view(const LightGuide *guide, Vec3 at)
-{
-    const GuideSurface surface = {.ns = {0, 1, 0}, .wo = {0.6f, 0.8f, 0}, .diffuse = 0.5f,
-                                  .f0 = 0.04f, .f90 = 1, .alpha = 0.1f};
+static void claim_view(const LightGuide *guide, Vec3 at) {
+    const GuideSurface surface = {.ns = {0, 1, 0},
+                                  .wo = {0.6f, 0.8f, 0},
+                                  .diffuse = 0.5f,
+                                  .f0 = 0.04f,
+                                  .f90 = 1,
+                                  .alpha = 0.1f};
     GuideView view;
-    uint32_t  cell = guide_cell_at(guide, at);
+    uint32_t cell = guide_cell_at(guide, at);
     fuzz_claim(cell < guide->cell_count, "every place has a cell");
     guide_view(guide, cell, &surface, &view);
     for (int aim = 0; aim < GUIDE_AIMS; aim++) {
         const GuideChoice *choice = &view.towards[aim];
         fuzz_claim(choice->sum >= 0 && isfinite(choice->sum), "a choice has a finite sum");
         if (!(choice->sum > 0)) continue;
-        Vec3  wi = guide_sample(choice, 0.3f, 0.7f);
+        Vec3 wi = guide_sample(choice, 0.3f, 0.7f);
         float pdf = guide_pdf(choice, wi), length = vec3_length(wi);
         fuzz_claim(pdf > 0 && isfinite(pdf), "what is sampled has a density");
         fuzz_claim(fabsf(length - 1) < 1e-3f, "a direction has unit length");
     }
 }
 
-void fuzz_field(const uint8_t *data, size_t size, Arena *arena)
-{
+void fuzz_field(const uint8_t *data, size_t size, Arena *arena) {
     static const float places[] = {-1e30f, -1, -0.1f, 0, 0.25f, 2, 1e30f};
-    const GuideScene   scene = {.has = {true, true}, .light_count = 8, .lamp_count = 4};
-    const LightGuide  *guide;
-    Error              err = {0};
+    const GuideScene scene = {.has = {true, true}, .light_count = 8, .lamp_count = 4};
+    const LightGuide *guide;
+    Error err = {0};
     if (!guide_read(fuzz_file("a.field", data, size, arena), &scene, arena, &guide, &err)) {
         fuzz_claim_refusal(&err);
         return;
@@ -143,25 +139,21 @@ static const char identity[] = "version\t1\nseed\t9\n";
 
 enum { RESPONSE_HEAD = KEPT_HEAD + 40 };
 
-size_t fuzz_make_response(uint8_t *data, size_t max_size, unsigned number, Arena *arena)
-{
-    Error          err = {0};
-    Response       response;
+size_t fuzz_make_response(uint8_t *data, size_t max_size, unsigned number, Arena *arena) {
+    Error err = {0};
+    Response response;
     const OwnLight own = {0.25, 1.5};
-    ResponseFile   file = {.path = fuzz_path("made.response", arena), .identity = identity};
+    ResponseFile file = {.path = fuzz_path("made.response", arena), .identity = identity};
     if (number > 2) return 0;
     float *shares = response_empty(0, arena, &response);
-    for (unsigned i = 0; i < number * RESPONSE_BANDS; i++)
-        shares[3 * i] = 1.0f / (float)(i + 3);
+    for (unsigned i = 0; i < number * RESPONSE_BANDS; i++) shares[3 * i] = 1.0f / (float)(i + 3);
     response.paths = 640;
     response.relative_error = 0.0123;
-    fuzz_claim(response_write(&file, &response, &own, *arena, &err),
-               "a response can be written");
+    fuzz_claim(response_write(&file, &response, &own, *arena, &err), "a response can be written");
     return take_file(file.path, data, max_size, *arena);
 }
 
-size_t fuzz_mutate_response(uint8_t *data, size_t size, size_t max_size, unsigned seed)
-{
+size_t fuzz_mutate_response(uint8_t *data, size_t size, size_t max_size, unsigned seed) {
     uint64_t state = seed;
     size = change(data, size, max_size, &state);
     if (size < RESPONSE_HEAD + 8 || fuzz_random(&state) % 16 == 0) return size;
@@ -170,15 +162,13 @@ size_t fuzz_mutate_response(uint8_t *data, size_t size, size_t max_size, unsigne
     return size;
 }
 
-void fuzz_response(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error        err = {0};
-    Response     found;
-    OwnLight     own;
-    ResponseFile file = {.path = fuzz_file("a.response", data, size, arena),
-                         .identity = identity};
-    float        bands[RESPONSE_BANDS];
-    double       without[RESPONSE_GROUPS];
+void fuzz_response(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
+    Response found;
+    OwnLight own;
+    ResponseFile file = {.path = fuzz_file("a.response", data, size, arena), .identity = identity};
+    float bands[RESPONSE_BANDS];
+    double without[RESPONSE_GROUPS];
     BrightSamples bright = {0};
     if (!response_read(&file, arena, &found, &own, &err)) {
         fuzz_claim_refusal(&err);
@@ -193,32 +183,33 @@ void fuzz_response(const uint8_t *data, size_t size, Arena *arena)
 /* ---- what a review keeps of a condition (review/engine/condition_rows.c) ------------------ */
 
 /* What is taken is added again with the bytes that it had. */
-void fuzz_condition(const uint8_t *data, size_t size, Arena *arena)
-{
+void fuzz_condition(const uint8_t *data, size_t size, Arena *arena) {
     PackBytes from = {data, data + size};
-    Review    review;
-    Text      again = {.arena = arena};
+    Review review;
+    Text again = {.arena = arena};
     if (!pack_take(&from, &condition_review, &review, arena)) return;
     pack_add(&again, &condition_review, &review);
     fuzz_claim(again.size == (size_t)(from.at - data) && !memcmp(again.data, data, again.size),
                "rows have the bytes that they were read from");
 }
 
-size_t fuzz_make_condition(uint8_t *data, size_t max_size, unsigned number, Arena *arena)
-{
+size_t fuzz_make_condition(uint8_t *data, size_t max_size, unsigned number, Arena *arena) {
     ReviewCase c = review_case_unknown();
     const LimitVerdict limit = {.name = "contrast", .kind = "contrast_ratio", .value = 2};
     ReviewSweep sweep = {.condition = "sun", .eye = "driver", .symbol = "speed"};
-    ReviewFile  input = {"a.gltf", "0123456789abcdef"};
-    Text        text = {.arena = arena};
+    ReviewFile input = {"a.gltf", "0123456789abcdef"};
+    Text text = {.arena = arena};
     c.condition = "sun";
     c.eye = "driver";
     c.symbol = "speed";
     c.limits = &limit;
     c.limit_count = 1;
     sweep.worst = c;
-    const Review review = {.cases = &c, .case_count = (int)(number & 1), .sweeps = &sweep,
-                           .sweep_count = (int)(number >> 1 & 1), .inputs = &input,
+    const Review review = {.cases = &c,
+                           .case_count = (int)(number & 1),
+                           .sweeps = &sweep,
+                           .sweep_count = (int)(number >> 1 & 1),
+                           .inputs = &input,
                            .input_count = 1};
     if (number > 3) return 0;
     pack_add(&text, &condition_review, &review);

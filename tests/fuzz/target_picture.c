@@ -13,15 +13,13 @@
 #define SHOWN_PIXELS ((size_t)1 << 20)
 #define FRAME_BYTES ((size_t)5 << 18) /* reading keeps a megabyte for names */
 
-static Arena small_arena(const Arena *arena, size_t bytes)
-{
+static Arena small_arena(const Arena *arena, size_t bytes) {
     Arena small = *arena;
     small.end = small.next + bytes;
     return small;
 }
 
-void fuzz_image(const uint8_t *data, size_t size, Arena *arena)
-{
+void fuzz_image(const uint8_t *data, size_t size, Arena *arena) {
     Error err = {0};
     Image image;
     Arena small = small_arena(arena, IMAGE_BYTES), tags = *arena;
@@ -38,11 +36,10 @@ void fuzz_image(const uint8_t *data, size_t size, Arena *arena)
                "a picture has pixels");
 }
 
-void fuzz_frame(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error       err = {0};
-    FrameImage  frame;
-    Arena       small = small_arena(arena, FRAME_BYTES);
+void fuzz_frame(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
+    FrameImage frame;
+    Arena small = small_arena(arena, FRAME_BYTES);
     const float *rgb[3];
     if (!frame_read_memory(data, size, "frame.exr", &small, &frame, &err)) {
         fuzz_claim_refusal(&err);

@@ -6,21 +6,18 @@
 #include "harness.h"
 #include "scene/load/scene_load.h"
 
-static bool is_id(int id, int count)
-{
+static bool is_id(int id, int count) {
     return id == NO_ID || (id >= 0 && id < count);
 }
 
-static bool all_finite(const float *value, size_t count)
-{
+static bool all_finite(const float *value, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (!isfinite(value[i])) return false;
     return true;
 }
 
 /* The vertices of a part's triangles are its own, and finite in all that is known of them. */
-static void claim_attributes(const Scene *scene, const Part *part)
-{
+static void claim_attributes(const Scene *scene, const Part *part) {
     for (uint32_t i = 0; i < 3 * part->triangle_count; i++) {
         const Triangle *triangle = &scene->triangles[part->first_triangle + i / 3];
         fuzz_claim(triangle->vertex[i % 3] >= part->first_vertex, "a vertex is of its part");
@@ -34,8 +31,7 @@ static void claim_attributes(const Scene *scene, const Part *part)
     }
 }
 
-static void claim_geometry(const Scene *scene)
-{
+static void claim_geometry(const Scene *scene) {
     fuzz_claim(scene->opaque_count <= scene->triangle_count, "opaque triangles are triangles");
     fuzz_claim(all_finite(&scene->positions[0].x, 3 * (size_t)scene->vertex_count),
                "positions are finite");
@@ -49,44 +45,47 @@ static void claim_geometry(const Scene *scene)
         const Part *part = &scene->parts[p];
         fuzz_claim(part->material_id >= 0 && part->material_id < scene->material_count,
                    "a part's material exists");
-        fuzz_claim((uint64_t)part->first_triangle + part->triangle_count <=
-                       scene->triangle_count, "a part's triangles exist");
+        fuzz_claim((uint64_t)part->first_triangle + part->triangle_count <= scene->triangle_count,
+                   "a part's triangles exist");
         claim_attributes(scene, part);
     }
 }
 
-static void claim_slot(const Scene *scene, const TextureSlot *slot)
-{
+static void claim_slot(const Scene *scene, const TextureSlot *slot) {
     fuzz_claim(is_id(slot->texture_id, scene->texture_count), "a slot's texture exists");
     if (slot->texture_id == NO_ID) return;
     fuzz_claim(slot->uv_set >= 0 && slot->uv_set < SCENE_UV_SETS, "a slot's uv set exists");
     fuzz_claim(all_finite(slot->uv_from_uv, 6), "a slot's transform is finite");
 }
 
-static void claim_materials(const Scene *scene)
-{
+static void claim_materials(const Scene *scene) {
     for (int i = 0; i < scene->material_count; i++) {
-        const Material    *m = &scene->materials[i];
-        const TextureSlot *slots[] = {
-            &m->base_color_texture, &m->metallic_roughness_texture, &m->normal_texture,
-            &m->emissive_texture, &m->specular_texture, &m->specular_color_texture,
-            &m->transmission_texture, &m->clearcoat_texture, &m->clearcoat_roughness_texture,
-            &m->clearcoat_normal_texture};
+        const Material *m = &scene->materials[i];
+        const TextureSlot *slots[] = {&m->base_color_texture,
+                                      &m->metallic_roughness_texture,
+                                      &m->normal_texture,
+                                      &m->emissive_texture,
+                                      &m->specular_texture,
+                                      &m->specular_color_texture,
+                                      &m->transmission_texture,
+                                      &m->clearcoat_texture,
+                                      &m->clearcoat_roughness_texture,
+                                      &m->clearcoat_normal_texture};
         for (size_t s = 0; s < sizeof slots / sizeof *slots; s++) claim_slot(scene, slots[s]);
         fuzz_claim(all_finite(m->base_color, 4) && all_finite(m->emissive_cd_m2, 3) &&
                        isfinite(m->ior) && m->roughness >= 0 && m->roughness <= 1,
                    "a material is in range");
         fuzz_claim(is_id(m->display_id, scene->display_count), "a material's display exists");
         fuzz_claim(is_id(m->base_color_curve_id, scene->curve_count) &&
-                       is_id(m->emission_curve_id, scene->curve_count), "its curves exist");
+                       is_id(m->emission_curve_id, scene->curve_count),
+                   "its curves exist");
     }
     for (int i = 0; i < scene->texture_count; i++)
         fuzz_claim(scene->textures[i].image.width > 0 && scene->textures[i].image.pixels,
                    "a texture has a picture");
 }
 
-static void claim_others(const Scene *scene)
-{
+static void claim_others(const Scene *scene) {
     for (int i = 0; i < scene->light_count; i++) {
         const PunctualLight *light = &scene->lights[i];
         fuzz_claim(all_finite(light->intensity, 3) && isfinite(light->position.x) &&
@@ -103,12 +102,11 @@ static void claim_others(const Scene *scene)
                    "a display has a panel");
 }
 
-void fuzz_scene(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error        err = {0};
-    Scene       *scene;
-    const char  *path = fuzz_file("model.gltf", data, size, arena);
-    Problems     problems = problems_start(arena);
+void fuzz_scene(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
+    Scene *scene;
+    const char *path = fuzz_file("model.gltf", data, size, arena);
+    Problems problems = problems_start(arena);
     SceneOptions options = {.paths = &path, .path_count = 1};
     if (!scene_load(&options, arena, &problems, &scene, &err)) {
         fuzz_claim_refusal(&err);

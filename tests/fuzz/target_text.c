@@ -13,23 +13,20 @@
 
 #define ARGUMENTS_MAX 32
 
-void fuzz_curve(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error       err = {0};
-    Curve       curve;
+void fuzz_curve(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
+    Curve curve;
     const char *text = arena_string(arena, (const char *)data, size);
     if (!curve_parse(text, "curve.csv", CURVE_SHARES, &curve, NULL, &err)) {
         fuzz_claim_refusal(&err);
         return;
     }
-    for (int i = 0; i < CURVE_COUNT; i++)
-        fuzz_claim(isfinite(curve.value[i]), "a curve is finite");
+    for (int i = 0; i < CURVE_COUNT; i++) fuzz_claim(isfinite(curve.value[i]), "a curve is finite");
 }
 
-void fuzz_weather(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error       err = {0};
-    Weather     weather;
+void fuzz_weather(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
+    Weather weather;
     const char *path = fuzz_file("weather.epw", data, size, arena);
     if (!weather_read(path, arena, &weather, &err)) {
         fuzz_claim_refusal(&err);
@@ -39,13 +36,13 @@ void fuzz_weather(const uint8_t *data, size_t size, Arena *arena)
     fuzz_claim(weather.count > 0, "a weather file has hours");
     for (int i = 0; i < weather.count; i++) {
         const WeatherHour *hour = &weather.hour[i];
-        fuzz_claim(!hour->has_light || (hour->direct_normal_w_m2 >= 0 &&
-                                        hour->diffuse_horizontal_w_m2 >= 0 &&
-                                        isfinite(hour->direct_normal_w_m2)),
+        fuzz_claim(!hour->has_light ||
+                       (hour->direct_normal_w_m2 >= 0 && hour->diffuse_horizontal_w_m2 >= 0 &&
+                        isfinite(hour->direct_normal_w_m2)),
                    "light is not negative");
     }
     WeatherClock clock = weather_clock_find(&weather, NULL, *arena);
-    double       apart = 0;
+    double apart = 0;
     weather_clock_row(&weather, &clock, &time, &apart);
     fuzz_claim(isfinite(clock.offset_h) && fabs(apart) <= 31, "a row has its instant");
 }
@@ -53,13 +50,12 @@ void fuzz_weather(const uint8_t *data, size_t size, Arena *arena)
 /* ---- command lines ----------------------------------------------------------------------- */
 
 /* Lines become arguments behind a command's name; --help would print. */
-static int arguments_of(char *text, char **argv)
-{
+static int arguments_of(char *text, char **argv) {
     int count = 0;
     argv[count++] = "fuzz";
     while (*text && count < ARGUMENTS_MAX) {
         char *end = text + strcspn(text, "\n");
-        bool  is_last = !*end;
+        bool is_last = !*end;
         *end = 0;
         if (strcmp(text, "--help") != 0) argv[count++] = text;
         text = is_last ? end : end + 1;
@@ -67,31 +63,28 @@ static int arguments_of(char *text, char **argv)
     return count;
 }
 
-#define WEATHER                                                                                \
-    "LOCATION,Munich,-,DEU,IWEC Data,108660,48.13,11.70,1.0,529.0\n"                           \
-    "1983,6,21,9,60,?9?9,18.3,11.2,63,95200,390,1400,330,620,600,150,66000,60000,17000,"       \
+#define WEATHER \
+    "LOCATION,Munich,-,DEU,IWEC Data,108660,48.13,11.70,1.0,529.0\n" \
+    "1983,6,21,9,60,?9?9,18.3,11.2,63,95200,390,1400,330,620,600,150,66000,60000,17000," \
     "2000,200,2.1,3,3,20.0,77777,9,999999999,210,0.1500,0,88,0.18,0.0,1.0\n"
 
 /* Files that a command line names are not the fuzzer's: they are known ones. */
-static void replace_files(EnvironmentChange *change, Arena *arena)
-{
-    if (change->weather)
-        change->weather = fuzz_file("known.epw", WEATHER, strlen(WEATHER), arena);
+static void replace_files(EnvironmentChange *change, Arena *arena) {
+    if (change->weather) change->weather = fuzz_file("known.epw", WEATHER, strlen(WEATHER), arena);
     if (change->environment && !strncmp(change->environment, "hdri:", 5))
         change->environment = "hdri:none.hdr";
 }
 
-void fuzz_environment(const uint8_t *data, size_t size, Arena *arena)
-{
-    Cli               cli;
-    Error             err = {0};
-    Scene             scene = {.environment = {.color = {1, 1, 1}, .forward = {0, 0, -1}}};
-    Problems          problems = problems_start(arena);
+void fuzz_environment(const uint8_t *data, size_t size, Arena *arena) {
+    Cli cli;
+    Error err = {0};
+    Scene scene = {.environment = {.color = {1, 1, 1}, .forward = {0, 0, -1}}};
+    Problems problems = problems_start(arena);
     EnvironmentChange change = {0};
-    char             *argv[ARGUMENTS_MAX + 1] = {0};
-    const Option      options[] = {ENVIRONMENT_OPTIONS(&change)};
-    const CliCommand  command = {"fuzz", "", "", "", options,
-                                 (int)(sizeof options / sizeof *options), 0, 2};
+    char *argv[ARGUMENTS_MAX + 1] = {0};
+    const Option options[] = {ENVIRONMENT_OPTIONS(&change)};
+    const CliCommand command = {
+        "fuzz", "", "", "", options, (int)(sizeof options / sizeof *options), 0, 2};
     int argc = arguments_of(fuzz_text(data, size, arena), argv);
     if (!cli_parse(&command, argc, argv, arena, &cli, &err)) {
         fuzz_claim_refusal(&err);
@@ -110,17 +103,16 @@ void fuzz_environment(const uint8_t *data, size_t size, Arena *arena)
 }
 
 /* Options of every kind. */
-void fuzz_cli(const uint8_t *data, size_t size, Arena *arena)
-{
-    Cli         cli;
-    Error       err = {0};
-    bool        flag = false, given = false;
+void fuzz_cli(const uint8_t *data, size_t size, Arena *arena) {
+    Cli cli;
+    Error err = {0};
+    bool flag = false, given = false;
     const char *text = NULL, *name, *value;
-    double      number = 1, numbers[3] = {0};
-    long        whole = 1;
-    int         sides[2] = {1, 1}, choice = 0;
-    CliTexts    texts = {0};
-    char       *argv[ARGUMENTS_MAX + 1] = {0};
+    double number = 1, numbers[3] = {0};
+    long whole = 1;
+    int sides[2] = {1, 1}, choice = 0;
+    CliTexts texts = {0};
+    char *argv[ARGUMENTS_MAX + 1] = {0};
     const Option options[] = {
         {"--flag", OPTION_FLAG, NULL, "", &flag, .given = &given},
         {"--text", OPTION_TEXT, "T", "", &text},
@@ -154,12 +146,11 @@ void fuzz_cli(const uint8_t *data, size_t size, Arena *arena)
     }
 }
 
-void fuzz_uri(const uint8_t *data, size_t size, Arena *arena)
-{
-    Error       err = {0};
-    FileBytes   bytes;
+void fuzz_uri(const uint8_t *data, size_t size, Arena *arena) {
+    Error err = {0};
+    FileBytes bytes;
     const char *type;
-    char       *plain, *uri = fuzz_text(data, size, arena);
+    char *plain, *uri = fuzz_text(data, size, arena);
     if (uri_is_data(uri)) {
         if (data_uri_decode(uri, arena, &bytes, &type, &err))
             fuzz_claim(bytes.size <= size && bytes.data[bytes.size] == 0 && strlen(type) < size,

@@ -4,8 +4,7 @@
 #include "shaders/facets/solid_energy.h"
 
 static inline const SolidEnergy *brushed_energy(float ior, float along, float across,
-                                                bool has_facets, Arena *arena)
-{
+                                                bool has_facets, Arena *arena) {
     float high = fmaxf(along, across), ratio = fminf(along, across) / high;
     return solid_energy_brushed(solid_energy_build(ior, across, across, has_facets, arena),
                                 (BrushedRange){high, high, ratio, ratio}, arena);

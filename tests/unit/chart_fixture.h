@@ -19,21 +19,18 @@ typedef struct Chart {
 } Chart;
 
 /* Ring coordinate in [0, 1] of the angle to the centre: even in log(1 + (angle/width)^2). */
-static inline double ring_of(const Chart *chart, double angle)
-{
+static inline double ring_of(const Chart *chart, double angle) {
     double w = (double)chart->width;
     return log1p(angle * angle / (w * w)) / log1p(PI * PI / (w * w));
 }
 
-static inline double angle_of(const Chart *chart, double ring)
-{
+static inline double angle_of(const Chart *chart, double ring) {
     double w = (double)chart->width;
     return w * sqrt(expm1(ring * log1p(PI * PI / (w * w))));
 }
 
-static inline int cell_of(const Chart *chart, Vec3 wi)
-{
-    Vec3   local = frame_to_local(&chart->frame, wi);
+static inline int cell_of(const Chart *chart, Vec3 wi) {
+    Vec3 local = frame_to_local(&chart->frame, wi);
     double side = sqrt((double)local.x * (double)local.x + (double)local.y * (double)local.y);
     double ring = ring_of(chart, atan2(side, (double)local.z)) * RINGS;
     double turn = (atan2((double)local.y, (double)local.x) / (2 * PI) + 0.5) * SECTORS;
@@ -42,8 +39,7 @@ static inline int cell_of(const Chart *chart, Vec3 wi)
 }
 
 /* Standard normal deviate of a chi-square sum (Wilson and Hilferty 1931). */
-static inline double deviate(double chi2, int degrees)
-{
+static inline double deviate(double chi2, int degrees) {
     double v = 2.0 / (9.0 * degrees);
     return (cbrt(chi2 / degrees) - (1 - v)) / sqrt(v);
 }
@@ -51,8 +47,7 @@ static inline double deviate(double chi2, int degrees)
 /* Cells of fewer than 8 expected samples are put together. The quadrature's own error (the
  * horizon cuts through cells) counts as 2 % of a cell. */
 static inline double chi_square(const double *expected, const double *found, int count,
-                                int *degrees)
-{
+                                int *degrees) {
     double chi2 = 0, e = 0, f = 0;
     *degrees = -1;
     for (int i = 0; i < count; i++) {

@@ -10,10 +10,8 @@ enum { WIDTH = 12, HEIGHT = 8, COUNT = WIDTH * HEIGHT };
 #define ARENA_BYTES ((size_t)1 << 30)
 
 /* A frame whose red is i, green i / 2, blue 1, with metadata and a layer of a display. */
-static inline CompareInput frame_input(const char *name, Arena *arena)
-{
-    FrameImage frame = frame_create(WIDTH, HEIGHT, (ExrWindow){0, 0, WIDTH, HEIGHT}, 5, 8,
-                                    arena);
+static inline CompareInput frame_input(const char *name, Arena *arena) {
+    FrameImage frame = frame_create(WIDTH, HEIGHT, (ExrWindow){0, 0, WIDTH, HEIGHT}, 5, 8, arena);
     float *r = frame_add_channel(&frame, "R", false, arena);
     float *g = frame_add_channel(&frame, "G", false, arena);
     float *b = frame_add_channel(&frame, "B", false, arena);
@@ -29,30 +27,25 @@ static inline CompareInput frame_input(const char *name, Arena *arena)
     frame_set_string(&frame, "parhelion:seed", "1", arena);
     frame_set_string(&frame, "parhelion:samples", "0:16", arena);
     frame_set_string(&frame, "parhelion:inputs", "00aa  a.gltf\n00bb  b.png\n", arena);
-    return (CompareInput){.name = name,
-                          .kind = INPUT_FRAME,
-                          .light = {WIDTH, HEIGHT, {r, g, b}},
-                          .frame = frame};
+    return (CompareInput){
+        .name = name, .kind = INPUT_FRAME, .light = {WIDTH, HEIGHT, {r, g, b}}, .frame = frame};
 }
 
-static inline float *channel(const CompareInput *input, const char *name)
-{
+static inline float *channel(const CompareInput *input, const char *name) {
     for (int i = 0; i < input->frame.channel_count; i++)
-        if (!strcmp(input->frame.channels[i].name, name))
-            return input->frame.channels[i].values;
+        if (!strcmp(input->frame.channels[i].name, name)) return input->frame.channels[i].values;
     fail_msg("no channel %s", name);
     return NULL;
 }
 
-static inline CompareInput picture_input(const char *name, int bits, Arena *arena)
-{
-    CompareInput input = {.name = name,
-                          .kind = INPUT_PICTURE,
-                          .bits = bits,
-                          .tags = {.orientation = 1, .words = "", .is_srgb = true,
-                                   .is_known = true},
-                          .light = {WIDTH, HEIGHT, {NULL}},
-                          .codes = {WIDTH, HEIGHT, {NULL}}};
+static inline CompareInput picture_input(const char *name, int bits, Arena *arena) {
+    CompareInput input = {
+        .name = name,
+        .kind = INPUT_PICTURE,
+        .bits = bits,
+        .tags = {.orientation = 1, .words = "", .is_srgb = true, .is_known = true},
+        .light = {WIDTH, HEIGHT, {NULL}},
+        .codes = {WIDTH, HEIGHT, {NULL}}};
     for (int c = 0; c < 3; c++) {
         float *codes = ARENA_NEW(arena, float, COUNT), *light = ARENA_NEW(arena, float, COUNT);
         for (int i = 0; i < COUNT; i++) {
@@ -66,28 +59,25 @@ static inline CompareInput picture_input(const char *name, int bits, Arena *aren
 }
 
 static inline Comparison compared(const CompareInput *a, const CompareInput *b,
-                                  CompareOptions options, Arena *arena)
-{
+                                  CompareOptions options, Arena *arena) {
     Comparison c;
-    Error      err = {0};
+    Error err = {0};
     options.threads = 1;
     if (!compare_inputs(a, b, &options, arena, &c, &err)) fail_msg("%s", err.text);
     return c;
 }
 
-static inline void assert_reason(const Comparison *c, const char *part)
-{
+static inline void assert_reason(const Comparison *c, const char *part) {
     assert_false(c->same);
     if (lines_have(c->reasons.list, c->reasons.count, part)) return;
     fail_msg("no reason has \"%s\"; the verdict is \"%s\"", part, c->verdict);
 }
 
-static inline bool has_note(const Comparison *c, const char *part)
-{
+static inline bool has_note(const Comparison *c, const char *part) {
     return lines_have(c->notes.list, c->notes.count, part);
 }
 
 /* Nothing but what fails whatever the limits are. */
 static const Threshold ANYTHING = {METRIC_DIFFERING, 1};
-static const CompareOptions LOOSE = {.groups = GROUP_MSE, .thresholds = &ANYTHING,
-                                     .threshold_count = 1};
+static const CompareOptions LOOSE = {
+    .groups = GROUP_MSE, .thresholds = &ANYTHING, .threshold_count = 1};

@@ -8,21 +8,18 @@
 
 static char path[2 * FOLDER_BYTES]; /* of the file */
 
-static inline int make_path(void **state, const char *name)
-{
+static inline int make_path(void **state, const char *name) {
     if (make_folder(state)) return -1;
     snprintf(path, sizeof path, "%s", in_folder(name));
     return 0;
 }
 
-static inline int remove_path(void **state)
-{
+static inline int remove_path(void **state) {
     unlink(path);
     return remove_folder(state);
 }
 
-static inline float random_unit(uint32_t *state)
-{
+static inline float random_unit(uint32_t *state) {
     *state = hash_u32(*state + 0x9e3779b9u);
     return unit_float(*state);
 }

@@ -3,8 +3,7 @@
  * behind that file's add_model. */
 #pragma once
 
-static void add_brushed(void)
-{
+static void add_brushed(void) {
     add_model("brushed white metal", 1, 0.05f, true)->alpha_along = 0.4f;
     add_model("brushed white metal, across x", 1, 0.6f, true)->alpha_along = 0.1f;
     models[model_count - 1].width = 0.1f;
@@ -22,17 +21,14 @@ static void add_brushed(void)
     m->alpha_along = 0.5f;
 }
 
-static MetallicRoughness *add_filmed(const char *name, float metallic, float alpha,
-                                     bool lossless)
-{
+static MetallicRoughness *add_filmed(const char *name, float metallic, float alpha, bool lossless) {
     MetallicRoughness *m = add_model(name, metallic, alpha, lossless);
     m->film = (ThinFilm){.share = 1, .ior = 1.8f, .thickness_nm = 350};
     m->wavelengths = &wavelengths;
     return m;
 }
 
-static void add_films(void)
-{
+static void add_films(void) {
     add_filmed("filmed white metal, alpha 0.3", 1, 0.3f, true);
     add_filmed("smooth filmed gold", 1, 0, false)->base_color = ramp(0.3f, 0.97f);
     add_filmed("filmed white plastic, alpha 0.3", 0, 0.3f, true);
@@ -45,9 +41,8 @@ static void add_films(void)
     add_filmed("filmed plastic under lacquer", 0, 0.3f, true)->clearcoat = 1;
 }
 
-static MetallicRoughness *add_sheen(const char *name, float metallic, float alpha,
-                                    float roughness, bool lossless)
-{
+static MetallicRoughness *add_sheen(const char *name, float metallic, float alpha, float roughness,
+                                    bool lossless) {
     MetallicRoughness *m = add_model(name, metallic, alpha, lossless);
     m->overlay.color[0] = m->overlay.color[1] = m->overlay.color[2] = 1;
     m->overlay.alpha = roughness * roughness;
@@ -55,8 +50,7 @@ static MetallicRoughness *add_sheen(const char *name, float metallic, float alph
     return m;
 }
 
-static void add_cloths(void)
-{
+static void add_cloths(void) {
     add_sheen("white cloth, sheen 1", 0, 1, 1, true);
     add_sheen("white cloth, sheen 0.5", 0, 0.5f, 0.5f, true);
     add_sheen("white cloth, sheen 0.2", 0, 0.3f, 0.2f, true)->specular = 0;
@@ -68,8 +62,8 @@ static void add_cloths(void)
     add_sheen("smooth sheet, sheen 0.7", 0, 0, 0.7f, true)->transmission = 0.8f;
     add_sheen("brushed plastic, sheen 0.7", 0, 0.1f, 0.7f, true)->alpha_along = 0.5f;
     add_sheen("cloth under lacquer, sheen 0.7", 0, 0.5f, 0.7f, true)->clearcoat = 1;
-    MetallicRoughness *m = add_sheen("brushed filmed half metal, sheen 0.4, under lacquer",
-                                     0.5f, 0.2f, 0.4f, true);
+    MetallicRoughness *m =
+        add_sheen("brushed filmed half metal, sheen 0.4, under lacquer", 0.5f, 0.2f, 0.4f, true);
     m->alpha_along = 0.4f;
     m->film = (ThinFilm){.share = 1, .ior = 1.8f, .thickness_nm = 350};
     m->clearcoat = 0.7f;
@@ -95,8 +89,7 @@ static void add_cloths(void)
 }
 
 /* Sheets that a coat lies on, on both sides. */
-static void add_lacquered_sheets(void)
-{
+static void add_lacquered_sheets(void) {
     MetallicRoughness *m = add_model("frosted sheet under lacquer", 0, 0.3f, true);
     m->transmission = 1;
     m->clearcoat = 1;

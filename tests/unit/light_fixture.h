@@ -10,14 +10,12 @@
 
 #define SAMPLES 200000
 
-static inline float random_unit(uint32_t *state)
-{
+static inline float random_unit(uint32_t *state) {
     *state = *state * 747796405u + 2891336453u;
     return unit_float(hash_u32(*state));
 }
 
-static inline void random3(uint32_t *state, float u[3])
-{
+static inline void random3(uint32_t *state, float u[3]) {
     for (int i = 0; i < 3; i++) u[i] = random_unit(state);
 }
 
@@ -27,15 +25,13 @@ typedef struct Mean {
     long count;
 } Mean;
 
-static inline void mean_add(Mean *mean, double value)
-{
+static inline void mean_add(Mean *mean, double value) {
     mean->sum += value;
     mean->squares += value * value;
     mean->count++;
 }
 
-static inline void assert_mean(const char *what, Mean mean, double expected)
-{
+static inline void assert_mean(const char *what, Mean mean, double expected) {
     double value = mean.sum / (double)mean.count;
     double variance = mean.squares / (double)mean.count - value * value;
     double sigma = sqrt(fmax(variance, 0) / (double)mean.count) + 1e-6 * fabs(expected);
@@ -44,8 +40,7 @@ static inline void assert_mean(const char *what, Mean mean, double expected)
 }
 
 /* Illuminance, lx, of one set at `position` on a plane with normal n, by its own samples. */
-static inline Mean illuminance(const Lights *lights, LightSet set, Vec3 position, Vec3 n)
-{
+static inline Mean illuminance(const Lights *lights, LightSet set, Vec3 position, Vec3 n) {
     Mean mean = {0};
     uint32_t random = 11;
     LitPoint point = {position, n, false};
@@ -57,8 +52,8 @@ static inline Mean illuminance(const Lights *lights, LightSet set, Vec3 position
         wavelengths_sample(random_unit(&random), &w);
         if (lights_sample(lights, set, point, u, &sample)) {
             float cosine = fmaxf(vec3_dot(n, sample.wi), 0);
-            spectrum_add_xyz(&w, lights_radiance(lights, &sample, &w) *
-                                     spectrum_all(cosine / sample.pdf), xyz);
+            spectrum_add_xyz(
+                &w, lights_radiance(lights, &sample, &w) * spectrum_all(cosine / sample.pdf), xyz);
         }
         mean_add(&mean, (double)xyz[1]);
     }
@@ -66,14 +61,12 @@ static inline Mean illuminance(const Lights *lights, LightSet set, Vec3 position
 }
 
 /* By the set's own samples at the origin, facing n. */
-static inline void assert_illuminance(const char *what, const Lights *lights, LightSet set,
-                                      Vec3 n, double expected)
-{
+static inline void assert_illuminance(const char *what, const Lights *lights, LightSet set, Vec3 n,
+                                      double expected) {
     assert_mean(what, illuminance(lights, set, vec3(0, 0, 0), n), expected);
 }
 
-static inline const Lights *build(const Scene *scene, Arena *arena)
-{
+static inline const Lights *build(const Scene *scene, Arena *arena) {
     Lights *lights;
     assert_done(lights_build(scene, arena, &lights, &err));
     return lights;
@@ -83,17 +76,16 @@ static inline const Lights *build(const Scene *scene, Arena *arena)
  * standard deviations chi-square may lie above its mean. */
 typedef struct ChiLimits {
     double variance;
-    int    cells;
+    int cells;
     double sigmas;
 } ChiLimits;
 
 /* Pearson's test, of the case `which`: what was found in cells against what was expected there,
  * in samples, where that is ten or more. */
 static inline void assert_chi_square(int which, const double *found, const double *expected,
-                                     int count, ChiLimits limits)
-{
+                                     int count, ChiLimits limits) {
     double chi = 0;
-    int    cells = 0;
+    int cells = 0;
     for (int i = 0; i < count; i++) {
         if (expected[i] < 10) continue;
         chi += (found[i] - expected[i]) * (found[i] - expected[i]) /

@@ -7,8 +7,7 @@
 #include "panel/query/panel_file.h"
 
 /* As if the file had been written so; of fewer bytes than a header nothing. */
-static inline void repair_checksum(unsigned char *bytes, size_t size)
-{
+static inline void repair_checksum(unsigned char *bytes, size_t size) {
     size_t from = offsetof(PanelHeader, size);
     if (size <= sizeof(PanelHeader)) return;
     uint64_t checksum = XXH3_64bits(bytes + from, size - from);

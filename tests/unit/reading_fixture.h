@@ -4,21 +4,18 @@
 #include "review/light/reading.h"
 #include "world_fixture.h"
 
-static inline const Kernel *kernel(void)
-{
+static inline const Kernel *kernel(void) {
     const Kernel *chosen;
     assert_done(kernel_choose(NULL, &chosen, &err));
     return chosen;
 }
 
-static inline ReadingTools reading_tools(int threads)
-{
+static inline ReadingTools reading_tools(int threads) {
     return (ReadingTools){.kernel = kernel(), .threads = threads};
 }
 
 /* user: a limit. */
-static inline bool is_clear_of(void *user, MeanInterval in, Arena scratch)
-{
+static inline bool is_clear_of(void *user, MeanInterval in, Arena scratch) {
     (void)scratch;
     const double *limit = user;
     return in.low > *limit || in.high < *limit;

@@ -13,23 +13,22 @@ typedef double Surface(double theta_i, double phi_i, double theta, double phi, d
 
 /* A set of tables in memory. */
 typedef struct Tables {
-    double       incidence_deg[INCIDENCES];
-    int          incidences, azimuths, wavelengths;
-    double       theta_step, phi_step, theta_max; /* degrees */
-    double       instrument_fwhm_deg;
-    Surface     *surface;
+    double incidence_deg[INCIDENCES];
+    int incidences, azimuths, wavelengths;
+    double theta_step, phi_step, theta_max; /* degrees */
+    double instrument_fwhm_deg;
+    Surface *surface;
 } Tables;
 
 typedef struct Fitted {
     Fixture fit;
-    Tables  tables;
+    Tables tables;
 } Fitted;
 
 static inline AngleTable make_table(const Tables *t, const Measurement *set, int index,
-                                   Arena *arena)
-{
-    int    thetas = (int)(t->theta_max / t->theta_step) + 1, phis = (int)(360 / t->phi_step);
-    int    rows = (thetas - 1) * phis + 1, n = 0;
+                                    Arena *arena) {
+    int thetas = (int)(t->theta_max / t->theta_step) + 1, phis = (int)(360 / t->phi_step);
+    int rows = (thetas - 1) * phis + 1, n = 0;
     float *theta = ARENA_NEW(arena, float, rows), *phi = ARENA_NEW(arena, float, rows);
     float *value = ARENA_NEW(arena, float, rows * t->wavelengths);
     for (int i = 0; i < thetas; i++)
@@ -38,17 +37,19 @@ static inline AngleTable make_table(const Tables *t, const Measurement *set, int
             phi[n] = (float)radians_from_degrees(k * t->phi_step);
             for (int w = 0; w < t->wavelengths; w++)
                 value[n * t->wavelengths + w] = (float)t->surface(
-                    set->incidence[index % t->incidences],
-                    set->azimuth[index / t->incidences], (double)theta[n], (double)phi[n],
-                    (double)set->wavelength_nm[w]);
+                    set->incidence[index % t->incidences], set->azimuth[index / t->incidences],
+                    (double)theta[n], (double)phi[n], (double)set->wavelength_nm[w]);
         }
-    return (AngleTable){.name = "table", .rows = rows, .channels = t->wavelengths,
-                        .theta = theta, .phi = phi, .value = value,
+    return (AngleTable){.name = "table",
+                        .rows = rows,
+                        .channels = t->wavelengths,
+                        .theta = theta,
+                        .phi = phi,
+                        .value = value,
                         .theta_max = theta[rows - 1]};
 }
 
-static inline Measurement *make_set(const Tables *t, Arena *arena)
-{
+static inline Measurement *make_set(const Tables *t, Arena *arena) {
     Measurement *set = ARENA_NEW(arena, Measurement, 1);
     set->file = set->panel = set->instrument = set->note = "";
     set->instrument_fwhm_deg = t->instrument_fwhm_deg;
@@ -65,38 +66,33 @@ static inline Measurement *make_set(const Tables *t, Arena *arena)
     return set;
 }
 
-static inline void fit_tables(Fitted *f, Tables tables, const FitOptions *options)
-{
+static inline void fit_tables(Fitted *f, Tables tables, const FitOptions *options) {
     fixture_folder(&f->fit);
     f->tables = tables;
     f->fit.set = make_set(&tables, &f->fit.arena);
     fixture_fit(&f->fit, options);
 }
 
-static inline void fitted_end(Fitted *f)
-{
+static inline void fitted_end(Fitted *f) {
     fixture_end(&f->fit);
 }
 
 /* Of a lane of 400, 420 ... 700 nm: eye and light as {theta, phi}, degrees. */
 static inline double brdf_deg(const Panel *panel, const double eye[2], const double light[2],
-                              int lane)
-{
+                              int lane) {
     Wavelengths w = even_wavelengths(400, 20);
     return (double)panel_brdf(panel, direction_deg(eye[0], eye[1]),
                               direction_deg(light[0], light[1]), &w)[lane];
 }
 
 /* What most laws need: one frame, no search for it. */
-static inline FitOptions quick(void)
-{
+static inline FitOptions quick(void) {
     FitOptions options = fit_options_default();
     options.frame_exponent = 1.5f;
     options.level = 6;
     return options;
 }
 
-static inline double fresnel(double c)
-{
+static inline double fresnel(double c) {
     return fresnel_unpolarised_d(c, 1.5);
 }

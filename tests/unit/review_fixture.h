@@ -33,18 +33,16 @@ static const char review_good[] =
     "'sweep':{'year':2026,'where':[48,11],'step_minutes':30,'headings_deg':[0,90],"
     "'weather':'clear','night':true}}]}";
 
-static inline void review_files(void)
-{
+static inline void review_files(void) {
     static const char *const empty[] = {"a.gltf", "b c.gltf", "p.png"};
     for (int i = 0; i < 3; i++) write_text(in_folder(empty[i]), "");
 }
 
 /* The text with its first `from` (NULL: none) replaced. */
 static inline char *review_changed(const char *text, const char *from, const char *to,
-                                   Arena *arena)
-{
+                                   Arena *arena) {
     size_t length = strlen(text), room = length + (to ? strlen(to) : 0) + 1;
-    char  *out = ARENA_NEW(arena, char, room);
+    char *out = ARENA_NEW(arena, char, room);
     const char *at = from ? strstr(text, from) : text + length;
     if (!at) fail_msg("the document has no %s", from);
     memcpy(out, text, (size_t)(at - text));
@@ -56,10 +54,9 @@ static inline char *review_changed(const char *text, const char *from, const cha
 }
 
 /* Writes a document and reads it. */
-static inline bool review_read(const char *text, Arena *arena, ReviewRequest *out, Error *err)
-{
+static inline bool review_read(const char *text, Arena *arena, ReviewRequest *out, Error *err) {
     const char *file = in_folder("t.review.json");
-    Problems    problems = problems_start(arena);
+    Problems problems = problems_start(arena);
     write_text(file, text);
     return review_request_read(file, NULL, arena, &problems, out, err);
 }

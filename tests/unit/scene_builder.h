@@ -10,14 +10,12 @@
 #define BUILDER_TRIANGLES 200000
 #define BUILDER_PARTS 64
 
-static inline TextureSlot builder_no_texture(void)
-{
+static inline TextureSlot builder_no_texture(void) {
     return (TextureSlot){.texture_id = NO_ID, .uv_from_uv = {1, 0, 0, 0, 1, 0}};
 }
 
 /* glTF's default material, made rough, white and non-metallic. */
-static inline Material builder_material(float albedo)
-{
+static inline Material builder_material(float albedo) {
     TextureSlot none = builder_no_texture();
     return (Material){.name = "test",
                       .base_color = {albedo, albedo, albedo, 1},
@@ -49,8 +47,7 @@ static inline Material builder_material(float albedo)
 }
 
 /* Black, of its own light. */
-static inline Material builder_lamp(float cd_m2)
-{
+static inline Material builder_lamp(float cd_m2) {
     Material material = builder_material(0);
     material.is_emitter = true;
     for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = cd_m2;
@@ -58,8 +55,7 @@ static inline Material builder_lamp(float cd_m2)
 }
 
 /* Metal without a colour of its own, as smooth as the product has it. */
-static inline Material builder_mirror(float reflectance)
-{
+static inline Material builder_mirror(float reflectance) {
     Material material = builder_material(reflectance);
     material.metallic = 1;
     material.roughness = 0;
@@ -67,8 +63,7 @@ static inline Material builder_mirror(float reflectance)
 }
 
 /* A thin pane without colour. */
-static inline Material builder_pane(float ior)
-{
+static inline Material builder_pane(float ior) {
     Material material = builder_material(1);
     material.transmission = 1;
     material.roughness = 0;
@@ -77,8 +72,7 @@ static inline Material builder_pane(float ior)
     return material;
 }
 
-static inline Scene *builder_scene(Arena *arena)
-{
+static inline Scene *builder_scene(Arena *arena) {
     Scene *scene = ARENA_NEW(arena, Scene, 1);
     scene->positions = ARENA_NEW(arena, Vec3, BUILDER_VERTICES);
     scene->triangles = ARENA_NEW(arena, Triangle, BUILDER_TRIANGLES);
@@ -98,16 +92,14 @@ static inline Scene *builder_scene(Arena *arena)
 }
 
 /* Surroundings that are white and equally bright everywhere. */
-static inline void builder_sky(Scene *scene, float cd_m2)
-{
+static inline void builder_sky(Scene *scene, float cd_m2) {
     scene->environment.kind = ENVIRONMENT_CONSTANT;
     scene->environment.luminance_cd_m2 = cd_m2;
     for (int i = 0; i < 3; i++) scene->environment.color[i] = 1;
 }
 
 /* Angles in radians. */
-static inline void builder_sun(Scene *scene, double azimuth, double elevation, float lx)
-{
+static inline void builder_sun(Scene *scene, double azimuth, double elevation, float lx) {
     scene->environment.has_sun = true;
     scene->environment.sun_azimuth = (float)azimuth;
     scene->environment.sun_elevation = (float)elevation;
@@ -116,8 +108,7 @@ static inline void builder_sun(Scene *scene, double azimuth, double elevation, f
 
 /* Starts a part with a material; triangles that follow belong to it. Opaque parts come first.
  * All parts share the arrays of the first. */
-static inline int builder_part(Scene *scene, Material material)
-{
+static inline int builder_part(Scene *scene, Material material) {
     int id = scene->material_count++;
     scene->materials[id] = material;
     Part *part = &scene->parts[scene->part_count++];
@@ -129,8 +120,7 @@ static inline int builder_part(Scene *scene, Material material)
     return id;
 }
 
-static inline uint32_t builder_vertex(Scene *scene, Vec3 p, Vec3 n, float u, float v)
-{
+static inline uint32_t builder_vertex(Scene *scene, Vec3 p, Vec3 n, float u, float v) {
     const Part *part = &scene->parts[0];
     scene->positions[scene->vertex_count] = p;
     part->normals[scene->vertex_count] = n;
@@ -142,9 +132,8 @@ static inline uint32_t builder_vertex(Scene *scene, Vec3 p, Vec3 n, float u, flo
     return scene->vertex_count++;
 }
 
-static inline void builder_triangle(Scene *scene, uint32_t a, uint32_t b, uint32_t c)
-{
-    Part    *part = &scene->parts[scene->part_count - 1];
+static inline void builder_triangle(Scene *scene, uint32_t a, uint32_t b, uint32_t c) {
+    Part *part = &scene->parts[scene->part_count - 1];
     uint32_t id = scene->triangle_count++;
     scene->triangles[id] = (Triangle){{a, b, c}, (uint32_t)(scene->part_count - 1)};
     for (int k = 0; k < 3; k++) {
@@ -158,8 +147,7 @@ static inline void builder_triangle(Scene *scene, uint32_t a, uint32_t b, uint32
 
 /* A parallelogram centre +- half_u +- half_v, its front where half_u x half_v points; u grows
  * along half_u, v shrinks along half_v (a picture stands upright). */
-static inline void builder_quad(Scene *scene, Vec3 centre, Vec3 half_u, Vec3 half_v)
-{
+static inline void builder_quad(Scene *scene, Vec3 centre, Vec3 half_u, Vec3 half_v) {
     Vec3 n = vec3_normalize(vec3_cross(half_u, half_v));
     uint32_t first = scene->vertex_count;
     for (int i = 0; i < 4; i++) {
@@ -172,9 +160,7 @@ static inline void builder_quad(Scene *scene, Vec3 centre, Vec3 half_u, Vec3 hal
 }
 
 /* A sphere of 2 * rings * rings * 2 triangles; outward front, or inward when inside is set. */
-static inline void builder_sphere(Scene *scene, Vec3 centre, float radius, int rings,
-                                  int inside)
-{
+static inline void builder_sphere(Scene *scene, Vec3 centre, float radius, int rings, int inside) {
     uint32_t first = scene->vertex_count;
     int columns = 2 * rings;
     float flip = inside ? -1.0f : 1.0f;
@@ -188,8 +174,7 @@ static inline void builder_sphere(Scene *scene, Vec3 centre, float radius, int r
         }
     for (int j = 0; j < rings; j++)
         for (int i = 0; i < columns; i++) {
-            uint32_t a = first + (uint32_t)(j * (columns + 1) + i),
-                     b = a + (uint32_t)columns + 1;
+            uint32_t a = first + (uint32_t)(j * (columns + 1) + i), b = a + (uint32_t)columns + 1;
             if (j > 0) builder_triangle(scene, a, inside ? a + 1 : b, inside ? b : a + 1);
             if (j < rings - 1)
                 builder_triangle(scene, a + 1, inside ? b + 1 : b, inside ? b : b + 1);

@@ -10,8 +10,7 @@
 #include "spectrum/spectrum.h"
 
 /* Linear from the first lane to the last. */
-static inline Spectrum ramp(float from, float to)
-{
+static inline Spectrum ramp(float from, float to) {
     Spectrum s;
     for (int i = 0; i < SPECTRUM_LANES; i++) s[i] = from + (to - from) * (float)i / 15;
     return s;
@@ -20,16 +19,14 @@ static inline Spectrum ramp(float from, float to)
 #define EYE_COUNT 6
 
 /* From the normal to grazing, each at an azimuth of its own. */
-static inline Vec3 eye(int i)
-{
+static inline Vec3 eye(int i) {
     const float cosines[EYE_COUNT] = {1, 0.8f, 0.5f, 0.2f, 0.05f, 0.01f};
     float c = cosines[i], s = safe_sqrtf(1 - c * c), sine, cosine;
     sincos_turns(0.17f * (float)i, &sine, &cosine);
     return vec3(s * cosine, s * sine, c);
 }
 
-static inline void draw(Sampler *sampler, float u[3])
-{
+static inline void draw(Sampler *sampler, float u[3]) {
     Vec2 a = sampler_2d(sampler);
     u[0] = a.x;
     u[1] = a.y;
@@ -37,17 +34,15 @@ static inline void draw(Sampler *sampler, float u[3])
 }
 
 /* Of the whole sphere, even. */
-static inline Vec3 random_direction(Sampler *sampler)
-{
-    Vec2  u = sampler_2d(sampler);
+static inline Vec3 random_direction(Sampler *sampler) {
+    Vec2 u = sampler_2d(sampler);
     float z = 2 * u.x - 1, r = safe_sqrtf(1 - z * z), sine, cosine;
     sincos_turns(u.y, &sine, &cosine);
     return vec3(r * cosine, r * sine, z);
 }
 
 /* |S'| <= S0' of wholly polarised light, in every lane. */
-static inline void stokes_law(const char *name, const BsdfPolarisation *m, Vec3 stokes)
-{
+static inline void stokes_law(const char *name, const BsdfPolarisation *m, Vec3 stokes) {
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         double d = (double)m->difference[i], k = (double)m->kept[i];
         double c = (double)m->along[i], t = (double)m->turned[i];
@@ -55,7 +50,7 @@ static inline void stokes_law(const char *name, const BsdfPolarisation *m, Vec3 
         double out[4] = {1 + d * x, d + k * x, c * y - t * z, t * y + c * z};
         double size = sqrt(out[1] * out[1] + out[2] * out[2] + out[3] * out[3]);
         if (!(k >= 0 && k <= 1 + 1e-5 && size <= out[0] + 2e-5))
-            fail_msg("%s: polarised light of %g becomes %g, of it polarised %g", name,
-                     1.0, out[0], size);
+            fail_msg("%s: polarised light of %g becomes %g, of it polarised %g", name, 1.0, out[0],
+                     size);
     }
 }

@@ -11,14 +11,13 @@
 #include "panel/query/panel_open.h"
 
 typedef struct Easel {
-    Arena  arena, fresh; /* as it is, and as a test finds it */
+    Arena arena, fresh; /* as it is, and as a test finds it */
     Panel *panel;
 } Easel;
 
 static Easel the_easel;
 
-static int easel_open(void **state)
-{
+static int easel_open(void **state) {
     the_easel.arena = arena_reserve((size_t)2 << 30);
     assert_done(panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &the_easel.arena,
                            &the_easel.panel, &err));
@@ -27,16 +26,14 @@ static int easel_open(void **state)
     return 0;
 }
 
-static int easel_close(void **state)
-{
+static int easel_close(void **state) {
     Easel *easel = *state;
     panel_close(easel->panel);
     arena_release(&easel->arena);
     return 0;
 }
 
-static inline Easel *fresh_easel(void)
-{
+static inline Easel *fresh_easel(void) {
     the_easel.arena = the_easel.fresh;
     return &the_easel;
 }
@@ -45,19 +42,17 @@ static inline Easel *fresh_easel(void)
 #define EASEL_TEST(name) TEST_ON(name, NULL, NULL, Easel *easel, fresh_easel())
 
 /* On axis, cd m^-2. */
-static inline double easel_luminance(const Easel *easel, double code)
-{
+static inline double easel_luminance(const Easel *easel, double code) {
     float xyz[3], c = (float)code;
     panel_emission_xyz(easel->panel, vec3(0, 0, 1), (float[3]){c, c, c}, xyz);
     return (double)xyz[1];
 }
 
 /* The 16-bit grey whose luminance lies at `share` between black's and white's. */
-static inline uint16_t easel_code(const Easel *easel, double share)
-{
+static inline uint16_t easel_code(const Easel *easel, double share) {
     double black = easel_luminance(easel, 0), white = easel_luminance(easel, 255);
     double wanted = black + share * (white - black);
-    int    low = 0, high = 65535;
+    int low = 0, high = 65535;
     while (high - low > 1) {
         int middle = (low + high) / 2;
         if (easel_luminance(easel, middle / 257.0) > wanted) high = middle;
@@ -71,15 +66,14 @@ typedef double Coverage(const void *drawing, int x, int y);
 
 /* A picture of light `ink` on `ground` (shares of white's luminance). */
 static inline Image easel_draw(Easel *easel, int width, int height, const double ink_ground[2],
-                               Coverage *coverage, const void *drawing)
-{
+                               Coverage *coverage, const void *drawing) {
     uint16_t *pixels = ARENA_NEW(&easel->arena, uint16_t, 4 * width * height);
-    uint16_t  of_share[257]; /* to 1 / 256 */
+    uint16_t of_share[257]; /* to 1 / 256 */
     for (int k = 0; k <= 256; k++)
-        of_share[k] = easel_code(easel, ink_ground[1] +
-                                            k / 256.0 * (ink_ground[0] - ink_ground[1]));
+        of_share[k] =
+            easel_code(easel, ink_ground[1] + k / 256.0 * (ink_ground[0] - ink_ground[1]));
     for (int i = 0; i < width * height; i++) {
-        double   share = coverage(drawing, i % width, i / width);
+        double share = coverage(drawing, i % width, i / width);
         uint16_t code = of_share[(int)(256 * share + 0.5)];
         pixels[4 * i] = pixels[4 * i + 1] = pixels[4 * i + 2] = code;
         pixels[4 * i + 3] = 65535;
@@ -91,18 +85,16 @@ static inline Image easel_draw(Easel *easel, int width, int height, const double
 
 /* Upright rectangles that do not overlap: left, top, right, bottom, in pixels. */
 typedef struct Boxes {
-    int    count;
+    int count;
     double box[32][4];
 } Boxes;
 
-static inline double shared_length(double a0, double a1, double b0, double b1)
-{
+static inline double shared_length(double a0, double a1, double b0, double b1) {
     double length = fmin(a1, b1) - fmax(a0, b0);
     return length > 0 ? length : 0;
 }
 
-static inline double boxes_coverage(const void *drawing, int x, int y)
-{
+static inline double boxes_coverage(const void *drawing, int x, int y) {
     const Boxes *boxes = drawing;
     double sum = 0;
     for (int i = 0; i < boxes->count; i++) {
@@ -117,11 +109,10 @@ typedef struct Stroke {
     double middle[2], angle, length, width; /* pixels, radians */
 } Stroke;
 
-static inline double stroke_coverage(const void *drawing, int x, int y)
-{
+static inline double stroke_coverage(const void *drawing, int x, int y) {
     const Stroke *s = drawing;
     const int side = 16;
-    int       inside = 0;
+    int inside = 0;
     for (int i = 0; i < side * side; i++) {
         double dx = x + (i % side + 0.5) / side - s->middle[0];
         double dy = y + ((int)(i / side) + 0.5) / side - s->middle[1];

@@ -5,11 +5,10 @@
 #include "base/arena.h"
 #include "panel/zones/backlight_at.h"
 
-static Arena       arena;
+static Arena arena;
 static LevelShares levels; /* gamma 2.2 of all primaries */
 
-static int begin(void **state)
-{
+static int begin(void **state) {
     (void)state;
     arena = arena_reserve((size_t)1 << 30);
     for (int p = 0; p < 3; p++)
@@ -17,8 +16,7 @@ static int begin(void **state)
     return 0;
 }
 
-static int end(void **state)
-{
+static int end(void **state) {
     (void)state;
     arena_release(&arena);
     return 0;
@@ -31,32 +29,28 @@ typedef struct Patch {
     float low[2], high[2], code, beside;
 } Patch;
 
-static void patch_codes(const void *user, const float place[2], float codes[3])
-{
+static void patch_codes(const void *user, const float place[2], float codes[3]) {
     const Patch *p = user;
     bool inside = place[0] >= p->low[0] && place[0] < p->high[0] && place[1] >= p->low[1] &&
                   place[1] < p->high[1];
     for (int i = 0; i < 3; i++) codes[i] = inside ? p->code : p->beside;
 }
 
-static ShownPicture picture_of(const Patch *patch, int columns, int rows)
-{
+static ShownPicture picture_of(const Patch *patch, int columns, int rows) {
     return (ShownPicture){columns, rows, patch_codes, patch};
 }
 
 static const Patch WHITE = {{0, 0}, {1, 1}, 255, 255}, BLACK = {{0, 0}, {1, 1}, 0, 0};
 
-static DimmingZones zones_of(int columns, int rows, double sigma_mm)
-{
-    return (DimmingZones){.count = {columns, rows}, .size_mm = {100, 100},
-                          .sigma_mm = sigma_mm, .compensates = true};
+static DimmingZones zones_of(int columns, int rows, double sigma_mm) {
+    return (DimmingZones){
+        .count = {columns, rows}, .size_mm = {100, 100}, .sigma_mm = sigma_mm, .compensates = true};
 }
 
 /* drives: of each zone, row by row. */
 static const Backlight *made_with(const DimmingZones *zones, const Patch *patch,
-                                  const double **drives)
-{
-    double      *drive = ARENA_NEW(&arena, double, zones->count[0] * zones->count[1]);
+                                  const double **drives) {
+    double *drive = ARENA_NEW(&arena, double, zones->count[0] * zones->count[1]);
     ShownPicture picture = picture_of(patch, 400, 400);
     double mean = backlight_drives(zones, &levels, &picture, drive);
     const Backlight *out = backlight_make(zones, &levels, drive, &arena);
@@ -65,36 +59,33 @@ static const Backlight *made_with(const DimmingZones *zones, const Patch *patch,
     return out;
 }
 
-static const Backlight *made(const DimmingZones *zones, const Patch *patch)
-{
+static const Backlight *made(const DimmingZones *zones, const Patch *patch) {
     const double *drives;
     return made_with(zones, patch, &drives);
 }
 
-static double at(const Backlight *backlight, double u, double v)
-{
+static double at(const Backlight *backlight, double u, double v) {
     return (double)backlight_at(backlight, (const float[2]){(float)u, (float)v});
 }
 
 /* ---- the halo of a square ---------------------------------------------------------------- */
 
 /* A square's share of a Gaussian about a place, both in mm from its middle. */
-static double square_share(double x, double y, double side, double sigma)
-{
+static double square_share(double x, double y, double side, double sigma) {
     double s = sigma * sqrt(2.0), h = side / 2;
     return 0.25 * (erf((x + h) / s) - erf((x - h) / s)) * (erf((y + h) / s) - erf((y - h) / s));
 }
 
 /* A white square of 10 mm on black, zones much smaller than the spread. Black beside it shines
  * 1000 cd/m2 / 2000 times the backlight there. */
-TEST(halo_of_a_square_is_the_erf_form)
-{
-    static const struct { double sigma, mm, cd_m2; } rows[] = {
-        {6, 6, 0.1192}, {6, 10, 0.0584}, {6, 20, 0.0018},
-        {12, 6, 0.0464}, {12, 10, 0.0376}, {12, 20, 0.0141}, {12, 30, 0.0027}};
+TEST(halo_of_a_square_is_the_erf_form) {
+    static const struct {
+        double sigma, mm, cd_m2;
+    } rows[] = {{6, 6, 0.1192},   {6, 10, 0.0584},  {6, 20, 0.0018}, {12, 6, 0.0464},
+                {12, 10, 0.0376}, {12, 20, 0.0141}, {12, 30, 0.0027}};
     const Patch square = {{0.45f, 0.45f}, {0.55f, 0.55f}, 255, 0};
     const Backlight *light = NULL;
-    DimmingZones     zones;
+    DimmingZones zones;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         double mm = rows[i].mm, sigma = rows[i].sigma;
         if (!light || zones.sigma_mm != sigma) {
@@ -105,15 +96,14 @@ TEST(halo_of_a_square_is_the_erf_form)
         assert_close(halo, 0.5 * square_share(mm, 0, 10, sigma), 0.01);
         assert_near(halo, rows[i].cd_m2, 0.00005 + 0.01 * rows[i].cd_m2);
         assert_close(0.5 * at(light, 0.5 - mm / 150, 0.5 + mm / 150),
-                             0.5 * square_share(mm / 1.5, mm / 1.5, 10, sigma), 0.01);
+                     0.5 * square_share(mm / 1.5, mm / 1.5, 10, sigma), 0.01);
     }
     assert_near(light->mean_drive, 0.01, 1e-9); /* its area's share */
 }
 
 /* The same spread as a table of its values. */
-TEST(table_of_a_gaussian_is_that_gaussian)
-{
-    const Patch  square = {{0.4f, 0.4f}, {0.6f, 0.6f}, 255, 0};
+TEST(table_of_a_gaussian_is_that_gaussian) {
+    const Patch square = {{0.4f, 0.4f}, {0.6f, 0.6f}, 255, 0};
     DimmingZones gauss = zones_of(25, 25, 6), table = zones_of(25, 25, 0);
     table.spread.rows = table.spread.values = 61;
     for (int i = 0; i < 61; i++) {
@@ -127,8 +117,7 @@ TEST(table_of_a_gaussian_is_that_gaussian)
 
 /* ---- the map and the sum ----------------------------------------------------------------- */
 
-static const DimmingZones *shapes(int i)
-{
+static const DimmingZones *shapes(int i) {
     static DimmingZones all[5];
     all[0] = zones_of(10, 6, 8);
     all[1] = zones_of(16, 9, 3);
@@ -139,18 +128,15 @@ static const DimmingZones *shapes(int i)
     return i < 5 ? &all[i] : NULL;
 }
 
-static long folded(long i, long count)
-{
+static long folded(long i, long count) {
     long at = ((i % (2 * count)) + 2 * count) % (2 * count);
     return at < count ? at : 2 * count - 1 - at;
 }
 
 /* The sum as it stands in backlight.h: over all zones, their images in the walls too. */
-static double backlight_sum(const DimmingZones *zones, const double *drive,
-                            const double place[2])
-{
+static double backlight_sum(const DimmingZones *zones, const double *drive, const double place[2]) {
     double light = 0, full = 0, pitch[2];
-    long   far[2];
+    long far[2];
     for (int k = 0; k < 2; k++) {
         double most = zones->sigma_mm > 0 ? 6 * fmin(zones->sigma_mm, 200) : 30;
         pitch[k] = zones->size_mm[k] / zones->count[k];
@@ -161,22 +147,22 @@ static double backlight_sum(const DimmingZones *zones, const double *drive,
             double dx = ((double)x + 0.5) * pitch[0] - place[0] * zones->size_mm[0];
             double dy = ((double)y + 0.5) * pitch[1] - place[1] * zones->size_mm[1];
             double one = dimming_zones_spread(zones, sqrt(dx * dx + dy * dy));
-            light += one * drive[folded(y, zones->count[1]) * zones->count[0] +
-                                 folded(x, zones->count[0])];
+            light +=
+                one *
+                drive[folded(y, zones->count[1]) * zones->count[0] + folded(x, zones->count[0])];
             full += one;
         }
     return light / full;
 }
 
-TEST(map_is_the_sum_within_a_percent)
-{
+TEST(map_is_the_sum_within_a_percent) {
     const Patch lit = {{0.1f, 0.3f}, {0.36f, 0.62f}, 200, 0};
     for (int i = 0; shapes(i); i++) {
-        const double    *drives;
+        const double *drives;
         const Backlight *light = made_with(shapes(i), &lit, &drives);
         for (int k = 0; k < 200; k++) {
             double place[2] = {fmod(0.618034 * k, 1), fmod(0.7548777 * k, 1)};
-            float  seen[2] = {(float)place[0], (float)place[1]};
+            float seen[2] = {(float)place[0], (float)place[1]};
             double sum = backlight_sum(shapes(i), drives, place);
             assert_near(backlight_at(light, seen), sum, 0.01 * sum + 1e-4);
         }
@@ -185,8 +171,7 @@ TEST(map_is_the_sum_within_a_percent)
 
 /* Walls give back what would leave over an edge: the mean of the backlight is the mean drive.
  */
-TEST(light_of_the_zones_is_kept)
-{
+TEST(light_of_the_zones_is_kept) {
     const Patch corner = {{0, 0}, {0.2f, 0.34f}, 230, 15};
     for (int i = 0; shapes(i); i++) {
         const Backlight *light = made(shapes(i), &corner);
@@ -197,10 +182,8 @@ TEST(light_of_the_zones_is_kept)
     }
 }
 
-TEST(mirrored_pictures_have_mirrored_backlights)
-{
-    const Patch left = {{0, 0.2f}, {0.3f, 0.5f}, 255, 0}, right = {{0.7f, 0.5f}, {1, 0.8f}, 255,
-                                                                    0};
+TEST(mirrored_pictures_have_mirrored_backlights) {
+    const Patch left = {{0, 0.2f}, {0.3f, 0.5f}, 255, 0}, right = {{0.7f, 0.5f}, {1, 0.8f}, 255, 0};
     for (int i = 0; shapes(i); i++) {
         const Backlight *a = made(shapes(i), &left), *b = made(shapes(i), &right);
         for (int k = 0; k < 40; k++) {
@@ -210,10 +193,9 @@ TEST(mirrored_pictures_have_mirrored_backlights)
     }
 }
 
-TEST(one_zone_is_global_dimming)
-{
+TEST(one_zone_is_global_dimming) {
     DimmingZones zones = zones_of(1, 1, 20);
-    const Patch  dim = {{0.9f, 0.9f}, {0.95f, 0.95f}, 100, 7};
+    const Patch dim = {{0.9f, 0.9f}, {0.95f, 0.95f}, 100, 7};
     const Backlight *light = made(&zones, &dim);
     assert_near(light->mean_drive, pow(100.0 / 255, 2.2), 1e-6);
     for (int k = 0; k < 20; k++)
@@ -222,8 +204,7 @@ TEST(one_zone_is_global_dimming)
 
 /* ---- drives ------------------------------------------------------------------------------ */
 
-TEST(white_is_full_and_black_the_least)
-{
+TEST(white_is_full_and_black_the_least) {
     for (int i = 0; shapes(i); i++)
         for (int rule = 0; rule < 4; rule++) {
             DimmingZones zones = *shapes(i);
@@ -240,9 +221,8 @@ TEST(white_is_full_and_black_the_least)
 }
 
 /* A quarter of one zone is lit. */
-TEST(rules_differ_where_a_zone_is_lit_in_part)
-{
-    const Patch  part = {{0, 0}, {0.25f, 0.25f}, 128, 0};
+TEST(rules_differ_where_a_zone_is_lit_in_part) {
+    const Patch part = {{0, 0}, {0.25f, 0.25f}, 128, 0};
     ShownPicture picture = picture_of(&part, 40, 40);
     DimmingZones zones = zones_of(2, 2, 60);
     double drive[4], share = pow(128.0 / 255, 2.2);
@@ -262,12 +242,11 @@ TEST(rules_differ_where_a_zone_is_lit_in_part)
 }
 
 /* More zones than pixels, and pixels that zones do not divide evenly. */
-TEST(every_zone_has_pixels)
-{
-    const Patch  half = {{0, 0}, {0.5f, 1}, 255, 0};
+TEST(every_zone_has_pixels) {
+    const Patch half = {{0, 0}, {0.5f, 1}, 255, 0};
     ShownPicture picture = picture_of(&half, 7, 1);
     DimmingZones zones = zones_of(32, 18, 60);
-    double      *drive = ARENA_NEW(&arena, double, 32 * 18);
+    double *drive = ARENA_NEW(&arena, double, 32 * 18);
     for (int rule = 0; rule < 2; rule++) {
         zones.rule = rule ? ZONES_MEAN : ZONES_MAXIMUM;
         assert_near(backlight_drives(&zones, &levels, &picture, drive), 0.5, 1e-9);
@@ -279,13 +258,12 @@ TEST(every_zone_has_pixels)
 
 /* ---- compensation ------------------------------------------------------------------------ */
 
-TEST(lit_pixels_keep_their_light_while_the_backlight_lets_them)
-{
+TEST(lit_pixels_keep_their_light_while_the_backlight_lets_them) {
     DimmingZones zones = zones_of(4, 4, 30);
     const Backlight *light = made(&zones, &WHITE);
     for (int code = 0; code <= 255; code += 5)
         for (int k = 1; k <= 20; k++) {
-            float  b = 0.05f * (float)k, shown[3] = {(float)code, 17.5f, 255}, codes[3];
+            float b = 0.05f * (float)k, shown[3] = {(float)code, 17.5f, 255}, codes[3];
             double share = level_share_at(&levels, 0, code);
             backlight_codes(light, b, shown, codes);
             double seen = (double)b * level_share_at(&levels, 0, (double)codes[0]);
@@ -304,9 +282,8 @@ TEST(lit_pixels_keep_their_light_while_the_backlight_lets_them)
 
 /* ---- what cannot be ---------------------------------------------------------------------- */
 
-TEST(faults_name_their_key)
-{
-    const char  *key;
+TEST(faults_name_their_key) {
+    const char *key;
     DimmingZones zones = zones_of(10, 10, 6), bad = zones;
     assert_null(dimming_zones_fault(&zones, &key));
     bad.count[0] = 513;

@@ -14,8 +14,7 @@
 
 /* ---- mathf --------------------------------------------------------------------------- */
 
-TEST(sine_and_cosine_are_within_their_stated_error)
-{
+TEST(sine_and_cosine_are_within_their_stated_error) {
     double most = 0;
     for (int i = -400000; i <= 400000; i++) {
         float t = (float)i * 1e-5f, sine, cosine;
@@ -31,8 +30,7 @@ TEST(sine_and_cosine_are_within_their_stated_error)
     assert_true(fabsf(sine) < 1e-15f && cosine == 1);
 }
 
-TEST(exponential_is_within_its_stated_error)
-{
+TEST(exponential_is_within_its_stated_error) {
     double most = 0;
     for (int i = -870000; i <= 880000; i++) {
         float x = (float)i * 1e-4f;
@@ -42,11 +40,10 @@ TEST(exponential_is_within_its_stated_error)
     assert_true(exp_f(0) == 1 && exp_f(-1000) == 0 && isinf(exp_f(1000)) && isnan(exp_f(NAN)));
 }
 
-TEST(logarithm_is_within_its_stated_error)
-{
+TEST(logarithm_is_within_its_stated_error) {
     double most = 0;
     for (uint32_t bits = 1; bits < 0x7f800000u; bits += 2039) {
-        float  x = float_from_bits(bits);
+        float x = float_from_bits(bits);
         double exact = log((double)x);
         most = fmax(most, fabs((double)log_f(x) - exact) / fmax(1, fabs(exact)));
     }
@@ -54,11 +51,10 @@ TEST(logarithm_is_within_its_stated_error)
     assert_true(log_f(1) == 0 && isinf(log_f(0)) && log_f(0) < 0);
 }
 
-TEST(powers_are_within_their_stated_error)
-{
+TEST(powers_are_within_their_stated_error) {
     for (int e = -40; e <= 40; e++)
         for (int i = 1; i < 2000; i++) {
-            float  base = (float)i * 0.0021f, exponent = (float)e * 0.13f;
+            float base = (float)i * 0.0021f, exponent = (float)e * 0.13f;
             double exact = pow((double)base, (double)exponent);
             double bound = 3e-7 * (1 + fabs((double)exponent * log((double)base)));
             assert_near((double)pow_f(base, exponent) / exact, 1, bound);
@@ -66,12 +62,11 @@ TEST(powers_are_within_their_stated_error)
     assert_true(pow_f(0, 2) == 0 && pow_f(-1, 2) == 0);
 }
 
-TEST(inverse_tangent_and_cosine_are_within_their_stated_error)
-{
+TEST(inverse_tangent_and_cosine_are_within_their_stated_error) {
     double most = 0;
     for (int i = 0; i < 200000; i++) {
         double angle = (i + 0.5) / 200000 * 2 * PI - PI, size = i % 7 == 0 ? 1e-20 : 3.7;
-        float  x = (float)(size * cos(angle)), y = (float)(size * sin(angle));
+        float x = (float)(size * cos(angle)), y = (float)(size * sin(angle));
         most = fmax(most, fabs((double)atan2_f(y, x) - atan2((double)y, (double)x)));
     }
     for (int i = 0; i <= 200000; i++) {
@@ -84,8 +79,7 @@ TEST(inverse_tangent_and_cosine_are_within_their_stated_error)
     assert_near(acos_f(1 - 0x1p-24f), acos(1 - 0x1p-24), 1e-9);
 }
 
-TEST(roots_and_clamps_hold_at_their_ends)
-{
+TEST(roots_and_clamps_hold_at_their_ends) {
     assert_true(safe_sqrtf(-1) == 0 && safe_sqrtf(4) == 2 && safe_sqrtf(NAN) == 0);
     assert_true(clampf(-1, 0, 1) == 0 && clampf(2, 0, 1) == 1 && clampf(0.5f, 0, 1) == 0.5f);
     assert_true(lerpf(2, 4, 0) == 2 && lerpf(2, 4, 1) == 4);
@@ -97,20 +91,17 @@ TEST(roots_and_clamps_hold_at_their_ends)
 
 /* ---- vectors ------------------------------------------------------------------------- */
 
-static Vec3 random_vector(uint32_t *seed)
-{
+static Vec3 random_vector(uint32_t *seed) {
     float v[3];
     for (int i = 0; i < 3; i++) v[i] = 2 * unit_float(*seed = hash_u32(*seed + 1)) - 1;
     return vec3(v[0], v[1], v[2]);
 }
 
-static void assert_vector(Vec3 a, Vec3 b, double within)
-{
+static void assert_vector(Vec3 a, Vec3 b, double within) {
     assert_near(vec3_length(vec3_sub(a, b)), 0, within);
 }
 
-TEST(frames_are_orthonormal_and_right_handed)
-{
+TEST(frames_are_orthonormal_and_right_handed) {
     uint32_t seed = 5;
     for (int i = 0; i < 10000; i++) {
         Vec3 z = vec3_normalize(random_vector(&seed));
@@ -128,21 +119,18 @@ TEST(frames_are_orthonormal_and_right_handed)
     }
 }
 
-static Transform random_transform(uint32_t *seed)
-{
+static Transform random_transform(uint32_t *seed) {
     return (Transform){random_vector(seed), random_vector(seed), random_vector(seed),
                        random_vector(seed)};
 }
 
-TEST(composed_transforms_act_one_after_the_other)
-{
+TEST(composed_transforms_act_one_after_the_other) {
     uint32_t seed = 9;
     for (int i = 0; i < 1000; i++) {
         Transform a = random_transform(&seed), b = random_transform(&seed);
         Transform ab = transform_compose(&a, &b), one = transform_identity();
-        Vec3      p = random_vector(&seed);
-        assert_vector(transform_point(&ab, p), transform_point(&a, transform_point(&b, p)),
-                      1e-5);
+        Vec3 p = random_vector(&seed);
+        assert_vector(transform_point(&ab, p), transform_point(&a, transform_point(&b, p)), 1e-5);
         assert_vector(transform_vector(&ab, p), transform_vector(&a, transform_vector(&b, p)),
                       1e-5);
         assert_vector(transform_point(&one, p), p, 0);
@@ -151,13 +139,12 @@ TEST(composed_transforms_act_one_after_the_other)
     }
 }
 
-TEST(transformed_normals_stay_normal_and_outside)
-{
+TEST(transformed_normals_stay_normal_and_outside) {
     uint32_t seed = 21;
     for (int i = 0; i < 1000; i++) {
         Transform t = random_transform(&seed);
-        Vec3      a = random_vector(&seed), b = random_vector(&seed), n = vec3_cross(a, b);
-        Vec3      moved = transform_normal(&t, n);
+        Vec3 a = random_vector(&seed), b = random_vector(&seed), n = vec3_cross(a, b);
+        Vec3 moved = transform_normal(&t, n);
         assert_near(vec3_dot(moved, transform_vector(&t, a)), 0, 1e-5);
         assert_near(vec3_dot(moved, transform_vector(&t, b)), 0, 1e-5);
         /* what lay on the outer side still does */
@@ -165,8 +152,7 @@ TEST(transformed_normals_stay_normal_and_outside)
     }
 }
 
-TEST(the_zero_vector_has_no_direction)
-{
+TEST(the_zero_vector_has_no_direction) {
     assert_vector(vec3_normalize(vec3(0, 0, 0)), vec3(0, 0, 0), 0);
     assert_true(vec3_is_within(vec3(1, -2, 3), 3) && !vec3_is_within(vec3(1, -2, 3), 2.9f));
     assert_false(vec3_is_within(vec3(1, NAN, 3), INFINITY));
@@ -175,14 +161,13 @@ TEST(the_zero_vector_has_no_direction)
 /* ---- sampler ------------------------------------------------------------------------- */
 
 /* Every elementary interval of area 1 / count holds exactly one of the block's points. */
-static void assert_net(int x, int dimension, uint32_t first, int log_count)
-{
+static void assert_net(int x, int dimension, uint32_t first, int log_count) {
     int count = 1 << log_count;
     for (int across = 0; across <= log_count; across++) {
         uint8_t hit[1024] = {0};
         for (int i = 0; i < count; i++) {
             Sampler sampler = sampler_start(3, x, 5, first + (uint32_t)i);
-            Vec2    p = {0, 0};
+            Vec2 p = {0, 0};
             for (int d = 0; d <= dimension; d++) p = sampler_2d(&sampler);
             int column = (int)(p.x * (float)(1 << across));
             int row = (int)(p.y * (float)(count >> across));
@@ -190,14 +175,12 @@ static void assert_net(int x, int dimension, uint32_t first, int log_count)
         }
         for (int i = 0; i < count; i++)
             if (hit[i] != 1)
-                fail_msg(
-                    "pixel %d, pair %d, block %u of %d: interval %d of 2^%d columns has %d", x,
-                    dimension, first, count, i, across, hit[i]);
+                fail_msg("pixel %d, pair %d, block %u of %d: interval %d of 2^%d columns has %d", x,
+                         dimension, first, count, i, across, hit[i]);
     }
 }
 
-TEST(every_pair_is_a_0_2_sequence_over_a_pixel_s_samples)
-{
+TEST(every_pair_is_a_0_2_sequence_over_a_pixel_s_samples) {
     for (int x = 0; x < 6; x++)
         for (int dimension = 0; dimension < 5; dimension++)
             for (int log_count = 0; log_count <= 10; log_count += 2)
@@ -206,22 +189,20 @@ TEST(every_pair_is_a_0_2_sequence_over_a_pixel_s_samples)
 }
 
 /* Chi-square of pairs of numbers on a 16 x 16 grid, as a standard normal deviate. */
-static double grid_deviate(const double histogram[256], int count)
-{
+static double grid_deviate(const double histogram[256], int count) {
     double chi2 = 0, expected = count / 256.0, v = 2.0 / (9 * 255);
     for (int i = 0; i < 256; i++)
         chi2 += (histogram[i] - expected) * (histogram[i] - expected) / expected;
     return (cbrt(chi2 / 255) - (1 - v)) / sqrt(v);
 }
 
-TEST(pairs_are_independent_of_each_other)
-{
+TEST(pairs_are_independent_of_each_other) {
     for (int other = 1; other < 8; other++) {
         double histogram[256] = {0};
         for (int pixel = 0; pixel < 4096; pixel++)
             for (uint32_t i = 0; i < 16; i++) {
                 Sampler sampler = sampler_start(1, pixel % 64, pixel / 64, i);
-                float   a = sampler_2d(&sampler).x, b = 0;
+                float a = sampler_2d(&sampler).x, b = 0;
                 for (int d = 0; d < other; d++) b = sampler_2d(&sampler).x;
                 histogram[(int)(a * 16) * 16 + (int)(b * 16)]++;
             }
@@ -229,23 +210,21 @@ TEST(pairs_are_independent_of_each_other)
     }
 }
 
-TEST(neighbouring_pixels_and_seeds_are_independent)
-{
+TEST(neighbouring_pixels_and_seeds_are_independent) {
     for (int step = 1; step < 5; step++) {
         double histogram[256] = {0};
         for (int x = 0; x < 256; x++)
             for (int y = 0; y < 256; y++) {
                 Sampler a = sampler_start(7, x, y, 0);
-                Sampler b = step < 3 ? sampler_start(7, x + (step == 1), y + (step == 2), 0) :
-                                       sampler_start(7 + (uint32_t)step, x, y, 0);
+                Sampler b = step < 3 ? sampler_start(7, x + (step == 1), y + (step == 2), 0)
+                                     : sampler_start(7 + (uint32_t)step, x, y, 0);
                 histogram[(int)(sampler_1d(&a) * 16) * 16 + (int)(sampler_1d(&b) * 16)]++;
             }
         assert_true(grid_deviate(histogram, 65536) < 4);
     }
 }
 
-TEST(numbers_depend_on_nothing_but_their_place)
-{
+TEST(numbers_depend_on_nothing_but_their_place) {
     for (uint32_t i = 0; i < 100; i++) {
         Sampler a = sampler_start(1, 10, 20, i), b = sampler_start(1, 10, 20, i);
         for (int d = 0; d < 10; d++) {
@@ -257,13 +236,12 @@ TEST(numbers_depend_on_nothing_but_their_place)
     assert_true(unit_float(0xffffffffu) < 1);
 }
 
-TEST(two_pairs_at_once_are_two_pairs)
-{
+TEST(two_pairs_at_once_are_two_pairs) {
     for (uint32_t i = 0; i < 100; i++) {
         Sampler a = sampler_start(1, 10, 20, i), b = a;
         for (int d = 0; d < 10; d++) {
             float u[4];
-            Vec2  p = sampler_2d(&a), q = sampler_2d(&a);
+            Vec2 p = sampler_2d(&a), q = sampler_2d(&a);
             sampler_4d(&b, u);
             assert_true(p.x == u[0] && p.y == u[1] && q.x == u[2] && q.y == u[3]);
         }
@@ -272,15 +250,14 @@ TEST(two_pairs_at_once_are_two_pairs)
 
 /* Of all numbers that there are, exactly its share is chosen, and what is left of those of
  * either outcome fills [0, 1) evenly: none of 100 equal bins is off by more than its ends. */
-TEST(a_choice_leaves_an_even_number)
-{
+TEST(a_choice_leaves_an_even_number) {
     const float probs[] = {0, 0.1f, 0.5f, 0.99f, 1};
     for (int i = 0; i < 5; i++) {
         const int steps = 1 << 20;
-        int       bins[2][100] = {{0}}, chosen = 0;
+        int bins[2][100] = {{0}}, chosen = 0;
         for (int k = 0; k < steps; k++) {
             float u = (float)k / (float)steps;
-            bool  yes = unit_choose(&u, probs[i]);
+            bool yes = unit_choose(&u, probs[i]);
             assert_true(u >= 0 && u < 1);
             bins[yes][(int)(u * 100)]++;
             chosen += yes;
@@ -295,14 +272,13 @@ TEST(a_choice_leaves_an_even_number)
 
 /* A (0,2)-sequence keeps its spread on either side of a choice: of 64 points those of one half
  * still have one in each of their 32 strips, along the number that chose and across it. */
-TEST(points_of_a_choice_stay_spread)
-{
+TEST(points_of_a_choice_stay_spread) {
     for (int pixel = 0; pixel < 100; pixel++) {
         int along[2][32] = {{0}}, across[2][32] = {{0}};
         for (uint32_t i = 0; i < 64; i++) {
             Sampler sampler = sampler_start(9, pixel, 1, i);
-            Vec2    p = sampler_2d(&sampler);
-            bool    yes = unit_choose(&p.x, 0.5f);
+            Vec2 p = sampler_2d(&sampler);
+            bool yes = unit_choose(&p.x, 0.5f);
             along[yes][(int)(p.x * 32)]++;
             across[yes][(int)(p.y * 32)]++;
         }
@@ -316,14 +292,13 @@ TEST(points_of_a_choice_stay_spread)
 /* ---- alias tables -------------------------------------------------------------------- */
 
 /* Draws every number there is, once. */
-static void assert_probabilities_exact(const double *weights, int count, Arena arena)
-{
+static void assert_probabilities_exact(const double *weights, int count, Arena arena) {
     AliasTable table = alias_build(weights, count, &arena);
-    uint32_t  *drawn = ARENA_NEW(&arena, uint32_t, count);
-    double     sum = 0, total = 0;
+    uint32_t *drawn = ARENA_NEW(&arena, uint32_t, count);
+    double sum = 0, total = 0;
     for (uint32_t k = 0; k < 1u << 24; k++) {
         float prob;
-        int   i = alias_sample(&table, (float)k * 0x1p-24f, &prob);
+        int i = alias_sample(&table, (float)k * 0x1p-24f, &prob);
         drawn[i]++;
         assert_true(prob == table.slots[i].prob);
     }
@@ -337,10 +312,9 @@ static void assert_probabilities_exact(const double *weights, int count, Arena a
     assert_near(total, 1, 1e-6);
 }
 
-ARENA_TEST(alias_tables_know_their_exact_probabilities)
-{
+ARENA_TEST(alias_tables_know_their_exact_probabilities) {
     static double weights[100000];
-    uint32_t      seed = 3;
+    uint32_t seed = 3;
     assert_probabilities_exact((double[]){7}, 1, arena);
     assert_probabilities_exact((double[]){0, 1, 0, 3, 0}, 5, arena);
     for (int i = 0; i < 100000; i++)
@@ -353,13 +327,12 @@ ARENA_TEST(alias_tables_know_their_exact_probabilities)
 
 /* ---- sort ---------------------------------------------------------------------------- */
 
-TEST(a_ranked_value_is_that_of_the_sorted_list)
-{
+TEST(a_ranked_value_is_that_of_the_sorted_list) {
     enum { MOST = 70 };
     uint32_t random = 5;
     for (int count = 1; count <= MOST; count++)
         for (int rank = 0; rank < count; rank++) {
-            float    sorted[MOST], list[MOST];
+            float sorted[MOST], list[MOST];
             uint32_t kinds = rank % 3 ? 5 : 1000; /* many alike, or hardly any */
             for (int i = 0; i < count; i++)
                 sorted[i] = list[i] = (float)(hash_u32(random++) % kinds);
@@ -372,9 +345,8 @@ TEST(a_ranked_value_is_that_of_the_sorted_list)
 
 /* ---- arena --------------------------------------------------------------------------- */
 
-ARENA_TEST(a_list_grows_at_its_place_or_moves)
-{
-    int  *list = ARENA_GROW(&arena, int, NULL, 0, 3);
+ARENA_TEST(a_list_grows_at_its_place_or_moves) {
+    int *list = ARENA_GROW(&arena, int, NULL, 0, 3);
     for (int i = 0; i < 3; i++) list[i] = i + 1;
     int *longer = ARENA_GROW(&arena, int, list, 3, 100);
     assert_int_equal(longer[3], 0);
@@ -384,8 +356,7 @@ ARENA_TEST(a_list_grows_at_its_place_or_moves)
     for (int i = 0; i < 200; i++) assert_int_equal(moved[i], i < 3 ? i + 1 : 0);
 }
 
-TEST(arena_memory_is_aligned_and_zeroed)
-{
+TEST(arena_memory_is_aligned_and_zeroed) {
     Arena arena = arena_reserve(1 << 20);
     for (size_t align = 1; align <= 4096; align *= 2) {
         char *memory = arena_alloc(&arena, 3, align, 7);
@@ -399,32 +370,28 @@ TEST(arena_memory_is_aligned_and_zeroed)
     arena_release(&arena); /* again is fine */
 }
 
-static char *scratch_of(Arena scratch)
-{
+static char *scratch_of(Arena scratch) {
     char *memory = ARENA_NEW(&scratch, char, 100);
     for (int i = 0; i < 100; i++) assert_int_equal(memory[i], 0);
     memset(memory, 1, 100);
     return memory;
 }
 
-ARENA_TEST(scratch_is_back_after_the_call)
-{
+ARENA_TEST(scratch_is_back_after_the_call) {
     char *first = scratch_of(arena);
     assert_ptr_equal(scratch_of(arena), first);
 }
 
 static jmp_buf when_full;
-static size_t  wanted, left;
+static size_t wanted, left;
 
-static void note_full(size_t bytes_wanted, size_t bytes_left)
-{
+static void note_full(size_t bytes_wanted, size_t bytes_left) {
     wanted = bytes_wanted;
     left = bytes_left;
     longjmp(when_full, 1);
 }
 
-TEST(a_full_arena_says_what_was_wanted_and_left)
-{
+TEST(a_full_arena_says_what_was_wanted_and_left) {
     Arena arena = arena_reserve(1 << 16);
     arena.on_full = note_full;
     arena_alloc(&arena, 1, 1, 65000);
@@ -443,9 +410,8 @@ TEST(a_full_arena_says_what_was_wanted_and_left)
     arena_release(&arena);
 }
 
-TEST(a_full_arena_may_have_a_way_out)
-{
-    Arena   arena = arena_reserve(1 << 16);
+TEST(a_full_arena_may_have_a_way_out) {
+    Arena arena = arena_reserve(1 << 16);
     jmp_buf way_out;
     arena.on_full = note_full;
     arena.way_out = &way_out;
@@ -457,8 +423,7 @@ TEST(a_full_arena_may_have_a_way_out)
     arena_release(&arena);
 }
 
-TEST(a_trimmed_arena_keeps_what_it_holds)
-{
+TEST(a_trimmed_arena_keeps_what_it_holds) {
     Arena arena;
     assert_true(arena_try_reserve(1 << 24, &arena));
     char *bytes = arena_alloc(&arena, 1, 1, 100000);
@@ -469,9 +434,8 @@ TEST(a_trimmed_arena_keeps_what_it_holds)
     arena_release(&arena);
 }
 
-ARENA_TEST(arena_texts_are_terminated_copies)
-{
-    char  source[] = "windscreen";
+ARENA_TEST(arena_texts_are_terminated_copies) {
+    char source[] = "windscreen";
     char *copy = arena_string(&arena, source, 4);
     source[0] = 'W';
     assert_string_equal(copy, "wind");
@@ -480,8 +444,7 @@ ARENA_TEST(arena_texts_are_terminated_copies)
 }
 
 /* Bytes made behind scratch, moved to where the scratch began, over each other. */
-ARENA_TEST(what_is_kept_lies_where_the_arena_was)
-{
+ARENA_TEST(what_is_kept_lies_where_the_arena_was) {
     Arena scratch = arena;
     ARENA_NEW(&scratch, char, 3);
     char *made = arena_string(&scratch, "0123456789", 10), *before = arena.next;
@@ -494,10 +457,9 @@ ARENA_TEST(what_is_kept_lies_where_the_arena_was)
 
 /* ---- errors and problems ------------------------------------------------------------- */
 
-TEST(an_error_s_line_has_file_place_and_text)
-{
+TEST(an_error_s_line_has_file_place_and_text) {
     Error err;
-    char  line[2048];
+    char line[2048];
     assert_false(error_set(&err, ERROR_USAGE, "size %d", 3));
     error_line(&err, line, sizeof line);
     assert_string_equal(line, "size 3");
@@ -514,26 +476,24 @@ TEST(an_error_s_line_has_file_place_and_text)
 }
 
 /* What a file holds may be quoted; it may neither break the line nor command a terminal. */
-ARENA_TEST(a_message_is_one_line_whatever_it_quotes)
-{
+ARENA_TEST(a_message_is_one_line_whatever_it_quotes) {
     Error err;
-    char  line[2048];
+    char line[2048];
     Problems problems = problems_start(&arena);
     error_at(&err, ERROR_INPUT, "a\nb", "/x\r", "found \"%s\"", "\033[2J\t\177\n\303\244");
     error_prefix(&err, "%s", "in\n");
     error_line(&err, line, sizeof line);
     assert_string_equal(line, "a\\u000Ab: /x\\u000D: in\\u000A: found "
-                        "\"\\u001B[2J\\u0009\\u007F\\u000A\303\244\"");
+                              "\"\\u001B[2J\\u0009\\u007F\\u000A\303\244\"");
     problems_add(&problems, SEVERITY_WARNING, "a\nb", "/x\r", "%s", "c\nd");
     assert_string_equal(problems.list[0].file, "a\\u000Ab");
     assert_string_equal(problems.list[0].path, "/x\\u000D");
     assert_string_equal(problems.list[0].message, "c\\u000Ad");
 }
 
-TEST(a_long_error_is_cut_and_stays_a_string)
-{
+TEST(a_long_error_is_cut_and_stays_a_string) {
     Error err;
-    char  word[2000], line[64];
+    char word[2000], line[64];
     memset(word, 'x', sizeof word - 1);
     word[sizeof word - 1] = '\0';
     error_at(&err, ERROR_INPUT, word, word, "%s", word);
@@ -545,22 +505,22 @@ TEST(a_long_error_is_cut_and_stays_a_string)
     assert_int_equal(strlen(line), sizeof line - 1);
 }
 
-TEST(exit_statuses_follow_the_codes)
-{
-    static const struct { ErrorCode code; int status; } cases[] = {
-        {ERROR_NONE, 0}, {ERROR_UNUSABLE, 1}, {ERROR_USAGE, 2}, {ERROR_INPUT, 3},
-        {ERROR_OUTPUT, 4}, {ERROR_LIBRARY, 3}, {ERROR_MEMORY, 3}};
+TEST(exit_statuses_follow_the_codes) {
+    static const struct {
+        ErrorCode code;
+        int status;
+    } cases[] = {{ERROR_NONE, 0},   {ERROR_UNUSABLE, 1}, {ERROR_USAGE, 2}, {ERROR_INPUT, 3},
+                 {ERROR_OUTPUT, 4}, {ERROR_LIBRARY, 3},  {ERROR_MEMORY, 3}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         if (error_exit_status(cases[i].code) != cases[i].status)
             fail_msg("code %d: status %d, required: %d", (int)cases[i].code,
                      error_exit_status(cases[i].code), cases[i].status);
 }
 
-ARENA_TEST(problems_keep_their_order_and_their_texts)
-{
+ARENA_TEST(problems_keep_their_order_and_their_texts) {
     Problems problems = problems_start(&arena);
-    Error    err;
-    char     path[32], line[2048];
+    Error err;
+    char path[32], line[2048];
     assert_true(problems_verdict(&problems, &err));
     problems_add(&problems, SEVERITY_WARNING, "a.gltf", "/x", "odd");
     assert_true(problems_verdict(&problems, &err));
@@ -579,15 +539,13 @@ ARENA_TEST(problems_keep_their_order_and_their_texts)
     assert_string_equal(problems.list[101].file, "");
     assert_false(problems_verdict(&problems, &err));
     error_line(&err, line, sizeof line);
-    assert_string_equal(line,
-                        "a.gltf: /nodes/0: bad 0 (and 100 more: see `parhelion check`)");
+    assert_string_equal(line, "a.gltf: /nodes/0: bad 0 (and 100 more: see `parhelion check`)");
 }
 
-ARENA_TEST(a_single_error_is_its_own_verdict)
-{
+ARENA_TEST(a_single_error_is_its_own_verdict) {
     Problems problems = problems_start(&arena);
-    Error    err;
-    char     line[2048];
+    Error err;
+    char line[2048];
     problems_add(&problems, SEVERITY_ERROR, NULL, NULL, "empty scene");
     assert_false(problems_verdict(&problems, &err));
     error_line(&err, line, sizeof line);

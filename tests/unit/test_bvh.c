@@ -5,20 +5,17 @@
 #include "bvh/bvh.h"
 #include "scene_builder.h"
 
-static float random_unit(uint32_t *state)
-{
+static float random_unit(uint32_t *state) {
     *state = *state * 747796405u + 2891336453u;
     return unit_float(hash_u32(*state));
 }
 
-static Vec3 random_point(uint32_t *state, float size)
-{
+static Vec3 random_point(uint32_t *state, float size) {
     float x = random_unit(state), y = random_unit(state), z = random_unit(state);
     return vec3(size * (x - 0.5f), size * (y - 0.5f), size * (z - 0.5f));
 }
 
-static Scene *soup(Arena *arena, int triangles, int asked)
-{
+static Scene *soup(Arena *arena, int triangles, int asked) {
     uint32_t random = 7;
     Scene *scene = builder_scene(arena);
     for (int kind = 0; kind < 2; kind++) {
@@ -29,8 +26,8 @@ static Scene *soup(Arena *arena, int triangles, int asked)
             Vec3 at = random_point(&random, 2);
             uint32_t first = scene->vertex_count;
             for (int k = 0; k < 3; k++)
-                builder_vertex(scene, vec3_add(at, random_point(&random, 0.6f)), vec3(0, 1, 0),
-                               0, 0);
+                builder_vertex(scene, vec3_add(at, random_point(&random, 0.6f)), vec3(0, 1, 0), 0,
+                               0);
             builder_triangle(scene, first, first + 1, first + 2);
         }
     }
@@ -38,11 +35,9 @@ static Scene *soup(Arena *arena, int triangles, int asked)
 }
 
 /* Moeller-Trumbore in double precision: a slow opinion of our own. */
-static int hits(const Scene *scene, uint32_t triangle, Ray ray, double *t)
-{
+static int hits(const Scene *scene, uint32_t triangle, Ray ray, double *t) {
     double p[3][3], e1[3], e2[3], h[3], s[3], q[3];
-    const double d[3] = {(double)ray.direction.x, (double)ray.direction.y,
-                         (double)ray.direction.z};
+    const double d[3] = {(double)ray.direction.x, (double)ray.direction.y, (double)ray.direction.z};
     const double o[3] = {(double)ray.origin.x, (double)ray.origin.y, (double)ray.origin.z};
     for (int k = 0; k < 3; k++) {
         Vec3 corner = scene_corner(scene, triangle, k);
@@ -65,16 +60,14 @@ static int hits(const Scene *scene, uint32_t triangle, Ray ray, double *t)
     return u >= 0 && v >= 0 && u + v <= 1 && *t > 0;
 }
 
-ARENA_TEST(the_nearest_of_all_triangles_is_hit)
-{
+ARENA_TEST(the_nearest_of_all_triangles_is_hit) {
     Scene *scene = soup(&arena, 300, 100);
     Bvh *bvh;
     int disagree = 0;
     uint32_t random = 3;
     assert_done(bvh_create(scene, 1, NULL, &bvh, &err));
     for (int i = 0; i < 3000; i++) {
-        Ray ray = {random_point(&random, 3), vec3_normalize(random_point(&random, 2)), 0,
-                   INFINITY};
+        Ray ray = {random_point(&random, 3), vec3_normalize(random_point(&random, 2)), 0, INFINITY};
         double nearest = INFINITY, t;
         Hit hit = {INFINITY, 0, 0, 0};
         for (uint32_t k = 0; k < scene->triangle_count; k++)
@@ -93,8 +86,7 @@ typedef struct Asked {
     float transmitted;
 } Asked;
 
-static bool half_passes(void *user, const Hit *hit)
-{
+static bool half_passes(void *user, const Hit *hit) {
     Asked *asked = user;
     assert_true(hit->triangle >= asked->scene->opaque_count);
     assert_true(hit->triangle < asked->scene->triangle_count);
@@ -103,8 +95,7 @@ static bool half_passes(void *user, const Hit *hit)
     return true;
 }
 
-ARENA_TEST(a_shadow_ray_asks_every_window_once)
-{
+ARENA_TEST(a_shadow_ray_asks_every_window_once) {
     Scene *scene = builder_scene(&arena);
     Material window = builder_material(1);
     Bvh *bvh;
@@ -124,8 +115,7 @@ ARENA_TEST(a_shadow_ray_asks_every_window_once)
     bvh_destroy(bvh);
 }
 
-ARENA_TEST(rays_that_are_not_finite_hit_nothing_and_light_nothing)
-{
+ARENA_TEST(rays_that_are_not_finite_hit_nothing_and_light_nothing) {
     Scene *scene = soup(&arena, 50, 0);
     Bvh *bvh;
     Hit hit;
@@ -148,8 +138,7 @@ ARENA_TEST(rays_that_are_not_finite_hit_nothing_and_light_nothing)
     bvh_destroy(bvh);
 }
 
-ARENA_TEST(an_empty_scene_is_hit_nowhere)
-{
+ARENA_TEST(an_empty_scene_is_hit_nowhere) {
     Scene *scene = builder_scene(&arena);
     Bvh *bvh;
     Hit hit;

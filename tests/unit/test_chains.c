@@ -11,18 +11,17 @@
 #define MOST 10
 
 static const Vec3 eye = {0.1f, 0.1f, 0.7f};
-static const Vec3 targets[4] = {{-0.1f, -0.05f, 0}, {0.1f, 0.05f, 0}, {-0.1f, 0.05f, 0},
-                                {0.1f, -0.05f, 0}};
+static const Vec3 targets[4] = {
+    {-0.1f, -0.05f, 0}, {0.1f, 0.05f, 0}, {-0.1f, 0.05f, 0}, {0.1f, -0.05f, 0}};
 
 enum { FLOOR, SIDE, BACK, LAMP, SCREEN, PANE, PARTS };
 
 /* A display that looks along +z into grey walls, a lamp above and a pane to the right, under a
  * sky. wall[]: reflectances; of the pane 0: it is covered; level: of the display. */
-static World room(const float wall[PARTS], float level)
-{
+static World room(const float wall[PARTS], float level) {
     static const char *const names[] = {"floor", "side", "back", "lamp", "screen", "pane"};
-    World    world = world_start();
-    Scene   *scene = world.scene;
+    World world = world_start();
+    Scene *scene = world.scene;
     Material pane = builder_material(1), display = builder_material(0);
     builder_part(scene, builder_material(wall[FLOOR]));
     builder_quad(scene, vec3(0, -0.3f, 0.5f), vec3(0.6f, 0, 0), vec3(0, 0, -0.6f));
@@ -44,48 +43,49 @@ static World room(const float wall[PARTS], float level)
     builder_quad(scene, vec3(0.6f, 0, 0.5f), vec3(0, 0, 0.6f), vec3(0, 0.3f, 0));
     for (int i = 0; i < PARTS; i++) scene->parts[i].name = names[i];
     assert_done(panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &world.arena,
-                    &world.panel, &err));
-    scene->displays[scene->display_count++] =
-        (Display){.name = "display", .panel = world.panel, .material_id = material_id,
-                  .level = level, .content = builder_no_texture()};
+                           &world.panel, &err));
+    scene->displays[scene->display_count++] = (Display){.name = "display",
+                                                        .panel = world.panel,
+                                                        .material_id = material_id,
+                                                        .level = level,
+                                                        .content = builder_no_texture()};
     builder_sky(scene, 1000);
     return world;
 }
 
 static const float grey[PARTS] = {[FLOOR] = 0.5f, [SIDE] = 0.5f, [BACK] = 0.5f, [PANE] = 1};
 
-static ReadingTools tools_of(int threads)
-{
+static ReadingTools tools_of(int threads) {
     ReadingTools tools = {.threads = threads};
     assert_done(kernel_choose(NULL, &tools.kernel, &err));
     return tools;
 }
 
-static ProbeAim aim_of(const World *world, uint32_t seed)
-{
-    return (ProbeAim){.context = &world->context, .eye = eye, .targets = targets,
-                      .target_count = 4, .seed = seed};
+static ProbeAim aim_of(const World *world, uint32_t seed) {
+    return (ProbeAim){.context = &world->context,
+                      .eye = eye,
+                      .targets = targets,
+                      .target_count = 4,
+                      .seed = seed};
 }
 
-static Chains find(World *world, uint32_t seed, long paths, int threads)
-{
+static Chains find(World *world, uint32_t seed, long paths, int threads) {
     ReadingTools tools = tools_of(threads);
-    ProbeAim     aim = aim_of(world, seed);
-    ChainArgs     args = {.aim = &aim, .tools = &tools, .paths = paths, .most = MOST};
+    ProbeAim aim = aim_of(world, seed);
+    ChainArgs args = {.aim = &aim, .tools = &tools, .paths = paths, .most = MOST};
     return chains_find(&args, &world->arena);
 }
 
 /* ---- they add up ------------------------------------------------------------------------- */
 
-TEST(chains_add_up_to_what_is_seen)
-{
+TEST(chains_add_up_to_what_is_seen) {
     SCOPED_WORLD world = room(grey, 1);
     enum { PATHS = 4096, BATCH = PATHS / CHAIN_BATCHES };
     static ProbeLook looks[PATHS];
-    PathStatistics   statistics = {0};
+    PathStatistics statistics = {0};
     double reflected = 0, mirror = 0, kept = 0;
     world_ready(&world, 16);
-    Chains   chains = find(&world, 5, PATHS, 2);
+    Chains chains = find(&world, 5, PATHS, 2);
     ProbeAim aim = aim_of(&world, 5);
     aim.is_spread = true;
     for (int i = 0; i < CHAIN_BATCHES; i++) {
@@ -106,26 +106,22 @@ TEST(chains_add_up_to_what_is_seen)
         assert_true(chains.list[i].figure.cd_m2 <= chains.list[i - 1].figure.cd_m2);
 }
 
-TEST(threads_change_nothing)
-{
+TEST(threads_change_nothing) {
     SCOPED_WORLD world = room(grey, 1);
     world_ready(&world, 16);
     Chains a = find(&world, 5, 2048, 1), b = find(&world, 5, 2048, 3);
     assert_int_equal(a.count, b.count);
     assert_memory_equal(&a.rest, &b.rest, sizeof a.rest);
-    for (int i = 0; i < a.count; i++)
-        assert_memory_equal(&a.list[i], &b.list[i], sizeof a.list[i]);
+    for (int i = 0; i < a.count; i++) assert_memory_equal(&a.list[i], &b.list[i], sizeof a.list[i]);
 }
 
 /* ---- what they are called ---------------------------------------------------------------- */
 
-static bool has_chain(const Chains *chains, const char *wanted, Arena *arena)
-{
+static bool has_chain(const Chains *chains, const char *wanted, Arena *arena) {
     for (int i = 0; i < chains->count; i++) {
-        int         links;
+        int links;
         const char *text = "";
-        const char *const *words =
-            chain_words(chains->scene, &chains->list[i].key, &links, arena);
+        const char *const *words = chain_words(chains->scene, &chains->list[i].key, &links, arena);
         for (int k = 0; k < links; k++)
             text = arena_format(arena, "%s%s%s", text, k ? " > " : "", words[k]);
         if (!strcmp(text, wanted)) return true;
@@ -133,8 +129,7 @@ static bool has_chain(const Chains *chains, const char *wanted, Arena *arena)
     return false;
 }
 
-TEST(chains_name_what_light_meets)
-{
+TEST(chains_name_what_light_meets) {
     SCOPED_WORLD world = room(grey, 1);
     world_ready(&world, 16);
     Chains chains = find(&world, 5, 4096, 2);
@@ -148,8 +143,7 @@ TEST(chains_name_what_light_meets)
         if (!has_chain(&chains, wanted[i], &world.arena)) fail_msg("no %s", wanted[i]);
 }
 
-TEST(rays_lead_from_the_eye_over_what_is_named)
-{
+TEST(rays_lead_from_the_eye_over_what_is_named) {
     SCOPED_WORLD world = room(grey, 1);
     world_ready(&world, 16);
     Chains chains = find(&world, 5, 4096, 2);
@@ -174,26 +168,23 @@ TEST(rays_lead_from_the_eye_over_what_is_named)
 /* ---- their intervals --------------------------------------------------------------------- */
 
 /* The chain's figure among others; none of it was found: 0. */
-static ChainFigure same_chain(const Chains *chains, const ChainKey *key)
-{
+static ChainFigure same_chain(const Chains *chains, const ChainKey *key) {
     for (int i = 0; i < chains->count; i++)
         if (!memcmp(&chains->list[i].key, key, sizeof *key)) return chains->list[i].figure;
     return (ChainFigure){.cd_m2 = 0};
 }
 
-TEST(intervals_cover)
-{
+TEST(intervals_cover) {
     enum { RUNS = 120, CHAINS = 3 };
     SCOPED_WORLD world = room(grey, 1);
-    int   covered[CHAINS + 1] = {0};
+    int covered[CHAINS + 1] = {0};
     world_ready(&world, 16);
     Chains truth = find(&world, 1, 1 << 18, 2);
     for (uint32_t run = 0; run < RUNS; run++) {
-        Arena  before = world.arena;
+        Arena before = world.arena;
         Chains some = find(&world, 100 + run, 4096, 2);
         for (int i = 0; i <= CHAINS; i++) {
-            ChainFigure found =
-                i == CHAINS ? some.all : same_chain(&some, &truth.list[i].key);
+            ChainFigure found = i == CHAINS ? some.all : same_chain(&some, &truth.list[i].key);
             ChainFigure wanted = i == CHAINS ? truth.all : truth.list[i].figure;
             covered[i] += found.low <= wanted.cd_m2 && wanted.cd_m2 <= found.high;
         }
@@ -209,22 +200,19 @@ TEST(intervals_cover)
 
 /* Within 2 %, or 3 standard errors. */
 static void assert_foretold(const char *what, double foretold, double sigma,
-                            const ChainFigure *found)
-{
+                            const ChainFigure *found) {
     double apart = fabs(foretold - found->cd_m2), of = hypot(sigma, found->sigma);
     print_message("%s: foretold %.5g, found %.5g +- %.2g\n", what, foretold, found->cd_m2, of);
     if (apart > 0.02 * found->cd_m2 && apart > 3 * of)
         fail_msg("%s: foretold %g, found %g +- %g", what, foretold, found->cd_m2, of);
 }
 
-static Chains find_in(World *world, uint32_t seed)
-{
+static Chains find_in(World *world, uint32_t seed) {
     world_ready(world, 16);
     return find(world, seed, 1 << 15, 2);
 }
 
-TEST(own_light_grows_with_brightness)
-{
+TEST(own_light_grows_with_brightness) {
     SCOPED_WORLD world = room(grey, 1), brighter = room(grey, 3);
     Chains one = find_in(&world, 2), three = find_in(&brighter, 3);
     assert_true(one.own > 0.01 * one.all.cd_m2);
@@ -233,8 +221,7 @@ TEST(own_light_grows_with_brightness)
 }
 
 /* Light that meets the display's mirror twice is hardly any. */
-TEST(a_coating_takes_its_share_of_the_mirror)
-{
+TEST(a_coating_takes_its_share_of_the_mirror) {
     SCOPED_WORLD world = room(grey, 0), coated = room(grey, 0);
     Chains plain = find_in(&world, 2);
     const PanelReflection *reflection = coated.panel->reflection;

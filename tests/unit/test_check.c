@@ -15,8 +15,7 @@ typedef struct Checked {
 } Checked;
 
 /* Runs the command with stdout led into a file of the test's folder. */
-static Checked run(const char *path, const char *option)
-{
+static Checked run(const char *path, const char *option) {
     Checked outcome = {0};
     char log[300], *argv[3] = {"check", (char *)(uintptr_t)path, (char *)(uintptr_t)option};
     snprintf(log, sizeof log, "%s/log", maker.folder);
@@ -38,8 +37,7 @@ static Checked run(const char *path, const char *option)
 
 static const float TRIANGLE[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-static const char *lit_scene(void)
-{
+static const char *lit_scene(void) {
     return maker_gltf(
         TRIANGLE, sizeof TRIANGLE,
         "'extensionsUsed':['KHR_lights_punctual','PARHELION_environment'],"
@@ -55,8 +53,7 @@ static const char *lit_scene(void)
         "{'KHR_lights_punctual':{'light':0}}}]");
 }
 
-TEST_WITH(people_read_everything_with_its_unit, maker_reset, NULL)
-{
+TEST_WITH(people_read_everything_with_its_unit, maker_reset, NULL) {
     Checked outcome = run(lit_scene(), NULL);
     static const char *const LINES[] = {
         "triangles    1 (1 opaque) in 1 parts",
@@ -69,12 +66,10 @@ TEST_WITH(people_read_everything_with_its_unit, maker_reset, NULL)
         "ok: 0 errors, 0 warnings"};
     assert_true(outcome.is_ok);
     for (size_t i = 0; i < sizeof LINES / sizeof *LINES; i++)
-        if (!strstr(outcome.text, LINES[i]))
-            fail_msg("no \"%s\" in\n%s", LINES[i], outcome.text);
+        if (!strstr(outcome.text, LINES[i])) fail_msg("no \"%s\" in\n%s", LINES[i], outcome.text);
 }
 
-TEST_WITH(scripts_read_one_document, maker_reset, NULL)
-{
+TEST_WITH(scripts_read_one_document, maker_reset, NULL) {
     Checked outcome = run(lit_scene(), "--json");
     json_auto_t *document = json_loads(outcome.text, 0, NULL);
     assert_true(outcome.is_ok);
@@ -96,8 +91,7 @@ TEST_WITH(scripts_read_one_document, maker_reset, NULL)
 }
 
 /* Three sheets: one-sided by glTF's default, two-sided, and a material that nothing wears. */
-TEST_WITH(materials_whose_backs_other_viewers_leave_out_are_named, maker_reset, NULL)
-{
+TEST_WITH(materials_whose_backs_other_viewers_leave_out_are_named, maker_reset, NULL) {
     const char *path = maker_gltf(
         TRIANGLE, sizeof TRIANGLE,
         "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,"
@@ -110,14 +104,13 @@ TEST_WITH(materials_whose_backs_other_viewers_leave_out_are_named, maker_reset, 
     assert_non_null(strstr(plain.text, "one-sided    lining: their backs are seen"));
     Checked outcome = run(path, "--json");
     json_auto_t *document = json_loads(outcome.text, 0, NULL);
-    json_t      *list = json_object_get(document, "material_list");
+    json_t *list = json_object_get(document, "material_list");
     for (size_t i = 0; i < 3; i++)
         assert_int_equal(json_is_true(json_object_get(json_array_get(list, i), "is_one_sided")),
                          i == 0);
 }
 
-TEST_WITH(all_problems_are_told_and_the_status_is_3, maker_reset, NULL)
-{
+TEST_WITH(all_problems_are_told_and_the_status_is_3, maker_reset, NULL) {
     const char *path = maker_gltf(NULL, 0, "'nodes':[{'mesh':5},{'camera':1,'colour':2}]");
     Checked plain = run(path, NULL);
     assert_false(plain.is_ok);

@@ -17,21 +17,19 @@ enum { WIDTH = 7, HEIGHT = 5, FIRST = 3, SAMPLES = 40 };
 
 static const FilmRect crop = {1, 2, 6, 5};
 
-static int make_checkpoint_path(void **state)
-{
+static int make_checkpoint_path(void **state) {
     return make_path(state, "a.checkpoint");
 }
 
 /* ---- films ------------------------------------------------------------------------------- */
 
 static const char *const group_names[] = {"sun", "lamp", "sky"};
-static const FilmLights  groups = {3, group_names};
-static const FilmLight   one_light[] = {{1, {1, 1, 1}}};
+static const FilmLights groups = {3, group_names};
+static const FilmLight one_light[] = {{1, {1, 1, 1}}};
 
 /* Small and huge, negative ones too, and some that are dropped. */
-static FilmSample sample_of(int x, int y, uint32_t index)
-{
-    uint32_t   random = hash_combine((uint32_t)(y * WIDTH + x), index);
+static FilmSample sample_of(int x, int y, uint32_t index) {
+    uint32_t random = hash_combine((uint32_t)(y * WIDTH + x), index);
     FilmSample s = {.sample_index = index, .hit = random_unit(&random) < 0.9f};
     for (int i = 0; i < 3; i++) {
         float sign = random_unit(&random) < 0.1f ? -1 : 1;
@@ -46,8 +44,7 @@ static FilmSample sample_of(int x, int y, uint32_t index)
     return s;
 }
 
-static Film *make_film(unsigned layers, Arena *arena)
-{
+static Film *make_film(unsigned layers, Arena *arena) {
     Film *film = film_create(WIDTH, HEIGHT, crop, layers, &groups, arena);
     for (int y = crop.y0; y < crop.y1; y++)
         for (int x = crop.x0; x < crop.x1; x++)
@@ -58,10 +55,9 @@ static Film *make_film(unsigned layers, Arena *arena)
     return film;
 }
 
-static void assert_same_films(const Film *a, const Film *b)
-{
+static void assert_same_films(const Film *a, const Film *b) {
     FilmDropped x = film_dropped(a), y = film_dropped(b);
-    size_t      pixels = (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
+    size_t pixels = (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
     assert_true(x.count > 0);
     assert_int_equal(x.count, y.count);
     assert_int_equal(x.kept, y.kept);
@@ -72,12 +68,11 @@ static void assert_same_films(const Film *a, const Film *b)
 
 /* ---- rows -------------------------------------------------------------------------------- */
 
-MEMORY_TEST(packed_rows_hold_every_bit)
-{
+MEMORY_TEST(packed_rows_hold_every_bit) {
     for (int i = 0; i < 2; i++) {
         unsigned layers = i ? LAYER_ALL : 0;
-        Film    *film = make_film(layers, arena);
-        Film    *again = film_create(WIDTH, HEIGHT, crop, layers, &groups, arena);
+        Film *film = make_film(layers, arena);
+        Film *again = film_create(WIDTH, HEIGHT, crop, layers, &groups, arena);
         unsigned char *row = ARENA_NEW(arena, unsigned char, film_packed_bytes_max(film));
         size_t bytes = 0;
         PixelSums *sums = film_sums(film, 2, 3);
@@ -97,10 +92,9 @@ MEMORY_TEST(packed_rows_hold_every_bit)
     }
 }
 
-MEMORY_TEST(rows_that_no_film_packs_are_refused)
-{
-    Film  *film = make_film(0, arena);
-    Film  *to = film_create(WIDTH, HEIGHT, crop, 0, &groups, arena);
+MEMORY_TEST(rows_that_no_film_packs_are_refused) {
+    Film *film = make_film(0, arena);
+    Film *to = film_create(WIDTH, HEIGHT, crop, 0, &groups, arena);
     size_t max = film_packed_bytes_max(film);
     unsigned char *row = ARENA_NEW(arena, unsigned char, max);
     size_t size = film_pack_row(film, 3, row);
@@ -117,10 +111,11 @@ MEMORY_TEST(rows_that_no_film_packs_are_refused)
 
 /* ---- files ------------------------------------------------------------------------------- */
 
-static Checkpoint description(const Film *film)
-{
-    Checkpoint what = {.path = path, .identity = "version\t1\nseed\t9\n",
-                       .done = film_part_of(film, FIRST, FIRST + SAMPLES), .seconds = 12.5,
+static Checkpoint description(const Film *film) {
+    Checkpoint what = {.path = path,
+                       .identity = "version\t1\nseed\t9\n",
+                       .done = film_part_of(film, FIRST, FIRST + SAMPLES),
+                       .seconds = 12.5,
                        .has_features = true};
     what.done.asked_end = 1000;
     what.done.paths = 1;
@@ -130,17 +125,15 @@ static Checkpoint description(const Film *film)
     return what;
 }
 
-static void write_one(Arena *arena)
-{
-    Film      *film = make_film(0, arena);
+static void write_one(Arena *arena) {
+    Film *film = make_film(0, arena);
     Checkpoint what = description(film);
     assert_done(checkpoint_write(&what, film, *arena, &err));
 }
 
-MEMORY_TEST(what_is_kept_comes_back)
-{
+MEMORY_TEST(what_is_kept_comes_back) {
     Checkpoint found;
-    Film      *film = make_film(LAYER_ALL, arena);
+    Film *film = make_film(LAYER_ALL, arena);
     Checkpoint what = description(film);
     assert_false(checkpoint_is_there(path));
     assert_done(checkpoint_write(&what, film, *arena, &err));
@@ -160,9 +153,8 @@ MEMORY_TEST(what_is_kept_comes_back)
     assert_same_films(film, again);
 }
 
-MEMORY_TEST(it_fits_the_same_pixels_and_as_many_samples_or_more)
-{
-    Error      err = {0};
+MEMORY_TEST(it_fits_the_same_pixels_and_as_many_samples_or_more) {
+    Error err = {0};
     Checkpoint found;
     write_one(arena);
     assert_true(checkpoint_open(path, arena, &found, &err));
@@ -185,16 +177,14 @@ MEMORY_TEST(it_fits_the_same_pixels_and_as_many_samples_or_more)
 }
 
 /* The file's bytes, and them with a checksum that is right. */
-static FileBytes read_file(Arena *arena)
-{
+static FileBytes read_file(Arena *arena) {
     FileBytes bytes;
     assert_done(file_read(path, 1 << 20, arena, &bytes, &err));
     return bytes;
 }
 
-static void put_file(const unsigned char *bytes, size_t size, bool with_checksum)
-{
-    FILE    *file = fopen(path, "wb");
+static void put_file(const unsigned char *bytes, size_t size, bool with_checksum) {
+    FILE *file = fopen(path, "wb");
     uint64_t checksum = XXH3_64bits(bytes, size - 8);
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, with_checksum ? size - 8 : size, file),
@@ -204,12 +194,11 @@ static void put_file(const unsigned char *bytes, size_t size, bool with_checksum
 }
 
 /* Opens and loads; the error is one line. */
-static bool goes_on(Arena scratch, Error *err)
-{
+static bool goes_on(Arena scratch, Error *err) {
     Checkpoint found;
-    Film      *film = film_create(WIDTH, HEIGHT, crop, 0, &groups, &scratch);
-    bool       done = checkpoint_open(path, &scratch, &found, err) &&
-                checkpoint_load(&found, film, scratch, err);
+    Film *film = film_create(WIDTH, HEIGHT, crop, 0, &groups, &scratch);
+    bool done =
+        checkpoint_open(path, &scratch, &found, err) && checkpoint_load(&found, film, scratch, err);
     if (!done) {
         assert_int_equal(err->code, ERROR_INPUT);
         assert_string_equal(err->file, path);
@@ -218,9 +207,8 @@ static bool goes_on(Arena scratch, Error *err)
     return done;
 }
 
-MEMORY_TEST(every_prefix_is_refused)
-{
-    Error  err;
+MEMORY_TEST(every_prefix_is_refused) {
+    Error err;
     write_one(arena);
     FileBytes bytes = read_file(arena);
     assert_in_range(bytes.size, 1000, 20000);
@@ -235,19 +223,18 @@ MEMORY_TEST(every_prefix_is_refused)
     assert_true(goes_on(*arena, &err));
 }
 
-MEMORY_TEST(every_changed_byte_is_refused)
-{
-    Error    err;
+MEMORY_TEST(every_changed_byte_is_refused) {
+    Error err;
     uint32_t random = 1;
     write_one(arena);
     FileBytes bytes = read_file(arena);
-    FILE     *file = fopen(path, "r+b");
+    FILE *file = fopen(path, "r+b");
     assert_non_null(file);
     setvbuf(file, NULL, _IONBF, 0);
     for (size_t i = 0; i < 2 * bytes.size; i++) {
         size_t at = i / 2;
-        int    change = i % 2 ? 1 << (int)(8 * random_unit(&random))
-                              : 1 + (int)(255 * random_unit(&random));
+        int change =
+            i % 2 ? 1 << (int)(8 * random_unit(&random)) : 1 + (int)(255 * random_unit(&random));
         fseek(file, (long)at, SEEK_SET);
         fputc(bytes.data[at] ^ change, file);
         if (goes_on(*arena, &err)) fail_msg("byte %zu xor %d is taken", at, change);
@@ -259,22 +246,30 @@ MEMORY_TEST(every_changed_byte_is_refused)
 }
 
 /* Offsets of the head's members (checkpoint.c). */
-enum { AT_ORDER = 8, AT_VERSION = 12, AT_BYTES = 16, AT_IDENTITY = 24, AT_CROP = 40,
-       AT_FIRST = 64, AT_ASKED = 72, AT_DROPPED = 112, AT_SECONDS = 120, AT_KEPT = 224,
-       HEAD_BYTES = 232 };
+enum {
+    AT_ORDER = 8,
+    AT_VERSION = 12,
+    AT_BYTES = 16,
+    AT_IDENTITY = 24,
+    AT_CROP = 40,
+    AT_FIRST = 64,
+    AT_ASKED = 72,
+    AT_DROPPED = 112,
+    AT_SECONDS = 120,
+    AT_KEPT = 224,
+    HEAD_BYTES = 232
+};
 
-MEMORY_TEST(each_fault_has_its_line)
-{
+MEMORY_TEST(each_fault_has_its_line) {
     static const struct {
-        size_t      at;
-        uint32_t    value;
-        bool        with_checksum;
+        size_t at;
+        uint32_t value;
+        bool with_checksum;
         const char *text;
     } cases[] = {
         {0, 0, true, "is not a checkpoint"},
         {AT_ORDER, 0x04030201, true, "is a checkpoint of a machine of another byte order"},
-        {AT_VERSION, 2, true,
-         "is a checkpoint of format version 2, this program reads version 1"},
+        {AT_VERSION, 2, true, "is a checkpoint of format version 2, this program reads version 1"},
         {AT_BYTES, 100, true, "is damaged: has "},
         {AT_BYTES, 1 << 30, true, "is cut off: has "},
         {AT_IDENTITY, 1 << 20, true, "is damaged: its identity cannot be"},
@@ -289,14 +284,12 @@ MEMORY_TEST(each_fault_has_its_line)
         {AT_SECONDS + 4, 0xfff00000, true, "is damaged: its duration cannot be"},
         {AT_FIRST, 4, false, "is damaged: its bytes have the checksum "},
         {HEAD_BYTES + 17, 0xffffffff, true, "is damaged: its size of a row cannot be"},
-        {HEAD_BYTES + 17 + 4, 0x20202020, true,
-         "damaged sums: row 2 is not as a film packs it"},
-        {AT_FIRST, FIRST + SAMPLES - 1, true,
-         "damaged sums: pixel 1,2 has sums that 1 samples"},
+        {HEAD_BYTES + 17 + 4, 0x20202020, true, "damaged sums: row 2 is not as a film packs it"},
+        {AT_FIRST, FIRST + SAMPLES - 1, true, "damaged sums: pixel 1,2 has sums that 1 samples"},
     };
-    Error  err;
+    Error err;
     write_one(arena);
-    FileBytes      bytes = read_file(arena);
+    FileBytes bytes = read_file(arena);
     unsigned char *copy = ARENA_NEW(arena, unsigned char, bytes.size);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         memcpy(copy, bytes.data, bytes.size);
@@ -310,8 +303,7 @@ MEMORY_TEST(each_fault_has_its_line)
     assert_true(goes_on(*arena, &err));
 }
 
-MEMORY_TEST(what_is_no_file_is_no_checkpoint)
-{
+MEMORY_TEST(what_is_no_file_is_no_checkpoint) {
     Checkpoint found;
     unlink(path);
     assert_fails_with(checkpoint_open(path, arena, &found, &err),
@@ -321,19 +313,17 @@ MEMORY_TEST(what_is_no_file_is_no_checkpoint)
     assert_fails_with(checkpoint_open(path, arena, &found, &err), "is not a checkpoint");
     unlink(path);
     assert_false(checkpoint_is_there(test_folder()));
-    assert_fails_with(checkpoint_open(test_folder(), arena, &found, &err),
-                      "is not a checkpoint");
+    assert_fails_with(checkpoint_open(test_folder(), arena, &found, &err), "is not a checkpoint");
 }
 
 /* ---- a full disk ------------------------------------------------------------------------- */
 
-MEMORY_TEST(a_full_disk_leaves_the_old_one_untouched)
-{
-    Error         err;
+MEMORY_TEST(a_full_disk_leaves_the_old_one_untouched) {
+    Error err;
     struct rlimit kept, little;
     write_one(arena);
-    FileBytes  old = read_file(arena);
-    Film      *film = make_film(LAYER_ALL, arena);
+    FileBytes old = read_file(arena);
+    Film *film = make_film(LAYER_ALL, arena);
     Checkpoint what = description(film);
     signal(SIGXFSZ, SIG_IGN);
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &kept), 0);

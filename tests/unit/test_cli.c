@@ -9,21 +9,20 @@
 
 /* Everything that an option can be. */
 typedef struct Values {
-    bool        flag, number_given;
+    bool flag, number_given;
     const char *text;
-    double      number, numbers[3];
-    long        integer;
-    int         size[2], choice;
-    CliTexts    texts;
-    Cli         cli;
-    Error       err;
+    double number, numbers[3];
+    long integer;
+    int size[2], choice;
+    CliTexts texts;
+    Cli cli;
+    Error err;
 } Values;
 
 /* The words after the command's name, parsed; up to eight. */
-static bool parse(const char *const *words, Arena *arena, Values *out)
-{
+static bool parse(const char *const *words, Arena *arena, Values *out) {
     char *argv[10] = {(char *)"try"};
-    int   argc = 1;
+    int argc = 1;
     while (words[argc - 1]) {
         argv[argc] = (char *)(uintptr_t)words[argc - 1];
         argc++;
@@ -31,11 +30,7 @@ static bool parse(const char *const *words, Arena *arena, Values *out)
     *out = (Values){.text = "unset", .number = 7, .integer = 7, .choice = 7};
     const Option options[] = {
         {.name = "--flag", .kind = OPTION_FLAG, .help = "a flag", .out = &out->flag},
-        {.name = "--text",
-         .kind = OPTION_TEXT,
-         .value = "TEXT",
-         .help = "t",
-         .out = &out->text},
+        {.name = "--text", .kind = OPTION_TEXT, .value = "TEXT", .help = "t", .out = &out->text},
         {.name = "--number",
          .kind = OPTION_NUMBER,
          .value = "X",
@@ -63,31 +58,33 @@ static bool parse(const char *const *words, Arena *arena, Values *out)
          .value = "red|green|blue",
          .help = "c",
          .out = &out->choice},
-        {.name = "--pair",
-         .kind = OPTION_TEXTS,
-         .value = "A=B",
-         .help = "p",
-         .out = &out->texts},
+        {.name = "--pair", .kind = OPTION_TEXTS, .value = "A=B", .help = "p", .out = &out->texts},
     };
-    const CliCommand command = {"try", "tries", "ARGUMENT [MORE]", "parhelion try x", options,
-                                (int)(sizeof options / sizeof *options), 1, 2, NULL, NULL};
+    const CliCommand command = {"try",
+                                "tries",
+                                "ARGUMENT [MORE]",
+                                "parhelion try x",
+                                options,
+                                (int)(sizeof options / sizeof *options),
+                                1,
+                                2,
+                                NULL,
+                                NULL};
     return cli_parse(&command, argc, argv, arena, &out->cli, &out->err);
 }
 
 #define WORDS(...) ((const char *const[]){__VA_ARGS__, NULL})
 
-MEMORY_TEST(values_come_after_the_option_or_after_an_equals_sign)
-{
+MEMORY_TEST(values_come_after_the_option_or_after_an_equals_sign) {
     Values v;
-    assert_true(
-        parse(WORDS("file", "--number", "-0.5", "--size=640x480", "--flag"), arena, &v));
+    assert_true(parse(WORDS("file", "--number", "-0.5", "--size=640x480", "--flag"), arena, &v));
     assert_true(v.flag && v.number_given && v.number == -0.5);
     assert_int_equal(v.size[0], 640);
     assert_int_equal(v.size[1], 480);
     assert_int_equal(v.cli.argument_count, 1);
     assert_string_equal(v.cli.arguments[0], "file");
-    assert_true(parse(
-        WORDS("file", "--text=a=b", "--choice", "blue", "--integer", "4294967295"), arena, &v));
+    assert_true(parse(WORDS("file", "--text=a=b", "--choice", "blue", "--integer", "4294967295"),
+                      arena, &v));
     assert_string_equal(v.text, "a=b");
     assert_int_equal(v.choice, 2);
     assert_true(v.integer == 4294967295);
@@ -95,8 +92,7 @@ MEMORY_TEST(values_come_after_the_option_or_after_an_equals_sign)
     assert_true(v.numbers[0] == 1 && v.numbers[1] == -20 && v.numbers[2] == 0.5);
 }
 
-MEMORY_TEST(what_is_left_out_keeps_its_value)
-{
+MEMORY_TEST(what_is_left_out_keeps_its_value) {
     Values v;
     assert_true(parse(WORDS("file"), arena, &v));
     assert_true(!v.flag && !v.number_given && v.number == 7 && v.integer == 7 && v.choice == 7);
@@ -107,11 +103,9 @@ MEMORY_TEST(what_is_left_out_keeps_its_value)
     assert_false(v.cli.json);
 }
 
-MEMORY_TEST(every_command_has_the_common_options)
-{
+MEMORY_TEST(every_command_has_the_common_options) {
     Values v;
-    assert_true(parse(WORDS("file", "--json", "--threads", "3", "--progress", "plain"), arena,
-                      &v));
+    assert_true(parse(WORDS("file", "--json", "--threads", "3", "--progress", "plain"), arena, &v));
     assert_true(v.cli.json);
     assert_int_equal(v.cli.threads, 3);
     assert_int_equal(v.cli.progress, PROGRESS_PLAIN);
@@ -119,8 +113,7 @@ MEMORY_TEST(every_command_has_the_common_options)
     assert_int_equal(v.cli.progress, PROGRESS_NONE);
 }
 
-MEMORY_TEST(repeatable_options_keep_their_order)
-{
+MEMORY_TEST(repeatable_options_keep_their_order) {
     Values v;
     assert_true(parse(WORDS("--pair", "a=1", "--pair=b=2", "--pair", "c=3", "x"), arena, &v));
     assert_int_equal(v.texts.count, 3);
@@ -129,8 +122,7 @@ MEMORY_TEST(repeatable_options_keep_their_order)
     assert_string_equal(v.texts.list[2], "c=3");
 }
 
-MEMORY_TEST(two_dashes_end_the_options_and_one_dash_is_an_argument)
-{
+MEMORY_TEST(two_dashes_end_the_options_and_one_dash_is_an_argument) {
     Values v;
     assert_true(parse(WORDS("-", "--", "--flag"), arena, &v));
     assert_false(v.flag);
@@ -139,8 +131,7 @@ MEMORY_TEST(two_dashes_end_the_options_and_one_dash_is_an_argument)
     assert_string_equal(v.cli.arguments[1], "--flag");
 }
 
-MEMORY_TEST(errors_name_the_option_the_value_and_what_is_wanted)
-{
+MEMORY_TEST(errors_name_the_option_the_value_and_what_is_wanted) {
     static const struct {
         const char *words[4], *text;
     } cases[] = {
@@ -196,15 +187,13 @@ MEMORY_TEST(errors_name_the_option_the_value_and_what_is_wanted)
     }
 }
 
-MEMORY_TEST(help_wins_over_everything_else_on_the_line)
-{
+MEMORY_TEST(help_wins_over_everything_else_on_the_line) {
     Values v;
     assert_true(parse(WORDS("--nonsense", "--help"), arena, &v));
     assert_true(v.cli.help_shown);
 }
 
-MEMORY_TEST(pairs_are_cut_at_the_first_equals_sign)
-{
+MEMORY_TEST(pairs_are_cut_at_the_first_equals_sign) {
     const char *name, *value;
     assert_done(cli_name_value("--content", "map=a=b.png", arena, &name, &value, &err));
     assert_string_equal(name, "map");
@@ -215,15 +204,13 @@ MEMORY_TEST(pairs_are_cut_at_the_first_equals_sign)
     assert_fails(cli_name_value("--content", "x=", arena, &name, &value, &err), "");
 }
 
-TEST(an_error_line_puts_the_place_before_the_advice)
-{
+TEST(an_error_line_puts_the_place_before_the_advice) {
     Error err;
-    char  line[512];
-    error_at(&err, ERROR_INPUT, "a.gltf", "/materials/3",
-             "no panel named 'x' — did you mean 'y'?");
+    char line[512];
+    error_at(&err, ERROR_INPUT, "a.gltf", "/materials/3", "no panel named 'x' — did you mean 'y'?");
     cli_error_line(&err, line, (int)sizeof line);
-    assert_string_equal(
-        line, "parhelion: a.gltf: no panel named 'x' (/materials/3) — did you mean 'y'?");
+    assert_string_equal(line,
+                        "parhelion: a.gltf: no panel named 'x' (/materials/3) — did you mean 'y'?");
     error_at(&err, ERROR_INPUT, "a.gltf", "line 7", "bad number");
     cli_error_line(&err, line, (int)sizeof line);
     assert_string_equal(line, "parhelion: a.gltf: bad number (line 7)");
@@ -232,8 +219,7 @@ TEST(an_error_line_puts_the_place_before_the_advice)
     assert_string_equal(line, "parhelion: no output");
 }
 
-MEMORY_TEST(warnings_are_listed_once_each)
-{
+MEMORY_TEST(warnings_are_listed_once_each) {
     Problems problems = problems_start(arena);
     problems_add(&problems, SEVERITY_WARNING, "a", "/b", "odd");
     problems_add(&problems, SEVERITY_WARNING, "a", "/b", "odd");
@@ -243,9 +229,8 @@ MEMORY_TEST(warnings_are_listed_once_each)
     json_t *errors = cli_json_problems(&problems, SEVERITY_ERROR);
     assert_int_equal(json_array_size(warnings), 2);
     assert_int_equal(json_array_size(errors), 1);
-    assert_string_equal(
-        json_string_value(json_object_get(json_array_get(errors, 0), "message")),
-        "bad \\xFF bytes");
+    assert_string_equal(json_string_value(json_object_get(json_array_get(errors, 0), "message")),
+                        "bad \\xFF bytes");
     json_decref(warnings);
     json_decref(errors);
 }

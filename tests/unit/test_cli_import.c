@@ -13,10 +13,9 @@
 
 /* Runs the command with words; "@NAME" is a file in the laboratory's folder. What it prints on
  * stdout comes back. */
-static bool run(Lab *lab, const char *const *words, const char **printed)
-{
-    char       *argv[32] = {(char *)(uintptr_t) "import"};
-    int         argc = 1;
+static bool run(Lab *lab, const char *const *words, const char **printed) {
+    char *argv[32] = {(char *)(uintptr_t)"import"};
+    int argc = 1;
     const char *path = arena_format(&lab->arena, "%s/printed", lab->folder);
     for (; words[argc - 1]; argc++) {
         const char *word = words[argc - 1];
@@ -33,25 +32,23 @@ static bool run(Lab *lab, const char *const *words, const char **printed)
     close(saved);
     close(file);
     FileBytes bytes;
-    Error     ignored;
+    Error ignored;
     assert_true(file_read(path, 1 << 20, &lab->arena, &bytes, &ignored));
     *printed = (const char *)bytes.data;
     return ok;
 }
 
-#define RUN(lab, printed, ...)                                                                 \
+#define RUN(lab, printed, ...) \
     run((lab), (const char *const[]){__VA_ARGS__, "--quiet", NULL}, (printed))
 
-static const Measurement *read_set(Lab *lab)
-{
+static const Measurement *read_set(Lab *lab) {
     Measurement *set = ARENA_NEW(&lab->arena, Measurement, 1);
-    const char  *manifest = arena_format(&lab->arena, "%s/out/M.json", lab->folder);
+    const char *manifest = arena_format(&lab->arena, "%s/out/M.json", lab->folder);
     if (!measurement_read(manifest, &lab->arena, set, &lab->err)) fail_msg("%s", lab->err.text);
     return set;
 }
 
-LAB_TEST(options_reach_the_files)
-{
+LAB_TEST(options_reach_the_files) {
     const char *printed;
     lab_write(lab, "m1.txt", TABLE);
     if (!RUN(lab, &printed, "@m1.txt", "--role", "m1*=white", "--azimuth-zero", "top",
@@ -75,23 +72,22 @@ LAB_TEST(options_reach_the_files)
     assert_non_null(strstr(printed, "out/M.json: 1 tables, 3 directions, 1 masked"));
 }
 
-LAB_TEST(the_command_line_stands_above_the_declaration)
-{
+LAB_TEST(the_command_line_stands_above_the_declaration) {
     const char *printed;
     lab_write(lab, "m1.txt", TABLE);
-    lab_write(lab, "d.json", "{\"mask\": [-999], \"unit\": \"fL\","
-                             " \"roles\": {\"*\": \"black\"}}");
-    assert_true(RUN(lab, &printed, "--layout", "@d.json", "--unit", "nit", "--role",
-                    "m1*=white", "@m1.txt", "-o", "@out/M.json"));
+    lab_write(lab, "d.json",
+              "{\"mask\": [-999], \"unit\": \"fL\","
+              " \"roles\": {\"*\": \"black\"}}");
+    assert_true(RUN(lab, &printed, "--layout", "@d.json", "--unit", "nit", "--role", "m1*=white",
+                    "@m1.txt", "-o", "@out/M.json"));
     double sum = 0;
     const Measurement *set = read_set(lab);
     for (int p = 0; p < 3; p++) sum += (double)set->primary[p].table[0].value[1];
     assert_close(sum, 1.5, 1e-5);
 }
 
-LAB_TEST(the_answer_is_one_json_document)
-{
-    const char  *printed;
+LAB_TEST(the_answer_is_one_json_document) {
+    const char *printed;
     json_error_t error;
     lab_write(lab, "white.txt", TABLE);
     assert_true(RUN(lab, &printed, "@white.txt", "--mask=-999", "--json", "-o", "@out/M.json"));
@@ -106,20 +102,22 @@ LAB_TEST(the_answer_is_one_json_document)
     assert_true(json_array_size(json_object_get(answer, "notes")) >= 3);
 }
 
-LAB_TEST(mistakes_have_their_status)
-{
+LAB_TEST(mistakes_have_their_status) {
     const char *printed;
     lab_write(lab, "white.txt", TABLE);
     lab_write(lab, "out", "a file");
-    static const struct { const char *word; ErrorCode code; const char *text; } cases[] = {
-        {"--role=white.txt", ERROR_USAGE, "--role"},
-        {"--role=a=rot", ERROR_USAGE, "the role 'rot' is unknown"},
-        {"--azimuth-zero=north", ERROR_USAGE, "azimuth_zero is 'north'"},
-        {"--symmetry=all", ERROR_USAGE, "symmetry is 'all'"},
-        {"--format=bsdf", ERROR_USAGE, "--format 'bsdf' is unknown"},
-        {"--section=40", ERROR_USAGE, "section is '40', required: PATTERN=DEG"},
-        {"--mask=-999", ERROR_OUTPUT, "cannot be"},
-        {"--layout=/absent.json", ERROR_INPUT, ""}};
+    static const struct {
+        const char *word;
+        ErrorCode code;
+        const char *text;
+    } cases[] = {{"--role=white.txt", ERROR_USAGE, "--role"},
+                 {"--role=a=rot", ERROR_USAGE, "the role 'rot' is unknown"},
+                 {"--azimuth-zero=north", ERROR_USAGE, "azimuth_zero is 'north'"},
+                 {"--symmetry=all", ERROR_USAGE, "symmetry is 'all'"},
+                 {"--format=bsdf", ERROR_USAGE, "--format 'bsdf' is unknown"},
+                 {"--section=40", ERROR_USAGE, "section is '40', required: PATTERN=DEG"},
+                 {"--mask=-999", ERROR_OUTPUT, "cannot be"},
+                 {"--layout=/absent.json", ERROR_INPUT, ""}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         assert_false(RUN(lab, &printed, "@white.txt", cases[i].word, "-o", "@out/M.json"));
         if (lab->err.code != cases[i].code || !strstr(lab->err.text, cases[i].text))

@@ -8,18 +8,17 @@
 #include "image/image.h"
 
 typedef struct Outcome {
-    int  status;
+    int status;
     char out[8192];
 } Outcome;
 
 /* Runs `parhelion WORDS` in the folder; stderr is thrown away, or with "2>&1" joins stdout. */
-static Outcome run(const char *words)
-{
+static Outcome run(const char *words) {
     Outcome outcome;
-    char    line[1024];
-    snprintf(line, sizeof line, "cd %s && unset OCIO && %s %s %s", test_folder(), PROGRAM,
-             words, strstr(words, "2>&1") ? "" : "2>/dev/null");
-    FILE  *pipe = popen(line, "r");
+    char line[1024];
+    snprintf(line, sizeof line, "cd %s && unset OCIO && %s %s %s", test_folder(), PROGRAM, words,
+             strstr(words, "2>&1") ? "" : "2>/dev/null");
+    FILE *pipe = popen(line, "r");
     size_t size = fread(outcome.out, 1, sizeof outcome.out - 1, pipe);
     outcome.out[size] = '\0';
     outcome.status = WEXITSTATUS(pclose(pipe));
@@ -27,37 +26,33 @@ static Outcome run(const char *words)
 }
 
 /* With this status. */
-static Outcome run_as(int wanted, const char *words)
-{
+static Outcome run_as(int wanted, const char *words) {
     Outcome outcome = run(words);
     if (outcome.status != wanted)
         fail_msg("%s: status %d, required: %d", words, outcome.status, wanted);
     return outcome;
 }
 
-static void add(FrameImage *frame, const char *name, float left, float right, Arena *arena)
-{
+static void add(FrameImage *frame, const char *name, float left, float right, Arena *arena) {
     float *plane = frame_add_channel(frame, name, !strncmp(name, "id", 2), arena);
     for (int i = 0; i < 12 * 8; i++) plane[i] = i % 12 < 6 ? left : right;
 }
 
-static int remove_pictures(void **state)
-{
-    static const char *const NAMES[] = {"f.exr", "a.png", "b.png", "c.tif", "d.jpg", "e.png",
-                                        "n.exr", "n.png"};
+static int remove_pictures(void **state) {
+    static const char *const NAMES[] = {"f.exr", "a.png", "b.png", "c.tif",
+                                        "d.jpg", "e.png", "n.exr", "n.png"};
     for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++) unlink(in_folder(NAMES[i]));
     return remove_folder(state);
 }
 
 /* A display of 100 cd/m2 at the left, a wall of 300 cd/m2 at the right. */
-static int write_frame(void **state)
-{
+static int write_frame(void **state) {
     static const char *const DISPLAY[] = {"white", "black", "reflected"};
-    static const float       LEVELS[] = {400, 1, 4};
+    static const float LEVELS[] = {400, 1, 4};
     if (make_folder(state)) return -1;
-    Arena      arena = test_arena(state);
+    Arena arena = test_arena(state);
     FrameImage frame = frame_create(12, 8, (ExrWindow){0, 0, 12, 8}, 20, 5, &arena);
-    Error      err = {0};
+    Error err = {0};
     for (int c = 0; c < 3; c++) {
         char name[64];
         add(&frame, (char[]){"RGB"[c], 0}, 100, 300, &arena);
@@ -73,25 +68,22 @@ static int write_frame(void **state)
     return frame_write(in_folder("f.exr"), &frame, &err) ? 0 : -1;
 }
 
-static json_t *answer(const Outcome *outcome)
-{
+static json_t *answer(const Outcome *outcome) {
     json_error_t error;
-    json_t      *document = json_loads(outcome->out, 0, &error);
+    json_t *document = json_loads(outcome->out, 0, &error);
     if (!document) fail_msg("%s: %s", error.text, outcome->out);
     return document;
 }
 
-static double number(const json_t *document, const char *key)
-{
+static double number(const json_t *document, const char *key) {
     const json_t *value = json_object_get(document, key);
     if (!json_is_number(value)) fail_msg("no number %s", key);
     return json_number_value(value);
 }
 
-ARENA_TEST(develop_writes_what_it_says)
-{
+ARENA_TEST(develop_writes_what_it_says) {
     Outcome o = run("develop f.exr -o a.png --exposure white:500 --view untonemapped");
-    Image   image;
+    Image image;
     assert_int_equal(o.status, 0);
     assert_non_null(strstr(o.out, "a.png: sRGB, untonemapped, middle grey 90 cd/m2"));
     assert_non_null(strstr(o.out, "parhelion-1"));
@@ -102,8 +94,7 @@ ARENA_TEST(develop_writes_what_it_says)
     assert_int_equal(((const uint8_t *)image.pixels)[4 * 11], 203);
 }
 
-TEST(develop_answers_in_json)
-{
+TEST(develop_answers_in_json) {
     Outcome o = run_as(0, "develop f.exr -o b.png --exposure 10 --json");
     json_t *j = answer(&o);
     assert_string_equal(json_string_value(json_object_get(j, "output")), "b.png");
@@ -119,16 +110,14 @@ TEST(develop_answers_in_json)
     json_decref(j);
 }
 
-static int code_at(const char *picture, int x, int y, Arena *arena)
-{
+static int code_at(const char *picture, int x, int y, Arena *arena) {
     Image image;
     assert_done(image_read(in_folder(picture), arena, &image, &err));
     return ((const uint8_t *)image.pixels)[4 * (y * image.width + x)];
 }
 
 /* The frame does not say how high it is; once it does, --fov must agree. */
-ARENA_TEST(develop_sees_as_an_eye)
-{
+ARENA_TEST(develop_sees_as_an_eye) {
     Outcome o = run_as(2, "develop f.exr -o b.png --eye 70 2>&1");
     assert_non_null(strstr(o.out, "f.exr: does not say its field of view"));
     assert_non_null(strstr(o.out, "--fov DEG"));
@@ -156,8 +145,7 @@ ARENA_TEST(develop_sees_as_an_eye)
     json_decref(j);
 }
 
-ARENA_TEST(an_eye_needs_a_view)
-{
+ARENA_TEST(an_eye_needs_a_view) {
     FrameImage frame = frame_create(4, 4, (ExrWindow){0, 0, 4, 4}, 3, 5, &arena);
     for (int c = 0; c < 3; c++) frame_add_channel(&frame, (char[]){"RGB"[c], 0}, false, &arena);
     frame_set_number(&frame, "parhelion:yfov_deg", 40, &arena);
@@ -177,15 +165,13 @@ ARENA_TEST(an_eye_needs_a_view)
     assert_non_null(strstr(o.out, "orthographic"));
 }
 
-TEST(other_endings_work)
-{
+TEST(other_endings_work) {
     run_as(0, "develop f.exr -o c.tif --bits 16");
     run_as(0, "develop f.exr -o d.jpg --view 'ACES SDR'");
     assert_true(file_exists(in_folder("c.tif")) && file_exists(in_folder("d.jpg")));
 }
 
-TEST(wrong_uses_have_their_status)
-{
+TEST(wrong_uses_have_their_status) {
     run_as(2, "develop f.exr");
     run_as(2, "develop f.exr -o x.gif");
     run_as(2, "develop f.exr -o x.jpg --bits 16");
@@ -207,11 +193,10 @@ TEST(wrong_uses_have_their_status)
 }
 
 /* The frame of write_frame with all that the filter goes by. */
-static void write_layers(void **state)
-{
-    static const char *const GIVEN[] = {"normal.X", "normal.Y", "normal.Z", "albedo.R",
-                                        "albedo.G", "albedo.B"};
-    Arena      arena = test_arena(state);
+static void write_layers(void **state) {
+    static const char *const GIVEN[] = {"normal.X", "normal.Y", "normal.Z",
+                                        "albedo.R", "albedo.G", "albedo.B"};
+    Arena arena = test_arena(state);
     FrameImage frame;
     assert_done(frame_read(in_folder("f.exr"), &arena, &frame, &err));
     for (size_t i = 0; i < sizeof GIVEN / sizeof *GIVEN; i++)
@@ -222,11 +207,10 @@ static void write_layers(void **state)
     assert_done(frame_write(in_folder("n.exr"), &frame, &err));
 }
 
-static bool picture_says(const char *name, const char *words)
-{
-    Arena     arena = arena_reserve(1 << 20);
+static bool picture_says(const char *name, const char *words) {
+    Arena arena = arena_reserve(1 << 20);
     FileBytes bytes;
-    bool      found = false;
+    bool found = false;
     assert_done(file_read(in_folder(name), 1 << 19, &arena, &bytes, &err));
     for (size_t i = 0; i + strlen(words) <= bytes.size; i++)
         found = found || !memcmp((const char *)bytes.data + i, words, strlen(words));
@@ -234,8 +218,7 @@ static bool picture_says(const char *name, const char *words)
     return found;
 }
 
-TEST(looks_that_are_no_figures_say_so)
-{
+TEST(looks_that_are_no_figures_say_so) {
     write_layers(state);
     Outcome o = run_as(0, "develop n.exr -o n.png --denoise --adapt local --json");
     json_t *j = answer(&o), *denoised = json_object_get(j, "denoised");
@@ -258,34 +241,34 @@ TEST(looks_that_are_no_figures_say_so)
 }
 
 /* Nothing that gives figures takes a filtered or adapted frame. */
-TEST(figures_are_of_the_frame_alone)
-{
+TEST(figures_are_of_the_frame_alone) {
     static const char *const WORDS[] = {
-        "measure n.exr --display cluster --denoise", "measure n.exr --adapt local",
-        "compare n.exr n.exr --denoise", "compare n.exr n.exr --adapt local",
-        "develop n.exr -o m.exr --denoise", "develop n.exr -o n.png --denoise --layer normal",
+        "measure n.exr --display cluster --denoise",
+        "measure n.exr --adapt local",
+        "compare n.exr n.exr --denoise",
+        "compare n.exr n.exr --adapt local",
+        "develop n.exr -o m.exr --denoise",
+        "develop n.exr -o n.png --denoise --layer normal",
         "develop n.exr -o n.png --denoise --false-colour luminance",
         "develop n.exr -o n.png --adapt local --false-colour luminance",
         "develop n.exr -o n.png --adapt local --layer normal",
-        "develop n.exr -o n.png --adapt global", "merge n.exr -o m.exr --denoise"};
-    for (size_t i = 0; i < sizeof WORDS / sizeof *WORDS; i++)
-        run_as(2, WORDS[i]);
+        "develop n.exr -o n.png --adapt global",
+        "merge n.exr -o m.exr --denoise"};
+    for (size_t i = 0; i < sizeof WORDS / sizeof *WORDS; i++) run_as(2, WORDS[i]);
     Outcome o = run_as(3, "develop f.exr -o n.png --denoise 2>&1");
     assert_non_null(strstr(o.out, "parhelion: f.exr: lacks what --denoise requires (missing: "
                                   "normal, albedo, display.emitted, display.coverage) — "
                                   "render it with --layers normal,albedo,"));
 }
 
-TEST(help_tells_the_options)
-{
+TEST(help_tells_the_options) {
     Outcome o = run_as(0, "develop --help");
     assert_non_null(strstr(o.out, "--exposure auto|EV|white:CD_M2"));
     o = run_as(0, "measure --help");
     assert_non_null(strstr(o.out, "--region X0,Y0,X1,Y1"));
 }
 
-TEST(measure_gives_the_figures_of_a_display)
-{
+TEST(measure_gives_the_figures_of_a_display) {
     Outcome o = run_as(0, "measure f.exr --display cluster --json");
     json_t *j = answer(&o), *contrast = json_object_get(j, "contrast");
     assert_true(number(j, "pixels") == 48);
@@ -299,8 +282,7 @@ TEST(measure_gives_the_figures_of_a_display)
     json_decref(j);
 }
 
-TEST(measure_gives_the_figures_of_a_region)
-{
+TEST(measure_gives_the_figures_of_a_region) {
     Outcome o = run("measure f.exr --region 6,0,12,8 --json");
     json_auto_t *j = answer(&o);
     assert_close(number(j, "luminance_cd_m2"), 300, 1e-5);

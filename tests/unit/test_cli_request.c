@@ -6,8 +6,7 @@
 #include "cli/render/render_request.h"
 #include "cli/render/render_setup.h"
 
-MEMORY_TEST(values_of_render_are_checked_before_anything_is_read)
-{
+MEMORY_TEST(values_of_render_are_checked_before_anything_is_read) {
     static const struct {
         const char *option, *value, *text;
     } cases[] = {
@@ -24,8 +23,7 @@ MEMORY_TEST(values_of_render_are_checked_before_anything_is_read)
         {"--noise", "4,4,4,9:0.1", "--noise 4,4,4,9:R: required: display, display:NAME or"},
         {"--noise", "0,0,1.5,9:0.1", "--noise 0,0,1.5,9:R: required: display, display:NAME"},
         {"--noise", "0,0,8,8:1.5", "--noise 0,0,8,8:1.5: required: a relative error above 0"},
-        {"--layers", "depth,norml",
-         "--layers: no layer is named 'norml' — did you mean normal?"},
+        {"--layers", "depth,norml", "--layers: no layer is named 'norml' — did you mean normal?"},
         {"--layers", "", "--layers '': required: a text that is not empty"},
         {"--crop", "0,0,65,4",
          "--crop 0,0,65,4: required: X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 "
@@ -38,20 +36,19 @@ MEMORY_TEST(values_of_render_are_checked_before_anything_is_read)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         RenderRequest request;
-        Error         err = {0};
-        const char   *words[] = {"render", "nowhere.gltf", "-o", "a.exr", "--size", "64x36",
-                                 cases[i].option, cases[i].value};
+        Error err = {0};
+        const char *words[] = {"render", "nowhere.gltf",  "-o",          "a.exr", "--size",
+                               "64x36",  cases[i].option, cases[i].value};
         assert_false(render_request_parse(8, (char **)(uintptr_t)words, arena, &request, &err));
         if (err.code != ERROR_USAGE || strstr(err.text, cases[i].text) != err.text)
             fail_msg("%s %s: %s", cases[i].option, cases[i].value, err.text);
     }
 }
 
-MEMORY_TEST(values_of_the_surroundings_are_checked)
-{
+MEMORY_TEST(values_of_the_surroundings_are_checked) {
     static const struct {
         EnvironmentChange change;
-        const char       *text;
+        const char *text;
     } cases[] = {
         {{.environment = "sky:clear"},
          "--environment sky:clear: where does the sun stand? — add --when and --where, or "
@@ -67,7 +64,8 @@ MEMORY_TEST(values_of_the_surroundings_are_checked)
         {{.environment = "perez:800,1e50"},
          "--environment perez:800,1e50: required: perez:DIRECT,DIFFUSE, normal and horizontal "
          "irradiance in W/m2, up to 1e+07"},
-        {{.environment = "black"}, "--environment black: required: sky:clear, cie:N[:LUX], "
+        {{.environment = "black"},
+         "--environment black: required: sky:clear, cie:N[:LUX], "
          "perez:DIRECT,DIFFUSE, hdri:FILE or constant:CD_M2"},
         {{.has_hdri_lux = true, .hdri_lux = 9},
          "--hdri-lux: there is no HDRI — add --environment "
@@ -94,12 +92,11 @@ MEMORY_TEST(values_of_the_surroundings_are_checked)
     }
 }
 
-MEMORY_TEST(the_line_overrides_single_members_of_the_surroundings)
-{
-    Scene             scene = {.environment = {.has_sun = true, .sun_illuminance_lx = 5000,
-                                               .sun_angular_radius = 0.01f}};
-    EnvironmentChange change = {.environment = "constant:250", .sun = "90,30",
-                                .has_heading = true, .heading_deg = 180};
+MEMORY_TEST(the_line_overrides_single_members_of_the_surroundings) {
+    Scene scene = {
+        .environment = {.has_sun = true, .sun_illuminance_lx = 5000, .sun_angular_radius = 0.01f}};
+    EnvironmentChange change = {
+        .environment = "constant:250", .sun = "90,30", .has_heading = true, .heading_deg = 180};
     Problems problems = problems_start(arena);
     assert_done(environment_change(&change, &scene, arena, &problems, &err));
     const Environment *e = &scene.environment;
@@ -116,12 +113,13 @@ MEMORY_TEST(the_line_overrides_single_members_of_the_surroundings)
     assert_true(e->luminance_cd_m2 == 250);
 }
 
-MEMORY_TEST(a_sky_is_asked_for_by_its_kind_time_and_place)
-{
+MEMORY_TEST(a_sky_is_asked_for_by_its_kind_time_and_place) {
     Problems problems = problems_start(arena);
-    Scene    scene = {0};
-    EnvironmentChange clear = {.environment = "sky:clear", .when = "2026-06-21T08:30+02:00",
-                               .where = "48.14,11.58,520", .has_visibility = true,
+    Scene scene = {0};
+    EnvironmentChange clear = {.environment = "sky:clear",
+                               .when = "2026-06-21T08:30+02:00",
+                               .where = "48.14,11.58,520",
+                               .has_visibility = true,
                                .visibility_km = 23};
     assert_done(environment_change(&clear, &scene, arena, &problems, &err));
     const Environment *e = &scene.environment;
@@ -130,16 +128,14 @@ MEMORY_TEST(a_sky_is_asked_for_by_its_kind_time_and_place)
     assert_close(e->daylight.where.altitude_m, 520, 1e-12);
     assert_close(e->daylight.visibility_km, 23, 1e-12);
     assert_false(e->daylight.no_moon);
-    EnvironmentChange later = {.no_moon = true,
-                               .when = "2026-06-21T09:30+02:00", .sun = "auto"};
+    EnvironmentChange later = {.no_moon = true, .when = "2026-06-21T09:30+02:00", .sun = "auto"};
     assert_done(environment_change(&later, &scene, arena, &problems, &err));
     assert_true(e->daylight.when.hour == 9 && e->daylight.where.altitude_m == 520);
     assert_true(e->daylight.no_moon);
     EnvironmentChange cie = {.environment = "cie:12:15000", .sun = "180,35,90000"};
     assert_done(environment_change(&cie, &scene, arena, &problems, &err));
     assert_true(e->kind == ENVIRONMENT_CIE && e->daylight.cie_type == 12);
-    assert_true(e->has_sun && e->sun_illuminance_lx == 90000 &&
-                e->daylight.diffuse_lux == 15000);
+    assert_true(e->has_sun && e->sun_illuminance_lx == 90000 && e->daylight.diffuse_lux == 15000);
     assert_int_equal(problems.count, 0);
     EnvironmentChange bare = {.environment = "cie:3"};
     Scene other = {0};
@@ -147,18 +143,16 @@ MEMORY_TEST(a_sky_is_asked_for_by_its_kind_time_and_place)
     assert_int_equal(problems.count, 1); /* the illuminance that was taken */
 }
 
-MEMORY_TEST(what_makes_no_sky_is_refused_by_name)
-{
+MEMORY_TEST(what_makes_no_sky_is_refused_by_name) {
     static const struct {
         EnvironmentChange change;
-        const char       *part;
+        const char *part;
     } cases[] = {
         {{.environment = "sky:clear"}, "where does the sun stand"},
         {{.environment = "sky:clear", .when = "2026-06-21T08:30+02:00"}, "add --where"},
         {{.environment = "sky:clear", .where = "48,11"}, "add --when"},
         {{.environment = "sky:clear", .when = "08:30", .where = "48,11"}, "is no moment"},
-        {{.environment = "sky:clear", .when = "2026-06-21T08:30Z", .where = "100,11"},
-         "LAT,LON"},
+        {{.environment = "sky:clear", .when = "2026-06-21T08:30Z", .where = "100,11"}, "LAT,LON"},
         {{.environment = "cie:17"}, "1 to 15"},
         {{.environment = "cie:"}, "1 to 15"},
         {{.environment = "perez:800"}, "DIRECT,DIFFUSE"},
@@ -168,22 +162,21 @@ MEMORY_TEST(what_makes_no_sky_is_refused_by_name)
         {{.environment = "constant:5", .sun = "auto"}, "--when and --where"},
         {{.environment = "constant:5", .ground = "sea"}, "only a clear sky"},
         {{.environment = "sky:clear", .sun = "0,9", .ground = "lava"}, "required: land, sea"},
-        {{.environment = "sky:clear", .sun = "0,9", .ground = "cloud:x"}, "required: land, "
-        "sea"},
+        {{.environment = "sky:clear", .sun = "0,9", .ground = "cloud:x"},
+         "required: land, "
+         "sea"},
         {{.weather = "none.epw"}, "add --when"},
-        {{.environment = "sky:clear", .sun = "0,9", .has_weather_offset = true},
-         "add --weather"},
+        {{.environment = "sky:clear", .sun = "0,9", .has_weather_offset = true}, "add --weather"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Scene    scene = {0};
+        Scene scene = {0};
         Problems problems = problems_start(arena);
         assert_fails_as(environment_change(&cases[i].change, &scene, arena, &problems, &err),
                         ERROR_USAGE, cases[i].part);
     }
 }
 
-TEST(an_eye_needs_a_point_to_look_at)
-{
+TEST(an_eye_needs_a_point_to_look_at) {
     static const struct {
         CameraChoice choice;
         const char *part;
@@ -194,9 +187,9 @@ TEST(an_eye_needs_a_point_to_look_at)
         {{.has_eye = true, .has_look_at = true, .name = "left"}, "exclude each other"},
         {{.has_eye = true, .has_look_at = true}, "is where --eye is"},
     };
-    Scene       scene = {0};
+    Scene scene = {0};
     SceneCamera found;
-    Problems    problems = problems_start(*state);
+    Problems problems = problems_start(*state);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Error err = {0};
         assert_false(render_choose_camera(&scene, &cases[i].choice, &problems, &found, &err));
@@ -204,35 +197,38 @@ TEST(an_eye_needs_a_point_to_look_at)
         if (!strstr(err.text, cases[i].part)) fail_msg("%s", err.text);
     }
     Error err;
-    const CameraChoice choice = {.eye = {1, 2, 5}, .look_at = {1, 2, 0}, .fov_deg = 90,
-                                 .has_eye = true, .has_look_at = true, .has_fov = true};
+    const CameraChoice choice = {.eye = {1, 2, 5},
+                                 .look_at = {1, 2, 0},
+                                 .fov_deg = 90,
+                                 .has_eye = true,
+                                 .has_look_at = true,
+                                 .has_fov = true};
     assert_true(render_choose_camera(&scene, &choice, &problems, &found, &err));
     assert_int_equal(problems.count, 0);
     assert_close(found.yfov, 1.5707963, 1e-6);
     assert_close(found.world_from_camera.origin.z, 5, 0);
 }
 
-TEST(a_camera_is_found_by_node_then_by_camera_then_by_place)
-{
+TEST(a_camera_is_found_by_node_then_by_camera_then_by_place) {
     SceneCamera cameras[] = {{.node_name = "left", .camera_name = "1"},
                              {.node_name = "right", .camera_name = "left"},
                              {.node_name = "", .camera_name = "lens"}};
-    Scene       scene = {.cameras = cameras, .camera_count = 3};
-    Problems    problems = problems_start(*state);
+    Scene scene = {.cameras = cameras, .camera_count = 3};
+    Problems problems = problems_start(*state);
     SceneCamera found;
     static const struct {
         const char *wanted;
-        int         index;
+        int index;
     } cases[] = {{NULL, 0}, {"left", 0}, {"1", 0}, {"right", 1}, {"lens", 2}, {"2", 2}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const CameraChoice choice = {.name = cases[i].wanted};
         assert_done(render_choose_camera(&scene, &choice, &problems, &found, &err));
         assert_ptr_equal(found.camera_name, cameras[cases[i].index].camera_name);
     }
-    assert_fails_with(render_choose_camera(&scene, &(CameraChoice){.name = "3"}, &problems,
-                          &found, &err),
-                      "--camera 3: no camera has this name or index — the scene has 0 'left', "
-                      "1 'right', 2 'lens'");
+    assert_fails_with(
+        render_choose_camera(&scene, &(CameraChoice){.name = "3"}, &problems, &found, &err),
+        "--camera 3: no camera has this name or index — the scene has 0 'left', "
+        "1 'right', 2 'lens'");
     assert_int_equal(problems.count, 0);
     Scene empty = {0};
     assert_done(render_choose_camera(&empty, &(CameraChoice){0}, &problems, &found, &err));

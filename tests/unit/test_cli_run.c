@@ -34,14 +34,13 @@ static const char scene_text[] =
     "{\"bufferView\":1,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"}]}";
 
 typedef struct Outcome {
-    int  status; /* exit status */
+    int status; /* exit status */
     char out[16384], err[16384];
 } Outcome;
 
 /* ---- running ----------------------------------------------------------------------------- */
 
-static pid_t start(const char *const *words, int out, int err)
-{
+static pid_t start(const char *const *words, int out, int err) {
     char *argv[32] = {(char *)(uintptr_t)PROGRAM};
     for (int i = 0; words[i]; i++) argv[i + 1] = (char *)(uintptr_t)words[i];
     pid_t child = fork();
@@ -53,23 +52,20 @@ static pid_t start(const char *const *words, int out, int err)
     _exit(98);
 }
 
-static void read_back(FILE *file, char *text, size_t size)
-{
+static void read_back(FILE *file, char *text, size_t size) {
     ssize_t length = pread(fileno(file), text, size - 1, 0);
     text[length < 0 ? 0 : length] = '\0';
     fclose(file);
 }
 
-static int exit_status(pid_t child)
-{
+static int exit_status(pid_t child) {
     int status;
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_true(WIFEXITED(status));
     return WEXITSTATUS(status);
 }
 
-static void run(const char *const *words, Outcome *outcome)
-{
+static void run(const char *const *words, Outcome *outcome) {
     FILE *out = tmpfile(), *err = tmpfile();
     pid_t child = start(words, fileno(out), fileno(err));
     outcome->status = exit_status(child);
@@ -80,34 +76,30 @@ static void run(const char *const *words, Outcome *outcome)
 #define RUN(outcome, ...) run((const char *const[]){__VA_ARGS__, NULL}, (outcome))
 
 /* With this status. */
-#define RUN_AS(wanted, outcome, ...)                                                           \
-    do {                                                                                       \
-        RUN(outcome, __VA_ARGS__);                                                             \
-        if ((outcome)->status != (wanted))                                                     \
-            fail_msg("status %d, required: %d: %s", (outcome)->status, wanted, (outcome)->err);\
+#define RUN_AS(wanted, outcome, ...) \
+    do { \
+        RUN(outcome, __VA_ARGS__); \
+        if ((outcome)->status != (wanted)) \
+            fail_msg("status %d, required: %d: %s", (outcome)->status, wanted, (outcome)->err); \
     } while (0)
 
-static FrameImage read_frame(const char *name, Arena *arena)
-{
+static FrameImage read_frame(const char *name, Arena *arena) {
     FrameImage frame = {0};
     assert_done(frame_read(in_folder(name), arena, &frame, &err));
     return frame;
 }
 
-static bool exists(const char *name)
-{
+static bool exists(const char *name) {
     return access(in_folder(name), F_OK) == 0;
 }
 
-static double whole_attribute(const FrameImage *frame, const char *name)
-{
+static double whole_attribute(const FrameImage *frame, const char *name) {
     const ExrAttribute *attribute = frame_attribute(frame, name);
     assert_non_null(attribute);
     return attribute->values[0];
 }
 
-static void assert_same_pixels(const FrameImage *a, const FrameImage *b)
-{
+static void assert_same_pixels(const FrameImage *a, const FrameImage *b) {
     static const char *const names[] = {"R", "G", "B"};
     assert_int_equal(frame_pixel_count(a), frame_pixel_count(b));
     for (int i = 0; i < 3; i++)
@@ -117,8 +109,7 @@ static void assert_same_pixels(const FrameImage *a, const FrameImage *b)
 
 /* ---- exit statuses ----------------------------------------------------------------------- */
 
-TEST(a_wrong_line_is_status_2)
-{
+TEST(a_wrong_line_is_status_2) {
     Outcome o;
     RUN_AS(2, &o, "rendr");
     assert_non_null(strstr(o.err, "parhelion: unknown command rendr — did you mean render? "
@@ -129,15 +120,14 @@ TEST(a_wrong_line_is_status_2)
     assert_non_null(strstr(o.err, "did you mean --spp?"));
     RUN(&o, "render", "scene.gltf", "-o", "a.png");
     assert_string_equal(o.err, "parhelion: -o a.png: required: a name that ends in .exr, or in "
-                        ".hdr for a Radiance picture\n");
+                               ".hdr for a Radiance picture\n");
     RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--spp", "4", "--samples", "0:4");
     assert_string_equal(o.err, "parhelion: --spp and --samples exclude each other — --samples "
                                "0:N is --spp N\n");
     assert_false(exists("a.exr"));
 }
 
-TEST(an_option_of_the_other_basis_is_refused)
-{
+TEST(an_option_of_the_other_basis_is_refused) {
     Outcome o;
     RUN_AS(2, &o, "panel", "fit", "set.json", "-o", "a.panel", "--keep", "0.1");
     assert_string_equal(o.err, "parhelion: --keep is for --basis haar, --basis vertex has "
@@ -148,8 +138,7 @@ TEST(an_option_of_the_other_basis_is_refused)
                                "--keep\n");
 }
 
-TEST(an_hdri_that_is_missing_or_not_linear_is_named)
-{
+TEST(an_hdri_that_is_missing_or_not_linear_is_named) {
     Outcome o;
     RUN_AS(3, &o, "render", "scene.gltf", "-o", "a.exr", "--environment", "hdri:nowhere.exr");
     assert_non_null(strstr(o.err, "parhelion: nowhere.exr: "));
@@ -158,8 +147,7 @@ TEST(an_hdri_that_is_missing_or_not_linear_is_named)
     assert_false(exists("a.exr"));
 }
 
-TEST(a_frame_too_large_is_refused_before_it_fills_the_memory)
-{
+TEST(a_frame_too_large_is_refused_before_it_fills_the_memory) {
     Outcome o;
     RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "65536x65536", "--crop",
            "0,0,4,4");
@@ -172,8 +160,7 @@ TEST(a_frame_too_large_is_refused_before_it_fills_the_memory)
                                   "with its frame, there are "));
 }
 
-TEST(a_missing_input_is_status_3_and_named)
-{
+TEST(a_missing_input_is_status_3_and_named) {
     Outcome o;
     RUN_AS(3, &o, "render", "nowhere.gltf", "-o", "a.exr", "--json");
     assert_non_null(strstr(o.err, "parhelion: nowhere.gltf: "));
@@ -185,29 +172,30 @@ TEST(a_missing_input_is_status_3_and_named)
     json_decref(answer);
 }
 
-ARENA_TEST(a_picture_with_negative_light_is_told_of)
-{
-    Outcome    o;
-    Error      err = {0};
+ARENA_TEST(a_picture_with_negative_light_is_told_of) {
+    Outcome o;
+    Error err = {0};
     FrameImage picture = frame_create(8, 4, (ExrWindow){0, 0, 8, 4}, 3, 8, &arena);
     for (int c = 0; c < 3; c++) {
-        float *values = frame_add_channel(&picture, c == 0 ? "R" : c == 1 ? "G" : "B", false,
-                                          &arena);
+        float *values = frame_add_channel(&picture,
+                                          c == 0   ? "R"
+                                          : c == 1 ? "G"
+                                                   : "B",
+                                          false, &arena);
         for (int i = 0; i < 32; i++) values[i] = c == 1 && i % 16 == 3 ? -1.0f : 10.0f;
     }
     assert_true(frame_write(in_folder("negative.exr"), &picture, &err));
-    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "4x4", "--spp", "1",
-        "--environment", "hdri:negative.exr");
+    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "4x4", "--spp", "1", "--environment",
+        "hdri:negative.exr");
     if (o.status) fail_msg("%s", o.err);
     assert_non_null(strstr(o.err, "negative.exr: 2 negative values count as 0"));
 }
 
 /* One command renders with the layers that the filter goes by, and filters the picture only. */
-TEST(render_makes_a_denoised_picture_at_once)
-{
+TEST(render_makes_a_denoised_picture_at_once) {
     Outcome o;
-    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--spp", "2", "--png",
-        "a.png", "--denoise", "--adapt", "local");
+    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--spp", "2", "--png", "a.png",
+        "--denoise", "--adapt", "local");
     if (o.status) fail_msg("%s", o.err);
     assert_non_null(strstr(o.out, ", denoised ("));
     assert_non_null(strstr(o.out, ", locally adapted\n"));
@@ -217,8 +205,7 @@ TEST(render_makes_a_denoised_picture_at_once)
     assert_non_null(strstr(o.err, "a look is asked for, but no picture"));
 }
 
-TEST(a_preview_is_four_samples_denoised)
-{
+TEST(a_preview_is_four_samples_denoised) {
     Outcome o;
     RUN_AS(0, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--png", "a.png",
            "--preview");
@@ -227,17 +214,16 @@ TEST(a_preview_is_four_samples_denoised)
     RUN_AS(0, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--png", "a.png",
            "--preview", "--spp", "2");
     assert_non_null(strstr(o.out, "8x6, 2 samples a pixel"));
-    RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--png", "a.png", "--preview",
-           "--noise", "0.1");
+    RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--png", "a.png", "--preview", "--noise",
+           "0.1");
     assert_non_null(strstr(o.err, "--preview and --noise exclude each other"));
-    RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--png", "a.png", "--preview",
-           "--samples", "0:4");
+    RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--png", "a.png", "--preview", "--samples",
+           "0:4");
     RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--preview");
     assert_non_null(strstr(o.err, "add --png FILE"));
 }
 
-TEST(an_output_that_cannot_be_written_is_status_4_at_once)
-{
+TEST(an_output_that_cannot_be_written_is_status_4_at_once) {
     Outcome o;
     RUN_AS(4, &o, "render", "scene.gltf", "-o", "nowhere/a.exr", "--spp", "1000000");
     assert_string_equal(o.err, "parhelion: nowhere/a.exr: cannot be written: No such file or "
@@ -246,8 +232,7 @@ TEST(an_output_that_cannot_be_written_is_status_4_at_once)
            "1000000");
 }
 
-TEST(version_and_help_need_nothing)
-{
+TEST(version_and_help_need_nothing) {
     Outcome o;
     RUN_AS(0, &o, "--version");
     assert_non_null(strstr(o.out, "parhelion " PARHELION_VERSION "\nsources: "));
@@ -262,11 +247,10 @@ TEST(version_and_help_need_nothing)
 
 /* ---- frames ------------------------------------------------------------------------------ */
 
-MEMORY_TEST(a_frame_says_how_to_make_it_again)
-{
+MEMORY_TEST(a_frame_says_how_to_make_it_again) {
     Outcome o;
-    RUN_AS(0, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "16x12", "--spp", "3",
-           "--seed", "9", "--quiet", "--layers", "id,samples");
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "16x12", "--spp", "3", "--seed",
+           "9", "--quiet", "--layers", "id,samples");
     assert_string_equal(o.err, "");
     assert_non_null(strstr(o.out, "a.exr: 16x12, 3 samples a pixel, "));
     FrameImage frame = read_frame("a.exr", arena);
@@ -286,8 +270,7 @@ MEMORY_TEST(a_frame_says_how_to_make_it_again)
     assert_true(frame_channel(&frame, "samples.N")[5] == 3);
 }
 
-MEMORY_TEST(the_time_is_told_when_the_build_system_fixes_it)
-{
+MEMORY_TEST(the_time_is_told_when_the_build_system_fixes_it) {
     Outcome o;
     setenv("SOURCE_DATE_EPOCH", "86400", 1);
     RUN(&o, "render", "scene.gltf", "-o", "t.exr", "--size", "4x4", "--spp", "1", "--quiet");
@@ -296,13 +279,12 @@ MEMORY_TEST(the_time_is_told_when_the_build_system_fixes_it)
     assert_string_equal(frame_string(&frame, "capDate"), "1970:01:02 00:00:00");
 }
 
-MEMORY_TEST(threads_do_not_change_a_bit_and_a_crop_is_a_part)
-{
+MEMORY_TEST(threads_do_not_change_a_bit_and_a_crop_is_a_part) {
     Outcome o;
-    RUN(&o, "render", "scene.gltf", "-o", "one.exr", "--size", "50x40", "--spp", "5",
-        "--threads", "1", "--quiet");
-    RUN(&o, "render", "scene.gltf", "-o", "five.exr", "--size", "50x40", "--spp", "5",
-        "--threads", "5", "--quiet");
+    RUN(&o, "render", "scene.gltf", "-o", "one.exr", "--size", "50x40", "--spp", "5", "--threads",
+        "1", "--quiet");
+    RUN(&o, "render", "scene.gltf", "-o", "five.exr", "--size", "50x40", "--spp", "5", "--threads",
+        "5", "--quiet");
     RUN(&o, "render", "scene.gltf", "-o", "crop.exr", "--size", "50x40", "--spp", "5", "--crop",
         "7,9,31,30", "--quiet");
     FrameImage one = read_frame("one.exr", arena), five = read_frame("five.exr", arena);
@@ -315,8 +297,7 @@ MEMORY_TEST(threads_do_not_change_a_bit_and_a_crop_is_a_part)
                             frame_channel(&crop, "G") + (y - 9) * 24, 24 * sizeof(float));
 }
 
-MEMORY_TEST(a_replayed_sample_is_the_one_that_was_rendered)
-{
+MEMORY_TEST(a_replayed_sample_is_the_one_that_was_rendered) {
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "s.exr", "--size", "16x12", "--samples", "6:7",
         "--quiet");
@@ -324,20 +305,18 @@ MEMORY_TEST(a_replayed_sample_is_the_one_that_was_rendered)
     RUN_AS(0, &o, "render", "scene.gltf", "--size", "16x12", "--replay", "8,6,6", "--json");
     json_auto_t *answer = json_loads(o.out, 0, NULL);
     json_t *green = json_array_get(json_object_get(answer, "RGB"), 1);
-    assert_close(json_number_value(green), (double)frame_channel(&frame, "G")[6 * 16 + 8],
-                 1e-8);
+    assert_close(json_number_value(green), (double)frame_channel(&frame, "G")[6 * 16 + 8], 1e-8);
     assert_true(json_number_value(green) > 0);
     assert_string_equal(json_string_value(json_object_get(answer, "part")), "wall");
 }
 
-MEMORY_TEST(noise_stops_before_spp)
-{
+MEMORY_TEST(noise_stops_before_spp) {
     Outcome o;
     RUN_AS(0, &o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "100000",
            "--noise", "0.2", "--json", "--quiet");
     json_auto_t *answer = json_loads(o.out, 0, NULL);
-    double  error = json_number_value(json_object_get(answer, "relative_error"));
-    int     samples = (int)json_integer_value(json_object_get(answer, "samples"));
+    double error = json_number_value(json_object_get(answer, "relative_error"));
+    int samples = (int)json_integer_value(json_object_get(answer, "samples"));
     assert_true(error > 0 && error <= 0.2);
     assert_in_range(samples, 16, 20000);
     assert_true(json_is_true(json_object_get(answer, "complete")));
@@ -348,14 +327,12 @@ MEMORY_TEST(noise_stops_before_spp)
     assert_close(whole_attribute(&frame, "parhelion:relativeError"), error, 1e-6);
 }
 
-TEST(noise_that_is_not_reached_is_said)
-{
+TEST(noise_that_is_not_reached_is_said) {
     Outcome o;
-    RUN_AS(0, &o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "2",
-           "--noise", "0.0001", "--quiet");
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "2", "--noise",
+           "0.0001", "--quiet");
     assert_non_null(strstr(o.err, "parhelion: warning: the relative error of the frame is 0."));
-    assert_non_null(
-        strstr(o.err, ", not the 0.0001 of --noise, after all 2 samples a pixel\n"));
+    assert_non_null(strstr(o.err, ", not the 0.0001 of --noise, after all 2 samples a pixel\n"));
     RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "2", "--noise",
         "display:0.5", "--quiet", "--json");
     assert_string_equal(o.err,
@@ -367,8 +344,7 @@ TEST(noise_that_is_not_reached_is_said)
 
 /* The corner of the room that has no noise decides, not the rest; a name that is no display's
  * is reported. */
-TEST(noise_of_an_area_decides_alone)
-{
+TEST(noise_of_an_area_decides_alone) {
     Outcome o;
     RUN_AS(0, &o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "64",
            "--noise", "2,2,9,8:0.9", "--quiet", "--json");
@@ -379,17 +355,15 @@ TEST(noise_of_an_area_decides_alone)
     assert_non_null(strstr(o.err, "--noise display:cluster: no display has this name"));
 }
 
-TEST(a_picture_is_developed_as_well)
-{
+TEST(a_picture_is_developed_as_well) {
     Outcome o;
-    RUN_AS(0, &o, "render", "scene.gltf", "-o", "p.exr", "--size", "16x12", "--spp", "1",
-           "--png", "p.png", "--quiet");
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "p.exr", "--size", "16x12", "--spp", "1", "--png",
+           "p.png", "--quiet");
     assert_true(exists("p.exr") && exists("p.png"));
     assert_non_null(strstr(o.out, "p.png: "));
 }
 
-TEST(a_scene_without_a_camera_is_framed_whole_with_a_warning)
-{
+TEST(a_scene_without_a_camera_is_framed_whole_with_a_warning) {
     Outcome o;
     RUN_AS(0, &o, "render", "blind.gltf", "-o", "b.exr", "--size", "16x12", "--spp", "1",
            "--quiet");
@@ -402,8 +376,7 @@ TEST(a_scene_without_a_camera_is_framed_whole_with_a_warning)
 /* ---- interruption ------------------------------------------------------------------------ */
 
 /* Waits until a file has something in it. */
-static void wait_for_bytes(FILE *file)
-{
+static void wait_for_bytes(FILE *file) {
     struct stat info;
     for (int i = 0; i < 1000; i++) {
         if (!fstat(fileno(file), &info) && info.st_size > 0) return;
@@ -414,27 +387,25 @@ static void wait_for_bytes(FILE *file)
 
 /* Starts an endless render and returns when its first progress line is out: a time that one
  * thread fills as well as two, where the law is not about both. */
-static pid_t start_long_render(const char *output, const char *threads, FILE *out, FILE *err)
-{
-    const char *const words[] = {"render", "scene.gltf", "-o", output, "--size", "32x32",
-                                 "--spp", "2000000000", "--progress", "json",
-                                 "--threads", threads, NULL};
+static pid_t start_long_render(const char *output, const char *threads, FILE *out, FILE *err) {
+    const char *const words[] = {"render",    "scene.gltf", "-o",         output,       "--size",
+                                 "32x32",     "--spp",      "2000000000", "--progress", "json",
+                                 "--threads", threads,      NULL};
     pid_t child = start(words, fileno(out), fileno(err));
     wait_for_bytes(err);
     return child;
 }
 
-MEMORY_TEST(an_interrupted_render_leaves_a_frame_marked_incomplete)
-{
+MEMORY_TEST(an_interrupted_render_leaves_a_frame_marked_incomplete) {
     static const struct {
-        int         number, status;
+        int number, status;
         const char *name;
     } cases[] = {{SIGINT, 130, "INT"}, {SIGTERM, 143, "TERM"}, {SIGHUP, 129, "HUP"}};
     for (int i = 0; i < 3; i++) {
         Outcome o;
-        char    text[64];
-        FILE   *out = tmpfile(), *err = tmpfile();
-        pid_t   child = start_long_render("i.exr", i ? "1" : "2", out, err);
+        char text[64];
+        FILE *out = tmpfile(), *err = tmpfile();
+        pid_t child = start_long_render("i.exr", i ? "1" : "2", out, err);
         kill(child, cases[i].number);
         assert_int_equal(exit_status(child), cases[i].status);
         read_back(out, o.out, sizeof o.out);
@@ -452,8 +423,7 @@ MEMORY_TEST(an_interrupted_render_leaves_a_frame_marked_incomplete)
     }
 }
 
-TEST(a_second_signal_ends_at_once_and_leaves_nothing)
-{
+TEST(a_second_signal_ends_at_once_and_leaves_nothing) {
     FILE *out = tmpfile(), *err = tmpfile();
     pid_t child = start_long_render("k.exr", "1", out, err);
     kill(child, SIGSTOP);
@@ -467,10 +437,9 @@ TEST(a_second_signal_ends_at_once_and_leaves_nothing)
     fclose(err);
 }
 
-MEMORY_TEST(usr1_writes_a_snapshot_and_goes_on)
-{
-    FILE  *out = tmpfile(), *err = tmpfile();
-    pid_t  child = start_long_render("u.exr", "1", out, err);
+MEMORY_TEST(usr1_writes_a_snapshot_and_goes_on) {
+    FILE *out = tmpfile(), *err = tmpfile();
+    pid_t child = start_long_render("u.exr", "1", out, err);
     kill(child, SIGUSR1);
     for (int i = 0; i < 1000 && !exists("u.exr"); i++) usleep(10000);
     FrameImage frame = read_frame("u.exr", arena);
@@ -485,9 +454,8 @@ MEMORY_TEST(usr1_writes_a_snapshot_and_goes_on)
 /* ---- the folder -------------------------------------------------------------------------- */
 
 /* The scene with its camera node taken off the list. */
-static void write_blind_scene(void)
-{
-    char  text[sizeof scene_text];
+static void write_blind_scene(void) {
+    char text[sizeof scene_text];
     char *nodes;
     memcpy(text, scene_text, sizeof text);
     nodes = strstr(text, "[0,1,2]");
@@ -495,8 +463,7 @@ static void write_blind_scene(void)
     write_text(in_folder("blind.gltf"), text);
 }
 
-static int write_scenes(void **state)
-{
+static int write_scenes(void **state) {
     if (make_folder(state)) return -1;
     write_text(in_folder("scene.gltf"), scene_text);
     write_blind_scene();

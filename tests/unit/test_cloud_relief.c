@@ -9,17 +9,15 @@
 
 #define HEIGHT_M 7668.0
 
-static CloudViewInput usual(double sun_deg, int threads)
-{
+static CloudViewInput usual(double sun_deg, int threads) {
     double horizon = -acos((AIR_EARTH_M + 3000) / (AIR_EARTH_M + 3000 + HEIGHT_M));
-    return (CloudViewInput){HEIGHT_M, 500, horizon, radians_from_degrees(130),
-                              radians_from_degrees(sun_deg), threads};
+    return (CloudViewInput){
+        HEIGHT_M, 500, horizon, radians_from_degrees(130), radians_from_degrees(sun_deg), threads};
 }
 
 /* Mean and standard deviation over the azimuths of [from, to), radians, of elevations from
  * `low` to `high`, by solid angle. */
-static void statistics(const CloudRelief *relief, const double bounds[4], double out[2])
-{
+static void statistics(const CloudRelief *relief, const double bounds[4], double out[2]) {
     enum { ROWS = 400, COLUMNS = 1440 };
     double sum = 0, square = 0, low = sin(bounds[0]), high = sin(bounds[1]);
     for (int i = 0; i < ROWS; i++)
@@ -36,14 +34,13 @@ static void statistics(const CloudRelief *relief, const double bounds[4], double
 }
 
 /* Over the whole deck, and in front of every side of the observer, where a window may be. */
-ARENA_TEST(the_mean_of_the_factor_is_one_on_every_side)
-{
+ARENA_TEST(the_mean_of_the_factor_is_one_on_every_side) {
     static const double sun_deg[] = {68, 6, -6};
     for (int s = 0; s < 3; s++) {
-        Arena            scratch = arena;
-        CloudRelief      relief;
-        CloudViewInput   input = usual(sun_deg[s], 2);
-        double           found[2], edge = input.horizon;
+        Arena scratch = arena;
+        CloudRelief relief;
+        CloudViewInput input = usual(sun_deg[s], 2);
+        double found[2], edge = input.horizon;
         cloud_view_build(&input, &scratch, &relief);
         statistics(&relief, (double[]){-PI / 2, edge, 0, 2 * PI}, found);
         assert_close(found[0], 1, 0.003);
@@ -58,27 +55,26 @@ ARENA_TEST(the_mean_of_the_factor_is_one_on_every_side)
 
 /* Far billows merge: of their contrast little is left where they meet the horizon, and nothing
  * at it. The air in between takes the rest. */
-ARENA_TEST(the_relief_fades_into_the_horizon)
-{
-    CloudRelief      relief;
-    CloudViewInput   input = usual(30, 2);
-    double           near[2], far[2], edge = input.horizon;
+ARENA_TEST(the_relief_fades_into_the_horizon) {
+    CloudRelief relief;
+    CloudViewInput input = usual(30, 2);
+    double near[2], far[2], edge = input.horizon;
     cloud_view_build(&input, &arena, &relief);
     statistics(&relief, (double[]){edge - 0.12, edge - 0.08, 0, 2 * PI}, near);
     statistics(&relief, (double[]){edge - 0.0015, edge, 0, 2 * PI}, far);
     assert_true(far[1] < 0.7 * near[1]);
     for (int j = 0; j < 360; j++)
-        assert_near((double)cloud_relief_factor(&relief, (float)edge - 1e-6f,
-                                                (float)(PI * j / 180)), 1, 0.05);
+        assert_near(
+            (double)cloud_relief_factor(&relief, (float)edge - 1e-6f, (float)(PI * j / 180)), 1,
+            0.05);
 }
 
 /* Between columns, and where the azimuth begins anew. */
-ARENA_TEST(the_relief_has_no_seam_at_any_azimuth)
-{
-    CloudRelief      relief;
-    CloudViewInput   input = usual(30, 2);
+ARENA_TEST(the_relief_has_no_seam_at_any_azimuth) {
+    CloudRelief relief;
+    CloudViewInput input = usual(30, 2);
     double sum = 0, seam = 0;
-    int    rows = 0;
+    int rows = 0;
     cloud_view_build(&input, &arena, &relief);
     for (float e = -0.06f; e > -1.2f; e -= 0.003f, rows++) {
         float step = 2 * PI_F / CLOUD_RELIEF_COLUMNS;
@@ -91,17 +87,17 @@ ARENA_TEST(the_relief_has_no_seam_at_any_azimuth)
         for (int j = 1; j <= 64; j++) {
             float a = 0.09f * (float)j;
             sum += fabs((double)(cloud_relief_factor(&relief, e, a - 0.5f * step) -
-                                 cloud_relief_factor(&relief, e, a + 0.5f * step))) / 64;
+                                 cloud_relief_factor(&relief, e, a + 0.5f * step))) /
+                   64;
         }
     }
     assert_true(seam < 2.5 * sum);
     assert_true(sum / rows < 0.05); /* and neighbours are like each other */
 }
 
-ARENA_TEST(the_relief_is_the_same_for_any_number_of_threads)
-{
-    CloudRelief      one, three;
-    CloudViewInput   input = usual(30, 1);
+ARENA_TEST(the_relief_is_the_same_for_any_number_of_threads) {
+    CloudRelief one, three;
+    CloudViewInput input = usual(30, 1);
     cloud_view_build(&input, &arena, &one);
     input.threads = 3;
     cloud_view_build(&input, &arena, &three);
@@ -111,9 +107,8 @@ ARENA_TEST(the_relief_is_the_same_for_any_number_of_threads)
 
 /* ---- in a sky ---------------------------------------------------------------------------- */
 
-static Daylight *deck(double relief_m, double sun_deg, Arena *arena)
-{
-    Daylight     *out = arena_alloc(arena, sizeof *out, 64, 1);
+static Daylight *deck(double relief_m, double sun_deg, Arena *arena) {
+    Daylight *out = arena_alloc(arena, sizeof *out, 64, 1);
     DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
     input.has_sun = true;
     input.threads = 2;
@@ -128,8 +123,7 @@ static Daylight *deck(double relief_m, double sun_deg, Arena *arena)
 }
 
 /* Illuminance by all below the horizon on an upright plane, relative, all lanes. */
-static double light_from_below(const Daylight *sky, double facing, bool at_mean)
-{
+static double light_from_below(const Daylight *sky, double facing, bool at_mean) {
     enum { ROWS = 300, COLUMNS = 700 };
     const LitAir *air = &sky->sunlight;
     double sum = 0, low = -0.7, high = sky->horizon;
@@ -137,7 +131,7 @@ static double light_from_below(const Daylight *sky, double facing, bool at_mean)
         for (int j = 0; j < COLUMNS; j++) {
             double e = low + (high - low) * (i + 0.5) / ROWS;
             double a = PI * (j + 0.5) / COLUMNS - PI / 2;
-            float  elevation = (float)e, azimuth = (float)(facing + a);
+            float elevation = (float)e, azimuth = (float)(facing + a);
             Spectrum light = atmosphere_radiance(&air->atmosphere, elevation, azimuth);
             if (!at_mean) light += atmosphere_relief(&air->atmosphere, elevation, azimuth);
             sum += lit_air_luminance(air, light) * cos(e) * cos(e) * cos(a);
@@ -146,11 +140,10 @@ static double light_from_below(const Daylight *sky, double facing, bool at_mean)
 }
 
 /* The cabin's windows get what they get over an even deck. */
-ARENA_TEST(a_window_gets_the_light_of_an_even_deck)
-{
+ARENA_TEST(a_window_gets_the_light_of_an_even_deck) {
     static const double sun_deg[] = {60, 7};
     for (int s = 0; s < 2; s++) {
-        Arena     scratch = arena;
+        Arena scratch = arena;
         Daylight *sky = deck(500, sun_deg[s], &scratch);
         for (int side = 0; side < 4; side++) {
             double even = light_from_below(sky, side * PI / 2, true);
@@ -161,8 +154,7 @@ ARENA_TEST(a_window_gets_the_light_of_an_even_deck)
 
 /* Its mean is the light of before, bit for bit; above the horizon and without the key there is
  * nothing to add. */
-ARENA_TEST(without_a_relief_a_deck_is_what_it_was)
-{
+ARENA_TEST(without_a_relief_a_deck_is_what_it_was) {
     Daylight *even = deck(0, 20, &arena), *rough = deck(500, 20, &arena);
     const Atmosphere *a = &even->sunlight.atmosphere, *b = &rough->sunlight.atmosphere;
     Wavelengths lanes;
@@ -185,9 +177,8 @@ ARENA_TEST(without_a_relief_a_deck_is_what_it_was)
 }
 
 /* Land and sea have none, and a deck around the observer neither. */
-ARENA_TEST(only_a_deck_below_has_a_relief)
-{
-    Daylight      out;
+ARENA_TEST(only_a_deck_below_has_a_relief) {
+    Daylight out;
     DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
     input.has_sun = true;
     input.sun_elevation = 1;

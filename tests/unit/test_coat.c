@@ -9,11 +9,10 @@
 #include "spectrum/fresnel.h"
 
 static const EnergyTable *glass;
-static const CoatTable   *lacquer;
-static Wavelengths        wavelengths;
+static const CoatTable *lacquer;
+static Wavelengths wavelengths;
 
-static int make_tables(void **state)
-{
+static int make_tables(void **state) {
     make_arena(state);
     glass = energy_table_build(1.5f, test_memory());
     lacquer = coat_table_build(glass, glass, test_memory());
@@ -23,8 +22,7 @@ static int make_tables(void **state)
 
 /* A uniform surround of 1 is sent back whole by white plastic and white metal, whatever lies on
  * it, from 0 to 85 degrees. */
-static void check_coated(float metallic, float alpha, double theta_deg)
-{
+static void check_coated(float metallic, float alpha, double theta_deg) {
     static const float coats[] = {0, 0.01f, 0.1f, 0.35f, 1};
     MetallicRoughness m = metallic_roughness_default(glass);
     m.metallic = metallic;
@@ -41,20 +39,17 @@ static void check_coated(float metallic, float alpha, double theta_deg)
     }
 }
 
-TEST(a_coat_keeps_a_white_furnace_white)
-{
-    static const float  alphas[] = {0, 0.01f, 0.1f, 0.35f, 1};
+TEST(a_coat_keeps_a_white_furnace_white) {
+    static const float alphas[] = {0, 0.01f, 0.1f, 0.35f, 1};
     static const double thetas_deg[] = {0, 30, 60, 75, 80, 85};
     for (int a = 0; a < 5; a++)
         for (int metallic = 0; metallic < 2; metallic++)
-            for (int t = 0; t < 6; t++)
-                check_coated((float)metallic, alphas[a], thetas_deg[t]);
+            for (int t = 0; t < 6; t++) check_coated((float)metallic, alphas[a], thetas_deg[t]);
 }
 
 /* Between the rows of its tables too, alike and unlike roughness; what the 48 points a side
  * above show of so narrow a lobe is 0.35 % off by themselves. */
-TEST(a_coat_keeps_it_white_between_its_tables_rows)
-{
+TEST(a_coat_keeps_it_white_between_its_tables_rows) {
     static const float alphas[] = {0.022f, 0.16f};
     for (int k = 0; k < 16; k++) {
         MetallicRoughness m = metallic_roughness_default(glass);
@@ -73,8 +68,7 @@ TEST(a_coat_keeps_it_white_between_its_tables_rows)
 
 /* Brushing, sheen and film or coating under it, by three bits of `layers`. */
 static MetallicRoughness layered(int layers, float metallic, float alpha,
-                                 const SurfaceCoating *coating)
-{
+                                 const SurfaceCoating *coating) {
     MetallicRoughness m = metallic_roughness_default(glass);
     m.metallic = metallic;
     m.alpha = alpha;
@@ -87,19 +81,17 @@ static MetallicRoughness layered(int layers, float metallic, float alpha,
     if (layers & 2) m.overlay.alpha = 0.16f;
     if (layers & 4 && metallic > 0)
         m.film = (ThinFilm){.share = 1, .ior = 1.8f, .thickness_nm = 350};
-    else if (layers & 4)
-        m.coating = coating;
+    else if (layers & 4) m.coating = coating;
     return m;
 }
 
-ARENA_TEST(it_stays_white_over_all_layers_together)
-{
-    static const float  coats[] = {0, 0.1f, 0.5f}, alphas[] = {0.02f, 0.15f, 0.6f};
+ARENA_TEST(it_stays_white_over_all_layers_together) {
+    static const float coats[] = {0, 0.1f, 0.5f}, alphas[] = {0.02f, 0.15f, 0.6f};
     static const double thetas_deg[] = {20, 60, 75, 85};
-    const SurfaceCoating four = {.face = coating_of_face(stack_four(&arena), 1.5, ALPHA_ALL,
-                                                            &arena)};
+    const SurfaceCoating four = {.face =
+                                     coating_of_face(stack_four(&arena), 1.5, ALPHA_ALL, &arena)};
     for (int i = 0; i < 36; i++) {
-        int   layers = i % 8 ? i % 8 : 7;
+        int layers = i % 8 ? i % 8 : 7;
         float metallic = 0.5f * (float)(i % 3);
         MetallicRoughness m = layered(layers, metallic, alphas[i / 3 % 3], &four);
         m.clearcoat_alpha = coats[i / 9 % 3];
@@ -107,14 +99,12 @@ ARENA_TEST(it_stays_white_over_all_layers_together)
         double sent = furnace_of(&m, theta_deg, 40 * i, furnace_side(&m));
         if (!(fabs(sent - 1) <= 2e-3))
             fail_msg("layers %d, metal %g, alpha %g under a coat of %g, %g deg: %g", layers,
-                     (double)metallic, (double)m.alpha, (double)m.clearcoat_alpha, theta_deg,
-                     sent);
+                     (double)metallic, (double)m.alpha, (double)m.clearcoat_alpha, theta_deg, sent);
     }
 }
 
 /* The layer of albedo takes part in the turns: a coat makes a grey plastic darker. */
-TEST(the_albedo_of_coated_plastic_is_what_it_sends_back)
-{
+TEST(the_albedo_of_coated_plastic_is_what_it_sends_back) {
     for (int k = 0; k < 24; k++) {
         MetallicRoughness m = metallic_roughness_default(glass);
         m.metallic = 0;
@@ -125,19 +115,18 @@ TEST(the_albedo_of_coated_plastic_is_what_it_sends_back)
         m.clearcoat_energy = glass;
         m.coat = lacquer;
         double theta_deg = 20 + 25.0 * (k / 8), t = radians_from_degrees(theta_deg);
-        Bsdf   bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = m};
-        Vec3   wo = vec3((float)sin(t), 0, (float)cos(t));
+        Bsdf bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = m};
+        Vec3 wo = vec3((float)sin(t), 0, (float)cos(t));
         double sent = furnace_of(&m, theta_deg, 0, 48);
         double told = (double)bsdf_albedo(&bsdf, wo)[7];
         if (!(fabs(told - sent) <= 5e-3))
-            fail_msg("colour %g, coat %g, %g deg: albedo %g, furnace %g",
-                     (double)m.base_color[7], (double)m.clearcoat, theta_deg, told, sent);
+            fail_msg("colour %g, coat %g, %g deg: albedo %g, furnace %g", (double)m.base_color[7],
+                     (double)m.clearcoat, theta_deg, told, sent);
     }
 }
 
 /* A mirror under a smooth coat is what the series of their turns gives, whatever its colour. */
-TEST(a_coated_mirror_sums_up_its_turns)
-{
+TEST(a_coated_mirror_sums_up_its_turns) {
     for (float colour = 0; colour <= 1; colour += 0.25f)
         for (int i = 1; i <= 10; i++) {
             MetallicRoughness m = metallic_roughness_default(glass);
@@ -147,13 +136,13 @@ TEST(a_coated_mirror_sums_up_its_turns)
             m.clearcoat = 1;
             m.clearcoat_energy = glass;
             m.coat = lacquer;
-            Vec3   wo = vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);
-            Bsdf   bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = m};
-            float  metal = spectrum_mean(fresnel_schlick(m.base_color, cosine));
-            float  mean = colour + (1 - colour) / 21; /* of its further turns */
+            Vec3 wo = vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);
+            Bsdf bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = m};
+            float metal = spectrum_mean(fresnel_schlick(m.base_color, cosine));
+            float mean = colour + (1 - colour) / 21; /* of its further turns */
             double sum = 0;
             for (int k = 0; k < 200; k++) {
-                float      u[3] = {((float)k + 0.5f) / 200, 0.5f, 0.5f};
+                float u[3] = {((float)k + 0.5f) / 200, 0.5f, 0.5f};
                 BsdfSample s;
                 if (bsdf_sample(&bsdf, wo, u, &s)) sum += (double)s.weight[3] / 200;
             }
@@ -162,8 +151,7 @@ TEST(a_coated_mirror_sums_up_its_turns)
         }
 }
 
-TEST(the_programs_own_tables_are_those_that_a_run_would_make)
-{
+TEST(the_programs_own_tables_are_those_that_a_run_would_make) {
     assert_float_equal(CLEARCOAT_IOR, 1.5f, 0);
     assert_memory_equal(&common_energy_table, glass, sizeof *glass);
     assert_memory_equal(&common_coat_table, lacquer, sizeof *lacquer);

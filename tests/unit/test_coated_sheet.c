@@ -9,11 +9,10 @@
 #include "shaders/metallic/metallic_facet.h"
 #include "spectrum/fresnel.h"
 
-static Wavelengths    wavelengths;
+static Wavelengths wavelengths;
 static SurfaceCoating one_sided; /* silver on the front alone */
 
-static int make_tables(void **state)
-{
+static int make_tables(void **state) {
     make_arena(state);
     LayerStack *silver = stack_silver(test_memory());
     silver->faces = COATED_FRONT;
@@ -23,8 +22,7 @@ static int make_tables(void **state)
 }
 
 /* White, and under a whole coat. */
-static MetallicRoughness sheet(float alpha, float coat_alpha)
-{
+static MetallicRoughness sheet(float alpha, float coat_alpha) {
     MetallicRoughness m = metallic_roughness_default(&common_energy_table);
     m.metallic = 0;
     m.transmission = 1;
@@ -40,8 +38,7 @@ static MetallicRoughness sheet(float alpha, float coat_alpha)
 /* ---- smooth: a stack whose turns can be followed --------------------------------------- */
 
 /* Light from above through two like layers that let pass `open`, about a sheet. */
-static void follow_turns(double front, double rear, double through, double open, double out[2])
-{
+static void follow_turns(double front, double rear, double through, double open, double out[2]) {
     double above = open, below = 0; /* what comes to the sheet from either side */
     out[0] = 1 - open;
     out[1] = 0;
@@ -54,8 +51,7 @@ static void follow_turns(double front, double rear, double through, double open,
     }
 }
 
-TEST(turns_are_summed_up)
-{
+TEST(turns_are_summed_up) {
     for (int i = 0; i < 625; i++) {
         double front = 0.25 * (i % 5), rear = 0.25 * (i / 5 % 5), held = 0.2 * (i / 125 % 5);
         double through = 0.25 * (i / 25 % 5) * (1 - fmax(front, rear)), sent[2];
@@ -71,8 +67,7 @@ TEST(turns_are_summed_up)
 
 /* What the model gives for smooth sheets is that stack; how much light the coat lets pass is
  * its own table's affair, what it reflects itself, Fresnel's. */
-static void pane_of(double cosine, double tint, double *reflected, double *passed)
-{
+static void pane_of(double cosine, double tint, double *reflected, double *passed) {
     double inside = sqrt(1 - (1 - cosine * cosine) / 2.25), t = pow(tint, 1 / inside);
     *reflected = *passed = 0;
     for (int is_p = 0; is_p < 2; is_p++) {
@@ -83,16 +78,15 @@ static void pane_of(double cosine, double tint, double *reflected, double *passe
     }
 }
 
-TEST(a_smooth_sheet_is_a_stack_of_its_boundaries)
-{
+TEST(a_smooth_sheet_is_a_stack_of_its_boundaries) {
     for (int i = 0; i < 60; i++) {
         float cosine = i % 20 ? 0.05f * (float)(i % 20) : 0.02f, share = i / 20 ? 0.6f : 1;
         float tint = i / 20 == 2 ? 0.5f : 1;
         MetallicRoughness m = sheet(0, 0);
         m.tint = spectrum_all(tint);
         m.clearcoat = share;
-        Bsdf   bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = m};
-        Vec3   wo = vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);
+        Bsdf bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = m};
+        Vec3 wo = vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);
         double f = (double)fresnel_unpolarised(cosine, 1.5f), pane, through, sent[2];
         double held = (double)coat_reflectance(m.clearcoat_energy, cosine, 0);
         double s = (double)share;
@@ -106,11 +100,10 @@ TEST(a_smooth_sheet_is_a_stack_of_its_boundaries)
 
 /* ---- white furnaces ---------------------------------------------------------------------- */
 
-static const float  coats[] = {0, 0.01f, 0.1f, 0.35f, 1}, alphas[] = {0, 0.01f, 0.1f, 0.35f, 1};
+static const float coats[] = {0, 0.01f, 0.1f, 0.35f, 1}, alphas[] = {0, 0.01f, 0.1f, 0.35f, 1};
 static const double thetas_deg[] = {0, 30, 60, 75, 80, 85};
 
-static void check_white(const MetallicRoughness *m, double theta_deg, double tolerance)
-{
+static void check_white(const MetallicRoughness *m, double theta_deg, double tolerance) {
     double sent = furnace_of(m, theta_deg, 40, furnace_side(m) == 48 ? 64 : 144);
     if (!(fabs(sent - 1) <= tolerance))
         fail_msg("metal %g, clear %g, alpha %g and %g, sheen %g, film %g, across %g under a "
@@ -121,8 +114,7 @@ static void check_white(const MetallicRoughness *m, double theta_deg, double tol
                  sent);
 }
 
-TEST(a_coat_keeps_a_clear_and_a_frosted_sheet_white)
-{
+TEST(a_coat_keeps_a_clear_and_a_frosted_sheet_white) {
     for (int i = 0; i < 150; i++) {
         MetallicRoughness m = sheet(alphas[i % 5], coats[i / 5 % 5]);
         if (i % 3 == 1) m.specular = 0;
@@ -133,8 +125,7 @@ TEST(a_coat_keeps_a_clear_and_a_frosted_sheet_white)
 }
 
 /* Sheen, film, brushing, diffuse transmission and metal, by the bits of `layers`. */
-static MetallicRoughness layered(int layers, float alpha, float coat_alpha)
-{
+static MetallicRoughness layered(int layers, float alpha, float coat_alpha) {
     MetallicRoughness m = sheet(alpha, coat_alpha);
     if (layers & 1) m.overlay.color[0] = m.overlay.color[1] = m.overlay.color[2] = 0.3f;
     if (layers & 1) m.overlay.alpha = 0.25f;
@@ -149,10 +140,9 @@ static MetallicRoughness layered(int layers, float alpha, float coat_alpha)
     return m;
 }
 
-TEST(it_keeps_layered_sheets_white)
-{
+TEST(it_keeps_layered_sheets_white) {
     for (int i = 0; i < 32; i++) {
-        int   layers = i % 32;
+        int layers = i % 32;
         float alpha = alphas[(i * 7 + i / 32) % 5];
         if (layers & 4) alpha = fmaxf(alpha, 0.1f); /* finer brushing: within 0.3 % */
         MetallicRoughness m = layered(layers, alpha, coats[i % 5]);
@@ -164,21 +154,19 @@ TEST(it_keeps_layered_sheets_white)
 
 /* ---- both sides -------------------------------------------------------------------------- */
 
-static Spectrum across(MetallicRoughness m, Vec3 wo, Vec3 wi, bool from_back)
-{
+static Spectrum across(MetallicRoughness m, Vec3 wo, Vec3 wi, bool from_back) {
     m.seen_from_back = from_back;
-    Bsdf  bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = m};
+    Bsdf bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = m};
     float pdf;
     if (!from_back) return bsdf_eval(&bsdf, wo, wi, &pdf);
     return bsdf_eval(&bsdf, vec3(wi.x, wi.y, -wi.z), vec3(wo.x, wo.y, -wo.z), &pdf);
 }
 
 /* Also where the sheet's faces are unlike: its coat lies on both alike. */
-TEST(as_much_goes_through_from_either_side)
-{
+TEST(as_much_goes_through_from_either_side) {
     for (int i = 0; i < 1000; i++) {
         Sampler sampler = sampler_start(3, i, 0, 0);
-        Vec3    wo = random_direction(&sampler), wi = random_direction(&sampler);
+        Vec3 wo = random_direction(&sampler), wi = random_direction(&sampler);
         MetallicRoughness m = layered(i % 32, alphas[1 + i / 32 % 4], coats[i / 7 % 5]);
         m.tint = ramp(0.1f, 1);
         if (!(m.film.share > 0)) m.coating = &one_sided;

@@ -6,10 +6,9 @@
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-ARENA_TEST(a_written_frame_is_read_as_light)
-{
+ARENA_TEST(a_written_frame_is_read_as_light) {
     CompareInput made = frame_input("x", &arena), read, again;
-    const char  *path = in_folder("a.exr");
+    const char *path = in_folder("a.exr");
     assert_done(frame_write(path, &made.frame, &err));
     assert_done(input_read(path, 0, &arena, &read, &err));
     assert_int_equal(read.kind, INPUT_FRAME);
@@ -24,9 +23,8 @@ ARENA_TEST(a_written_frame_is_read_as_light)
 }
 
 /* 8-bit codes and the same ones in 16 bits are the same fractions, bit for bit. */
-ARENA_TEST(codes_of_8_and_16_bits_agree)
-{
-    Picture      picture = picture_create(16, 16, &arena);
+ARENA_TEST(codes_of_8_and_16_bits_agree) {
+    Picture picture = picture_create(16, 16, &arena);
     CompareInput read[2];
     for (int i = 0; i < 16 * 16 * 3; i++) picture.rgb[i] = (float)(i % 256) / 255;
     for (int k = 0; k < 2; k++) {
@@ -48,16 +46,15 @@ ARENA_TEST(codes_of_8_and_16_bits_agree)
     assert_true(c.same && has_note(&c, "8 bits, the test 16"));
 }
 
-ARENA_TEST(a_frame_against_a_picture_is_refused)
-{
-    Error          err = {0};
-    CompareInput   frame = frame_input("f.exr", &arena);
-    CompareInput   picture = picture_input("p.png", 8, &arena);
-    Comparison     c;
+ARENA_TEST(a_frame_against_a_picture_is_refused) {
+    Error err = {0};
+    CompareInput frame = frame_input("f.exr", &arena);
+    CompareInput picture = picture_input("p.png", 8, &arena);
+    Comparison c;
     CompareOptions options = {.threads = 1};
     for (int k = 0; k < 2; k++) {
-        assert_false(compare_inputs(k ? &picture : &frame, k ? &frame : &picture, &options,
-                                    &arena, &c, &err));
+        assert_false(compare_inputs(k ? &picture : &frame, k ? &frame : &picture, &options, &arena,
+                                    &c, &err));
         assert_int_equal(err.code, ERROR_INPUT);
         assert_string_equal(err.file, "p.png");
         assert_non_null(strstr(err.text, "parhelion develop f.exr"));
@@ -66,8 +63,7 @@ ARENA_TEST(a_frame_against_a_picture_is_refused)
 
 /* ---- structure --------------------------------------------------------------------------- */
 
-ARENA_TEST(metadata_that_decides_fails_and_the_rest_explains)
-{
+ARENA_TEST(metadata_that_decides_fails_and_the_rest_explains) {
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     frame_set_string(&b.frame, "parhelion:seed", "2", &arena);
     frame_set_string(&b.frame, "parhelion:inputs", "00ac  a.gltf\n00cc  c.png\n", &arena);
@@ -82,8 +78,7 @@ ARENA_TEST(metadata_that_decides_fails_and_the_rest_explains)
                              "c.png is only in the test"));
     frame_set_string(&b.frame, "parhelion:seed", "2", &arena);
     frame_set_string(&a.frame, "parhelion:inputs", "00aa  here/a.gltf\n00bb  b.png\n", &arena);
-    frame_set_string(&b.frame, "parhelion:inputs", "00aa  /there/a.gltf\n00bd  b.png\n",
-                     &arena);
+    frame_set_string(&b.frame, "parhelion:inputs", "00aa  /there/a.gltf\n00bd  b.png\n", &arena);
     c = compared(&a, &b, LOOSE, &arena);
     assert_false(has_note(&c, "a.gltf"));
     assert_true(has_note(&c, "seed (1, now 2), inputs (b.png has changed)"));
@@ -104,8 +99,7 @@ ARENA_TEST(metadata_that_decides_fails_and_the_rest_explains)
 }
 
 /* However many keys differ, they are one line of what decides and one of what explains. */
-ARENA_TEST(many_differences_of_metadata_are_two_lines)
-{
+ARENA_TEST(many_differences_of_metadata_are_two_lines) {
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     for (int i = 0; i < 300; i++) {
         const char *part = arena_format(&arena, "parhelion:part.%d", i);
@@ -125,8 +119,7 @@ ARENA_TEST(many_differences_of_metadata_are_two_lines)
 }
 
 /* Frames are of Rec.709, whether they say so or not. */
-ARENA_TEST(what_is_implied_need_not_be_said)
-{
+ARENA_TEST(what_is_implied_need_not_be_said) {
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     for (int i = 0; i < a.frame.attribute_count; i++)
         if (!strcmp(a.frame.attributes[i].name, "chromaticities"))
@@ -136,10 +129,9 @@ ARENA_TEST(what_is_implied_need_not_be_said)
 }
 
 /* Long values are shown where they begin to differ, and never steer a terminal. */
-ARENA_TEST(long_values_are_shown_where_they_differ)
-{
+ARENA_TEST(long_values_are_shown_where_they_differ) {
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
-    char         text[300];
+    char text[300];
     memset(text, 'x', sizeof text);
     text[299] = 0;
     frame_set_string(&a.frame, "parhelion:commandLine", text, &arena);
@@ -152,8 +144,7 @@ ARENA_TEST(long_values_are_shown_where_they_differ)
 }
 
 /* Layers of one side are one line and no failure; a picture without one of its colours is. */
-ARENA_TEST(layers_of_one_side_are_left_out)
-{
+ARENA_TEST(layers_of_one_side_are_left_out) {
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     for (const char *x = "BGR"; *x; x++) {
         frame_add_channel(&a.frame, arena_format(&arena, "light.sun.%c", *x), 0, &arena);
@@ -179,8 +170,7 @@ ARENA_TEST(layers_of_one_side_are_left_out)
     assert_reason(&c, "channels are missing in the reference: A");
 }
 
-ARENA_TEST(windows_and_sizes_must_agree)
-{
+ARENA_TEST(windows_and_sizes_must_agree) {
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     b.frame.display = (ExrWindow){1, 0, WIDTH + 1, HEIGHT};
     Comparison c = compared(&a, &b, LOOSE, &arena);
@@ -194,8 +184,7 @@ ARENA_TEST(windows_and_sizes_must_agree)
 
 /* ---- NaN and infinity -------------------------------------------------------------------- */
 
-ARENA_TEST(what_is_no_number_in_light_always_fails)
-{
+ARENA_TEST(what_is_no_number_in_light_always_fails) {
     const float wrong[] = {NAN, INFINITY, -INFINITY};
     for (int k = 0; k < 9; k++) {
         CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
@@ -215,14 +204,13 @@ ARENA_TEST(what_is_no_number_in_light_always_fails)
 
 /* Off displays NaN is legal. Frames of other noise may disagree at a rim (one pixel beside the
  * display), and where a sliver shows; not about an area, here of 3 x 3 pixels. */
-ARENA_TEST(gaps_of_surface_layers_must_coincide)
-{
+ARENA_TEST(gaps_of_surface_layers_must_coincide) {
     CompareInput a = frame_input("a", &arena);
     assert_true(compared(&a, &a, LOOSE, &arena).same);
     for (int area = 0; area < 2; area++) {
         for (int seed = 1; seed <= 2; seed++) {
             CompareInput b = frame_input("b", &arena);
-            float  *shown = channel(&b, "display.emitted.R");
+            float *shown = channel(&b, "display.emitted.R");
             if (!area) shown[3] = shown[4 * WIDTH + 1] = 5;
             for (int i = 0; i < 9 && area; i++) shown[(i / 3 + 2) * WIDTH + i % 3] = 5;
             frame_set_string(&b.frame, "parhelion:seed", seed == 1 ? "1" : "2", &arena);
@@ -235,8 +223,7 @@ ARENA_TEST(gaps_of_surface_layers_must_coincide)
 }
 
 /* Too few samples to show the noise are no fault of the light. */
-ARENA_TEST(noise_may_be_unknown)
-{
+ARENA_TEST(noise_may_be_unknown) {
     static const char *const LAYERS[] = {"halves.R", "display.halves.R"};
     for (int i = 0; i < 2; i++) {
         CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
@@ -253,8 +240,7 @@ ARENA_TEST(noise_may_be_unknown)
 
 /* ---- figures and limits ------------------------------------------------------------------ */
 
-TEST(limits_hold_in_their_direction)
-{
+TEST(limits_hold_in_their_direction) {
     assert_true(threshold_holds((Threshold){METRIC_FLIP, 0.1}, 0.1));
     assert_false(threshold_holds((Threshold){METRIC_FLIP, 0.1}, 0.11));
     assert_true(threshold_holds((Threshold){METRIC_PSNR, 30}, INFINITY));
@@ -271,8 +257,7 @@ TEST(limits_hold_in_their_direction)
 }
 
 /* One code of one channel is off by d: mse = d^2 / (3 n). */
-ARENA_TEST(figures_of_pictures_are_those_of_codes)
-{
+ARENA_TEST(figures_of_pictures_are_those_of_codes) {
     CompareInput a = picture_input("a", 8, &arena), b = picture_input("b", 8, &arena);
     ((float *)b.codes.rgb[2])[30] += 0.25f;
     ((float *)b.light.rgb[2])[30] = linear_from_srgb(b.codes.rgb[2][30]);
@@ -289,24 +274,22 @@ ARENA_TEST(figures_of_pictures_are_those_of_codes)
     assert_true(c.same && isinf(c.value[METRIC_PSNR]) && c.value[METRIC_FLIP] == 0);
 }
 
-ARENA_TEST(only_what_is_asked_for_is_computed)
-{
+ARENA_TEST(only_what_is_asked_for_is_computed) {
     CompareInput a = picture_input("a", 8, &arena);
-    Comparison   c = compared(&a, &a, (CompareOptions){.groups = GROUP_MSE}, &arena);
+    Comparison c = compared(&a, &a, (CompareOptions){.groups = GROUP_MSE}, &arena);
     assert_true(isnan(c.value[METRIC_FLIP]) && isnan(c.value[METRIC_PSNR]));
     assert_near(c.value[METRIC_MSE], 0, 0);
     const Threshold limit = {METRIC_FLIP, 0.5};
-    c = compared(&a, &a, (CompareOptions){.groups = GROUP_MSE, .thresholds = &limit,
-                                          .threshold_count = 1}, &arena);
+    c = compared(&a, &a,
+                 (CompareOptions){.groups = GROUP_MSE, .thresholds = &limit, .threshold_count = 1},
+                 &arena);
     assert_near(c.value[METRIC_FLIP], 0, 0);
     const Threshold unknown = {METRIC_CONTRAST_CHANGE, 0.5};
-    c = compared(&a, &a, (CompareOptions){.thresholds = &unknown, .threshold_count = 1},
-                 &arena);
+    c = compared(&a, &a, (CompareOptions){.thresholds = &unknown, .threshold_count = 1}, &arena);
     assert_reason(&c, "contrast_change is not known for these files, at most 0.5 is required");
 }
 
-TEST(exposures_are_the_ones_of_develop)
-{
+TEST(exposures_are_the_ones_of_develop) {
     for (double ev = -4; ev < 20; ev += 3) {
         assert_near(ev_of_stops(stops_of_ev(ev)), ev, 1e-9);
         /* What EV e makes middle grey is 0.125 * 2^e cd/m2 (ISO 2720, K = 12.5). */
@@ -315,17 +298,16 @@ TEST(exposures_are_the_ones_of_develop)
 }
 
 /* A picture of sRGB codes with edges, ramps and something of chance, and gaps of alpha. */
-static const char *write_picture(const char *name, int change, Arena *arena)
-{
+static const char *write_picture(const char *name, int change, Arena *arena) {
     enum { ROWS = 61, COLUMNS = 150 };
     const char *path = in_folder(name);
-    Picture     picture = picture_create(COLUMNS, ROWS, arena);
-    uint32_t    chance = 1;
+    Picture picture = picture_create(COLUMNS, ROWS, arena);
+    uint32_t chance = 1;
     for (int i = 0; i < ROWS * COLUMNS * 3; i++) {
         int x = i / 3 % COLUMNS, y = i / 3 / COLUMNS;
         chance = chance * 1664525u + 1013904223u;
-        picture.rgb[i] = (float)((x * 3 + y * 5 + (x > 60 ? 90 : 0) + (int)(chance >> 28)) %
-                                 250) / 255;
+        picture.rgb[i] =
+            (float)((x * 3 + y * 5 + (x > 60 ? 90 : 0) + (int)(chance >> 28)) % 250) / 255;
         if (change && (x + y) % 7 == 0) picture.rgb[i] += (float)change / 255;
     }
     const PictureFile file = {.bits = 8, .is_srgb = true};
@@ -334,12 +316,11 @@ static const char *write_picture(const char *name, int change, Arena *arena)
 }
 
 /* In bands, of however many rows, all figures have the bits of whole pictures. */
-ARENA_TEST(bands_give_the_figures_of_whole_pictures)
-{
+ARENA_TEST(bands_give_the_figures_of_whole_pictures) {
     static const int ROWS[] = {1, 7, 16, 61, 100};
     const char *a = write_picture("a.png", 0, &arena), *b = write_picture("b.png", 9, &arena);
     CompareOptions options = {.threads = 2};
-    Comparison     whole, bands;
+    Comparison whole, bands;
     for (int region = 0; region < 2; region++) {
         options.selection.region_count = region;
         options.selection.regions = &(const ExrWindow){3, 5, 140, 50};
@@ -369,21 +350,19 @@ ARENA_TEST(bands_give_the_figures_of_whole_pictures)
 
 /* ---- which pixels count ------------------------------------------------------------------ */
 
-TEST(a_data_window_places_values)
-{
+TEST(a_data_window_places_values) {
     FrameImage frame = {.display = {10, 20, 22, 28}, .data = {14, 18, 24, 26}};
-    assert_int_equal(selection_place(&frame, 0), -1);         /* row 18 is above */
-    assert_int_equal(selection_place(&frame, 20), 4);         /* 14,20 */
-    assert_int_equal(selection_place(&frame, 20 + 7), 11);    /* 21,20 */
-    assert_int_equal(selection_place(&frame, 20 + 8), -1);    /* 22 is outside */
+    assert_int_equal(selection_place(&frame, 0), -1);      /* row 18 is above */
+    assert_int_equal(selection_place(&frame, 20), 4);      /* 14,20 */
+    assert_int_equal(selection_place(&frame, 20 + 7), 11); /* 21,20 */
+    assert_int_equal(selection_place(&frame, 20 + 8), -1); /* 22 is outside */
     assert_int_equal(selection_place(&frame, 30), 12 + 4);
 }
 
-ARENA_TEST(regions_select_and_displays_are_known)
-{
-    Selection        selection;
-    CompareInput     a = frame_input("a.exr", &arena);
-    ExrWindow        regions[2] = {{2, 1, 5, 3}, {4, 2, 6, 4}}; /* one pixel is of both */
+ARENA_TEST(regions_select_and_displays_are_known) {
+    Selection selection;
+    CompareInput a = frame_input("a.exr", &arena);
+    ExrWindow regions[2] = {{2, 1, 5, 3}, {4, 2, 6, 4}}; /* one pixel is of both */
     SelectionRequest request = {.regions = regions, .region_count = 1};
     const CompareInput *const sides[2] = {&a, &a};
     assert_done(selection_make(sides, &request, &arena, &selection, &err));
@@ -400,8 +379,7 @@ ARENA_TEST(regions_select_and_displays_are_known)
     assert_fails(selection_make(sides, &request, &arena, &selection, &err),
                  "has no display \"cluster\"; its displays: none");
     frame_set_string(&a.frame, "parhelion:display.3", "cluster", &arena);
-    assert_fails(selection_make(sides, &request, &arena, &selection, &err),
-                 "--layers id,display");
+    assert_fails(selection_make(sides, &request, &arena, &selection, &err), "--layers id,display");
     float *id = frame_add_channel(&a.frame, "id.display", true, &arena);
     for (int i = 0; i < COUNT; i++) id[i] = i < 7 ? 3 : -1;
     assert_done(selection_make(sides, &request, &arena, &selection, &err));
@@ -409,13 +387,12 @@ ARENA_TEST(regions_select_and_displays_are_known)
 }
 
 /* Sizes alone decide it: nothing of the pixels is read. */
-TEST(frames_that_cannot_fit_are_refused_by_a_line)
-{
-    Error          err = {0};
-    Comparison     out;
+TEST(frames_that_cannot_fit_are_refused_by_a_line) {
+    Error err = {0};
+    Comparison out;
     CompareOptions options = {.threads = 1};
-    CompareInput   frame = {.name = "huge.exr", .kind = INPUT_FRAME,
-                            .light = {.width = 1 << 20, .height = 1 << 20}};
+    CompareInput frame = {
+        .name = "huge.exr", .kind = INPUT_FRAME, .light = {.width = 1 << 20, .height = 1 << 20}};
     Arena arena = arena_reserve(1 << 20);
     assert_false(compare_inputs(&frame, &frame, &options, &arena, &out, &err));
     arena_release(&arena);

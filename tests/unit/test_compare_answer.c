@@ -16,9 +16,8 @@
 
 static const char WILD[] = "a<b>&\"'\x01\xff]]>\xef\xbf\xbf.png";
 
-ARENA_TEST(markup_escapes_and_encodes)
-{
-    Text  text = {.arena = &arena};
+ARENA_TEST(markup_escapes_and_encodes) {
+    Text text = {.arena = &arena};
     escape_markup(&text, WILD);
     text_add(&text, " ");
     escape_markup(&text, "é…\xf0\x9f\x98\x80\xc0\x80");
@@ -26,8 +25,8 @@ ARENA_TEST(markup_escapes_and_encodes)
                           "\xf0\x9f\x98\x80\\xC0\\x80";
     assert_int_equal(text.size, sizeof wanted - 1);
     assert_memory_equal(text.data, wanted, sizeof wanted - 1);
-    static const char *const PAIRS[][2] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="},
-                                           {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}};
+    static const char *const PAIRS[][2] = {
+        {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}};
     for (int i = 0; i < 5; i++) { /* RFC 4648, section 10 */
         text = (Text){.arena = &arena};
         base64_encode(&text, PAIRS[i][0], strlen(PAIRS[i][0]));
@@ -36,13 +35,12 @@ ARENA_TEST(markup_escapes_and_encodes)
     }
 }
 
-ARENA_TEST(junit_is_well_formed_whatever_the_names_are)
-{
+ARENA_TEST(junit_is_well_formed_whatever_the_names_are) {
     CompareInput a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
     ((float *)b.codes.rgb[0])[3] = 1;
-    Comparison  same = compared(&a, &a, LOOSE, &arena);
-    Comparison  other = compared(&a, &b, (CompareOptions){.groups = GROUP_MSE}, &arena);
-    Junit       junit;
+    Comparison same = compared(&a, &a, LOOSE, &arena);
+    Comparison other = compared(&a, &b, (CompareOptions){.groups = GROUP_MSE}, &arena);
+    Junit junit;
     junit_start(&junit);
     const char *path = in_folder("j.xml");
     junit_add(&junit, WILD, &same);
@@ -66,17 +64,16 @@ ARENA_TEST(junit_is_well_formed_whatever_the_names_are)
     assert_fails_as(junit_write(&junit, "s", "/absent/j.xml", &err), ERROR_OUTPUT, "");
 }
 
-ARENA_TEST(json_has_the_promised_keys)
-{
-    CompareInput   a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
+ARENA_TEST(json_has_the_promised_keys) {
+    CompareInput a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
     CompareOptions options = {.threads = 1};
     ((float *)b.codes.rgb[0])[3] = 1;
     Comparison c = compared(&a, &b, options, &arena);
     json_auto_t *json = comparison_json(&c, &options);
-    json_t    *metrics = json_object_get(json, "metrics");
-    static const char *const KEYS[] = {"flip", "flip_p95", "flip_max", "psnr", "ssim",
-                                       "deltae_mean", "deltae_p95", "deltae_max", "mse",
-                                       "relmse", "mae", "mean_shift", "differing"};
+    json_t *metrics = json_object_get(json, "metrics");
+    static const char *const KEYS[] = {"flip",        "flip_p95",   "flip_max",   "psnr", "ssim",
+                                       "deltae_mean", "deltae_p95", "deltae_max", "mse",  "relmse",
+                                       "mae",         "mean_shift", "differing"};
     for (size_t i = 0; i < sizeof KEYS / sizeof *KEYS; i++)
         if (!json_is_number(json_object_get(metrics, KEYS[i]))) fail_msg("no %s", KEYS[i]);
     assert_true(json_is_false(json_object_get(json, "same")));
@@ -85,15 +82,14 @@ ARENA_TEST(json_has_the_promised_keys)
 }
 
 /* Whatever a name holds, it stands in the page as text; both sides and three maps are there. */
-ARENA_TEST(a_report_is_whole_and_escaped)
-{
-    FileBytes      page;
+ARENA_TEST(a_report_is_whole_and_escaped) {
+    FileBytes page;
     CompareOptions options = {.threads = 1};
-    CompareInput   a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
+    CompareInput a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
     ((float *)b.codes.rgb[0])[3] = 1;
-    Comparison  c = compared(&a, &b, options, &arena);
+    Comparison c = compared(&a, &b, options, &arena);
     const char *path = in_folder("r.html");
-    HtmlReport  report;
+    HtmlReport report;
     html_report_start(&report, false);
     assert_done(html_report_add(&report, "b", &c, &options, arena, &err));
     assert_done(html_report_write(&report, WILD, WILD, path, &err));
@@ -113,10 +109,9 @@ ARENA_TEST(a_report_is_whole_and_escaped)
 
 /* ---- the command line -------------------------------------------------------------------- */
 
-static void refused(const char *word, const char *value, const char *part)
-{
-    Arena          arena = arena_reserve(ARENA_BYTES);
-    Error          err = {0};
+static void refused(const char *word, const char *value, const char *part) {
+    Arena arena = arena_reserve(ARENA_BYTES);
+    Error err = {0};
     CompareRequest request = {0};
     char *argv[] = {(char *)"compare", (char *)"a", (char *)"b", (char *)word, (char *)value};
     assert_false(compare_parse(5, argv, &arena, &request, &err));
@@ -125,8 +120,7 @@ static void refused(const char *word, const char *value, const char *part)
     arena_release(&arena);
 }
 
-TEST(wrong_options_say_what_is_wanted)
-{
+TEST(wrong_options_say_what_is_wanted) {
     refused("--max", "flop=1", "there is no figure flop — did you mean flip?");
     refused("--max", "qqqqqqqq=1", "there are flip, flip_median,");
     refused("--max", "flip", "required: NAME=VALUE");
@@ -145,15 +139,18 @@ TEST(wrong_options_say_what_is_wanted)
     refused("--level", "0", "--level");
 }
 
-ARENA_TEST(a_line_is_cut_into_words_as_a_shell_does)
-{
-    static const char *const LINES[][2] = {
-        {"", ""}, {" \t ", ""}, {"a  b\tc ", "a|b|c"}, {"a'b c'd", "ab cd"},
-        {"\"a \\\" \\\\ \\x\" ''", "a \" \\ \\x|"}, {"a\\ b\\'", "a b'"},
-        {"$HOME * ~ #no", "$HOME|*|~|#no"}, {"\"'\"'\"'\r", "'\""}};
+ARENA_TEST(a_line_is_cut_into_words_as_a_shell_does) {
+    static const char *const LINES[][2] = {{"", ""},
+                                           {" \t ", ""},
+                                           {"a  b\tc ", "a|b|c"},
+                                           {"a'b c'd", "ab cd"},
+                                           {"\"a \\\" \\\\ \\x\" ''", "a \" \\ \\x|"},
+                                           {"a\\ b\\'", "a b'"},
+                                           {"$HOME * ~ #no", "$HOME|*|~|#no"},
+                                           {"\"'\"'\"'\r", "'\""}};
     for (size_t i = 0; i < sizeof LINES / sizeof *LINES; i++) {
         Lines words = {.arena = &arena};
-        Text  joined = {.arena = &arena};
+        Text joined = {.arena = &arena};
         assert_true(shell_words(LINES[i][0], &words));
         text_add(&joined, "");
         for (int k = 0; k < words.count; k++) text_format(&joined, "|%s", words.list[k]);
@@ -165,12 +162,11 @@ ARENA_TEST(a_line_is_cut_into_words_as_a_shell_does)
         assert_false(shell_words(OPEN[i], &words));
 }
 
-static const ComparePair *pair_of(const char *line, const char *const *more, Arena *arena)
-{
+static const ComparePair *pair_of(const char *line, const char *const *more, Arena *arena) {
     CompareRequest *r = ARENA_NEW(arena, CompareRequest, 1);
-    const char     *path = in_folder("pairs");
-    const char     *argv[16] = {"compare", "a", "b", "--pairs", path};
-    int             argc = 5;
+    const char *path = in_folder("pairs");
+    const char *argv[16] = {"compare", "a", "b", "--pairs", path};
+    int argc = 5;
     for (; *more; more++) argv[argc++] = *more;
     assert_done(file_write(path, line, strlen(line), &err));
     assert_done(compare_parse(argc, (char **)argv, arena, r, &err));
@@ -180,15 +176,17 @@ static const ComparePair *pair_of(const char *line, const char *const *more, Are
 }
 
 /* What a pair does not say is as for all; its limits replace theirs of the same figures. */
-ARENA_TEST(a_pair_takes_what_it_does_not_say_from_all)
-{
-    static const char *const ALL[] = {"--max", "flip=0.5", "--max", "mae=2", "--level", "0.02",
-                                      "--ignore", "seed", "--region", "1,2,3,4", NULL};
+ARENA_TEST(a_pair_takes_what_it_does_not_say_from_all) {
+    static const char *const ALL[] = {"--max",    "flip=0.5", "--max",    "mae=2",
+                                      "--level",  "0.02",     "--ignore", "seed",
+                                      "--region", "1,2,3,4",  NULL};
     const CompareOptions *o = &pair_of("# none\n\nnoon", ALL, &arena)->options;
     assert_true(o->wants_stat && o->level == 0.02 && o->threshold_count == 2);
     assert_int_equal(o->selection.region_count, 1);
     o = &pair_of("noon --max flip=0.1 --min ssim=0.9 --region 0,0,1,1 --region 2,2,3,3 "
-                 "--ignore isa --mask 'a b.png'", ALL, &arena)->options;
+                 "--ignore isa --mask 'a b.png'",
+                 ALL, &arena)
+             ->options;
     assert_true(!o->wants_stat && o->level == 0.02);
     assert_int_equal(o->threshold_count, 3);
     assert_true(o->thresholds[0].metric == METRIC_FLIP && o->thresholds[0].limit == 0.1);
@@ -201,12 +199,13 @@ ARENA_TEST(a_pair_takes_what_it_does_not_say_from_all)
     assert_true(o->wants_stat && o->level == 0.3 && o->groups == GROUP_MSE);
 }
 
-ARENA_TEST(limits_and_lists_are_read)
-{
+ARENA_TEST(limits_and_lists_are_read) {
     CompareRequest r = {0};
-    const char *argv[] = {"compare", "a", "b", "--max", "flip=0.5", "--min", "ssim=0.9",
-                          "--max", "mae=2", "--metric", "mse,psnr", "--ignore", "seed",
-                          "--region", "1,2,3,4", "--exposure-range", "3,9"};
+    const char *argv[] = {"compare",  "a",        "b",        "--max",
+                          "flip=0.5", "--min",    "ssim=0.9", "--max",
+                          "mae=2",    "--metric", "mse,psnr", "--ignore",
+                          "seed",     "--region", "1,2,3,4",  "--exposure-range",
+                          "3,9"};
     assert_done(compare_parse(sizeof argv / sizeof *argv, (char **)argv, &arena, &r, &err));
     assert_int_equal(r.options.threshold_count, 3);
     assert_int_equal(r.options.thresholds[1].metric, METRIC_MAE);

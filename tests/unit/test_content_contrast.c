@@ -10,14 +10,13 @@ enum { WIDTH = 156, HEIGHT = 60 };
  * coverage at either side), every 12 pixels, in lines of 12 of 20 rows. */
 typedef struct Page {
     double characters, ground;
-    int    stroke;
+    int stroke;
     double sigma, slope; /* noise of a pixel; the ground's relative change across the page */
-    bool   is_blank;
+    bool is_blank;
 } Page;
 
 /* A normal number, of twelve uniform ones. */
-static double normal(unsigned *seed)
-{
+static double normal(unsigned *seed) {
     double sum = -6;
     for (int k = 0; k < 12; k++) {
         *seed = *seed * 1664525u + 1013904223u;
@@ -26,44 +25,39 @@ static double normal(unsigned *seed)
     return sum;
 }
 
-static double coverage(const Page *page, int x, int y)
-{
+static double coverage(const Page *page, int x, int y) {
     int at = x % 12;
     if (page->is_blank || y % 20 < 4 || y % 20 >= 16) return 0;
     if (at < 2 || at > 3 + page->stroke) return 0;
     return at == 2 || at == 3 + page->stroke ? 0.5 : 1;
 }
 
-static ContentPixels print_page(const Page *page, bool knows_noise, unsigned *seed,
-                                Arena *arena)
-{
-    float *luminance = ARENA_NEW(arena, float, WIDTH * HEIGHT);
-    float *variance = ARENA_NEW(arena, float, WIDTH * HEIGHT);
+static ContentPixels print_page(const Page *page, bool knows_noise, unsigned *seed, Arena *arena) {
+    float *luminance = ARENA_NEW(arena, float, WIDTH *HEIGHT);
+    float *variance = ARENA_NEW(arena, float, WIDTH *HEIGHT);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        int    x = i % WIDTH, y = i / WIDTH;
+        int x = i % WIDTH, y = i / WIDTH;
         double c = coverage(page, x, y);
         double ground = page->ground * (1 + page->slope * ((double)x / WIDTH - 0.5));
-        luminance[i] = (float)(c * page->characters + (1 - c) * ground +
-                               page->sigma * normal(seed));
+        luminance[i] =
+            (float)(c * page->characters + (1 - c) * ground + page->sigma * normal(seed));
         variance[i] = (float)(page->sigma * page->sigma);
     }
     return (ContentPixels){WIDTH, HEIGHT, luminance, knows_noise ? variance : NULL};
 }
 
-static ContentContrast read_page(Page page, bool knows_noise, unsigned *seed, Arena arena)
-{
+static ContentContrast read_page(Page page, bool knows_noise, unsigned *seed, Arena arena) {
     ContentPixels pixels = print_page(&page, knows_noise, seed, &arena);
     return content_contrast(&pixels, arena);
 }
 
-ARENA_TEST(text_without_noise_has_its_contrast)
-{
+ARENA_TEST(text_without_noise_has_its_contrast) {
     unsigned seed = 1;
     static const double pairs[][2] = {{400, 4}, {4, 400}, {100, 80}, {1, 0.001}, {1e4, 9e3}};
     for (int i = 0; i < 5; i++) {
         for (int stroke = 3; stroke < 6; stroke++) {
             double c = pairs[i][0], g = pairs[i][1], high = fmax(c, g), low = fmin(c, g);
-            Page            page = {c, g, stroke, 0, 0, false};
+            Page page = {c, g, stroke, 0, 0, false};
             ContentContrast m = read_page(page, false, &seed, arena);
             assert_int_equal(m.verdict, CONTENT_FOUND);
             assert_true(m.edges_left_out && m.character_pixels < m.ground_pixels);
@@ -78,10 +72,9 @@ ARENA_TEST(text_without_noise_has_its_contrast)
 }
 
 /* A firefly, or a hole, among 9600 pixels does not move the split. */
-ARENA_TEST(single_pixels_do_not_move_the_split)
-{
-    unsigned      seed = 1;
-    Page          page = {200, 20, 4, 0, 0, false};
+ARENA_TEST(single_pixels_do_not_move_the_split) {
+    unsigned seed = 1;
+    Page page = {200, 20, 4, 0, 0, false};
     ContentPixels pixels = print_page(&page, false, &seed, &arena);
     ((float *)pixels.luminance)[5] = 1e7f;
     ((float *)pixels.luminance)[700] = -50;
@@ -91,9 +84,8 @@ ARENA_TEST(single_pixels_do_not_move_the_split)
     assert_close(m.ground.value, 20, 0.01);
 }
 
-ARENA_TEST(strokes_too_thin_are_told_and_understate)
-{
-    unsigned        seed = 1;
+ARENA_TEST(strokes_too_thin_are_told_and_understate) {
+    unsigned seed = 1;
     ContentContrast m = read_page((Page){300, 10, 0, 0, 0, false}, false, &seed, arena);
     assert_int_equal(m.verdict, CONTENT_FOUND);
     assert_false(m.edges_left_out);
@@ -101,15 +93,14 @@ ARENA_TEST(strokes_too_thin_are_told_and_understate)
 }
 
 /* The noise's interval holds 95 of 100 times, for every figure. */
-ARENA_TEST(the_intervals_cover)
-{
+ARENA_TEST(the_intervals_cover) {
     enum { TRIALS = 400 };
-    unsigned   seed = 11;
+    unsigned seed = 11;
     const Page pages[] = {{100, 20, 4, 8, 0, false}, {20, 100, 4, 8, 0, false}};
     for (int p = 0; p < 2; p++) {
         double c = pages[p].characters, g = pages[p].ground;
         double truth[5] = {c, g, 5, 80.0 / 120, (c - g) / g};
-        int    inside[5] = {0};
+        int inside[5] = {0};
         for (int trial = 0; trial < TRIALS; trial++) {
             ContentContrast m = read_page(pages[p], true, &seed, arena);
             assert_int_equal(m.verdict, CONTENT_FOUND);
@@ -122,10 +113,9 @@ ARENA_TEST(the_intervals_cover)
     }
 }
 
-ARENA_TEST(noise_and_slopes_are_no_text)
-{
+ARENA_TEST(noise_and_slopes_are_no_text) {
     unsigned seed = 3;
-    Page     uniform = {100, 100, 4, 5, 0, false}, slope = {100, 100, 3, 0, 1, false};
+    Page uniform = {100, 100, 4, 5, 0, false}, slope = {100, 100, 3, 0, 1, false};
     assert_int_equal(read_page(uniform, true, &seed, arena).verdict, CONTENT_NOISY);
     assert_int_equal(read_page(uniform, false, &seed, arena).verdict, CONTENT_NOT_TWO);
     slope.is_blank = true;
@@ -142,9 +132,8 @@ ARENA_TEST(noise_and_slopes_are_no_text)
 }
 
 /* Text on a ground that is brighter at one side: the mean ground counts. */
-ARENA_TEST(a_ground_that_is_not_even_has_its_mean)
-{
-    unsigned        seed = 5;
+ARENA_TEST(a_ground_that_is_not_even_has_its_mean) {
+    unsigned seed = 5;
     ContentContrast m = read_page((Page){200, 20, 4, 1, 0.4, false}, true, &seed, arena);
     assert_int_equal(m.verdict, CONTENT_FOUND);
     assert_close(m.ground.value, 20, 0.01);

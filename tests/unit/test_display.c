@@ -11,8 +11,7 @@
 #include "world_fixture.h"
 
 /* CIE 15: u' = 4X / (X + 15Y + 3Z), v' = 9Y / (X + 15Y + 3Z). */
-static void uv_from_xyz(const float xyz[3], float uv[2])
-{
+static void uv_from_xyz(const float xyz[3], float uv[2]) {
     float sum = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
     uv[0] = 4 * xyz[0] / sum;
     uv[1] = 9 * xyz[1] / sum;
@@ -25,8 +24,7 @@ static const char *const PANELS[] = {PROJECT_DIR "/assets/panels/ips_cluster.pan
 enum { BOUNCES = 4 };
 
 /* A display of 2 x 1 m in the plane z = 0 that faces +z, u to the right, v down. */
-static World world_open(const char *panel_path)
-{
+static World world_open(const char *panel_path) {
     World world = world_start();
     Error err = {0};
     if (!panel_open(panel_path, &world.arena, &world.panel, &err))
@@ -46,23 +44,20 @@ static World world_open(const char *panel_path)
 }
 
 /* Shows a picture of width x height pixels of 8-bit codes. */
-static void world_show(World *world, const uint8_t *rgba, int width, int height)
-{
+static void world_show(World *world, const uint8_t *rgba, int width, int height) {
     world->scene->textures[0] =
         (Texture){{width, height, IMAGE_RGBA8, rgba}, WRAP_CLAMP, WRAP_CLAMP, true};
     world->scene->displays[0].content.texture_id = 0;
 }
 
 /* With a picture of one pixel, whose codes may change later. */
-static World world_of_pixel(const char *panel_path, const uint8_t pixel[4])
-{
+static World world_of_pixel(const char *panel_path, const uint8_t pixel[4]) {
     World world = world_open(panel_path);
     world_show(&world, pixel, 1, 1);
     return world;
 }
 
-static Vec3 direction(double theta_deg, double phi_deg)
-{
+static Vec3 direction(double theta_deg, double phi_deg) {
     double t = radians_from_degrees(theta_deg), p = radians_from_degrees(phi_deg);
     return vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
 }
@@ -72,8 +67,7 @@ typedef struct Seen {
 } Seen;
 
 /* Mean of count paths along the ray; without one, of what falls on the point. */
-static Seen gather(const World *world, const Ray *ray, LitPoint point, int count)
-{
+static Seen gather(const World *world, const Ray *ray, LitPoint point, int count) {
     Seen seen = {{0}, 0};
     double squares = 0;
     PathStatistics statistics = {0};
@@ -82,7 +76,9 @@ static Seen gather(const World *world, const Ray *ray, LitPoint point, int count
         Wavelengths w;
         PathResult result;
         wavelengths_sample(sampler_1d(&sampler), &w);
-        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
+        PathStart start = {.context = &world->context,
+                           .wavelengths = &w,
+                           .sampler = &sampler,
                            .statistics = &statistics};
         if (ray) path_from_ray(&start, *ray, &result);
         else path_from_point(&start, point, result.xyz);
@@ -94,15 +90,13 @@ static Seen gather(const World *world, const Ray *ray, LitPoint point, int count
 }
 
 /* From 3 m away along `towards` (from the display) to its point `at`. */
-static Seen look(const World *world, Vec3 at, Vec3 towards, int count)
-{
+static Seen look(const World *world, Vec3 at, Vec3 towards, int count) {
     Ray ray = {vec3_along(at, towards, 3), vec3_neg(towards), 0, INFINITY};
     return gather(world, &ray, (LitPoint){0}, count);
 }
 
 /* 3 primaries x 9 levels x 25 directions in a black room. */
-TEST(a_frame_shows_what_the_panel_emits)
-{
+TEST(a_frame_shows_what_the_panel_emits) {
     for (int p = 0; p < PANEL_COUNT; p++) {
         uint8_t pixel[4] = {0, 0, 0, 255};
         SCOPED_WORLD world = world_of_pixel(PANELS[p], pixel);
@@ -129,8 +123,7 @@ TEST(a_frame_shows_what_the_panel_emits)
 }
 
 /* Light of the display on a white wall: the spectral way must carry the same luminance. */
-TEST(the_display_lights_a_wall_with_its_measured_luminance)
-{
+TEST(the_display_lights_a_wall_with_its_measured_luminance) {
     SCOPED_WORLD world = world_open(PANELS[0]);
     const float codes[3] = {255, 180, 60};
     uint8_t pixel[4] = {255, 180, 60, 255};
@@ -149,15 +142,14 @@ TEST(the_display_lights_a_wall_with_its_measured_luminance)
             panel_emission_xyz(world.panel, vec3_normalize(to), codes, xyz);
             expected += (double)(xyz[1] * cosine * cosine / d2) * 2.0 / (side * side);
         }
-    Ray  ray = {vec3(0, 0, 3.5f), vec3(0, 0, 1), 0, INFINITY};
+    Ray ray = {vec3(0, 0, 3.5f), vec3(0, 0, 1), 0, INFINITY};
     Seen seen = gather(&world, &ray, (LitPoint){0}, 40000);
     assert_near(seen.xyz[1], expected * 0.5 / PI, 4 * seen.sigma_y + 2e-3 * seen.xyz[1]);
     assert_true(seen.sigma_y < 3e-3 * seen.xyz[1]);
 }
 
 /* A picture whose four corners differ is seen upright and not mirrored. */
-TEST(the_picture_stands_upright)
-{
+TEST(the_picture_stands_upright) {
     SCOPED_WORLD world = world_open(PANELS[0]);
     static const uint8_t picture[16] = {255, 0,   0,   255, /* upper left red */
                                         0,   255, 0,   255, /* upper right green */
@@ -176,8 +168,7 @@ TEST(the_picture_stands_upright)
 }
 
 /* phi as someone facing the display sees it: 0 right, 90 up; and it turns with the picture. */
-TEST(angles_are_those_of_someone_who_faces_the_display)
-{
+TEST(angles_are_those_of_someone_who_faces_the_display) {
     uint8_t pixel[4] = {255, 255, 255, 255};
     SCOPED_WORLD world = world_of_pixel(PANELS[0], pixel);
     for (int turned = 0; turned < 2; turned++) {
@@ -204,16 +195,15 @@ TEST(angles_are_those_of_someone_who_faces_the_display)
     }
 }
 
-TEST(a_frame_is_told_what_lies_beyond_the_measured_cone)
-{
+TEST(a_frame_is_told_what_lies_beyond_the_measured_cone) {
     uint8_t pixel[4] = {255, 255, 255, 255};
     SCOPED_WORLD world = world_of_pixel(PANELS[0], pixel);
-    double       cone = degrees_from_radians(panel_info_emission_cone(world.panel));
+    double cone = degrees_from_radians(panel_info_emission_cone(world.panel));
     world_ready(&world, BOUNCES);
     for (int side = -1; side <= 1; side += 2) {
-        PathResult   result = {.hit = true, .first = {3, 0.3f, 0.2f, 0}};
+        PathResult result = {.hit = true, .first = {3, 0.3f, 0.2f, 0}};
         PathFeatures features;
-        Wavelengths  w;
+        Wavelengths w;
         wavelengths_sample(0.5f, &w);
         result.direction = vec3_neg(direction(cone + 0.5 * side, 40));
         path_features(&world.context, &result, &w, &features);
@@ -224,8 +214,7 @@ TEST(a_frame_is_told_what_lies_beyond_the_measured_cone)
 /* Luminance that a spectrum per lane has, averaged over many sets of wavelengths. */
 typedef Spectrum SpectrumAt(const World *world, const Wavelengths *w, const void *context);
 
-static double mean_luminance(const World *world, SpectrumAt *at, const void *context)
-{
+static double mean_luminance(const World *world, SpectrumAt *at, const void *context) {
     double sum = 0;
     const int sets = 16;
     for (int i = 0; i < sets; i++) {
@@ -239,8 +228,7 @@ static double mean_luminance(const World *world, SpectrumAt *at, const void *con
 }
 
 /* Reflected from a uniform sky of 1000 cd m^-2: a sum over the hemisphere, plus the mirror. */
-static Spectrum reflected_sky(const World *world, const Wavelengths *w, const void *context)
-{
+static Spectrum reflected_sky(const World *world, const Wavelengths *w, const void *context) {
     const Vec3 *wo = context;
     const float rgb[3] = {1000, 1000, 1000};
     Spectrum sum = spectrum_all(0);
@@ -258,8 +246,7 @@ static Spectrum reflected_sky(const World *world, const Wavelengths *w, const vo
     return sum * spectrum_from_rgb_emission(w, rgb);
 }
 
-TEST(a_display_under_a_uniform_sky_reflects_its_brdfs_integral)
-{
+TEST(a_display_under_a_uniform_sky_reflects_its_brdfs_integral) {
     for (int p = 0; p < PANEL_COUNT; p++) {
         uint8_t pixel[4] = {0, 0, 0, 255};
         SCOPED_WORLD world = world_of_pixel(PANELS[p], pixel);
@@ -285,19 +272,18 @@ typedef struct SunView {
 
 /* Reflected from the sun's disc, darker at its limb: a sum over its face, and its mirror image
  * where it is hit. */
-static Spectrum reflected_sun(const World *world, const Wavelengths *w, const void *context)
-{
+static Spectrum reflected_sun(const World *world, const Wavelengths *w, const void *context) {
     const SunView *view = context;
     Frame frame = frame_from_z(view->sun);
     Spectrum sum = spectrum_all(0);
-    Curve    limb[SUN_LIMB_TERMS];
+    Curve limb[SUN_LIMB_TERMS];
     sun_limb_curves(limb);
     enum { RINGS = 24, SECTORS = 48 };
     for (int i = 0; i < RINGS; i++)
         for (int j = 0; j < SECTORS; j++) {
             double r = view->radius * sqrt((i + 0.5) / RINGS), a = 2 * PI * (j + 0.5) / SECTORS;
-            Vec3 wi = frame_to_world(&frame, vec3((float)(sin(r) * cos(a)),
-                                                  (float)(sin(r) * sin(a)), (float)cos(r)));
+            Vec3 wi = frame_to_world(
+                &frame, vec3((float)(sin(r) * cos(a)), (float)(sin(r) * sin(a)), (float)cos(r)));
             sum += panel_brdf(world->panel, view->wo, wi, w) *
                    sun_limb_shade(limb, (float)sqrt((i + 0.5) / RINGS), w) *
                    spectrum_all(wi.z / (RINGS * SECTORS));
@@ -307,11 +293,10 @@ static Spectrum reflected_sun(const World *world, const Wavelengths *w, const vo
 
 /* The disc's spectral irradiance where it stands in the zenith: radiance over pdf, in the mean
  * over an even grid of samples. */
-static Spectrum sun_irradiance(const World *world, const Wavelengths *w)
-{
+static Spectrum sun_irradiance(const World *world, const Wavelengths *w) {
     enum { SIDE = 16 };
     const LitPoint up = {vec3(0, 0, 0), vec3(0, 0, 1), false};
-    Spectrum       sum = spectrum_all(0);
+    Spectrum sum = spectrum_all(0);
     for (int i = 0; i < SIDE * SIDE; i++) {
         LightSample sample;
         float u[3] = {((float)(i / SIDE) + 0.5f) / SIDE, ((float)(i % SIDE) + 0.5f) / SIDE};
@@ -322,8 +307,7 @@ static Spectrum sun_irradiance(const World *world, const Wavelengths *w)
     return sum;
 }
 
-TEST(a_display_under_the_sun_reflects_its_brdf_over_the_disc)
-{
+TEST(a_display_under_the_sun_reflects_its_brdf_over_the_disc) {
     for (int p = 0; p < PANEL_COUNT; p++)
         for (int away = 2; away <= 30; away += 7) {
             SCOPED_WORLD world = world_open(PANELS[p]);
@@ -345,14 +329,13 @@ TEST(a_display_under_the_sun_reflects_its_brdf_over_the_disc)
                 Wavelengths w;
                 float xyz[3] = {0};
                 wavelengths_sample(((float)i + 0.5f) / 16, &w);
-                spectrum_add_xyz(&w,
-                                 reflected_sun(&world, &w, &view) * sun_irradiance(&world, &w),
+                spectrum_add_xyz(&w, reflected_sun(&world, &w, &view) * sun_irradiance(&world, &w),
                                  xyz);
                 expected += (double)xyz[1] / 16;
             }
             Seen seen = look(&world, vec3(0, 0, 0), view.wo, 20000);
-            print_message("sun, panel %d, %d deg off the mirror: %.5g +- %.2g, integral %.5g\n",
-                          p, away, seen.xyz[1], seen.sigma_y, expected);
+            print_message("sun, panel %d, %d deg off the mirror: %.5g +- %.2g, integral %.5g\n", p,
+                          away, seen.xyz[1], seen.sigma_y, expected);
             assert_true(seen.sigma_y < 2e-3 * expected);
             assert_close(seen.xyz[1], expected, 5e-3);
         }
@@ -362,8 +345,7 @@ TEST(a_display_under_the_sun_reflects_its_brdf_over_the_disc)
 
 /* The display about the origin, its faces as files have them: doubleSided or not, normals with
  * the winding or against it. */
-static World world_of_faces(bool is_double_sided, bool is_inside_out)
-{
+static World world_of_faces(bool is_double_sided, bool is_inside_out) {
     World world = world_open(PANELS[1]);
     world.scene->materials[0].double_sided = is_double_sided;
     for (uint32_t i = 0; is_inside_out && i < world.scene->vertex_count; i++)
@@ -372,8 +354,7 @@ static World world_of_faces(bool is_double_sided, bool is_inside_out)
 }
 
 /* A pane or a metal mirror; its tint sends the display's light via the spectrum. */
-static void add_sheet(World *world, Vec3 centre, bool is_pane, float blue)
-{
+static void add_sheet(World *world, Vec3 centre, bool is_pane, float blue) {
     Material material = builder_material(1);
     material.base_color[2] = blue;
     material.roughness = 0;
@@ -385,14 +366,13 @@ static void add_sheet(World *world, Vec3 centre, bool is_pane, float blue)
 }
 
 /* From one side, through a pane and in a mirror: bright from the front, dark from behind. */
-static void check_side(bool is_double_sided, bool is_inside_out, float blue, float side)
-{
+static void check_side(bool is_double_sided, bool is_inside_out, float blue, float side) {
     SCOPED_WORLD world = world_of_faces(is_double_sided, is_inside_out);
-    Vec3  eye = vec3(3, 0, 2 * side), image = vec3(0.3f, 0.1f, 16 * side);
+    Vec3 eye = vec3(3, 0, 2 * side), image = vec3(0.3f, 0.1f, 16 * side);
     add_sheet(&world, vec3(0, 0, 8 * side), false, blue);
     add_sheet(&world, vec3(0, 0, side), true, blue);
     world_ready(&world, BOUNCES);
-    Ray  to_mirror = {eye, vec3_normalize(vec3_sub(image, eye)), 0, INFINITY};
+    Ray to_mirror = {eye, vec3_normalize(vec3_sub(image, eye)), 0, INFINITY};
     Seen mirrored = gather(&world, &to_mirror, (LitPoint){0}, 64);
     assert_true(side > 0 ? mirrored.xyz[1] > 1 : mirrored.xyz[1] == 0);
     for (int d = 0; d < 6; d++) {
@@ -403,19 +383,17 @@ static void check_side(bool is_double_sided, bool is_inside_out, float blue, flo
     }
 }
 
-TEST(the_back_of_a_display_is_dark)
-{
+TEST(the_back_of_a_display_is_dark) {
     for (int i = 0; i < 16; i++) check_side(i & 1, i & 2, i & 4 ? 0.5f : 1, i & 8 ? 1 : -1);
 }
 
 /* The same light of a display for every strategy, on its front; none behind. */
-TEST(the_back_of_a_display_lights_nothing)
-{
+TEST(the_back_of_a_display_lights_nothing) {
     LitPoint before = {vec3(0.2f, 0, 2), vec3(0, 0, -1), false};
     LitPoint behind = {vec3(0.2f, 0, -2), vec3(0, 0, 1), false};
     for (int i = 0; i < 4; i++) {
         SCOPED_WORLD world = world_of_faces(i & 1, i & 2);
-        Seen  lit[3];
+        Seen lit[3];
         world_ready(&world, BOUNCES);
         for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
             world.context.strategy = s;

@@ -26,12 +26,11 @@ static const char request_text[] =
     "{'name':'bright','environment':{'type':'constant','luminance':90000}}]}";
 
 typedef struct Heard {
-    int  scenes;
+    int scenes;
     bool refuses;
 } Heard;
 
-static bool hear_scene(void *user, const Scene *scene, Error *err)
-{
+static bool hear_scene(void *user, const Scene *scene, Error *err) {
     Heard *heard = user;
     assert_int_equal(scene->display_count, 1);
     heard->scenes++;
@@ -40,26 +39,28 @@ static bool hear_scene(void *user, const Scene *scene, Error *err)
 
 /* unfinished: where conditions are kept; NULL: nowhere. */
 static bool run_request(Heard *heard, const char *unfinished, Arena *arena, ReviewOutcome *out,
-                        Error *err)
-{
-    Problems       problems = problems_start(arena);
-    ReviewRequest  request;
+                        Error *err) {
+    Problems problems = problems_start(arena);
+    ReviewRequest request;
     const Profile *profile;
-    Error          fault = {0};
+    Error fault = {0};
     if (!review_request_read(in_folder("r.json"), NULL, arena, &problems, &request, &fault) ||
         !profile_load(request.profile, arena, &profile, &fault))
         fail_msg("%s: %s", fault.path, fault.text);
-    Progress  progress = progress_start(PROGRESS_NONE, "review", "steps", 1);
-    ReviewRun run = {.request = &request, .profile = profile, .means = {.threads = 2},
-                     .problems = &problems, .progress = &progress, .unfinished = unfinished,
+    Progress progress = progress_start(PROGRESS_NONE, "review", "steps", 1);
+    ReviewRun run = {.request = &request,
+                     .profile = profile,
+                     .means = {.threads = 2},
+                     .problems = &problems,
+                     .progress = &progress,
+                     .unfinished = unfinished,
                      .news = {hear_scene, heard}};
     return review_run(&run, false, arena, out, err);
 }
 
-ARENA_TEST(a_review_is_a_call)
-{
+ARENA_TEST(a_review_is_a_call) {
     ReviewOutcome outcome;
-    Heard         heard = {0};
+    Heard heard = {0};
     wall_write_files(request_text, arena);
     assert_done(run_request(&heard, NULL, &arena, &outcome, &err));
     const Review *review = &outcome.review;
@@ -74,10 +75,9 @@ ARENA_TEST(a_review_is_a_call)
     assert_int_equal(bright->verdict, VERDICT_FAIL);
 }
 
-ARENA_TEST(a_listener_ends_it)
-{
+ARENA_TEST(a_listener_ends_it) {
     ReviewOutcome outcome;
-    Heard         heard = {.refuses = true};
+    Heard heard = {.refuses = true};
     wall_write_files(request_text, arena);
     assert_fails_as(run_request(&heard, NULL, &arena, &outcome, &err), ERROR_OUTPUT,
                     "the disk is full");
@@ -87,24 +87,21 @@ ARENA_TEST(a_listener_ends_it)
 /* ---- what was kept ----------------------------------------------------------------------- */
 
 /* Of two conditions, each with a variant: scenes that were opened. */
-static int run_kept(Arena *arena, ReviewOutcome *out)
-{
+static int run_kept(Arena *arena, ReviewOutcome *out) {
     Heard heard = {0};
     assert_done(run_request(&heard, arena_format(arena, "%s", in_folder(".")), arena, out, &err));
     return heard.scenes;
 }
 
-static char *text_of(const Review *review)
-{
+static char *text_of(const Review *review) {
     json_t *document = review_json(review);
-    char   *text = json_dumps(document, JSON_REAL_PRECISION(17));
+    char *text = json_dumps(document, JSON_REAL_PRECISION(17));
     json_decref(document);
     return text;
 }
 
 /* A condition that is kept is not read again, and is the same to the last digit. */
-ARENA_TEST(a_review_goes_on_with_the_next_condition)
-{
+ARENA_TEST(a_review_goes_on_with_the_next_condition) {
     ReviewOutcome first, again;
     wall_write_files(request_text, arena);
     assert_int_equal(run_kept(&arena, &first), 4);
@@ -122,8 +119,7 @@ ARENA_TEST(a_review_goes_on_with_the_next_condition)
 }
 
 /* Of another request, or another file of the scene. */
-ARENA_TEST(what_is_no_longer_so_is_read_again)
-{
+ARENA_TEST(what_is_no_longer_so_is_read_again) {
     ReviewOutcome out;
     wall_write_files(request_text, arena);
     run_kept(&arena, &out);
@@ -133,17 +129,16 @@ ARENA_TEST(what_is_no_longer_so_is_read_again)
 
 /* Every word of a file is another in turn, and its checksum fits: it is refused, or does no
  * harm. */
-ARENA_TEST(conditions_with_any_bytes_do_no_harm)
-{
+ARENA_TEST(conditions_with_any_bytes_do_no_harm) {
     static const uint32_t words[] = {0, 1, 0xffffffffu, 0x7fffffffu, 0x7fc00000u};
     ReviewOutcome first, again;
-    FileBytes     file;
-    const char   *path = arena_format(&arena, "%s", in_folder("2-bright.condition"));
+    FileBytes file;
+    const char *path = arena_format(&arena, "%s", in_folder("2-bright.condition"));
     wall_write_files(request_text, arena);
     run_kept(&arena, &first);
     assert_done(file_read(path, 1 << 26, &arena, &file, &err));
     for (size_t at = 32; at + 12 <= file.size; at += 4 * (1 + file.size / 400)) {
-        Arena          room = arena;
+        Arena room = arena;
         unsigned char *bytes = ARENA_NEW(&room, unsigned char, file.size);
         memcpy(bytes, file.data, file.size);
         memcpy(bytes + at, &words[at / 4 % COUNT_OF(words)], 4);

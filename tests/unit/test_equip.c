@@ -47,15 +47,13 @@ static const char good[] =
 
 /* ---- files ------------------------------------------------------------------------------- */
 
-static void put_u32(unsigned char *at, size_t value)
-{
+static void put_u32(unsigned char *at, size_t value) {
     for (int i = 0; i < 4; i++) at[i] = (unsigned char)(value >> 8 * i);
 }
 
-static const char *write_glb(const char *name)
-{
+static const char *write_glb(const char *name) {
     static unsigned char bytes[4096];
-    static char          json[3072], path[FOLDER_BYTES + 32];
+    static char json[3072], path[FOLDER_BYTES + 32];
     snprintf(path, sizeof path, "%s/%s", test_folder(), name);
     size_t size = (size_t)snprintf(json, sizeof json, model_json, "");
     while (size % 4) json[size++] = ' ';
@@ -73,8 +71,7 @@ static const char *write_glb(const char *name)
 
 /* In a folder of its own, too far off for what it names to be named from the folder of others:
  * its bytes lie beside it. */
-static const char *write_far(void)
-{
+static const char *write_far(void) {
     static char json[3072], path[FOLDER_BYTES + 32];
     snprintf(path, sizeof path, "%s/a/b/far.gltf", test_folder());
     mkdir(in_folder("a"), 0777);
@@ -88,29 +85,26 @@ static const char *write_far(void)
 }
 
 /* The good file with one text in another's place. */
-static const char *write_changed(const char *from, const char *to, Arena *arena)
-{
+static const char *write_changed(const char *from, const char *to, Arena *arena) {
     const char *at = strstr(good, from), *path = in_folder("e.json");
     if (!at) fail_msg("the good file has no %s", from);
-    write_text(path, arena_format(arena, "%.*s%s%s", (int)(at - good), good, to,
-                                  at + strlen(from)));
+    write_text(path,
+               arena_format(arena, "%.*s%s%s", (int)(at - good), good, to, at + strlen(from)));
     return path;
 }
 
 static const char *reach; /* --root of the next order */
 
 static bool apply(const char *model, const char *output, bool overwrites, Arena *arena,
-                  EquipResult *result, Error *err)
-{
-    Problems         problems = problems_start(arena);
+                  EquipResult *result, Error *err) {
+    Problems problems = problems_start(arena);
     const EquipOrder order = {model, in_folder("e.json"), output, reach, overwrites};
     return equip_apply(&order, arena, &problems, result, err);
 }
 
-static Scene *load(const char *path, Arena *arena)
-{
-    Scene       *scene = NULL;
-    Problems     problems = problems_start(arena);
+static Scene *load(const char *path, Arena *arena) {
+    Scene *scene = NULL;
+    Problems problems = problems_start(arena);
     SceneOptions options = {.paths = &path, .path_count = 1};
     assert_done(scene_load(&options, arena, &problems, &scene, &err));
     return scene;
@@ -118,15 +112,13 @@ static Scene *load(const char *path, Arena *arena)
 
 /* ---- where things are -------------------------------------------------------------------- */
 
-static void assert_vec(Vec3 found, double x, double y, double z)
-{
+static void assert_vec(Vec3 found, double x, double y, double z) {
     assert_near(found.x, x, OFF);
     assert_near(found.y, y, OFF);
     assert_near(found.z, z, OFF);
 }
 
-static const Part *part_named(const Scene *scene, const char *name)
-{
+static const Part *part_named(const Scene *scene, const char *name) {
     for (int i = 0; i < scene->part_count; i++)
         if (!strcmp(scene->parts[i].name, name)) return &scene->parts[i];
     fail_msg("no part %s", name);
@@ -134,13 +126,12 @@ static const Part *part_named(const Scene *scene, const char *name)
 }
 
 /* Each corner of the rectangle, which its texture coordinates give. */
-static void check_rectangle(const Scene *scene, const Part *part)
-{
+static void check_rectangle(const Scene *scene, const Part *part) {
     const double normal[3] = {0.48, -0.6, 0.64}; /* right x up */
     assert_int_equal(part->triangle_count, 2);
     for (uint32_t t = 0; t < 2; t++)
         for (int k = 0; k < 3; k++) {
-            Vec2   uv = scene_corner_uv(scene, part->first_triangle + t, k, 0);
+            Vec2 uv = scene_corner_uv(scene, part->first_triangle + t, k, 0);
             double s = 0.3 * ((double)uv.x - 0.5), h = 0.12 * (0.5 - (double)uv.y);
             assert_vec(scene_corner(scene, part->first_triangle + t, k),
                        0.3 + 0.8 * s + 0.36 * h + 0.002 * normal[0],
@@ -149,8 +140,7 @@ static void check_rectangle(const Scene *scene, const Part *part)
         }
 }
 
-static void check_eye(const SceneCamera *camera)
-{
+static void check_eye(const SceneCamera *camera) {
     const double way[3] = {0.3 + 0.37, 0.25 - 1.21, -0.5 - 0.11};
     const double length = sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
     assert_string_equal(camera->node_name, "driver");
@@ -161,8 +151,7 @@ static void check_eye(const SceneCamera *camera)
     assert_true(camera->world_from_camera.y.y > 0);
 }
 
-static void check_materials(const Scene *scene)
-{
+static void check_materials(const Scene *scene) {
     const Material *glass = &scene->materials[part_named(scene, "wall")->material_id];
     const Material *own = &scene->materials[part_named(scene, "door")->material_id];
     assert_string_equal(glass->name, "paint");
@@ -173,9 +162,8 @@ static void check_materials(const Scene *scene)
     assert_near(own->ior, 1.4, 1e-6);
 }
 
-ARENA_TEST(what_is_applied_is_found_again)
-{
-    Error       err = {0};
+ARENA_TEST(what_is_applied_is_found_again) {
+    Error err = {0};
     EquipResult result;
     const char *model = write_glb("m.glb");
     write_text(in_folder("e.json"), good);
@@ -207,9 +195,8 @@ ARENA_TEST(what_is_applied_is_found_again)
     assert_error_has(&err, "is read, required: the name of a new file");
 }
 
-ARENA_TEST(files_of_the_model_come_along)
-{
-    Error       err = {0};
+ARENA_TEST(files_of_the_model_come_along) {
+    Error err = {0};
     EquipResult result;
     const char *model = write_far();
     write_text(in_folder("e.json"), good);
@@ -230,8 +217,7 @@ ARENA_TEST(files_of_the_model_come_along)
     assert_text_has(read_text(in_folder("a/n.gltf"), &arena), "\"b/some%20bytes.bin\"");
 }
 
-ARENA_TEST(without_content_there_is_no_review)
-{
+ARENA_TEST(without_content_there_is_no_review) {
     EquipResult result;
     const char *model = write_glb("m.glb");
     write_changed("\"content\": \"cluster\", ", "", &arena);
@@ -242,24 +228,30 @@ ARENA_TEST(without_content_there_is_no_review)
 
 /* The figures of scenes/occupant.gltf: its head's top is 1.434 m up and its toes are 0.75 m
  * ahead of its node, above which its eyes are, at 1.3 m. */
-ARENA_TEST(an_occupant_sits_where_the_eye_is)
-{
-    static const struct { const char *forward; double x, z; } ways[] = {
+ARENA_TEST(an_occupant_sits_where_the_eye_is) {
+    static const struct {
+        const char *forward;
+        double x, z;
+    } ways[] = {
         {"[1, 0, 0]", 1, 0}, {"[0, 0, -1]", 0, -1}, {"[-1, 0, 0]", -1, 0}, {"[0, 0, 1]", 0, 1}};
     EquipResult result;
     const char *model = write_glb("m.glb");
     for (int i = 0; i < 4; i++) {
         Arena scratch = arena;
         write_changed("\"forward\": [1, 0, 0]",
-                      arena_format(&scratch, "\"forward\": %s, \"occupant\": {\"eye\": "
-                                   "\"driver\", \"shirt\": \"black\"}", ways[i].forward),
+                      arena_format(&scratch,
+                                   "\"forward\": %s, \"occupant\": {\"eye\": "
+                                   "\"driver\", \"shirt\": \"black\"}",
+                                   ways[i].forward),
                       &scratch);
         assert_done(apply(model, in_folder("o.gltf"), true, &scratch, &result, &err));
         assert_text_has(result.occupant, "o.occupant.gltf");
         Scene *scene = load(result.occupant, &scratch);
-        Vec3   low = scene->bounds_min, high = scene->bounds_max;
-        double ahead = ways[i].x > 0 ? high.x + 0.37 : ways[i].x < 0 ? -0.37 - low.x
-                       : ways[i].z > 0 ? high.z - 0.11 : 0.11 - low.z;
+        Vec3 low = scene->bounds_min, high = scene->bounds_max;
+        double ahead = ways[i].x > 0   ? high.x + 0.37
+                       : ways[i].x < 0 ? -0.37 - low.x
+                       : ways[i].z > 0 ? high.z - 0.11
+                                       : 0.11 - low.z;
         assert_near(high.y, 1.21 - 1.3 + 1.4339, 1e-3);
         assert_near(ahead, 0.7495, 1e-3);
         scene_close(scene);
@@ -270,10 +262,9 @@ ARENA_TEST(an_occupant_sits_where_the_eye_is)
     assert_true(file_exists(in_folder("occupant.bin")));
 }
 
-ARENA_TEST(a_folder_can_be_sent_to_somebody)
-{
+ARENA_TEST(a_folder_can_be_sent_to_somebody) {
     EquipResult result;
-    FileBytes   bytes;
+    FileBytes bytes;
     const char *panel;
     mkdir(in_folder("mine"), 0777);
     mkdir(in_folder("sent"), 0777);
@@ -289,10 +280,9 @@ ARENA_TEST(a_folder_can_be_sent_to_somebody)
 }
 
 /* What the model itself names in a folder beside its own goes along where --root says so. */
-ARENA_TEST(what_the_model_names_outside_its_folder_is_copied_if_that_is_allowed)
-{
+ARENA_TEST(what_the_model_names_outside_its_folder_is_copied_if_that_is_allowed) {
     EquipResult result;
-    Error       why = {0};
+    Error why = {0};
     const char *model = arena_format(&arena, "%s", in_folder("car/m.gltf"));
     mkdir(in_folder("car"), 0777);
     mkdir(in_folder("parts"), 0777);
@@ -312,17 +302,18 @@ ARENA_TEST(what_the_model_names_outside_its_folder_is_copied_if_that_is_allowed)
 
 /* Texts that name a file, a picture that nothing shows and that is none, a buffer that nothing
  * reads: the files of somebody who equips a model stay where they are. */
-ARENA_TEST(only_what_was_decoded_is_copied)
-{
+ARENA_TEST(only_what_was_decoded_is_copied) {
     EquipResult result;
     const char *model = arena_format(&arena, "%s", in_folder("theirs/m.gltf"));
     mkdir(in_folder("theirs"), 0777);
     mkdir(in_folder("ours"), 0777);
-    write_text(model, arena_format(&arena, model_json,
-        ", \"uri\": \"c.bin\"}, {\"byteLength\": 4, \"uri\": \"unread\"}], "
-        "\"images\": [{\"uri\": \"key\"}], \"extensions\": {\"PARHELION_x\": {\"note\": "
-        "\"key\"}}, \"extras\": {\"PARHELION_y\": \"{\\\"n\\\": \\\"key\\\"}\"}, "
-        "\"x\": [{\"y\": 1"));
+    write_text(model,
+               arena_format(
+                   &arena, model_json,
+                   ", \"uri\": \"c.bin\"}, {\"byteLength\": 4, \"uri\": \"unread\"}], "
+                   "\"images\": [{\"uri\": \"key\"}], \"extensions\": {\"PARHELION_x\": {\"note\": "
+                   "\"key\"}}, \"extras\": {\"PARHELION_y\": \"{\\\"n\\\": \\\"key\\\"}\"}, "
+                   "\"x\": [{\"y\": 1"));
     write_bytes(in_folder("theirs/c.bin"), corners, sizeof corners);
     write_text(in_folder("theirs/key"), "-----BEGIN KEY-----");
     write_text(in_folder("theirs/unread"), "also kept");
@@ -336,16 +327,15 @@ ARENA_TEST(only_what_was_decoded_is_copied)
 
 /* An eighth of a cylinder of radius 0.4 m about the Y axis, seen from its axis: corners by sine
  * and cosine, normals towards the axis. */
-static const char *cylinder(Arena *arena)
-{
+static const char *cylinder(Arena *arena) {
     enum { STRIPS = 12 };
     Text text = {.arena = arena};
     text_add(&text, "\"mesh\": {\"positions_m\": [");
     for (int i = 0; i <= STRIPS; i++)
         for (int y = 0; y < 2; y++) {
             double angle = M_PI / 4 * ((double)i / STRIPS - 0.5);
-            text_format(&text, "%s%.9g, %.9g, %.9g", i || y ? ", " : "", 0.4 * sin(angle),
-                        0.2 * y, -0.4 * cos(angle));
+            text_format(&text, "%s%.9g, %.9g, %.9g", i || y ? ", " : "", 0.4 * sin(angle), 0.2 * y,
+                        -0.4 * cos(angle));
         }
     text_add(&text, "], \"uv\": [");
     for (int i = 0; i <= STRIPS; i++)
@@ -353,20 +343,19 @@ static const char *cylinder(Arena *arena)
                     (double)i / STRIPS);
     text_add(&text, "], \"triangles\": [");
     for (int i = 0; i < STRIPS; i++)
-        text_format(&text, "%s%d, %d, %d, %d, %d, %d", i ? ", " : "", 2 * i, 2 * i + 2,
-                    2 * i + 3, 2 * i, 2 * i + 3, 2 * i + 1);
+        text_format(&text, "%s%d, %d, %d, %d, %d, %d", i ? ", " : "", 2 * i, 2 * i + 2, 2 * i + 3,
+                    2 * i, 2 * i + 3, 2 * i + 1);
     text_add(&text, "]}, \"panel\"");
     return text.data;
 }
 
-ARENA_TEST(a_curved_face_is_a_display)
-{
-    EquipResult  result;
+ARENA_TEST(a_curved_face_is_a_display) {
+    EquipResult result;
     DisplayFrame frame;
-    const char  *model = write_glb("m.glb");
+    const char *model = write_glb("m.glb");
     write_changed("\"panel\"", cylinder(&arena), &arena);
     assert_done(apply(model, in_folder("c.gltf"), true, &arena, &result, &err));
-    Scene      *scene = load(in_folder("c.gltf"), &arena);
+    Scene *scene = load(in_folder("c.gltf"), &arena);
     const Part *part = part_named(scene, "speed");
     assert_int_equal(part->triangle_count, 24);
     assert_true(display_frame_of(scene, part, &frame));
@@ -381,13 +370,14 @@ ARENA_TEST(a_curved_face_is_a_display)
     scene_close(scene);
 }
 
-ARENA_TEST(what_is_read_stands_in_the_review)
-{
+ARENA_TEST(what_is_read_stands_in_the_review) {
     EquipResult result;
     const char *model = write_glb("m.glb");
-    write_changed("\"level\": 0.5", "\"symbols\": [{\"name\": \"48\", \"uv\": [0.1, 0.2, 0.3, "
+    write_changed("\"level\": 0.5",
+                  "\"symbols\": [{\"name\": \"48\", \"uv\": [0.1, 0.2, 0.3, "
                   "0.4], \"polarity\": \"light-on-dark\"}, {\"name\": \"km/h\", \"uv\": [0, 0, "
-                  "1, 0.5]}]", &arena);
+                  "1, 0.5]}]",
+                  &arena);
     assert_done(apply(model, in_folder("s.gltf"), true, &arena, &result, &err));
     const char *review = read_text(result.review, &arena);
     assert_text_has(review, "\"48\": {");
@@ -402,8 +392,7 @@ ARENA_TEST(what_is_read_stands_in_the_review)
     assert_null(result.review);
 }
 
-ARENA_TEST(forward_is_proposed_from_the_first_eye)
-{
+ARENA_TEST(forward_is_proposed_from_the_first_eye) {
     EquipResult result;
     const char *model = write_glb("m.glb");
     write_changed("\"forward\": [1, 0, 0],", "", &arena); /* it looks along (0.67, , -0.61) */
@@ -421,21 +410,26 @@ static const struct {
     {"\"model\"", "\"modle\"", "/modle", "the nearest known one is 'model'"},
     {"\"width_m\": 0.3", "\"width_mm\": 300", "/displays/0/width_mm", "'width_m'"},
     {"\"width_m\": 0.3", "\"width_m\": 0", "/displays/0/width_m", "from 0.001 to 100"},
-    {"\"width_m\": 0.3", "\"width_m\": 1.75", "/displays/0/width_m",
-     "required: 0.005 to 1.5 m"},
+    {"\"width_m\": 0.3", "\"width_m\": 1.75", "/displays/0/width_m", "required: 0.005 to 1.5 m"},
     {"\"level\": 0.5", "\"level\": 50", "/displays/0/level", "required: a level from 0 to 1"},
     {"\"level\": 0.5", "\"symbols\": [{\"name\": \"a\", \"uv\": [0.3, 0, 0.2, 1]}]",
      "/displays/0/symbols/0/uv", "required: left < right"},
-    {"\"level\": 0.5", "\"symbols\": [{\"name\": \"a\", \"uv\": [0, 0, 1, 1]}, {\"name\": "
-     "\"a\", \"uv\": [0, 0, 1, 1]}]", "/displays/0/symbols/1/name", "is 'a' once more"},
-    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1], \"uv\": [0, 0], "
-     "\"triangles\": [0, 0, 0]}", "/displays/0/mesh/positions_m", "required: a multiple of 3"},
-    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], "
-     "\"uv\": [0, 0], \"triangles\": [0, 1, 2]}", "/displays/0/mesh/uv",
-     "required: one of each of 3"},
-    {"\"level\": 0.5", "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], "
-     "\"uv\": [0, 0, 1, 0, 0, 1], \"triangles\": [0, 1, 3]}", "/displays/0/mesh/triangles",
-     "below 3"},
+    {"\"level\": 0.5",
+     "\"symbols\": [{\"name\": \"a\", \"uv\": [0, 0, 1, 1]}, {\"name\": "
+     "\"a\", \"uv\": [0, 0, 1, 1]}]",
+     "/displays/0/symbols/1/name", "is 'a' once more"},
+    {"\"level\": 0.5",
+     "\"mesh\": {\"positions_m\": [0, 0, 0, 1], \"uv\": [0, 0], "
+     "\"triangles\": [0, 0, 0]}",
+     "/displays/0/mesh/positions_m", "required: a multiple of 3"},
+    {"\"level\": 0.5",
+     "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], "
+     "\"uv\": [0, 0], \"triangles\": [0, 1, 2]}",
+     "/displays/0/mesh/uv", "required: one of each of 3"},
+    {"\"level\": 0.5",
+     "\"mesh\": {\"positions_m\": [0, 0, 0, 1, 0, 0, 0, 1, 0], "
+     "\"uv\": [0, 0, 1, 0, 0, 1], \"triangles\": [0, 1, 3]}",
+     "/displays/0/mesh/triangles", "below 3"},
     {"\"profile\"", "\"occupant\": {\"eye\": \"drver\"}, \"profile\"", "/occupant/eye",
      "did you mean driver?"},
     {"\"profile\"", "\"occupant\": {\"eye\": \"down\", \"shirt\": \"red\"}, \"profile\"",
@@ -466,9 +460,8 @@ static const struct {
     {"\"year\": 2027", "\"year\": 1900", "/place/year", "from 1950 to 2100"},
 };
 
-TEST(a_wrong_file_is_refused_and_leaves_nothing)
-{
-    Error       err;
+TEST(a_wrong_file_is_refused_and_leaves_nothing) {
+    Error err;
     EquipResult result;
     const char *model = write_glb("m.glb");
     write_text(in_folder("e.json"), good);
@@ -488,10 +481,9 @@ TEST(a_wrong_file_is_refused_and_leaves_nothing)
 
 /* ---- the page ---------------------------------------------------------------------------- */
 
-ARENA_TEST(a_page_holds_the_model_and_asks_for_nothing)
-{
+ARENA_TEST(a_page_holds_the_model_and_asks_for_nothing) {
     const char *model = write_glb("<script>.glb"), *page = in_folder("page.html");
-    Scene      *scene = load(model, &arena);
+    Scene *scene = load(model, &arena);
     assert_done(equip_page_write(scene, model, "parhelion equip m", page, &arena, &err));
     scene_close(scene);
     const char *text = read_text(page, &arena);
@@ -508,8 +500,7 @@ ARENA_TEST(a_page_holds_the_model_and_asks_for_nothing)
                  "a page takes at most 4000000");
 }
 
-TEST(usual_materials_can_be_told_apart_and_are_physical)
-{
+TEST(usual_materials_can_be_told_apart_and_are_physical) {
     for (int i = 0; usual_materials[i].name; i++) {
         const UsualMaterial *m = &usual_materials[i];
         for (int c = 0; c < 3; c++) assert_true(m->base_color[c] > 0 && m->base_color[c] <= 1);

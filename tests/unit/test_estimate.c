@@ -7,7 +7,7 @@
 #include "estimate/estimate.h"
 #include "estimate/estimate_plan.h"
 
-#define RARE 700    /* one path in so many finds the light, whose mean is 1 */
+#define RARE 700 /* one path in so many finds the light, whose mean is 1 */
 #define RUNS 1000
 #define LEAST 256
 #define MOST 16384
@@ -16,56 +16,55 @@
 /* Paths of one seed. */
 typedef struct Rare {
     EstimateSums sums;
-    uint32_t     seed;
-    double       each; /* light that a path finds */
+    uint32_t seed;
+    double each; /* light that a path finds */
 } Rare;
 
-static Rare rare_start(uint32_t seed)
-{
-    return (Rare){.seed = seed, .each = RARE,
-                  .sums = {.batches = ESTIMATE_BATCHES, .piece = 1, .share = 1}};
+static Rare rare_start(uint32_t seed) {
+    return (Rare){
+        .seed = seed, .each = RARE, .sums = {.batches = ESTIMATE_BATCHES, .piece = 1, .share = 1}};
 }
 
-static void rare_read(void *user, long paths)
-{
+static void rare_read(void *user, long paths) {
     Rare *rare = user;
     for (long i = rare->sums.paths; i < paths; i++) {
         uint32_t bits = hash_combine(hash_u32(rare->seed), (uint32_t)i);
-        double   light = bits < (uint32_t)(4294967296.0 / RARE) ? rare->each : 0;
+        double light = bits < (uint32_t)(4294967296.0 / RARE) ? rare->each : 0;
         rare->sums.batch[i % ESTIMATE_BATCHES] += light;
         bright_add(&rare->sums.bright, light);
     }
     rare->sums.paths = paths;
-    rare->sums.unmet = rare->sums.bright.squares > 0 ? 0
-                                                    : estimate_unmet(rare->each, (double)paths);
+    rare->sums.unmet =
+        rare->sums.bright.squares > 0 ? 0 : estimate_unmet(rare->each, (double)paths);
 }
 
-static bool rare_will_do(void *user, long pilot, long paths)
-{
+static bool rare_will_do(void *user, long pilot, long paths) {
     const Rare *rare = user;
-    Estimate    now = estimate_of(&rare->sums);
-    Estimate    then = estimate_expected(&now, (double)paths / (double)pilot);
+    Estimate now = estimate_of(&rare->sums);
+    Estimate then = estimate_expected(&now, (double)paths / (double)pilot);
     return then.sigma <= PRECISION * then.mean && then.unmet <= PRECISION;
 }
 
-static EstimatePlan plan_of(Rare *pilot)
-{
-    return (EstimatePlan){.pilot = LEAST / 2, .least = LEAST, .most = MOST, .reach = 4,
-                          .user = pilot, .read_pilot = rare_read, .will_do = rare_will_do};
+static EstimatePlan plan_of(Rare *pilot) {
+    return (EstimatePlan){.pilot = LEAST / 2,
+                          .least = LEAST,
+                          .most = MOST,
+                          .reach = 4,
+                          .user = pilot,
+                          .read_pilot = rare_read,
+                          .will_do = rare_will_do};
 }
 
-static bool holds(const Rare *rare)
-{
+static bool holds(const Rare *rare) {
     Estimate found = estimate_of(&rare->sums);
     return found.interval.low <= 1 && 1 <= found.interval.high;
 }
 
 /* A standard deviation of 1,000 runs is 0.7 %. */
-TEST(intervals_of_fresh_paths_hold)
-{
+TEST(intervals_of_fresh_paths_hold) {
     int held = 0;
     for (uint32_t run = 0; run < RUNS; run++) {
-        Rare         pilot = rare_start(2 * run), fresh = rare_start(2 * run + 1);
+        Rare pilot = rare_start(2 * run), fresh = rare_start(2 * run + 1);
         EstimatePlan plan = plan_of(&pilot);
         rare_read(&fresh, estimate_plan(&plan));
         held += holds(&fresh);
@@ -74,8 +73,7 @@ TEST(intervals_of_fresh_paths_hold)
 }
 
 /* Nothing was found: how often it is there all the same is what is stated. */
-TEST(an_interval_of_nothing_holds_what_may_be_there)
-{
+TEST(an_interval_of_nothing_holds_what_may_be_there) {
     int held = 0;
     for (uint32_t run = 0; run < RUNS; run++) {
         Rare few = rare_start(run);
@@ -88,34 +86,34 @@ TEST(an_interval_of_nothing_holds_what_may_be_there)
 }
 
 /* It goes on until it is a quarter of what it requires, and requires no more than there are. */
-TEST(a_pilot_reaches_no_farther_than_it_may)
-{
+TEST(a_pilot_reaches_no_farther_than_it_may) {
     for (uint32_t run = 0; run < 100; run++) {
-        Rare         pilot = rare_start(run);
+        Rare pilot = rare_start(run);
         EstimatePlan plan = plan_of(&pilot);
-        long         paths = estimate_plan(&plan);
+        long paths = estimate_plan(&plan);
         assert_true(paths >= LEAST && paths <= MOST);
         assert_true(paths <= plan.reach * pilot.sums.paths);
     }
 }
 
-static void read_nothing(void *user, long paths)
-{
+static void read_nothing(void *user, long paths) {
     *(long *)user += paths;
 }
 
-TEST(a_plan_without_a_choice_reads_no_pilot)
-{
-    long         read = 0;
-    EstimatePlan plan = {.pilot = 128, .least = LEAST, .most = 2 * LEAST - 1, .reach = 4,
-                         .user = &read, .read_pilot = read_nothing};
+TEST(a_plan_without_a_choice_reads_no_pilot) {
+    long read = 0;
+    EstimatePlan plan = {.pilot = 128,
+                         .least = LEAST,
+                         .most = 2 * LEAST - 1,
+                         .reach = 4,
+                         .user = &read,
+                         .read_pilot = read_nothing};
     assert_int_equal(estimate_plan(&plan), LEAST);
     assert_int_equal(read, 0);
 }
 
 /* Batches whose lengths differ by one path: means and errors of those of equal length. */
-TEST(batches_may_differ_in_length)
-{
+TEST(batches_may_differ_in_length) {
     Rare even = rare_start(3), odd = rare_start(3);
     rare_read(&even, 64L * ESTIMATE_BATCHES);
     rare_read(&odd, 64L * ESTIMATE_BATCHES + 5);
@@ -127,9 +125,8 @@ TEST(batches_may_differ_in_length)
     assert_near(mean / ESTIMATE_BATCHES, b.mean, 1e-12);
 }
 
-TEST(what_is_known_shifts_and_widens)
-{
-    Rare     rare = rare_start(9);
+TEST(what_is_known_shifts_and_widens) {
+    Rare rare = rare_start(9);
     Estimate before, after;
     rare_read(&rare, MOST);
     before = after = estimate_of(&rare.sums);
@@ -143,8 +140,7 @@ TEST(what_is_known_shifts_and_widens)
 
 /* However many paths there are, it is in the upper end, once; of what none met fewer and fewer
  * is left. */
-TEST(no_number_of_paths_lessens_what_is_unseen)
-{
+TEST(no_number_of_paths_lessens_what_is_unseen) {
     static const double TIMES[] = {0.25, 1, 64, 1e12};
     Rare rare = rare_start(11);
     rare_read(&rare, MOST);
@@ -166,8 +162,7 @@ TEST(no_number_of_paths_lessens_what_is_unseen)
 }
 
 /* The same as one set of paths whose light is the sum, where the numbers are the same. */
-TEST(two_kinds_of_paths_add_up)
-{
+TEST(two_kinds_of_paths_add_up) {
     Rare a = rare_start(5), b = rare_start(6);
     rare_read(&a, MOST / 2);
     rare_read(&b, MOST);

@@ -11,9 +11,8 @@ static const char *const NAMES[WORDS] = {"sum.Y.0", "sum.Y.1", "count", "a.0", "
 static const ExrWindow CROP = {3, 5, 3 + WIDTH, 5 + HEIGHT};
 
 /* Noise over all bits, which ZIP cannot make shorter, and some zeros, which it can. */
-static uint32_t *make_values(Arena *arena)
-{
-    uint32_t *values = ARENA_NEW(arena, uint32_t, WIDTH * HEIGHT * WORDS), seed = 1;
+static uint32_t *make_values(Arena *arena) {
+    uint32_t *values = ARENA_NEW(arena, uint32_t, WIDTH *HEIGHT *WORDS), seed = 1;
     for (int i = 0; i < WIDTH * HEIGHT * WORDS; i++) {
         seed = seed * 1664525u + 1013904223u;
         values[i] = i % 7 == 3 ? 0 : seed ^ seed >> 13;
@@ -22,15 +21,14 @@ static uint32_t *make_values(Arena *arena)
 }
 
 /* A small picture, with words unless they are NULL. */
-static FileBytes encode(const ExrWords *words, Arena *arena)
-{
+static FileBytes encode(const ExrWords *words, Arena *arena) {
     FrameImage frame = frame_create(40, 60, CROP, 2, 1, arena);
-    float     *red = frame_add_channel(&frame, "R", false, arena);
+    float *red = frame_add_channel(&frame, "R", false, arena);
     for (int i = 0; i < WIDTH * HEIGHT; i++) red[i] = (float)i * 0.37f;
     frame_set_string(&frame, "comments", "a picture", arena);
     frame.words = words;
-    ExrBytes  *encoded;
-    FileBytes  file;
+    ExrBytes *encoded;
+    FileBytes file;
     assert_done(exr_encode(&frame, &encoded, &err));
     const void *bytes = exr_bytes(encoded, &file.size);
     file.data = memcpy(ARENA_NEW(arena, unsigned char, file.size), bytes, file.size);
@@ -38,8 +36,7 @@ static FileBytes encode(const ExrWords *words, Arena *arena)
     return file;
 }
 
-static const ExrWords *make_words(Arena *arena)
-{
+static const ExrWords *make_words(Arena *arena) {
     static const ExrAttribute attributes[] = {{"unit", EXR_STRING, "steps", {0}},
                                               {"range", EXR_INT, "", {42}}};
     ExrWords *words = ARENA_NEW(arena, ExrWords, 1);
@@ -47,8 +44,7 @@ static const ExrWords *make_words(Arena *arena)
     return words;
 }
 
-static ExrReader *open_bytes(FileBytes file)
-{
+static ExrReader *open_bytes(FileBytes file) {
     ExrReader *reader;
     assert_done(exr_reader_create("a.exr", file.data, file.size, &reader, &err));
     return reader;
@@ -56,27 +52,24 @@ static ExrReader *open_bytes(FileBytes file)
 
 /* ---- what is written is read ------------------------------------------------------------- */
 
-ARENA_TEST(every_word_comes_back_in_the_order_asked_for)
-{
+ARENA_TEST(every_word_comes_back_in_the_order_asked_for) {
     const ExrWords *words = make_words(&arena), *found;
     const uint32_t *written = words->values;
-    ExrReader      *reader = open_bytes(encode(words, &arena));
+    ExrReader *reader = open_bytes(encode(words, &arena));
     static const char *const two[] = {"sum.X.0", "sum.Y.1"};
-    const ExrWords  wanted = {"film", 2, two, NULL, 0, NULL};
+    const ExrWords wanted = {"film", 2, two, NULL, 0, NULL};
     assert_done(exr_reader_words(reader, "film", &found, &err));
     assert_int_equal(found->count, WORDS);
     assert_string_equal(found->name, "film");
     assert_string_equal(found->names[0], "a.0"); /* files sort them */
     for (int y0 = 0; y0 < HEIGHT; y0 += 10) {
-        int       y1 = y0 + 10 < HEIGHT ? y0 + 10 : HEIGHT;
+        int y1 = y0 + 10 < HEIGHT ? y0 + 10 : HEIGHT;
         uint32_t *rows = ARENA_NEW(&arena, uint32_t, WIDTH * 10 * WORDS);
         uint32_t *pair = ARENA_NEW(&arena, uint32_t, WIDTH * 10 * 2);
-        assert_done(exr_reader_read_words(reader, words, CROP.y0 + y0, CROP.y0 + y1, rows,
-                        &err));
+        assert_done(exr_reader_read_words(reader, words, CROP.y0 + y0, CROP.y0 + y1, rows, &err));
         assert_memory_equal(rows, written + y0 * WIDTH * WORDS,
                             (size_t)((y1 - y0) * WIDTH * WORDS) * sizeof *rows);
-        assert_done(exr_reader_read_words(reader, &wanted, CROP.y0 + y0, CROP.y0 + y1, pair,
-                        &err));
+        assert_done(exr_reader_read_words(reader, &wanted, CROP.y0 + y0, CROP.y0 + y1, pair, &err));
         for (int i = 0; i < (y1 - y0) * WIDTH; i++) {
             assert_int_equal(pair[2 * i], written[(y0 * WIDTH + i) * WORDS + 4]);
             assert_int_equal(pair[2 * i + 1], written[(y0 * WIDTH + i) * WORDS + 1]);
@@ -85,11 +78,10 @@ ARENA_TEST(every_word_comes_back_in_the_order_asked_for)
     exr_reader_destroy(reader);
 }
 
-ARENA_TEST(attributes_of_the_words_are_their_own)
-{
-    ExrReader      *reader = open_bytes(encode(make_words(&arena), &arena));
+ARENA_TEST(attributes_of_the_words_are_their_own) {
+    ExrReader *reader = open_bytes(encode(make_words(&arena), &arena));
     const ExrWords *found;
-    Error           err = {0};
+    Error err = {0};
     assert_true(exr_reader_words(reader, "film", &found, &err));
     const FrameImage words = {.attribute_count = found->attribute_count,
                               .attributes = (ExrAttribute *)found->attributes};
@@ -105,15 +97,13 @@ ARENA_TEST(attributes_of_the_words_are_their_own)
     exr_reader_destroy(reader);
 }
 
-ARENA_TEST(the_picture_is_the_same_with_and_without)
-{
-    FileBytes  with = encode(make_words(&arena), &arena), without = encode(NULL, &arena);
-    FileBytes  again = encode(make_words(&arena), &arena);
+ARENA_TEST(the_picture_is_the_same_with_and_without) {
+    FileBytes with = encode(make_words(&arena), &arena), without = encode(NULL, &arena);
+    FileBytes again = encode(make_words(&arena), &arena);
     FrameImage a, b;
     assert_done(frame_read_memory(with.data, with.size, "with.exr", &arena, &a, &err));
     assert_done(frame_read_memory(without.data, without.size, "without", &arena, &b, &err));
-    assert_memory_equal(a.channels[0].values, b.channels[0].values,
-                        WIDTH * HEIGHT * sizeof(float));
+    assert_memory_equal(a.channels[0].values, b.channels[0].values, WIDTH * HEIGHT * sizeof(float));
     assert_int_equal(a.channel_count, 1);
     assert_int_equal(a.attribute_count, b.attribute_count);
     for (int i = 0; i < a.attribute_count; i++)
@@ -124,12 +114,11 @@ ARENA_TEST(the_picture_is_the_same_with_and_without)
     assert_memory_equal(with.data, again.data, with.size);
 }
 
-ARENA_TEST(a_file_on_disk_is_read_too)
-{
+ARENA_TEST(a_file_on_disk_is_read_too) {
     const ExrWords *words = make_words(&arena), *found;
-    FileBytes       file = encode(words, &arena);
-    ExrReader      *reader;
-    uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * WORDS);
+    FileBytes file = encode(words, &arena);
+    ExrReader *reader;
+    uint32_t *rows = ARENA_NEW(&arena, uint32_t, WIDTH *HEIGHT *WORDS);
     assert_done(file_write(in_folder("a.exr"), file.data, file.size, &err));
     assert_done(exr_reader_open(in_folder("a.exr"), &reader, &err));
     assert_done(exr_reader_words(reader, "film", &found, &err));
@@ -149,27 +138,25 @@ ARENA_TEST(a_file_on_disk_is_read_too)
 
 /* All of the words, or an error of one line. */
 static bool read_all(const void *bytes, size_t size, const ExrWords *words, uint32_t *rows,
-                     Error *err)
-{
-    ExrReader      *reader;
+                     Error *err) {
+    ExrReader *reader;
     const ExrWords *found;
     if (!exr_reader_create("cut.exr", bytes, size, &reader, err)) return false;
     const ExrWindow *data = &exr_reader_picture(reader)->data;
-    bool             ok = exr_reader_words(reader, "film", &found, err) && found &&
+    bool ok = exr_reader_words(reader, "film", &found, err) && found &&
               data->x1 - data->x0 == WIDTH && data->y0 == CROP.y0 && data->y1 == CROP.y1 &&
               exr_reader_read_words(reader, words, CROP.y0, CROP.y1, rows, err);
     exr_reader_destroy(reader);
     return ok;
 }
 
-ARENA_TEST(every_prefix_is_refused)
-{
+ARENA_TEST(every_prefix_is_refused) {
     const ExrWords *words = make_words(&arena);
-    FileBytes       file = encode(words, &arena);
-    uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * WORDS);
+    FileBytes file = encode(words, &arena);
+    uint32_t *rows = ARENA_NEW(&arena, uint32_t, WIDTH *HEIGHT *WORDS);
     for (size_t size = 0; size < file.size; size += size < 3000 ? 1 : 61) {
         unsigned char *exact = malloc(size + (size == 0)); /* so that ASan sees a step beyond */
-        Error          err = {0};
+        Error err = {0};
         memcpy(exact, file.data, size);
         if (read_all(exact, size, words, rows, &err))
             fail_msg("%zu of %zu bytes were accepted", size, file.size);
@@ -178,12 +165,11 @@ ARENA_TEST(every_prefix_is_refused)
     }
 }
 
-ARENA_TEST(flipped_bits_are_survived)
-{
+ARENA_TEST(flipped_bits_are_survived) {
     const ExrWords *words = make_words(&arena);
-    FileBytes       file = encode(words, &arena);
-    uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * WORDS), seed = 1;
-    unsigned char  *bytes = ARENA_NEW(&arena, unsigned char, file.size);
+    FileBytes file = encode(words, &arena);
+    uint32_t *rows = ARENA_NEW(&arena, uint32_t, WIDTH *HEIGHT *WORDS), seed = 1;
+    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, file.size);
     for (int i = 0; i < 2000; i++) {
         Error err = {0};
         seed = seed * 1664525u + 1013904223u;
@@ -193,11 +179,10 @@ ARENA_TEST(flipped_bits_are_survived)
     }
 }
 
-ARENA_TEST(a_part_of_another_kind_is_refused)
-{
-    FileBytes       file = encode(make_words(&arena), &arena);
-    unsigned char  *bytes = (unsigned char *)file.data;
-    unsigned char  *entry = memmem(bytes, file.size, "count\0\0\0\0\0", 10); /* UINT is 0 */
+ARENA_TEST(a_part_of_another_kind_is_refused) {
+    FileBytes file = encode(make_words(&arena), &arena);
+    unsigned char *bytes = (unsigned char *)file.data;
+    unsigned char *entry = memmem(bytes, file.size, "count\0\0\0\0\0", 10); /* UINT is 0 */
     const ExrWords *found;
     assert_non_null(entry);
     entry[6] = 2; /* FLOAT */
@@ -207,12 +192,11 @@ ARENA_TEST(a_part_of_another_kind_is_refused)
     exr_reader_destroy(reader);
 }
 
-ARENA_TEST(a_word_that_is_missing_is_named)
-{
+ARENA_TEST(a_word_that_is_missing_is_named) {
     static const char *const names[] = {"count", "sum.Z.0"};
-    const ExrWords  wanted = {"film", 2, names, NULL, 0, NULL};
-    uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * 2);
-    ExrReader      *reader = open_bytes(encode(make_words(&arena), &arena));
+    const ExrWords wanted = {"film", 2, names, NULL, 0, NULL};
+    uint32_t *rows = ARENA_NEW(&arena, uint32_t, WIDTH *HEIGHT * 2);
+    ExrReader *reader = open_bytes(encode(make_words(&arena), &arena));
     const ExrWords *found;
     assert_done(exr_reader_words(reader, "film", &found, &err));
     assert_fails(exr_reader_read_words(reader, &wanted, CROP.y0, CROP.y1, rows, &err),
@@ -220,10 +204,9 @@ ARENA_TEST(a_word_that_is_missing_is_named)
     exr_reader_destroy(reader);
 }
 
-TEST(what_is_no_openexr_file_is_told)
-{
+TEST(what_is_no_openexr_file_is_told) {
     ExrReader *reader;
-    Error      err = {0};
+    Error err = {0};
     assert_false(exr_reader_open("no/such.exr", &reader, &err));
     assert_error_has(&err, "No such file");
     assert_string_equal(err.file, "no/such.exr");

@@ -9,8 +9,7 @@ typedef struct Planes {
     float *rgb[3];
 } Planes;
 
-static Planes make_planes(const EyeView *view, float value, Arena *arena)
-{
+static Planes make_planes(const EyeView *view, float value, Arena *arena) {
     Planes planes;
     for (int c = 0; c < 3; c++) {
         planes.rgb[c] = ARENA_NEW(arena, float, view->width * view->height);
@@ -19,8 +18,7 @@ static Planes make_planes(const EyeView *view, float value, Arena *arena)
     return planes;
 }
 
-static EyeLayer layer_of(Planes in, Planes out)
-{
+static EyeLayer layer_of(Planes in, Planes out) {
     EyeLayer layer;
     for (int c = 0; c < 3; c++) {
         layer.rgb[c] = in.rgb[c];
@@ -29,8 +27,7 @@ static EyeLayer layer_of(Planes in, Planes out)
     return layer;
 }
 
-static Planes filtered(const EyeFilter *filter, Planes in, Arena *arena)
-{
+static Planes filtered(const EyeFilter *filter, Planes in, Arena *arena) {
     Planes out = make_planes(&filter->view, -1, arena);
     EyeLayer layer = layer_of(in, out);
     assert_done(eye_filter(filter, &layer, 1, *arena, &err));
@@ -38,35 +35,31 @@ static Planes filtered(const EyeFilter *filter, Planes in, Arena *arena)
 }
 
 /* The whole of a view that is `high` degrees high. */
-static EyeView whole_view(int width, int height, double high)
-{
+static EyeView whole_view(int width, int height, double high) {
     double pixel = 2 * tan(radians_from_degrees(high) / 2) / height;
     return (EyeView){width, height, width / 2.0, height / 2.0, pixel};
 }
 
-static double solid_angle(const EyeView *view, int x, int y)
-{
+static double solid_angle(const EyeView *view, int x, int y) {
     double a = (x + 0.5 - view->axis_x) * view->pixel;
     double b = (y + 0.5 - view->axis_y) * view->pixel;
     return view->pixel * view->pixel / pow(1 + a * a + b * b, 1.5);
 }
 
 /* CIE 135/1-1999, total glare, written out again. */
-static double published(double t, HumanEye eye)
-{
+static double published(double t, HumanEye eye) {
     double a = pow(eye.age_years / 70, 4), p = eye.pigment, tenth = 1 + t * t / 0.01;
     return (1 - 0.08 * a) * (9.2e6 * pow(1 + pow(t / 0.0046, 2), -1.5) +
                              1.5e5 * pow(1 + pow(t / 0.045, 2), -1.5)) +
-           (1 + 1.6 * a) * (400 / tenth + 3e-8 * t * t +
-                            p * (1300 * pow(tenth, -1.5) + 0.8 / sqrt(tenth))) +
+           (1 + 1.6 * a) *
+               (400 / tenth + 3e-8 * t * t + p * (1300 * pow(tenth, -1.5) + 0.8 / sqrt(tenth))) +
            0.0025 * p;
 }
 
 /* Mean of the published spread over pixel (x, y) from the middle of pixel (sx, sy). */
-static double true_spread(const EyeFilter *filter, int sx, int sy, int x, int y)
-{
+static double true_spread(const EyeFilter *filter, int sx, int sy, int x, int y) {
     const EyeView *v = &filter->view;
-    const int      n = abs(x - sx) < 4 && abs(y - sy) < 4 ? 24 : 4;
+    const int n = abs(x - sx) < 4 && abs(y - sy) < 4 ? 24 : 4;
     double sum = 0;
     double from[3] = {(sx + 0.5 - v->axis_x) * v->pixel, (sy + 0.5 - v->axis_y) * v->pixel, 1};
     for (int i = 0; i < n * n; i++) {
@@ -82,11 +75,10 @@ static double true_spread(const EyeFilter *filter, int sx, int sy, int x, int y)
 }
 
 /* One bright pixel: every other shows f w L, and the light is all there. */
-static void check_point(const EyeFilter *filter, int sx, int sy, double bound, Arena arena)
-{
+static void check_point(const EyeFilter *filter, int sx, int sy, double bound, Arena arena) {
     const EyeView *v = &filter->view;
-    const float    bright = 1e7f;
-    double         leak = 0; /* into the other channels: rounding */
+    const float bright = 1e7f;
+    double leak = 0; /* into the other channels: rounding */
     Planes in = make_planes(v, 0, &arena);
     in.rgb[1][sy * v->width + sx] = bright;
     Planes out = filtered(filter, in, &arena);
@@ -110,11 +102,10 @@ static void check_point(const EyeFilter *filter, int sx, int sy, double bound, A
     assert_true(leak < 1e-6 * 0.002 * lux); /* of the faintest veil, that at 90 degrees */
 }
 
-ARENA_TEST(a_light_spreads_as_in_the_eye)
-{
+ARENA_TEST(a_light_spreads_as_in_the_eye) {
     const EyeFilter narrow = {whole_view(64, 36, 10), {30, 0.5}, 2};
     const EyeFilter usual = {whole_view(96, 54, 40), {60, 1.2}, 2};
-    const EyeFilter wide = {whole_view(64, 36, 59), {25, 0}, 2};   /* 90 degrees across */
+    const EyeFilter wide = {whole_view(64, 36, 59), {25, 0}, 2};    /* 90 degrees across */
     const EyeFilter wider = {whole_view(64, 36, 90), {80, 1.2}, 2}; /* 121 */
     check_point(&narrow, 32, 18, 5e-3, arena);
     check_point(&narrow, 0, 3, 5e-3, arena);
@@ -128,8 +119,7 @@ ARENA_TEST(a_light_spreads_as_in_the_eye)
 }
 
 /* The veil is the published one, whatever its integral: by age and by the iris. */
-ARENA_TEST(every_eye_has_its_published_veil)
-{
+ARENA_TEST(every_eye_has_its_published_veil) {
     static const double ages[] = {25, 60, 75}, pigments[] = {0, 0.5, 1, 1.2};
     for (int i = 0; i < 12; i++) {
         const EyeFilter filter = {whole_view(48, 27, 30), {ages[i / 4], pigments[i % 4]}, 2};
@@ -139,8 +129,7 @@ ARENA_TEST(every_eye_has_its_published_veil)
 }
 
 /* A crop of a picture: the axis lies outside of it. */
-ARENA_TEST(a_crop_keeps_its_angles)
-{
+ARENA_TEST(a_crop_keeps_its_angles) {
     EyeView crop = whole_view(96, 54, 40);
     crop.width = 30;
     crop.height = 20;
@@ -151,8 +140,7 @@ ARENA_TEST(a_crop_keeps_its_angles)
     check_point(&filter, 29, 0, 5e-3, arena);
 }
 
-ARENA_TEST(one_row_and_one_pixel_are_pictures)
-{
+ARENA_TEST(one_row_and_one_pixel_are_pictures) {
     const EyeFilter row = {whole_view(40, 1, 0.5), {40, 0.5}, 1};
     const EyeFilter one = {whole_view(1, 1, 20), {40, 0.5}, 1};
     check_point(&row, 7, 0, 5e-3, arena);
@@ -160,16 +148,14 @@ ARENA_TEST(one_row_and_one_pixel_are_pictures)
 }
 
 /* Up to the border: what leaves the picture is kept where it came from. */
-ARENA_TEST(an_even_picture_stays_even)
-{
+ARENA_TEST(an_even_picture_stays_even) {
     const EyeFilter filter = {whole_view(60, 40, 50), {70, 0.5}, 2};
     Planes out = filtered(&filter, make_planes(&filter.view, 321, &arena), &arena);
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < 60 * 40; i++) assert_close(out.rgb[c][i], 321, 1e-6);
 }
 
-ARENA_TEST(light_adds_up)
-{
+ARENA_TEST(light_adds_up) {
     const EyeFilter filter = {whole_view(48, 32, 30), {50, 0.5}, 1};
     Planes one = make_planes(&filter.view, 2, &arena);
     Planes other = make_planes(&filter.view, 0, &arena);
@@ -193,8 +179,7 @@ ARENA_TEST(light_adds_up)
     assert_close(after, before, 1e-4);
 }
 
-ARENA_TEST(what_is_not_finite_stays_and_spreads_nothing)
-{
+ARENA_TEST(what_is_not_finite_stays_and_spreads_nothing) {
     const EyeFilter filter = {whole_view(24, 16, 30), {50, 0.5}, 1};
     Planes in = make_planes(&filter.view, 10, &arena);
     in.rgb[0][5 * 24 + 6] = INFINITY;
@@ -210,8 +195,7 @@ ARENA_TEST(what_is_not_finite_stays_and_spreads_nothing)
 }
 
 /* Of one view, whose kernels are made once; a hole in one is a hole in both. */
-ARENA_TEST(layers_spread_together_as_they_do_alone)
-{
+ARENA_TEST(layers_spread_together_as_they_do_alone) {
     const EyeFilter filter = {whole_view(48, 30, 40), {50, 0.5}, 2};
     Planes in[2], alone[2], together[2];
     for (int k = 0; k < 2; k++) {
@@ -238,8 +222,7 @@ ARENA_TEST(layers_spread_together_as_they_do_alone)
     assert_close(together[0].rgb[2][77], in[0].rgb[2][77], 0);
 }
 
-ARENA_TEST(threads_change_no_bit)
-{
+ARENA_TEST(threads_change_no_bit) {
     EyeFilter filter = {whole_view(40, 24, 35), {50, 0.5}, 1};
     Planes in = make_planes(&filter.view, 1, &arena);
     for (int i = 0; i < 40 * 24; i++) in.rgb[i % 3][i] = (float)(i % 17) * 3;

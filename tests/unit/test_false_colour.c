@@ -7,8 +7,7 @@
 #include "image/icc_profile.h"
 #include "image/stroke_font.h"
 
-static double luminance_of_code(const float srgb[3])
-{
+static double luminance_of_code(const float srgb[3]) {
     double y = 0;
     for (int c = 0; c < 3; c++) {
         double v = (double)srgb[c];
@@ -18,8 +17,7 @@ static double luminance_of_code(const float srgb[3])
     return y;
 }
 
-TEST(false_colours_grow_lighter_all_the_way)
-{
+TEST(false_colours_grow_lighter_all_the_way) {
     double last = -1;
     for (int i = 0; i <= 200; i++) {
         float rgb[3];
@@ -32,11 +30,10 @@ TEST(false_colours_grow_lighter_all_the_way)
     assert_true(last > 0.8);
 }
 
-ARENA_TEST(false_colours_show_the_value_by_the_scale)
-{
+ARENA_TEST(false_colours_show_the_value_by_the_scale) {
     const float values[6] = {0.1f, 1, 10, 100, 1000, NAN};
-    ScaleRange  range = {0.1f, 1000, true};
-    Picture     p = false_colour_picture(values, 6, 1, range, "cd/m^2", &arena);
+    ScaleRange range = {0.1f, 1000, true};
+    Picture p = false_colour_picture(values, 6, 1, range, "cd/m^2", &arena);
     assert_true(p.width > 6 && p.height == 1);
     for (int i = 0; i < 5; i++) {
         float want[3];
@@ -48,8 +45,7 @@ ARENA_TEST(false_colours_show_the_value_by_the_scale)
     assert_true(scale_position(range, INFINITY) == 1);
 }
 
-ARENA_TEST(a_scale_has_round_ends_around_the_values)
-{
+ARENA_TEST(a_scale_has_round_ends_around_the_values) {
     enum { N = 10000 };
     static float values[N];
     for (int i = 0; i < N; i++) values[i] = (float)exp(log(0.03) + i * log(7000 / 0.03) / N);
@@ -68,15 +64,14 @@ ARENA_TEST(a_scale_has_round_ends_around_the_values)
     assert_true(r.low > 0 && r.high > r.low);
 }
 
-ARENA_TEST(letters_are_drawn_as_wide_as_they_are_said_to_be)
-{
+ARENA_TEST(letters_are_drawn_as_wide_as_they_are_said_to_be) {
     static const char TEXT[] = "0123456789.-+/:%()abcdefghijklmnopqrstuvwxyz";
     StrokeFont font = {24, {1, 1, 1}};
     for (size_t i = 0; i + 1 < sizeof TEXT; i++) {
-        char    text[2] = {TEXT[i], 0};
+        char text[2] = {TEXT[i], 0};
         Picture p = picture_create(60, 60, &arena);
-        float   width = stroke_font_draw(NULL, font, 0, 0, text);
-        int     ink = 0;
+        float width = stroke_font_draw(NULL, font, 0, 0, text);
+        int ink = 0;
         stroke_font_draw(&p, font, 12, 30, text);
         for (int k = 0; k < 3600; k++) {
             if (!(p.rgb[3 * k] > 0.5f)) continue;
@@ -95,8 +90,7 @@ ARENA_TEST(letters_are_drawn_as_wide_as_they_are_said_to_be)
 
 /* ---- colour spaces ----------------------------------------------------------------------- */
 
-TEST(primaries_give_the_published_matrix)
-{
+TEST(primaries_give_the_published_matrix) {
     /* ITU-R BT.709 with D65, as in IEC 61966-2-1 to four digits. */
     static const double WANT[3][3] = {
         {0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
@@ -110,18 +104,16 @@ TEST(primaries_give_the_published_matrix)
     assert_false(chromaticities_are_usable((double[8]){NAN}));
 }
 
-static uint32_t u32_at(const unsigned char *p)
-{
+static uint32_t u32_at(const unsigned char *p) {
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
 /* A value of a tag whose values begin 8 bytes into it, NaN when there is no such tag. */
-static double icc_value(IccProfile profile, const char *tag, int i)
-{
+static double icc_value(IccProfile profile, const char *tag, int i) {
     const unsigned char *bytes = profile.bytes;
     for (uint32_t k = 0; k < u32_at(bytes + 128); k++) {
         const unsigned char *entry = bytes + 132 + 12 * k;
-        uint32_t             at = u32_at(entry + 4), size = u32_at(entry + 8);
+        uint32_t at = u32_at(entry + 4), size = u32_at(entry + 8);
         assert_true(at % 4 == 0 && at + size <= profile.size);
         if (!memcmp(entry, tag, 4)) return (int32_t)u32_at(bytes + at + 8 + 4 * i) / 65536.0;
     }
@@ -129,10 +121,9 @@ static double icc_value(IccProfile profile, const char *tag, int i)
 }
 
 /* The columns of sRGB adapted to D50, as the ICC's own sRGB profiles have them. */
-ARENA_TEST(the_profile_holds_the_published_primaries)
-{
+ARENA_TEST(the_profile_holds_the_published_primaries) {
     static const char *const TAGS[3] = {"rXYZ", "gXYZ", "bXYZ"};
-    static const double      WANT[3][3] = {
+    static const double WANT[3][3] = {
         {0.4361, 0.2225, 0.0139}, {0.3851, 0.7169, 0.0971}, {0.1431, 0.0606, 0.7141}};
     IccProfile p = icc_profile_create(REC709_CHROMATICITIES, ICC_CURVE_SRGB, "test", &arena);
     assert_int_equal(u32_at(p.bytes), p.size);

@@ -12,8 +12,7 @@
 
 #include "text/uri.h"
 
-ARENA_TEST(what_was_written_is_read_back)
-{
+ARENA_TEST(what_was_written_is_read_back) {
     Error err;
     FileBytes bytes;
     const char *path = in_folder("a.bin");
@@ -25,8 +24,7 @@ ARENA_TEST(what_was_written_is_read_back)
     unlink(path);
 }
 
-ARENA_TEST(the_start_is_read_of_a_file_of_any_length)
-{
+ARENA_TEST(the_start_is_read_of_a_file_of_any_length) {
     FileBytes bytes;
     const char *path = in_folder("long.bin");
     assert_done(file_write(path, "abcdef", 6, &err));
@@ -36,14 +34,12 @@ ARENA_TEST(the_start_is_read_of_a_file_of_any_length)
     assert_done(file_read_start(path, 9, &arena, &bytes, &err));
     assert_int_equal(bytes.size, 6);
     unlink(path);
-    assert_fails(file_read_start(path, 4, &arena, &bytes, &err),
-                 "cannot be opened: No such file");
+    assert_fails(file_read_start(path, 4, &arena, &bytes, &err), "cannot be opened: No such file");
     assert_fails(file_read_start(test_folder(), 4, &arena, &bytes, &err),
                  "is a folder, a file is required");
 }
 
-ARENA_TEST(a_file_that_cannot_be_written_leaves_nothing)
-{
+ARENA_TEST(a_file_that_cannot_be_written_leaves_nothing) {
     assert_fails_as(file_write(in_folder("none/a.bin"), "x", 1, &err), ERROR_OUTPUT,
                     "cannot be created: No such file or directory");
     char *temporary = file_temporary_name(in_folder("b.bin"), &arena);
@@ -55,16 +51,14 @@ ARENA_TEST(a_file_that_cannot_be_written_leaves_nothing)
 }
 
 /* What stands in the file at `path`, read anew. */
-static void assert_content(const char *path, const char *wanted)
-{
+static void assert_content(const char *path, const char *wanted) {
     FileBytes bytes;
     assert_done(file_read(path, 100, test_memory(), &bytes, &err));
     assert_string_equal((const char *)bytes.data, wanted);
 }
 
-TEST(nobody_sees_a_file_before_it_is_whole)
-{
-    FileWriter  writer;
+TEST(nobody_sees_a_file_before_it_is_whole) {
+    FileWriter writer;
     const char *path = in_folder("w.bin");
     for (int i = 0; i < 2; i++) { /* the second time there is one to replace */
         assert_done(file_writer_open(path, &writer, &err));
@@ -90,11 +84,10 @@ TEST(nobody_sees_a_file_before_it_is_whole)
                       "cannot be created: File name too long");
 }
 
-TEST(what_a_killed_writer_leaves_is_cleared)
-{
-    Error       err;
+TEST(what_a_killed_writer_leaves_is_cleared) {
+    Error err;
     const char *path = in_folder("k.bin");
-    pid_t       child = fork();
+    pid_t child = fork();
     if (child == 0) {
         FileWriter writer;
         if (!file_writer_open(path, &writer, &err)) _exit(1);
@@ -118,8 +111,7 @@ TEST(what_a_killed_writer_leaves_is_cleared)
 }
 
 /* From here on the process knows no unnamed files. */
-static bool forbid_unnamed_files(void)
-{
+static bool forbid_unnamed_files(void) {
     struct sock_filter steps[] = {
         BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr)),
         BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_openat, 0, 3),
@@ -132,9 +124,8 @@ static bool forbid_unnamed_files(void)
            prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }
 
-static int write_without_unnamed_files(const char *path)
-{
-    Error      err;
+static int write_without_unnamed_files(const char *path) {
+    Error err;
     FileWriter writer;
     if (!forbid_unnamed_files()) return 77;
     if (!file_writer_open(path, &writer, &err) || writer.kind != FILE_NAMED) return 1;
@@ -147,10 +138,9 @@ static int write_without_unnamed_files(const char *path)
     return 0;
 }
 
-TEST(file_systems_without_unnamed_files_get_named_ones)
-{
+TEST(file_systems_without_unnamed_files_get_named_ones) {
     const char *path = in_folder("n.bin");
-    pid_t       child = fork();
+    pid_t child = fork();
     if (child == 0) _exit(write_without_unnamed_files(path));
     int status;
     assert_int_equal(waitpid(child, &status, 0), child);
@@ -160,8 +150,7 @@ TEST(file_systems_without_unnamed_files_get_named_ones)
     unlink(path);
 }
 
-ARENA_TEST(reading_names_what_is_wrong)
-{
+ARENA_TEST(reading_names_what_is_wrong) {
     Error err;
     FileBytes bytes;
     const char *path = in_folder("c.bin");
@@ -178,9 +167,8 @@ ARENA_TEST(reading_names_what_is_wrong)
 
 /* One of several that make the same folder a thousand times, a step ahead of the others or
  * behind; its exit status. */
-static int make_thousand(void)
-{
-    char  path[400];
+static int make_thousand(void) {
+    char path[400];
     Error err;
     for (int i = 0; i < 1000; i++) {
         snprintf(path, sizeof path, "%s/%d", in_folder("many"), i);
@@ -189,8 +177,7 @@ static int make_thousand(void)
     return 0;
 }
 
-TEST(processes_make_the_same_folders_at_once)
-{
+TEST(processes_make_the_same_folders_at_once) {
     pid_t children[4];
     assert_done(folder_make(in_folder("many"), &err));
     for (int i = 0; i < 4; i++)
@@ -208,8 +195,7 @@ TEST(processes_make_the_same_folders_at_once)
     assert_int_equal(rmdir(in_folder("many")), 0);
 }
 
-TEST(a_file_is_no_folder)
-{
+TEST(a_file_is_no_folder) {
     const char *path = in_folder("file");
     assert_done(file_write(path, "x", 1, &err));
     assert_fails(folder_make(path, &err), "cannot be made: Not a directory");
@@ -218,8 +204,7 @@ TEST(a_file_is_no_folder)
     unlink(path);
 }
 
-ARENA_TEST(paths_are_joined_and_measured)
-{
+ARENA_TEST(paths_are_joined_and_measured) {
     assert_string_equal(path_beside("a/b/c.gltf", "d.bin", &arena), "a/b/d.bin");
     assert_string_equal(path_beside("c.gltf", "d.bin", &arena), "d.bin");
     assert_string_equal(path_beside("a/c.gltf", "/d.bin", &arena), "/d.bin");
@@ -233,8 +218,7 @@ ARENA_TEST(paths_are_joined_and_measured)
     assert_int_equal(path_climb("..a/..b"), 0);
 }
 
-TEST(schemes_are_told_from_paths)
-{
+TEST(schemes_are_told_from_paths) {
     assert_int_equal(uri_scheme_length("http://x"), 4);
     assert_int_equal(uri_scheme_length("C:/x"), 1);
     assert_int_equal(uri_scheme_length("a/b:c"), 0);
@@ -244,8 +228,7 @@ TEST(schemes_are_told_from_paths)
     assert_false(uri_is_data("date:,x"));
 }
 
-ARENA_TEST(percent_escapes_are_taken_out)
-{
+ARENA_TEST(percent_escapes_are_taken_out) {
     Error err;
     char *text;
     assert_true(uri_decode("a%20b%c3%A9c", &arena, &text, &err));
@@ -257,12 +240,10 @@ ARENA_TEST(percent_escapes_are_taken_out)
 }
 
 /* RFC 4648, section 10. */
-ARENA_TEST(base64_data_are_decoded)
-{
+ARENA_TEST(base64_data_are_decoded) {
     static const char *const ENCODED[] = {"",         "Zg==",     "Zm8=",     "Zm9v",
                                           "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy", "Zm9vYg"};
-    static const char *const PLAIN[] = {"",     "f",     "fo",     "foo",
-                                        "foob", "fooba", "foobar", "foob"};
+    static const char *const PLAIN[] = {"", "f", "fo", "foo", "foob", "fooba", "foobar", "foob"};
     FileBytes bytes;
     const char *type;
     for (int i = 0; i < 8; i++) {
@@ -278,8 +259,7 @@ ARENA_TEST(base64_data_are_decoded)
     assert_string_equal(type, "");
 }
 
-ARENA_TEST(broken_data_uris_are_refused)
-{
+ARENA_TEST(broken_data_uris_are_refused) {
     static const char *const BROKEN[] = {
         "data:text/plain;base64", "data:;base64,Z",        "data:;base64,Zm9*",
         "data:a/b;;base64,Zg==",  "data:;base64,Zg==Zg==", "file:,x"};

@@ -6,16 +6,16 @@
 #include "film/pixels.h"
 #include "spectrum/photometry.h"
 
-static const FilmRect    two_pixels = {0, 0, 2, 1};
+static const FilmRect two_pixels = {0, 0, 2, 1};
 static const char *const group_names[] = {"sun", "lamp", "sky"};
-static const FilmLights  groups = {3, group_names};
+static const FilmLights groups = {3, group_names};
 
 /* Over 18 powers of ten, negative ones too, in shares of any number of groups that miss it by
  * rounding. */
-static FilmSample sample_of(uint32_t index, FilmLight lights[3])
-{
-    uint32_t   random = hash_u32(index);
-    FilmSample s = {.sample_index = index, .lights = lights,
+static FilmSample sample_of(uint32_t index, FilmLight lights[3]) {
+    uint32_t random = hash_u32(index);
+    FilmSample s = {.sample_index = index,
+                    .lights = lights,
                     .light_count = (int)(4 * random_unit(&random)) % 4};
     for (int i = 0; i < 3; i++)
         s.xyz[i] =
@@ -27,22 +27,19 @@ static FilmSample sample_of(uint32_t index, FilmLight lights[3])
     return s;
 }
 
-static Fixed sum_of_groups(const Film *film, const PixelSums *sums, int c)
-{
+static Fixed sum_of_groups(const Film *film, const PixelSums *sums, int c) {
     Fixed sum = 0;
-    for (int g = 0; g < film->lights.count; g++)
-        sum += sums->layers[film->first_light + 3 * g + c];
+    for (int g = 0; g < film->lights.count; g++) sum += sums->layers[film->first_light + 3 * g + c];
     return sum;
 }
 
 /* Of a sample that has no group nothing is kept apart. */
-ARENA_TEST(groups_of_lights_add_up_to_the_frame_to_the_step)
-{
+ARENA_TEST(groups_of_lights_add_up_to_the_frame_to_the_step) {
     Film *film = film_create(2, 1, two_pixels, LAYER_LIGHT, &groups, &arena);
     Fixed left[3] = {0, 0, 0}, all[3] = {0, 0, 0};
-    long  unequal = 0;
+    long unequal = 0;
     for (uint32_t i = 0; i < 2000; i++) {
-        FilmLight  lights[3];
+        FilmLight lights[3];
         FilmSample sample = sample_of(i, lights);
         film_add_sample(film, sample.light_count ? 0 : 1, 0, &sample);
     }
@@ -57,10 +54,9 @@ ARENA_TEST(groups_of_lights_add_up_to_the_frame_to_the_step)
 }
 
 /* What rounding leaves goes where the most is; the others keep what they were given. */
-ARENA_TEST(rounding_goes_to_the_brightest_group)
-{
-    Film      *film = film_create(2, 1, two_pixels, LAYER_LIGHT, &groups, &arena);
-    FilmLight  lights[] = {{2, {1, 1, 1}}, {0, {7.000001f, 7, 7.000002f}}, {1, {2, 2, 2}}};
+ARENA_TEST(rounding_goes_to_the_brightest_group) {
+    Film *film = film_create(2, 1, two_pixels, LAYER_LIGHT, &groups, &arena);
+    FilmLight lights[] = {{2, {1, 1, 1}}, {0, {7.000001f, 7, 7.000002f}}, {1, {2, 2, 2}}};
     FilmSample sample = {.xyz = {10, 10, 10}, .lights = lights, .light_count = 3};
     film_add_sample(film, 0, 0, &sample);
     FrameImage frame = film_to_frame(film, 0, &arena);
@@ -75,10 +71,9 @@ ARENA_TEST(rounding_goes_to_the_brightest_group)
 }
 
 /* Huge light that one group takes away from another is nobody's but the brightest's. */
-ARENA_TEST(groups_that_are_out_of_range_spoil_no_other)
-{
-    Film      *film = film_create(2, 1, two_pixels, LAYER_LIGHT, &groups, &arena);
-    FilmLight  lights[] = {{0, {3, 3, 3}}, {1, {INFINITY, 1, 1}}, {2, {1, NAN, 1}}};
+ARENA_TEST(groups_that_are_out_of_range_spoil_no_other) {
+    Film *film = film_create(2, 1, two_pixels, LAYER_LIGHT, &groups, &arena);
+    FilmLight lights[] = {{0, {3, 3, 3}}, {1, {INFINITY, 1, 1}}, {2, {1, NAN, 1}}};
     FilmSample sample = {.xyz = {5, 5, 5}, .lights = lights, .light_count = 3};
     film_add_sample(film, 0, 0, &sample);
     for (int c = 0; c < 3; c++) {

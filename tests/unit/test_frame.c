@@ -10,8 +10,7 @@
 #include "image/frame.h"
 
 /* Noise, which ZIP cannot make shorter, besides values that are no ordinary numbers. */
-static void fill(float *values, size_t count, unsigned seed)
-{
+static void fill(float *values, size_t count, unsigned seed) {
     static const float ODD[] = {-1.5f, INFINITY, -INFINITY, 1e-40f, 3e38f, -0.0f};
     for (size_t i = 0; i < count; i++) {
         seed = seed * 1664525u + 1013904223u;
@@ -20,14 +19,13 @@ static void fill(float *values, size_t count, unsigned seed)
     if (count > 6) values[6] = NAN;
 }
 
-static FrameImage make_frame(int width, int height, ExrWindow data, Arena *arena)
-{
-    static const char *const NAMES[] = {"R", "G", "B", "depth.Z", "variance.R",
-                                        "display.emitted.R", "display.theta"};
+static FrameImage make_frame(int width, int height, ExrWindow data, Arena *arena) {
+    static const char *const NAMES[] = {
+        "R", "G", "B", "depth.Z", "variance.R", "display.emitted.R", "display.theta"};
     static const double MATRIX[16] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16};
     static const double SECONDS = 0.5;
     FrameImage frame = frame_create(width, height, data, 1, 1, arena); /* and grows */
-    size_t     count = frame_pixel_count(&frame);
+    size_t count = frame_pixel_count(&frame);
     for (unsigned i = 0; i < 7; i++)
         fill(frame_add_channel(&frame, NAMES[i], false, arena), count, i);
     float *id = frame_add_channel(&frame, "id.display", true, arena);
@@ -43,27 +41,24 @@ static FrameImage make_frame(int width, int height, ExrWindow data, Arena *arena
     return frame;
 }
 
-static FrameImage write_and_read(const FrameImage *frame, Arena *arena)
-{
+static FrameImage write_and_read(const FrameImage *frame, Arena *arena) {
     FrameImage back;
     assert_done(frame_write(in_folder("a.exr"), frame, &err));
     assert_done(frame_read(in_folder("a.exr"), arena, &back, &err));
     return back;
 }
 
-static void assert_same_channels(const FrameImage *a, const FrameImage *b)
-{
+static void assert_same_channels(const FrameImage *a, const FrameImage *b) {
     assert_int_equal(a->channel_count, b->channel_count);
     for (int i = 0; i < a->channel_count; i++) {
         const float *values = frame_channel(b, a->channels[i].name);
-        size_t       bytes = frame_pixel_count(a) * sizeof(float);
+        size_t bytes = frame_pixel_count(a) * sizeof(float);
         assert_non_null(values);
         assert_memory_equal(values, a->channels[i].values, bytes);
     }
 }
 
-ARENA_TEST(every_bit_comes_back)
-{
+ARENA_TEST(every_bit_comes_back) {
     static const int SIZES[][2] = {{1, 1}, {7, 3}, {64, 33}, {200, 70}};
     for (int i = 0; i < 4; i++) {
         int w = SIZES[i][0], h = SIZES[i][1];
@@ -74,9 +69,8 @@ ARENA_TEST(every_bit_comes_back)
     }
 }
 
-ARENA_TEST(a_crop_keeps_its_place)
-{
-    ExrWindow  crop = {13, 5, 40, 30};
+ARENA_TEST(a_crop_keeps_its_place) {
+    ExrWindow crop = {13, 5, 40, 30};
     FrameImage frame = make_frame(64, 48, crop, &arena), back = write_and_read(&frame, &arena);
     assert_memory_equal(&back.data, &crop, sizeof crop);
     assert_int_equal(back.display.x1, 64);
@@ -84,8 +78,7 @@ ARENA_TEST(a_crop_keeps_its_place)
     assert_same_channels(&frame, &back);
 }
 
-ARENA_TEST(attributes_come_back)
-{
+ARENA_TEST(attributes_come_back) {
     FrameImage frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
     FrameImage back = write_and_read(&frame, &arena);
     assert_string_equal(frame_string(&back, "parhelion:version"), "new");
@@ -108,9 +101,8 @@ ARENA_TEST(attributes_come_back)
     assert_int_equal(frame_id_of(&back, "part", "cluster"), -1);
 }
 
-ARENA_TEST(layers_are_found_by_name)
-{
-    FrameImage   frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
+ARENA_TEST(layers_are_found_by_name) {
+    FrameImage frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
     const float *rgb[3];
     assert_true(frame_rgb(&frame, "", rgb));
     assert_ptr_equal(rgb[1], frame_channel(&frame, "G"));
@@ -118,10 +110,9 @@ ARENA_TEST(layers_are_found_by_name)
     assert_null(frame_channel(&frame, "depth"));
 }
 
-ARENA_TEST(the_same_frame_makes_the_same_bytes)
-{
+ARENA_TEST(the_same_frame_makes_the_same_bytes) {
     FrameImage frame = make_frame(90, 400, (ExrWindow){0, 0, 90, 400}, &arena);
-    FileBytes  bytes[2];
+    FileBytes bytes[2];
     cpu_set_t all, one;
     assert_int_equal(sched_getaffinity(0, sizeof all, &all), 0);
     CPU_ZERO(&one);
@@ -139,12 +130,11 @@ ARENA_TEST(the_same_frame_makes_the_same_bytes)
 
 /* ---- writing that fails ------------------------------------------------------------------ */
 
-ARENA_TEST(a_full_disk_leaves_nothing)
-{
-    FrameImage    frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
+ARENA_TEST(a_full_disk_leaves_nothing) {
+    FrameImage frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
     struct rlimit before, small;
-    Error         err = {0};
-    int           files = files_in_folder();
+    Error err = {0};
+    int files = files_in_folder();
     signal(SIGXFSZ, SIG_IGN);
     getrlimit(RLIMIT_FSIZE, &before);
     small = before;
@@ -159,8 +149,7 @@ ARENA_TEST(a_full_disk_leaves_nothing)
     assert_int_equal(files_in_folder(), files);
 }
 
-ARENA_TEST(a_device_that_is_full_says_so)
-{
+ARENA_TEST(a_device_that_is_full_says_so) {
     FrameImage frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
     struct stat info;
     if (stat("/dev/full", &info) != 0 || !S_ISCHR(info.st_mode)) skip();
@@ -169,10 +158,9 @@ ARENA_TEST(a_device_that_is_full_says_so)
     assert_true(S_ISCHR(info.st_mode));
 }
 
-ARENA_TEST(a_missing_folder_and_a_bad_window_are_told)
-{
+ARENA_TEST(a_missing_folder_and_a_bad_window_are_told) {
     FrameImage frame = make_frame(9, 4, (ExrWindow){0, 0, 9, 4}, &arena);
-    Error      err = {0};
+    Error err = {0};
     assert_false(frame_write("no/such/folder/a.exr", &frame, &err));
     assert_int_equal(err.code, ERROR_OUTPUT);
     assert_string_equal(err.file, "no/such/folder/a.exr");
@@ -184,11 +172,10 @@ ARENA_TEST(a_missing_folder_and_a_bad_window_are_told)
 
 /* ---- reading what is broken -------------------------------------------------------------- */
 
-ARENA_TEST(refuses_every_prefix)
-{
+ARENA_TEST(refuses_every_prefix) {
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
-    FileBytes  whole;
-    Error      err = {0};
+    FileBytes whole;
+    Error err = {0};
     assert_true(frame_write(in_folder("whole.exr"), &frame, &err));
     whole = read_bytes(in_folder("whole.exr"), &arena);
     for (size_t size = 0; size < whole.size; size++) {
@@ -206,30 +193,28 @@ ARENA_TEST(refuses_every_prefix)
 }
 
 /* The library would take memory for what a file says, before it finds that it is not there. */
-ARENA_TEST(an_attribute_larger_than_the_file_is_refused)
-{
+ARENA_TEST(an_attribute_larger_than_the_file_is_refused) {
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
-    FileBytes  whole;
-    Error      err = {0};
+    FileBytes whole;
+    Error err = {0};
     static const char HEAD[] = "parhelion:version\0string";
     assert_true(frame_write(in_folder("whole.exr"), &frame, &err));
     whole = read_bytes(in_folder("whole.exr"), &arena);
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, whole.size);
     memcpy(bytes, whole.data, whole.size);
-    unsigned char *size = (unsigned char *)memmem(bytes, whole.size, HEAD, sizeof HEAD) +
-                          sizeof HEAD;
+    unsigned char *size =
+        (unsigned char *)memmem(bytes, whole.size, HEAD, sizeof HEAD) + sizeof HEAD;
     size[3] = 0x70;
     assert_false(frame_read_memory(bytes, whole.size, "large.exr", &arena, &back, &err));
     assert_error_has(&err, "attribute \"parhelion:version\" has 1879048195 bytes, the file");
     assert_string_equal(err.file, "large.exr");
 }
 
-ARENA_TEST(survives_flipped_bits)
-{
+ARENA_TEST(survives_flipped_bits) {
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
-    FileBytes  whole;
-    Error      err = {0};
-    unsigned   seed = 1;
+    FileBytes whole;
+    Error err = {0};
+    unsigned seed = 1;
     assert_true(frame_write(in_folder("whole.exr"), &frame, &err));
     whole = read_bytes(in_folder("whole.exr"), &arena);
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, whole.size);
@@ -245,17 +230,16 @@ ARENA_TEST(survives_flipped_bits)
 }
 
 /* The corpus of the library's own makers: files found by fuzzing. */
-TEST(damaged_files_are_read_or_refused)
-{
+TEST(damaged_files_are_read_or_refused) {
     char name[200], path[600];
-    int  refused = 0, total = 0;
+    int refused = 0, total = 0;
     snprintf(name, sizeof name, "%s/exr/Damaged", SHARED_DATA_DIR);
     DIR *dir = opendir(name);
     if (!dir) skip();
     for (struct dirent *e; (e = readdir(dir));) {
-        Arena      arena = *test_memory();
+        Arena arena = *test_memory();
         FrameImage frame;
-        Error      err = {0};
+        Error err = {0};
         if (e->d_name[0] == '.') continue;
         snprintf(path, sizeof path, "%s/%s", name, e->d_name);
         total++;
@@ -270,11 +254,10 @@ TEST(damaged_files_are_read_or_refused)
     assert_true(total > 50 && refused > total / 2);
 }
 
-ARENA_TEST(what_cannot_be_shown_flat_is_refused)
-{
+ARENA_TEST(what_cannot_be_shown_flat_is_refused) {
     FrameImage frame;
-    Error      err = {0};
-    char       path[512];
+    Error err = {0};
+    char path[512];
     assert_false(frame_read_memory("hello, world", 12, "a.txt", &arena, &frame, &err));
     assert_error_has(&err, "not an OpenEXR file");
     assert_false(frame_read("no/such.exr", &arena, &frame, &err));
@@ -285,10 +268,9 @@ ARENA_TEST(what_cannot_be_shown_flat_is_refused)
 }
 
 /* The sampling of channel G in the header becomes 2 x 2, as in luminance-chroma coding. */
-ARENA_TEST(coarse_channels_are_refused)
-{
+ARENA_TEST(coarse_channels_are_refused) {
     FrameImage frame = make_frame(8, 4, (ExrWindow){0, 0, 8, 4}, &arena), back;
-    FileBytes  file;
+    FileBytes file;
     assert_done(frame_write(in_folder("fine.exr"), &frame, &err));
     file = read_bytes(in_folder("fine.exr"), &arena);
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, file.size), *entry;
@@ -300,8 +282,7 @@ ARENA_TEST(coarse_channels_are_refused)
                  "channel G is sampled every 2 x 2 pixels");
 }
 
-ARENA_TEST(a_file_larger_than_the_arena_is_refused)
-{
+ARENA_TEST(a_file_larger_than_the_arena_is_refused) {
     Arena small = arena_reserve(1 << 21);
     FrameImage frame = make_frame(300, 300, (ExrWindow){0, 0, 300, 300}, &arena), back;
     assert_done(frame_write(in_folder("large.exr"), &frame, &err));

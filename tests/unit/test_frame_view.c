@@ -5,23 +5,20 @@
 
 #define PI 3.14159265358979323846
 
-static FrameImage fisheye_frame(int size, Fisheye kind, Arena *arena)
-{
+static FrameImage fisheye_frame(int size, Fisheye kind, Arena *arena) {
     FrameImage frame = uniform_frame(size, size, 1, arena);
     frame_set_fisheye(&frame, kind, arena);
     return frame;
 }
 
-static FrameView view_of(const FrameImage *frame)
-{
+static FrameView view_of(const FrameImage *frame) {
     FrameView view;
-    Error     err;
+    Error err;
     assert_true(frame_view_find(frame, &view, &err));
     return view;
 }
 
-static void sum_of(const FrameView *view, double out[2])
-{
+static void sum_of(const FrameView *view, double out[2]) {
     out[0] = out[1] = 0;
     for (int y = 0; y < view->height; y++)
         for (int x = 0; x < view->width; x++) {
@@ -32,33 +29,30 @@ static void sum_of(const FrameView *view, double out[2])
         }
 }
 
-MEMORY_TEST(a_fisheye_has_half_the_space)
-{
+MEMORY_TEST(a_fisheye_has_half_the_space) {
     static const int SIZES[] = {1, 2, 3, 16, 101};
     for (Fisheye kind = FISHEYE_EQUIDISTANT; kind <= FISHEYE_EQUISOLID; kind++)
         for (int i = 0; i < 5; i++) {
             FrameImage frame = fisheye_frame(SIZES[i], kind, arena);
-            FrameView  view = view_of(&frame);
-            double     sums[2];
+            FrameView view = view_of(&frame);
+            double sums[2];
             sum_of(&view, sums);
             assert_close(sums[0], 2 * PI, i ? 1e-6 : 1e-3);
             assert_close(sums[1], PI, i ? 1e-6 : 1e-3);
         }
 }
 
-MEMORY_TEST(equal_areas_of_an_equisolid_one_are_equal_solid_angles)
-{
+MEMORY_TEST(equal_areas_of_an_equisolid_one_are_equal_solid_angles) {
     FrameImage frame = fisheye_frame(40, FISHEYE_EQUISOLID, arena);
-    FrameView  view = view_of(&frame);
+    FrameView view = view_of(&frame);
     for (int x = 3; x < 37; x++)
         assert_close(frame_view_pixel(&view, x, 20).sr, 2 * (2 / 40.0) * (2 / 40.0), 1e-9);
 }
 
 /* Its density: the sine of the angle over the radius, 90 degrees to a radius. */
-MEMORY_TEST(small_pixels_have_the_density_of_their_middle)
-{
+MEMORY_TEST(small_pixels_have_the_density_of_their_middle) {
     FrameImage frame = fisheye_frame(2001, FISHEYE_EQUIDISTANT, arena);
-    FrameView  view = view_of(&frame);
+    FrameView view = view_of(&frame);
     for (int x = 130; x < 1000; x += 97) {
         ViewPixel p = frame_view_pixel(&view, x, 700);
         double u = 2 * (x + 0.5) / 2001 - 1, v = 1 - 2 * 700.5 / 2001, r = hypot(u, v);
@@ -72,13 +66,12 @@ MEMORY_TEST(small_pixels_have_the_density_of_their_middle)
 }
 
 /* A rectangle a x b at distance d: 4 atan(a b / (2 d sqrt(4 d^2 + a^2 + b^2))). */
-MEMORY_TEST(a_perspective_view_has_the_solid_angle_of_its_rectangle)
-{
+MEMORY_TEST(a_perspective_view_has_the_solid_angle_of_its_rectangle) {
     for (double fov = 20; fov < 150; fov += 30) {
         FrameImage frame = uniform_frame(60, 40, 1, arena);
         frame_set_number(&frame, "parhelion:yfov_deg", fov, arena);
         FrameView view = view_of(&frame);
-        double    b = 2 * tan(fov * PI / 360), a = b * 1.5, sums[2];
+        double b = 2 * tan(fov * PI / 360), a = b * 1.5, sums[2];
         sum_of(&view, sums);
         assert_close(sums[0], 4 * atan(a * b / (2 * sqrt(4 + a * a + b * b))), 1e-6);
         /* the view factor of the rectangle from a point that faces its middle */
@@ -89,15 +82,13 @@ MEMORY_TEST(a_perspective_view_has_the_solid_angle_of_its_rectangle)
 
 /* ---- Radiance's words ------------------------------------------------------------------- */
 
-static FrameView parsed(const char *words, int width, int height, Arena *arena)
-{
+static FrameView parsed(const char *words, int width, int height, Arena *arena) {
     FrameImage frame = uniform_frame(width, height, 1, arena);
     frame_set_string(&frame, "VIEW", words, arena);
     return view_of(&frame);
 }
 
-MEMORY_TEST(a_view_written_is_the_view_read)
-{
+MEMORY_TEST(a_view_written_is_the_view_read) {
     /* a camera at (3, -1, 2) that looks along +X: right is +Z, rows are for row vectors */
     static const double MATRIX[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, -2, 1, 3, 1};
     const ExrWindow crop = {10, 4, 34, 22};
@@ -107,9 +98,9 @@ MEMORY_TEST(a_view_written_is_the_view_read)
         if (kind == 0) frame_set_number(&frame, "parhelion:yfov_deg", 50, arena);
         if (kind == 1) frame_set_fisheye(&frame, FISHEYE_EQUIDISTANT, arena);
         if (kind == 2) frame_set_number(&frame, "parhelion:ymag_m", 1.5, arena);
-        FrameView   whole = view_of(&frame);
+        FrameView whole = view_of(&frame);
         const char *words;
-        Error       err;
+        Error err;
         assert_close(whole.eye[0], 3, 1e-12);
         assert_close(whole.eye[1], -1, 1e-12);
         assert_close(whole.ahead[0], 1, 1e-12);
@@ -127,18 +118,16 @@ MEMORY_TEST(a_view_written_is_the_view_read)
     }
 }
 
-MEMORY_TEST(a_fisheye_of_others_may_be_wider_than_its_circle)
-{
+MEMORY_TEST(a_fisheye_of_others_may_be_wider_than_its_circle) {
     FrameView view = parsed(" -vta -vv 200 -vh 200 -vd 0 1 0 -vu 0 0 1", 50, 50, arena);
-    double    sums[2];
+    double sums[2];
     sum_of(&view, sums);
     assert_close(sums[0], 2 * PI, 1e-6);
     assert_close(view.half_width, 200 / 180.0, 1e-12);
     assert_false(frame_view_sees(&view, 1, 25));
 }
 
-MEMORY_TEST(a_wrong_view_is_told)
-{
+MEMORY_TEST(a_wrong_view_is_told) {
     static const char *const CASES[][2] = {
         {"-vth -vh 180 -vv 180", "-vth, required: -vta"},
         {"-vtv -vh 200 -vv 20", "required: angles below 180"},
@@ -148,20 +137,19 @@ MEMORY_TEST(a_wrong_view_is_told)
     };
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         FrameImage frame = uniform_frame(4, 4, 1, arena);
-        FrameView  view;
-        Error      err;
+        FrameView view;
+        Error err;
         frame_set_string(&frame, "VIEW", CASES[i][0], arena);
         assert_false(frame_view_find(&frame, &view, &err));
         if (!strstr(err.text, CASES[i][1])) fail_msg("%s: %s", CASES[i][0], err.text);
     }
 }
 
-MEMORY_TEST(radiance_has_no_equisolid_view)
-{
-    FrameImage  frame = fisheye_frame(8, FISHEYE_EQUISOLID, arena);
-    FrameView   view = view_of(&frame);
+MEMORY_TEST(radiance_has_no_equisolid_view) {
+    FrameImage frame = fisheye_frame(8, FISHEYE_EQUISOLID, arena);
+    FrameView view = view_of(&frame);
     const char *words;
-    Error       err;
+    Error err;
     assert_false(frame_view_words(&view, frame.data, arena, &words, &err));
     assert_non_null(strstr(err.text, "no equisolid views"));
 }

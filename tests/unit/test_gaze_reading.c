@@ -12,19 +12,19 @@
 
 static const ReviewRequest request = {.forward = {0, 0, -1}, .observer = {50, 0.5}};
 
-static GazeReading read_gaze(World *world)
-{
+static GazeReading read_gaze(World *world) {
     const Kernel *kernel;
     assert_done(kernel_choose(NULL, &kernel, &err));
     world_ready(world, 16);
-    Setup    setup = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
-                      .scene = world->scene, .context = world->context};
+    Setup setup = {.request = &request,
+                   .tools = {.kernel = kernel, .threads = 2},
+                   .scene = world->scene,
+                   .context = world->context};
     GazeGoal goal = {vec3(0, 0, 0), vec3(0, 0, -2), 0.002, 1 << 17};
     return gaze_read(&setup, &goal, world->arena);
 }
 
-static Material glass(void)
-{
+static Material glass(void) {
     Material glass = builder_material(1);
     glass.transmission = 1;
     glass.roughness = 0;
@@ -33,8 +33,7 @@ static Material glass(void)
 }
 
 /* The sun stands to the right, so that no pane shades what is seen via it. */
-static World sunny_world(void)
-{
+static World sunny_world(void) {
     World world = world_start();
     world.scene->environment.has_sun = true;
     world.scene->environment.sun_azimuth = (float)(PI / 2);
@@ -44,37 +43,32 @@ static World sunny_world(void)
 }
 
 /* Part 0 of a world: below the gaze. */
-static void add_dashboard(World *world)
-{
+static void add_dashboard(World *world) {
     builder_part(world->scene, builder_material(REFLECTANCE));
     builder_quad(world->scene, vec3(0, -0.5f, 0), vec3(10, 0, 0), vec3(0, 0, -10));
 }
 
-static double dashboard_cd_m2(void)
-{
+static double dashboard_cd_m2(void) {
     return (double)REFLECTANCE / PI * (double)SUN_LX * sin(radians_from_degrees(SUN_DEG));
 }
 
 /* A pane of half a decimetre across the gaze, 1 m away, that leans over the dashboard. */
-static void add_sheet(World *world, double degrees, double distance, bool faces_eye)
-{
+static void add_sheet(World *world, double degrees, double distance, bool faces_eye) {
     double a = radians_from_degrees(degrees), sign = faces_eye ? 1 : -1;
-    Vec3   normal = vec3(0, (float)-sin(a), (float)cos(a));
-    Vec3   along = vec3(0, (float)(0.15 * sign * cos(a)), (float)(0.15 * sign * sin(a)));
+    Vec3 normal = vec3(0, (float)-sin(a), (float)cos(a));
+    Vec3 along = vec3(0, (float)(0.15 * sign * cos(a)), (float)(0.15 * sign * sin(a)));
     builder_quad(world->scene, vec3_along(vec3(0, 0, -1), normal, (float)-distance),
                  vec3(0.05f, 0, 0), along);
 }
 
-static void add_pane(World *world, double degrees)
-{
+static void add_pane(World *world, double degrees) {
     Material pane = glass();
     pane.lets_light_through = true;
     builder_part(world->scene, pane);
     add_sheet(world, degrees, 0, true);
 }
 
-static void add_solid_pane(World *world)
-{
+static void add_solid_pane(World *world) {
     Material pane = glass();
     pane.is_solid = true;
     builder_part(world->scene, pane);
@@ -82,16 +76,14 @@ static void add_solid_pane(World *world)
     add_sheet(world, 60, 0.002, false);
 }
 
-static void assert_mirrored(const GazeReading *found, double wanted)
-{
+static void assert_mirrored(const GazeReading *found, double wanted) {
     double off = fabs(found->mirrored.mean - wanted);
     if (!(off < fmax(0.01 * wanted, 3 * found->mirrored.sigma) && off < 0.02 * wanted))
         fail_msg("mirrored %g +- %g, required: %g", found->mirrored.mean, found->mirrored.sigma,
                  wanted);
 }
 
-TEST(a_pane_mirrors_the_dashboard_by_fresnel)
-{
+TEST(a_pane_mirrors_the_dashboard_by_fresnel) {
     /* Both faces and all that goes to and fro between them, each polarisation by itself. */
     static const double degrees[] = {45, 60, 70};
     static const double passed[] = {0.902528, 0.843471, 0.724713};
@@ -108,8 +100,7 @@ TEST(a_pane_mirrors_the_dashboard_by_fresnel)
 }
 
 /* Polarisation is not followed inside a solid: (1 - R)/(1 + R) of the mean R passes. */
-TEST(a_pane_with_thickness_mirrors_by_both_faces)
-{
+TEST(a_pane_with_thickness_mirrors_by_both_faces) {
     SCOPED_WORLD world = sunny_world();
     add_dashboard(&world);
     add_solid_pane(&world);
@@ -119,8 +110,7 @@ TEST(a_pane_with_thickness_mirrors_by_both_faces)
     assert_int_equal(found.most.part_id, 0);
 }
 
-TEST(what_lies_behind_a_pane_comes_through_it)
-{
+TEST(what_lies_behind_a_pane_comes_through_it) {
     SCOPED_WORLD world = world_start();
     builder_part(world.scene, builder_lamp(500));
     builder_quad(world.scene, vec3(0, 0, -3), vec3(1, 0, 0), vec3(0, 1, 0));
@@ -131,8 +121,7 @@ TEST(what_lies_behind_a_pane_comes_through_it)
 }
 
 /* Chrome is what the eye looks at, not something that lies before it. */
-TEST(a_mirror_is_no_pane)
-{
+TEST(a_mirror_is_no_pane) {
     SCOPED_WORLD world = sunny_world();
     add_dashboard(&world);
     builder_part(world.scene, builder_mirror(1));
@@ -143,8 +132,7 @@ TEST(a_mirror_is_no_pane)
 }
 
 /* The sun's disc within the cone is no background; all else is. */
-TEST(the_sun_itself_is_not_looked_at)
-{
+TEST(the_sun_itself_is_not_looked_at) {
     SCOPED_WORLD world = sunny_world();
     add_dashboard(&world);
     world.scene->environment.sun_azimuth = 0;
@@ -154,8 +142,7 @@ TEST(the_sun_itself_is_not_looked_at)
 }
 
 /* Nor through a windscreen, with a thickness or without. */
-TEST(the_sun_behind_a_pane_is_not_looked_at)
-{
+TEST(the_sun_behind_a_pane_is_not_looked_at) {
     for (int is_solid = 0; is_solid < 2; is_solid++) {
         SCOPED_WORLD world = sunny_world();
         world.scene->environment.sun_azimuth = 0;
@@ -173,12 +160,11 @@ TEST(the_sun_behind_a_pane_is_not_looked_at)
 #define RARE_RUNS 100
 #define RARE_CD_M2 1e7f
 #define RARE_HALF 0.0006f /* m */
-#define RARE_M 2.5 /* from the eye to the pane, and on to the lamp */
+#define RARE_M 2.5        /* from the eye to the pane, and on to the lamp */
 
 /* A small lamp behind the eye, in a pane across the gaze under an even sky. */
-static World rare_world(double *wanted)
-{
-    World  world = world_start();
+static World rare_world(double *wanted) {
+    World world = world_start();
     double r = 0.52 / 2.52, mirrored = 2 * r * r / (1 + r * r);
     double cone = 2 * PI * (1 - cos(radians_from_degrees(GAZE_CONE_DEG)));
     double sr = 4 * (double)RARE_HALF * (double)RARE_HALF / (RARE_M * RARE_M);
@@ -191,11 +177,10 @@ static World rare_world(double *wanted)
     return world;
 }
 
-static GazeReading read_seed(const World *world, int most, uint64_t seed)
-{
+static GazeReading read_seed(const World *world, int most, uint64_t seed) {
     ReviewRequest own = request;
-    Setup setup = {.request = &own, .tools = {.threads = 2}, .scene = world->scene,
-                   .context = world->context};
+    Setup setup = {
+        .request = &own, .tools = {.threads = 2}, .scene = world->scene, .context = world->context};
     own.seed = seed;
     assert_done(kernel_choose(NULL, &setup.tools.kernel, &err));
     GazeGoal goal = {vec3(0, 0, 0), vec3(0, 0, -2), 0.01, most};
@@ -204,8 +189,7 @@ static GazeReading read_seed(const World *world, int most, uint64_t seed)
 
 /* One path in some thousands meets the lamp. Most pilots meet it once or never; intervals hold
  * the truth all the same, of few paths and of more; a standard deviation of 100 is 2.2 %. */
-TEST(intervals_hold_what_few_paths_find)
-{
+TEST(intervals_hold_what_few_paths_find) {
     double wanted;
     SCOPED_WORLD world = rare_world(&wanted);
     world_ready(&world, 16);
@@ -224,20 +208,21 @@ TEST(intervals_hold_what_few_paths_find)
 
 #define CAMERA_PATHS 60000
 
-static double camera_luminance(const World *world, double *sigma)
-{
+static double camera_luminance(const World *world, double *sigma) {
     PathStatistics statistics = {0};
     double sum = 0, squares = 0, narrow = 1 - cos(radians_from_degrees(GAZE_CONE_DEG));
     for (uint32_t i = 0; i < CAMERA_PATHS; i++) {
         Wavelengths w;
-        PathResult  seen;
-        Sampler     sampler = sampler_start(7, 0, 0, i);
-        Vec2        place = sampler_2d(&sampler);
+        PathResult seen;
+        Sampler sampler = sampler_start(7, 0, 0, i);
+        Vec2 place = sampler_2d(&sampler);
         wavelengths_sample(sampler_1d(&sampler), &w);
         double cosine = 1 - narrow * (double)place.x, sine = sqrt(1 - cosine * cosine);
         double phi = 2 * PI * (double)place.y;
-        Vec3   d = vec3((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)-cosine);
-        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
+        Vec3 d = vec3((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)-cosine);
+        PathStart start = {.context = &world->context,
+                           .wavelengths = &w,
+                           .sampler = &sampler,
                            .statistics = &statistics};
         path_from_ray(&start, (Ray){vec3(0, 0, 0), d, 0, INFINITY}, &seen);
         sum += (double)seen.xyz[1];
@@ -248,8 +233,7 @@ static double camera_luminance(const World *world, double *sigma)
     return mean;
 }
 
-TEST(both_add_up_to_what_a_camera_sees)
-{
+TEST(both_add_up_to_what_a_camera_sees) {
     SCOPED_WORLD world = sunny_world();
     add_dashboard(&world);
     builder_sky(world.scene, 2000);
@@ -260,8 +244,8 @@ TEST(both_add_up_to_what_a_camera_sees)
     double sum = found.through.mean + found.mirrored.mean;
     double sure = 3 * hypot(sigma, hypot(found.through.sigma, found.mirrored.sigma));
     if (!(fabs(sum - wanted) < sure && sure < 0.02 * wanted))
-        fail_msg("%g + %g, a camera sees %g +- %g", found.through.mean, found.mirrored.mean,
-                 wanted, sigma);
+        fail_msg("%g + %g, a camera sees %g +- %g", found.through.mean, found.mirrored.mean, wanted,
+                 sigma);
     assert_true(found.through.mean > 0 && found.mirrored.mean > 0);
 }
 

@@ -5,16 +5,13 @@
 #include "review/light/glasses.h"
 
 /* `below` up to nm, `above` from there on. */
-static Curve step_at(int nm, float below, float above)
-{
+static Curve step_at(int nm, float below, float above) {
     Curve curve;
-    for (int i = 0; i < CURVE_COUNT; i++)
-        curve.value[i] = CURVE_FIRST_NM + i < nm ? below : above;
+    for (int i = 0; i < CURVE_COUNT; i++) curve.value[i] = CURVE_FIRST_NM + i < nm ? below : above;
     return curve;
 }
 
-TEST(a_grey_lens_lets_through_what_it_says)
-{
+TEST(a_grey_lens_lets_through_what_it_says) {
     for (float share = 0.03f; share <= 1; share += 0.1f) {
         Curve grey = step_at(500, share, share);
         assert_near(glasses_luminous(&grey), (double)share, 1e-6);
@@ -22,11 +19,10 @@ TEST(a_grey_lens_lets_through_what_it_says)
 }
 
 /* Half of daylight's luminance lies on either side of some 557 nm. */
-TEST(daylight_counts_as_the_eye_sees_it)
-{
+TEST(daylight_counts_as_the_eye_sees_it) {
     double last = 0;
     for (int nm = 400; nm < 750; nm += 10) {
-        Curve  below = step_at(nm, 1, 0), above = step_at(nm, 0, 1);
+        Curve below = step_at(nm, 1, 0), above = step_at(nm, 0, 1);
         double share = glasses_luminous(&below);
         assert_near(share + glasses_luminous(&above), 1, 1e-6);
         assert_true(share >= last);
@@ -37,10 +33,9 @@ TEST(daylight_counts_as_the_eye_sees_it)
 }
 
 /* Over its luminous transmittance: daylight's luminance stays. */
-ARENA_TEST(colour_is_parted_from_darkness)
-{
-    Curve           step = step_at(600, 0.1f, 0.4f);
-    ReviewGlasses   given = {.curve = &step};
+ARENA_TEST(colour_is_parted_from_darkness) {
+    Curve step = step_at(600, 0.1f, 0.4f);
+    ReviewGlasses given = {.curve = &step};
     ReviewCondition condition = {.glasses = &given};
     Glasses worn = glasses_worn(&condition, vec3(0, 0, -1), &arena);
     assert_near(worn.transmittance, glasses_luminous(&step), 1e-12);
@@ -51,10 +46,9 @@ ARENA_TEST(colour_is_parted_from_darkness)
 }
 
 /* Unpolarised light comes through as by grey lenses; the axis turns with the head. */
-ARENA_TEST(a_polariser_is_worn_upright)
-{
-    ReviewGlasses   given = {.transmittance = 0.2, .is_polarising = true, .axis_deg = 90,
-                             .extinction = 9};
+ARENA_TEST(a_polariser_is_worn_upright) {
+    ReviewGlasses given = {
+        .transmittance = 0.2, .is_polarising = true, .axis_deg = 90, .extinction = 9};
     ReviewCondition condition = {.glasses = &given};
     Glasses worn = glasses_worn(&condition, vec3(3, 0, 0), &arena);
     const PolarisedEye *eye = worn.polariser;

@@ -6,16 +6,14 @@
 
 #define ROOM (64u << 20)
 
-static Vec3 on_square(uint32_t i, float side_m)
-{
+static Vec3 on_square(uint32_t i, float side_m) {
     Sampler sampler = sampler_start(1, 2, 3, i);
-    Vec2    at = sampler_2d(&sampler);
+    Vec2 at = sampler_2d(&sampler);
     return vec3(side_m * at.x, 0.3f, side_m * at.y);
 }
 
 /* 1000 lx on a square of 2 m, by so many rays. */
-static GlintMap lit_square(uint32_t row, float edge_m, uint32_t rays, Arena *arena)
-{
+static GlintMap lit_square(uint32_t row, float edge_m, uint32_t rays, Arena *arena) {
     GlintMap map = {{{0}}};
     for (uint32_t i = 0; i < rays; i++) {
         GlintPlace place = {row, edge_m, on_square(i, 2)};
@@ -25,21 +23,19 @@ static GlintMap lit_square(uint32_t row, float edge_m, uint32_t rays, Arena *are
 }
 
 /* Of a plane between cubes, and of planes within them. */
-ARENA_TEST(even_light_is_found_as_it_is)
-{
+ARENA_TEST(even_light_is_found_as_it_is) {
     const float edges[] = {0.02f, 0.031f, 0.05f};
     for (int k = 0; k < 3; k++) {
         GlintMap map = lit_square(7, edges[k], 200000, &arena);
         for (int i = 0; i < 100; i++) {
-            Vec3       at = vec3_along(vec3(0.7f, 0.3f, 0.7f), on_square((uint32_t)i, 0.6f), 1);
+            Vec3 at = vec3_along(vec3(0.7f, 0.3f, 0.7f), on_square((uint32_t)i, 0.6f), 1);
             GlintPlace place = {7, edges[k], vec3(at.x, 0.3f, at.z)};
             assert_close((double)glint_map_lx(&map, &place), 1000, 0.2);
         }
     }
 }
 
-ARENA_TEST(nothing_is_found_off_the_light_or_in_another_row)
-{
+ARENA_TEST(nothing_is_found_off_the_light_or_in_another_row) {
     GlintMap none = {{{0}}}, map = lit_square(7, 0.02f, 20000, &arena);
     GlintPlace lit = {7, 0.02f, vec3(1, 0.3f, 1)}, row = lit, above = lit, beside = lit;
     row.row = 8;
@@ -54,8 +50,7 @@ ARENA_TEST(nothing_is_found_off_the_light_or_in_another_row)
 
 /* A small glint is as bright as it is, one ray is known all around it, and a far and a tiny
  * cube are no fault. */
-ARENA_TEST(one_landing_is_known_where_it_is_and_around)
-{
+ARENA_TEST(one_landing_is_known_where_it_is_and_around) {
     GlintMap map = {{{0}}};
     GlintPlace at = {3, 0.01f, vec3(-5, 1, 2)}, near = at, far = {4, 1e-4f, vec3(1e30f, 0, 0)};
     glint_map_add(&map, &at, 0.5f, &arena);
@@ -71,8 +66,7 @@ ARENA_TEST(one_landing_is_known_where_it_is_and_around)
 }
 
 /* Each landing is found again, and each counts eight times. */
-ARENA_TEST(a_growing_map_keeps_all_its_light)
-{
+ARENA_TEST(a_growing_map_keeps_all_its_light) {
     GlintMap map = lit_square(1, 0.002f, 100000, &arena);
     assert_true(map.size[0].count > 300000);
     assert_true(map.size[0].room < 2 * map.size[0].count);

@@ -4,17 +4,15 @@
 
 #include "scene/gltf/tree.h"
 
-static const GltfValue *parse(const char *text)
-{
+static const GltfValue *parse(const char *text) {
     const GltfValue *root = NULL;
     assert_done(gltf_json_parse(text, strlen(text), test_memory(), &root, &err));
     return root;
 }
 
-TEST(values_keep_their_kind_and_order)
-{
-    const GltfValue *root = parse(
-        "{\"z\":[null,true,-2,2.5,1e3,\"\\u00e9\\n\"],\"a\":{},\"big\":9007199254740993}");
+TEST(values_keep_their_kind_and_order) {
+    const GltfValue *root =
+        parse("{\"z\":[null,true,-2,2.5,1e3,\"\\u00e9\\n\"],\"a\":{},\"big\":9007199254740993}");
     assert_int_equal(root->kind, GLTF_OBJECT);
     assert_int_equal(root->count, 3);
     assert_string_equal(root->items[0].key, "z");
@@ -31,8 +29,7 @@ TEST(values_keep_their_kind_and_order)
     assert_null(z->items[0].key);
 }
 
-TEST(values_know_their_place)
-{
+TEST(values_know_their_place) {
     char pointer[64];
     const GltfValue *root = parse("{\"a/b\":[{},{\"m~n\":[0,1,2]}]}");
     const GltfValue *inner = tree_member(tree_item(tree_member(root, "a/b"), 1), "m~n");
@@ -44,8 +41,7 @@ TEST(values_know_their_place)
     assert_string_equal(pointer, "/a~1");
 }
 
-TEST(readers_take_the_default_for_what_is_not_there)
-{
+TEST(readers_take_the_default_for_what_is_not_there) {
     float numbers[2] = {7, 8};
     const GltfValue *root =
         parse("{\"n\":1,\"t\":\"x\",\"l\":[1,2],\"mixed\":[1,\"2\"],\"f\":1.5}");
@@ -65,8 +61,7 @@ TEST(readers_take_the_default_for_what_is_not_there)
     assert_null(tree_element(root, "l", -1));
 }
 
-static bool parses_depth(int depth)
-{
+static bool parses_depth(int depth) {
     Error err;
     const GltfValue *root;
     char text[1024];
@@ -77,14 +72,12 @@ static bool parses_depth(int depth)
     return done;
 }
 
-TEST(nesting_has_a_limit)
-{
+TEST(nesting_has_a_limit) {
     assert_true(parses_depth(GLTF_MAX_DEPTH));
     assert_false(parses_depth(GLTF_MAX_DEPTH + 1));
 }
 
-TEST(faults_name_line_and_column)
-{
+TEST(faults_name_line_and_column) {
     const GltfValue *root;
     static const char TEXT[] = "{\n  \"a\" \"b\"}";
     assert_fails(gltf_json_parse(TEXT, sizeof TEXT - 1, test_memory(), &root, &err),
@@ -94,8 +87,7 @@ TEST(faults_name_line_and_column)
     assert_fails(gltf_json_parse("\"\xff\"", 3, test_memory(), &root, &err), ""); /* no UTF-8 */
 }
 
-static GltfData data_of(const char *text)
-{
+static GltfData data_of(const char *text) {
     Error err;
     GltfData data = {0};
     const GltfValue *root;
@@ -105,8 +97,7 @@ static GltfData data_of(const char *text)
     return data;
 }
 
-TEST(accessors_come_as_plain_arrays)
-{
+TEST(accessors_come_as_plain_arrays) {
     GltfData data =
         data_of("{\"bufferViews\":[{\"buffer\":0,\"byteLength\":64,\"byteOffset\":4,"
                 "\"byteStride\":16}],"
@@ -134,8 +125,7 @@ TEST(accessors_come_as_plain_arrays)
     assert_int_equal(data.accessor_count, 0);
 }
 
-TEST(what_tinygltf_refuses_comes_back_as_an_error)
-{
+TEST(what_tinygltf_refuses_comes_back_as_an_error) {
     Error err;
     GltfData data = {.view_count = 77};
     const GltfValue *root;
@@ -146,7 +136,7 @@ TEST(what_tinygltf_refuses_comes_back_as_an_error)
     assert_false(gltf_json_data(root, test_memory(), &data, &err));
     assert_int_equal(err.code, ERROR_LIBRARY);
     assert_non_null(strstr(err.text, "tinygltf: "));
-    assert_int_equal(data.view_count, 77);                     /* outputs stay as they were */
+    assert_int_equal(data.view_count, 77); /* outputs stay as they were */
     assert_true(gltf_json_parse(THROWS, sizeof THROWS - 1, test_memory(), &root, &err));
     assert_false(gltf_json_data(root, test_memory(), &data, &err)); /* an exception inside */
     assert_non_null(strstr(err.text, "'indices' not found"));

@@ -13,12 +13,13 @@
 enum { CELLS = 3, BOUNCES = 64 };
 
 /* A guide that was trained on nonsense: three cells, most bins dark, lights sampled at odds. */
-static LightGuide *odd_guide(Arena *arena)
-{
+static LightGuide *odd_guide(Arena *arena) {
     LightGuide *guide = ARENA_NEW(arena, LightGuide, 1);
-    *guide = (LightGuide){.node_count = 2 * CELLS - 1, .cell_count = CELLS, .asks = true,
-                     .nodes = ARENA_NEW(arena, GuideNode, 2 * CELLS - 1),
-                     .cells = ARENA_NEW(arena, GuideCell, CELLS)};
+    *guide = (LightGuide){.node_count = 2 * CELLS - 1,
+                          .cell_count = CELLS,
+                          .asks = true,
+                          .nodes = ARENA_NEW(arena, GuideNode, 2 * CELLS - 1),
+                          .cells = ARENA_NEW(arena, GuideCell, CELLS)};
     guide->nodes[0] = (GuideNode){0.1f, 0, 1, 0};
     guide->nodes[1] = (GuideNode){.cell = 0};
     guide->nodes[2] = (GuideNode){-0.2f, 2, 3, 0};
@@ -31,7 +32,7 @@ static LightGuide *odd_guide(Arena *arena)
             cell->asked[set] = 0.2f + 0.2f * (float)((set + (int)c) % 5);
         for (uint32_t i = 0; i < GUIDE_AIMS * GUIDE_BINS; i++) {
             uint32_t bin = i % GUIDE_BINS;
-            float    value = unit_float(hash_combine(hash_u32(c), i));
+            float value = unit_float(hash_combine(hash_u32(c), i));
             cell->light[i / GUIDE_BINS][bin / GUIDE_SIDE][bin % GUIDE_SIDE] =
                 value > 0.6f ? (uint16_t)(100000 * (value - 0.6f)) : 0;
         }
@@ -41,8 +42,7 @@ static LightGuide *odd_guide(Arena *arena)
     return guide;
 }
 
-static Vec3 direction_to(double degrees, double turn)
-{
+static Vec3 direction_to(double degrees, double turn) {
     double a = radians_from_degrees(degrees), b = radians_from_degrees(turn);
     return vec3((float)(sin(a) * cos(b)), (float)cos(a), (float)(sin(a) * sin(b)));
 }
@@ -58,12 +58,11 @@ enum { SURFACES = sizeof surfaces / sizeof *surfaces };
 
 /* ---- density ----------------------------------------------------------------------------- */
 
-ARENA_TEST(densities_integrate_to_one)
-{
+ARENA_TEST(densities_integrate_to_one) {
     LightGuide *guide = odd_guide(&arena);
     for (int s = 0; s < SURFACES; s++) {
         GuideView view;
-        double    sum = 0;
+        double sum = 0;
         guide_view(guide, (uint32_t)s % CELLS, &surfaces[s], &view);
         const GuideChoice *choice = &view.towards[s % GUIDE_AIMS];
         for (int i = 0; i < 500; i++)
@@ -79,22 +78,20 @@ ARENA_TEST(densities_integrate_to_one)
 /* Which of 12 x 24 cells of equal solid angle, for a count that knows nothing of the map. */
 enum { ROWS = 12, COLUMNS = 24 };
 
-static int cell_of(Vec3 d)
-{
+static int cell_of(Vec3 d) {
     float turn = atan2_f(d.y, d.x) * (0.5f * INV_PI_F);
-    int   row = (int)((1 - d.z) * 0.5f * ROWS), column = (int)((turn < 0 ? turn + 1 : turn) *
-                                                              COLUMNS);
+    int row = (int)((1 - d.z) * 0.5f * ROWS),
+        column = (int)((turn < 0 ? turn + 1 : turn) * COLUMNS);
     return (row < ROWS ? row : ROWS - 1) * COLUMNS + (column < COLUMNS ? column : 0);
 }
 
-ARENA_TEST(samples_follow_the_density)
-{
+ARENA_TEST(samples_follow_the_density) {
     enum { SAMPLES = 400000, FINE = 40 };
     LightGuide *guide = odd_guide(&arena);
     for (int s = 0; s < SURFACES; s++) {
         static double expected[ROWS * COLUMNS], found[ROWS * COLUMNS];
-        GuideView     view;
-        double        chi2 = 0, degrees = 0;
+        GuideView view;
+        double chi2 = 0, degrees = 0;
         memset(expected, 0, sizeof expected);
         memset(found, 0, sizeof found);
         guide_view(guide, (uint32_t)s % CELLS, &surfaces[s], &view);
@@ -105,8 +102,8 @@ ARENA_TEST(samples_follow_the_density)
                 float sine, cosine;
                 sincos_turns(((float)k + 0.5f) / (COLUMNS * FINE), &sine, &cosine);
                 expected[i / FINE * COLUMNS + k / FINE] +=
-                    (double)guide_pdf(choice, vec3(r * cosine, r * sine, z)) * 4 * PI *
-                    SAMPLES / (ROWS * FINE) / (COLUMNS * FINE);
+                    (double)guide_pdf(choice, vec3(r * cosine, r * sine, z)) * 4 * PI * SAMPLES /
+                    (ROWS * FINE) / (COLUMNS * FINE);
             }
         for (int i = 0; i < SAMPLES; i++) {
             float u0 = unit_float(hash_u32((uint32_t)(2 * i))),
@@ -125,13 +122,12 @@ ARENA_TEST(samples_follow_the_density)
     }
 }
 
-ARENA_TEST(a_direction_of_a_bin_lies_there_and_a_view_of_darkness_is_empty)
-{
-    LightGuide    *guide = odd_guide(&arena);
+ARENA_TEST(a_direction_of_a_bin_lies_there_and_a_view_of_darkness_is_empty) {
+    LightGuide *guide = odd_guide(&arena);
     GuideView view;
     for (int bin = 0; bin < GUIDE_BINS; bin++) {
         GuideCell *cell = &guide->cells[0];
-        GuideAim   aim = bin % 3 ? GUIDE_LIGHT : GUIDE_SKY;
+        GuideAim aim = bin % 3 ? GUIDE_LIGHT : GUIDE_SKY;
         for (int i = 0; i < GUIDE_AIMS * GUIDE_SIDE; i++)
             cell->light[i / GUIDE_SIDE][i % GUIDE_SIDE] = (GuideRow){0};
         cell->light[aim][bin / GUIDE_SIDE][bin % GUIDE_SIDE] = 1;
@@ -148,15 +144,13 @@ ARENA_TEST(a_direction_of_a_bin_lies_there_and_a_view_of_darkness_is_empty)
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-static WorldMean luminance(const World *world, Vec3 from, Vec3 direction, int count)
-{
+static WorldMean luminance(const World *world, Vec3 from, Vec3 direction, int count) {
     return world_luminance(world, &(WorldLook){from, direction, 0.2f, 1, count});
 }
 
 /* A sphere whose wall reflects half and emits as much as it takes: 1 wherever one looks. */
-static World guided_furnace(void)
-{
-    World    world = world_start();
+static World guided_furnace(void) {
+    World world = world_start();
     Material wall = builder_lamp(0.5f);
     for (int i = 0; i < 3; i++) wall.base_color[i] = 0.5f;
     builder_part(world.scene, wall);
@@ -166,8 +160,7 @@ static World guided_furnace(void)
     return world;
 }
 
-TEST(a_furnace_shows_one_wherever_a_guide_leads)
-{
+TEST(a_furnace_shows_one_wherever_a_guide_leads) {
     SCOPED_WORLD world = guided_furnace();
     for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
         world.context.strategy = s;
@@ -179,21 +172,23 @@ TEST(a_furnace_shows_one_wherever_a_guide_leads)
 
 /* Mean luminance that rays from the middle of the world find, as a training pass or to their
  * end. */
-static double training_mean(const World *world, bool is_training)
-{
+static double training_mean(const World *world, bool is_training) {
     enum { RAYS = 20000 };
     PathStatistics statistics = {0};
-    LitPoint       point = {vec3(0, 0, 0), vec3(0, 0, 1), false};
-    double         sum = 0;
+    LitPoint point = {vec3(0, 0, 0), vec3(0, 0, 1), false};
+    double sum = 0;
     for (uint32_t i = 0; i < RAYS; i++) {
-        Sampler     sampler = sampler_start(5, 0, 0, i);
+        Sampler sampler = sampler_start(5, 0, 0, i);
         Wavelengths w;
-        PathResult  found;
-        float       sky;
+        PathResult found;
+        float sky;
         TrainingSky sky_seen = training_sky(&sky);
         wavelengths_sample(sampler_1d(&sampler), &w);
-        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
-                           .statistics = &statistics, .from = &point,
+        PathStart start = {.context = &world->context,
+                           .wavelengths = &w,
+                           .sampler = &sampler,
+                           .statistics = &statistics,
+                           .from = &point,
                            .collector = is_training ? &sky_seen.base : NULL};
         path_from_ray(&start, (Ray){point.position, point.ns, 0, INFINITY}, &found);
         sum += (double)found.xyz[1] / RAYS;
@@ -203,8 +198,7 @@ static double training_mean(const World *world, bool is_training)
 
 /* In a furnace the first dull wall shows what it emits and half of what the second emits; of
  * what comes to that one a training ray finds nothing. */
-TEST(a_training_ray_ends_at_the_second_dull_surface)
-{
+TEST(a_training_ray_ends_at_the_second_dull_surface) {
     SCOPED_WORLD world = guided_furnace();
     world.context.strategy = PATH_BSDF_ONLY;
     assert_near(training_mean(&world, true), 0.75, 0.005);
@@ -212,9 +206,8 @@ TEST(a_training_ray_ends_at_the_second_dull_surface)
 }
 
 /* A glossy floor under a lamp, a sky and a sun, lacquered or not. */
-static World floor_world(float roughness, float clearcoat)
-{
-    World    world = world_start();
+static World floor_world(float roughness, float clearcoat) {
+    World world = world_start();
     Material floor = builder_material(0.4f);
     floor.roughness = roughness;
     floor.specular = 1;
@@ -232,8 +225,7 @@ static World floor_world(float roughness, float clearcoat)
     return world;
 }
 
-TEST(every_strategy_finds_the_same_light_with_a_guide_and_without)
-{
+TEST(every_strategy_finds_the_same_light_with_a_guide_and_without) {
     static const float looks[][2] = {{0.45f, 0}, {0.7f, 1}, {1, 0}};
     for (int i = 0; i < 3; i++) {
         SCOPED_WORLD world = floor_world(looks[i][0], looks[i][1]);
@@ -244,8 +236,8 @@ TEST(every_strategy_finds_the_same_light_with_a_guide_and_without)
             WorldMean e = luminance(&world, vec3(0, 1, 2), vec3(0, -0.5f, -1), 120000);
             if (!(fabs(e.mean - plain.mean) <= 3.5 * hypot(e.sigma, plain.sigma) &&
                   e.sigma < 0.02 * e.mean))
-                fail_msg("look %d, strategy %d: %g +- %g, without a guide %g +- %g", i, s,
-                         e.mean, e.sigma, plain.mean, plain.sigma);
+                fail_msg("look %d, strategy %d: %g +- %g, without a guide %g +- %g", i, s, e.mean,
+                         e.sigma, plain.mean, plain.sigma);
         }
     }
 }
@@ -254,27 +246,24 @@ TEST(every_strategy_finds_the_same_light_with_a_guide_and_without)
 
 enum { PLACES = 5000, MOST = 64 };
 
-static GuidePlace *spread_places(uint32_t count, Arena *arena)
-{
+static GuidePlace *spread_places(uint32_t count, Arena *arena) {
     GuidePlace *places = ARENA_NEW(arena, GuidePlace, count);
     for (uint32_t i = 0; i < count; i++) {
         Sampler sampler = sampler_start(5, 0, 0, i);
-        Vec2    a = sampler_2d(&sampler), b = sampler_2d(&sampler);
+        Vec2 a = sampler_2d(&sampler), b = sampler_2d(&sampler);
         places[i].position = vec3(10 * a.x * a.x, a.y, i % 10 ? b.x : 3);
         places[i].normal = vec3(0, 1, 0);
     }
     return places;
 }
 
-static GuideTraining *taught(Arena *arena)
-{
+static GuideTraining *taught(Arena *arena) {
     return guide_training_start(spread_places(PLACES, arena), PLACES, MOST, arena);
 }
 
-ARENA_TEST(cells_part_the_places_among_them)
-{
+ARENA_TEST(cells_part_the_places_among_them) {
     GuideTraining *training = taught(&arena);
-    const LightGuide   *guide = &training->guide;
+    const LightGuide *guide = &training->guide;
     assert_true(guide->cell_count >= PLACES / MOST && guide->cell_count < 4 * PLACES / MOST);
     assert_int_equal(guide->node_count, 2 * guide->cell_count - 1);
     for (uint32_t c = 0; c < guide->cell_count; c++) {
@@ -287,15 +276,14 @@ ARENA_TEST(cells_part_the_places_among_them)
 
 /* However small the cells that are requested. None has far more than its share, but where all
  * places coincide. */
-ARENA_TEST(cells_are_no_more_than_a_guide_holds)
-{
+ARENA_TEST(cells_are_no_more_than_a_guide_holds) {
     enum { MANY = 10 * GUIDE_CELLS_MAX };
     for (int k = 0; k < 3; k++) {
-        Arena       room = arena;
+        Arena room = arena;
         GuidePlace *places = spread_places(MANY, &room);
         for (uint32_t i = 1; k == 2 && i < MANY; i++) places[i] = places[0];
         GuideTraining *training = guide_training_start(places, MANY, k ? 1 : 19, &room);
-        uint32_t       cells = training->guide.cell_count;
+        uint32_t cells = training->guide.cell_count;
         assert_true(cells <= GUIDE_CELLS_MAX && training->guide.node_count == 2 * cells - 1);
         for (uint32_t c = 0; k < 2 && c < cells; c++)
             assert_true(training->first_place[c + 1] - training->first_place[c] <= 22);
@@ -303,15 +291,14 @@ ARENA_TEST(cells_are_no_more_than_a_guide_holds)
     }
 }
 
-ARENA_TEST(a_cell_leads_to_where_its_training_found_light)
-{
+ARENA_TEST(a_cell_leads_to_where_its_training_found_light) {
     GuideTraining *training = taught(&arena);
-    Vec3           bright = direction_to(40, 70);
-    GuideView      view;
+    Vec3 bright = direction_to(40, 70);
+    GuideView view;
     guide_training_choose(training, 0);
     assert_int_equal(training->cells[2].point_count, GUIDE_POINTS);
     for (int bin = 0; bin < GUIDE_BINS; bin++) {
-        bool        is_there = vec3_dot(guide_bin_direction(bin, 0.5f, 0.5f), bright) > 0.95f;
+        bool is_there = vec3_dot(guide_bin_direction(bin, 0.5f, 0.5f), bright) > 0.95f;
         const float cd_m2[GUIDE_AIMS] = {is_there ? 50 : 0.1f, is_there ? 0 : 8};
         guide_training_add(&training->cells[2], bin, cd_m2);
     }
@@ -326,12 +313,10 @@ ARENA_TEST(a_cell_leads_to_where_its_training_found_light)
     assert_true(!(training->guide.cells[7].is_lit > 0));
 }
 
-ARENA_TEST(even_light_from_everywhere_gives_pi_times_its_luminance)
-{
+ARENA_TEST(even_light_from_everywhere_gives_pi_times_its_luminance) {
     GuideTraining *training = taught(&arena);
-    const float    cd_m2[GUIDE_AIMS] = {3, 8};
-    for (int bin = 0; bin < GUIDE_BINS; bin++)
-        guide_training_add(&training->cells[2], bin, cd_m2);
+    const float cd_m2[GUIDE_AIMS] = {3, 8};
+    for (int bin = 0; bin < GUIDE_BINS; bin++) guide_training_add(&training->cells[2], bin, cd_m2);
     assert_near(guide_training_illuminance(training, 2), 3 * PI, 0.02 * 3 * PI);
     assert_near(guide_training_illuminance(training, 3), 0, 0);
 }
@@ -340,11 +325,9 @@ ARENA_TEST(even_light_from_everywhere_gives_pi_times_its_luminance)
 
 static const GuideScene has_none = {.light_count = 9, .lamp_count = 9};
 
-static void refused(const char *path, const GuideScene *scene, const char *words,
-                    Arena scratch)
-{
+static void refused(const char *path, const GuideScene *scene, const char *words, Arena scratch) {
     const LightGuide *guide;
-    Error        err = {0};
+    Error err = {0};
     assert_false(guide_read(path, scene, &scratch, &guide, &err));
     char line[1024];
     error_line(&err, line, (int)sizeof line);
@@ -352,12 +335,11 @@ static void refused(const char *path, const GuideScene *scene, const char *words
         fail_msg("'%s' says nothing of '%s' or '%s'", line, words, path);
 }
 
-ARENA_TEST(a_field_comes_back_from_its_file_or_not_at_all)
-{
-    LightGuide       *guide = odd_guide(&arena);
+ARENA_TEST(a_field_comes_back_from_its_file_or_not_at_all) {
+    LightGuide *guide = odd_guide(&arena);
     const LightGuide *back;
-    FileBytes    file;
-    char         path[] = "test_guide.field";
+    FileBytes file;
+    char path[] = "test_guide.field";
     assert_done(guide_write(path, guide, arena, &err));
     assert_done(guide_read(path, &has_none, &arena, &back, &err));
     assert_true(guide_hash(back) == guide_hash(guide) && back->asks);
@@ -376,26 +358,25 @@ ARENA_TEST(a_field_comes_back_from_its_file_or_not_at_all)
     unlink(path);
 }
 
-ARENA_TEST(a_field_that_never_asks_a_light_is_of_another_scene)
-{
+ARENA_TEST(a_field_that_never_asks_a_light_is_of_another_scene) {
     static const GuideScene scene = {{true, true, false, false}, 9, 9};
     LightGuide *guide = odd_guide(&arena);
-    char   path[] = "test_guide.field";
+    char path[] = "test_guide.field";
     guide->cells[1].asked[1] = 0;
     assert_done(guide_write(path, guide, arena, &err));
     refused(path, &scene, "a kind of light that this scene has", arena);
     unlink(path);
 }
 
-ARENA_TEST(a_field_with_impossible_lamps_is_refused)
-{
-    static const GuideLamps wrong[] = {
-        {9, {0}, {1}, 0.1f}, {-1, {0}, {1}, 0.1f}, {1, {-2}, {1}, 0.1f}, {1, {2}, {0}, 0.1f},
-        {1, {2}, {1.5f}, 0.1f}, {2, {2, 2}, {1, 1}, 0.1f}, {1, {2}, {1}, -0.1f},
-        {1, {2}, {1}, 1}, {1, {2}, {NAN}, 0.1f}, {1, {2}, {1}, NAN}};
+ARENA_TEST(a_field_with_impossible_lamps_is_refused) {
+    static const GuideLamps wrong[] = {{9, {0}, {1}, 0.1f},    {-1, {0}, {1}, 0.1f},
+                                       {1, {-2}, {1}, 0.1f},   {1, {2}, {0}, 0.1f},
+                                       {1, {2}, {1.5f}, 0.1f}, {2, {2, 2}, {1, 1}, 0.1f},
+                                       {1, {2}, {1}, -0.1f},   {1, {2}, {1}, 1},
+                                       {1, {2}, {NAN}, 0.1f},  {1, {2}, {1}, NAN}};
     static const GuideScene fewer = {.light_count = 8, .lamp_count = 8};
     LightGuide *guide = odd_guide(&arena);
-    char        path[] = "test_guide.field";
+    char path[] = "test_guide.field";
     assert_done(guide_write(path, guide, arena, &err));
     refused(path, &fewer, "cell 1 knows lamp 8, the scene has 8", arena);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -410,11 +391,10 @@ ARENA_TEST(a_field_with_impossible_lamps_is_refused)
 }
 
 /* Of a file whose hash is right. */
-ARENA_TEST(children_that_are_nowhere_are_refused)
-{
+ARENA_TEST(children_that_are_nowhere_are_refused) {
     const uint32_t wrong[] = {UINT32_MAX, UINT32_MAX - 1, 2 * CELLS - 1, 2 * CELLS - 2, 2, 1};
-    LightGuide    *guide = odd_guide(&arena);
-    char           path[] = "test_guide.field";
+    LightGuide *guide = odd_guide(&arena);
+    char path[] = "test_guide.field";
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         guide->nodes[2].child = wrong[i];
         assert_done(guide_write(path, guide, arena, &err));

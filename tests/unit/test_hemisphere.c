@@ -6,8 +6,7 @@
 #include "hemisphere/wavelet1d.h"
 /* ---- geodesic ---------------------------------------------------------------------------- */
 
-HEMISPHERE_TEST(a_level_has_4_to_the_level_plus_1_triangles)
-{
+HEMISPHERE_TEST(a_level_has_4_to_the_level_plus_1_triangles) {
     for (int level = 0; level <= 6; level++) {
         uint32_t count = geodesic_count(level);
         assert_int_equal(count, (uint32_t)lrint(pow(4, level + 1)));
@@ -22,10 +21,9 @@ HEMISPHERE_TEST(a_level_has_4_to_the_level_plus_1_triangles)
     }
 }
 
-HEMISPHERE_TEST(areas_of_a_level_sum_to_the_hemisphere)
-{
+HEMISPHERE_TEST(areas_of_a_level_sum_to_the_hemisphere) {
     for (int level = 0; level <= 8; level++) {
-        Arena   scratch = f->arena;
+        Arena scratch = f->arena;
         double *areas = ARENA_NEW(&scratch, double, 1u << 2 * level), sum = 0;
         geodesic_areas(level, areas);
         for (uint32_t i = 0; i < 1u << 2 * level; i++) sum += 4 * areas[i];
@@ -34,8 +32,7 @@ HEMISPHERE_TEST(areas_of_a_level_sum_to_the_hemisphere)
     }
 }
 
-TEST(children_cover_their_father_exactly)
-{
+TEST(children_cover_their_father_exactly) {
     for (int level = 0; level < 6; level++)
         for (uint32_t id = 0; id < geodesic_count(level); id += 7) {
             double sum = 0;
@@ -44,14 +41,13 @@ TEST(children_cover_their_father_exactly)
         }
 }
 
-HEMISPHERE_TEST(tables_agree_with_geometry)
-{
+HEMISPHERE_TEST(tables_agree_with_geometry) {
     for (int level = 0; level < LEVEL; level++)
         for (uint32_t id = 0; id < 1u << 2 * level; id += 5) {
-            const float     *cosines = f->geodesic->edges[level][id].half_cos;
-            const float     *ratios = f->geodesic->ratios[level][id].of_child;
+            const float *cosines = f->geodesic->edges[level][id].half_cos;
+            const float *ratios = f->geodesic->ratios[level][id].of_child;
             GeodesicTriangle t = geodesic_triangle(level, id);
-            double           middle = geodesic_area(level + 1, 4 * id);
+            double middle = geodesic_area(level + 1, 4 * id);
             for (uint32_t i = 0; i < 3; i++) {
                 Vec3 sum = vec3_add(t.corner[(i + 1) % 3], t.corner[(i + 2) % 3]);
                 assert_close(cosines[i], 0.5f * vec3_length(sum), 1e-6);
@@ -62,8 +58,7 @@ HEMISPHERE_TEST(tables_agree_with_geometry)
         }
 }
 
-HEMISPHERE_TEST(the_leaf_of_a_leafs_centre_is_that_leaf)
-{
+HEMISPHERE_TEST(the_leaf_of_a_leafs_centre_is_that_leaf) {
     for (int level = 0; level <= LEVEL; level++)
         for (uint32_t id = 0; id < geodesic_count(level); id++) {
             GeodesicPoint p = geodesic_find(f->geodesic, level, geodesic_center(level, id));
@@ -72,17 +67,16 @@ HEMISPHERE_TEST(the_leaf_of_a_leafs_centre_is_that_leaf)
         }
 }
 
-HEMISPHERE_TEST(a_found_leaf_holds_its_direction)
-{
+HEMISPHERE_TEST(a_found_leaf_holds_its_direction) {
     uint32_t seed = 1;
     for (int i = 0; i < 20000; i++) {
-        Vec3             d = random_direction(&seed);
-        int              level = i % (LEVEL + 1);
-        GeodesicPoint    p = geodesic_find(f->geodesic, level, d);
+        Vec3 d = random_direction(&seed);
+        int level = i % (LEVEL + 1);
+        GeodesicPoint p = geodesic_find(f->geodesic, level, d);
         GeodesicTriangle t = geodesic_triangle(level, p.id);
-        Vec3             sum = {0, 0, 0};
+        Vec3 sum = {0, 0, 0};
         for (int k = 0; k < 3; k++) {
-            Vec3  a = t.corner[(k + 1) % 3], b = t.corner[(k + 2) % 3];
+            Vec3 a = t.corner[(k + 1) % 3], b = t.corner[(k + 2) % 3];
             float inside = vec3_dot(vec3_cross(a, b), t.corner[k]);
             float here = vec3_dot(vec3_cross(a, b), d);
             assert_true(here / inside > -1e-4f);
@@ -94,17 +88,15 @@ HEMISPHERE_TEST(a_found_leaf_holds_its_direction)
     }
 }
 
-TEST(ids_below_half_have_y_of_at_least_0)
-{
+TEST(ids_below_half_have_y_of_at_least_0) {
     for (uint32_t id = 0; id < geodesic_count(4); id++)
         assert_int_equal(geodesic_center(4, id).y > 0, id < geodesic_count(4) / 2);
 }
 
-HEMISPHERE_TEST(mirrored_directions_have_mirrored_leaves)
-{
+HEMISPHERE_TEST(mirrored_directions_have_mirrored_leaves) {
     uint32_t seed = 2;
     for (int i = 0; i < 1000; i++) {
-        Vec3     d = random_direction(&seed);
+        Vec3 d = random_direction(&seed);
         uint32_t id = geodesic_find(f->geodesic, 6, d).id;
         assert_int_equal(geodesic_find(f->geodesic, 6, vec3(-d.x, d.y, d.z)).id, id ^ 1u << 12);
         assert_int_equal(geodesic_find(f->geodesic, 6, vec3(d.x, -d.y, d.z)).id, id ^ 2u << 12);
@@ -112,10 +104,9 @@ HEMISPHERE_TEST(mirrored_directions_have_mirrored_leaves)
 }
 
 /* Two triangles touch in an edge when they share exactly two corners. */
-TEST(neighbours_share_an_edge_and_are_neighbours_of_each_other)
-{
+TEST(neighbours_share_an_edge_and_are_neighbours_of_each_other) {
     const int level = 4;
-    int       borders = 0;
+    int borders = 0;
     for (uint32_t id = 0; id < geodesic_count(level); id++)
         for (int k = 0; k < 3; k++) {
             uint32_t next = geodesic_neighbour(level, id, k);
@@ -124,8 +115,7 @@ TEST(neighbours_share_an_edge_and_are_neighbours_of_each_other)
                 continue;
             }
             assert_int_equal(geodesic_neighbour(level, next, k), id);
-            GeodesicTriangle a = geodesic_triangle(level, id),
-                             b = geodesic_triangle(level, next);
+            GeodesicTriangle a = geodesic_triangle(level, id), b = geodesic_triangle(level, next);
             for (int i = 1; i < 3; i++) {
                 Vec3 gap = vec3_sub(a.corner[(k + i) % 3], b.corner[(k + 3 - i) % 3]);
                 assert_true(vec3_length(gap) < 1e-6f);
@@ -134,20 +124,19 @@ TEST(neighbours_share_an_edge_and_are_neighbours_of_each_other)
     assert_int_equal(borders, 4 * 3 * (1 << level));
 }
 
-HEMISPHERE_TEST(sampling_a_triangle_is_uniform_and_inverts)
-{
+HEMISPHERE_TEST(sampling_a_triangle_is_uniform_and_inverts) {
     uint32_t seed = 3;
     for (int level = 0; level <= LEVEL; level++)
         for (int trial = 0; trial < 3; trial++) {
             uint32_t id = hash_u32((uint32_t)(level * 3 + trial)) % geodesic_count(level);
             GeodesicTriangle t = geodesic_triangle(level, id);
-            float            area = (float)geodesic_area(level, id);
-            int              hits[4] = {0}, wrong = 0;
-            const int        count = 4000;
-            GeodesicSampler  sampler = geodesic_sampler(&t, area);
+            float area = (float)geodesic_area(level, id);
+            int hits[4] = {0}, wrong = 0;
+            const int count = 4000;
+            GeodesicSampler sampler = geodesic_sampler(&t, area);
             for (int i = 0; i < count; i++) {
                 float u0 = random_unit(&seed), u1 = random_unit(&seed);
-                Vec3  d = geodesic_sampler_draw(&sampler, u0, u1);
+                Vec3 d = geodesic_sampler_draw(&sampler, u0, u1);
                 assert_close(vec3_length(d), 1, 1e-6);
                 Vec2 u = geodesic_invert_triangle(&t, area, d);
                 if (level < 5) {
@@ -171,15 +160,14 @@ HEMISPHERE_TEST(sampling_a_triangle_is_uniform_and_inverts)
 /* ---- Haar
  * ------------------------------------------------------------------------------------ */
 
-HEMISPHERE_TEST(the_haar_transform_inverts_exactly)
-{
+HEMISPHERE_TEST(the_haar_transform_inverts_exactly) {
     for (int octants = 2; octants <= 4; octants += 2)
         for (size_t w = 0; w < 2; w++) {
-            Arena     scratch = f->arena;
+            Arena scratch = f->arena;
             HaarShape shape = {LEVEL, octants, 3, WEIGHTS[w]};
-            size_t    count = haar_leaf_count(&shape) * 3ull;
-            float    *source = leaves_of_signals(&shape, &scratch);
-            float    *work = ARENA_NEW(&scratch, float, count), largest = 0;
+            size_t count = haar_leaf_count(&shape) * 3ull;
+            float *source = leaves_of_signals(&shape, &scratch);
+            float *work = ARENA_NEW(&scratch, float, count), largest = 0;
             memcpy(work, source, count * sizeof *work);
             haar_forward(&shape, work, scratch);
             haar_inverse(&shape, work, scratch);
@@ -189,12 +177,11 @@ HEMISPHERE_TEST(the_haar_transform_inverts_exactly)
         }
 }
 
-HEMISPHERE_TEST(area_weighted_octant_means_are_integral_means)
-{
-    Arena     scratch = f->arena;
+HEMISPHERE_TEST(area_weighted_octant_means_are_integral_means) {
+    Arena scratch = f->arena;
     HaarShape shape = {LEVEL, 4, 1, HAAR_AREA};
-    float    *values = leaves_of_signals(&shape, &scratch);
-    double   *areas = ARENA_NEW(&scratch, double, 1u << 2 * LEVEL), sum[4] = {0};
+    float *values = leaves_of_signals(&shape, &scratch);
+    double *areas = ARENA_NEW(&scratch, double, 1u << 2 * LEVEL), sum[4] = {0};
     geodesic_areas(LEVEL, areas);
     uint32_t octant = 1u << 2 * LEVEL;
     for (uint32_t i = 0; i < 4 * octant; i++)
@@ -203,11 +190,10 @@ HEMISPHERE_TEST(area_weighted_octant_means_are_integral_means)
     for (uint32_t q = 0; q < 4; q++) assert_close(values[q * octant], sum[q] / (PI / 2), 1e-6);
 }
 
-HEMISPHERE_TEST(equal_weights_give_plain_means)
-{
-    Arena     scratch = f->arena;
+HEMISPHERE_TEST(equal_weights_give_plain_means) {
+    Arena scratch = f->arena;
     HaarShape shape = {1, 4, 1, HAAR_EQUAL};
-    float     values[16];
+    float values[16];
     for (int i = 0; i < 16; i++) values[i] = (float)(i * i);
     haar_forward(&shape, values, scratch);
     for (int q = 0; q < 4; q++) {
@@ -220,13 +206,12 @@ HEMISPHERE_TEST(equal_weights_give_plain_means)
 }
 
 /* Dropping one detail changes the square integral by (detail * norm)^2. */
-HEMISPHERE_TEST(norms_say_what_a_detail_is_worth)
-{
+HEMISPHERE_TEST(norms_say_what_a_detail_is_worth) {
     for (size_t w = 0; w < 2; w++) {
-        Arena     scratch = f->arena;
+        Arena scratch = f->arena;
         HaarShape shape = {3, 4, 1, WEIGHTS[w]};
-        float    *norms = ARENA_NEW(&scratch, float, 256), *values;
-        double   *areas = ARENA_NEW(&scratch, double, 64);
+        float *norms = ARENA_NEW(&scratch, float, 256), *values;
+        double *areas = ARENA_NEW(&scratch, double, 64);
         geodesic_areas(3, areas);
         haar_norms(&shape, norms, scratch);
         for (uint32_t place = 0; place < 256; place++) {
@@ -247,8 +232,7 @@ HEMISPHERE_TEST(norms_say_what_a_detail_is_worth)
 
 static const WaveletKind KINDS[] = {WAVELET_HAAR, WAVELET_CDF53, WAVELET_CDF97};
 
-TEST(one_dimensional_wavelets_invert_at_every_length)
-{
+TEST(one_dimensional_wavelets_invert_at_every_length) {
     uint32_t seed = 4;
     for (size_t k = 0; k < 3; k++)
         for (int count = 1; count <= 130; count++) {
@@ -260,8 +244,7 @@ TEST(one_dimensional_wavelets_invert_at_every_length)
         }
 }
 
-TEST(constants_have_no_details)
-{
+TEST(constants_have_no_details) {
     for (size_t k = 0; k < 3; k++)
         for (int count = 1; count <= 65; count += 4) {
             float row[65];
@@ -273,12 +256,11 @@ TEST(constants_have_no_details)
 }
 
 /* A change at one end reaches only a few coefficients at the other (the coarse ones). */
-TEST(finest_details_are_local)
-{
+TEST(finest_details_are_local) {
     for (size_t k = 0; k < 3; k++)
         for (int count = 64; count <= 65; count++) {
             float row[65] = {0}, changed[65] = {1};
-            int   first = (count + 1) / 2;
+            int first = (count + 1) / 2;
             wavelet1d_forward(KINDS[k], row, count);
             wavelet1d_forward(KINDS[k], changed, count);
             assert_true(row[first] != changed[first]);
@@ -288,8 +270,7 @@ TEST(finest_details_are_local)
 }
 
 /* Vanishing moments: straight lines for 5/3, cubics for 9/7, away from the ends. */
-TEST(smooth_rows_have_small_details)
-{
+TEST(smooth_rows_have_small_details) {
     float line[64], cubic[64];
     for (int i = 0; i < 64; i++) {
         float x = ((float)i - 32) / 32;
@@ -302,8 +283,7 @@ TEST(smooth_rows_have_small_details)
     for (int i = 35; i < 61; i++) assert_near(cubic[i], 0, 1e-6);
 }
 
-TEST(wavelet_norms_are_positive_and_haars_are_known)
-{
+TEST(wavelet_norms_are_positive_and_haars_are_known) {
     float norms[8];
     wavelet1d_norms(WAVELET_HAAR, 8, norms);
     assert_close(norms[0], sqrt(8), 1e-6);
@@ -318,13 +298,11 @@ TEST(wavelet_norms_are_positive_and_haars_are_known)
 
 static const float EXPONENTS[] = {1, 2, 1.5f};
 
-TEST(the_specular_frame_round_trips)
-{
+TEST(the_specular_frame_round_trips) {
     uint32_t seed = 10;
     for (int k = 0; k < 3; k++)
         for (int theta = 0; theta <= 89; theta++) {
-            SpecularFrame frame =
-                specular_frame((float)radians_from_degrees(theta), EXPONENTS[k]);
+            SpecularFrame frame = specular_frame((float)radians_from_degrees(theta), EXPONENTS[k]);
             for (int i = 0; i < 40; i++) {
                 Vec3 d = random_direction(&seed);
                 Vec3 back = specular_frame_outer(&frame, specular_frame_stored(&frame, d));
@@ -335,13 +313,12 @@ TEST(the_specular_frame_round_trips)
         }
 }
 
-TEST(the_horizon_stays_the_horizon_and_the_peak_is_the_pole)
-{
+TEST(the_horizon_stays_the_horizon_and_the_peak_is_the_pole) {
     for (int k = 0; k < 3; k++)
         for (int theta = 0; theta <= 80; theta += 10) {
-            float         angle = (float)radians_from_degrees(theta);
+            float angle = (float)radians_from_degrees(theta);
             SpecularFrame frame = specular_frame(angle, EXPONENTS[k]);
-            Vec3          mirror = vec3(sinf(angle), 0, cosf(angle));
+            Vec3 mirror = vec3(sinf(angle), 0, cosf(angle));
             assert_true(vec3_length(vec3_sub(specular_frame_stored(&frame, mirror),
                                              vec3(0, 0, 1))) < 2e-3f);
             for (int i = 0; i < 64; i++) {
@@ -355,53 +332,48 @@ TEST(the_horizon_stays_the_horizon_and_the_peak_is_the_pole)
 }
 
 /* J is the area of the image of a small stored square over that of the square. */
-TEST(the_jacobian_agrees_with_differences)
-{
+TEST(the_jacobian_agrees_with_differences) {
     uint32_t seed = 11;
     for (int i = 0; i < 2000; i++) {
         float theta = (float)radians_from_degrees(85 * (double)random_unit(&seed));
         SpecularFrame frame = specular_frame(theta, EXPONENTS[i % 3]);
-        Vec3          d = random_direction(&seed);
+        Vec3 d = random_direction(&seed);
         if (d.z < 0.02f || d.z > 0.98f) continue;
         Frame axes = frame_from_z(d);
         float h = 2e-3f;
-        Vec3  x = specular_frame_outer(&frame, vec3_normalize(vec3_along(d, axes.x, h)));
-        Vec3  y = specular_frame_outer(&frame, vec3_normalize(vec3_along(d, axes.y, h)));
-        Vec3  u = specular_frame_outer(&frame, vec3_normalize(vec3_along(d, axes.x, -h)));
-        Vec3  v = specular_frame_outer(&frame, vec3_normalize(vec3_along(d, axes.y, -h)));
+        Vec3 x = specular_frame_outer(&frame, vec3_normalize(vec3_along(d, axes.x, h)));
+        Vec3 y = specular_frame_outer(&frame, vec3_normalize(vec3_along(d, axes.y, h)));
+        Vec3 u = specular_frame_outer(&frame, vec3_normalize(vec3_along(d, axes.x, -h)));
+        Vec3 v = specular_frame_outer(&frame, vec3_normalize(vec3_along(d, axes.y, -h)));
         float area = vec3_length(vec3_cross(vec3_sub(x, u), vec3_sub(y, v))) / (4 * h * h);
         assert_close(area, specular_frame_jacobian(&frame, d), 5e-3);
     }
 }
 
-TEST(both_at_once_agrees_with_one_by_one)
-{
+TEST(both_at_once_agrees_with_one_by_one) {
     uint32_t seed = 19;
     for (int i = 0; i < 3000; i++) {
-        float         theta = 1.5f * random_unit(&seed), jacobian;
+        float theta = 1.5f * random_unit(&seed), jacobian;
         SpecularFrame frame = specular_frame(theta, EXPONENTS[i % 3]);
-        Vec3          outer = random_direction(&seed);
-        Vec3          stored = specular_frame_stored_jacobian(&frame, outer, &jacobian);
-        Vec3          alone = specular_frame_stored(&frame, outer);
+        Vec3 outer = random_direction(&seed);
+        Vec3 stored = specular_frame_stored_jacobian(&frame, outer, &jacobian);
+        Vec3 alone = specular_frame_stored(&frame, outer);
         assert_true(stored.x == alone.x && stored.y == alone.y && stored.z == alone.z);
         assert_close(jacobian, specular_frame_jacobian(&frame, stored), 1e-4);
     }
 }
 
 /* The integral of J over the stored hemisphere is the outer hemisphere. */
-HEMISPHERE_TEST(the_jacobian_integrates_to_the_hemisphere)
-{
+HEMISPHERE_TEST(the_jacobian_integrates_to_the_hemisphere) {
     for (int k = 0; k < 3; k++)
         for (int theta = 0; theta <= 75; theta += 15) {
-            SpecularFrame frame =
-                specular_frame((float)radians_from_degrees(theta), EXPONENTS[k]);
-            double        sum = 0;
+            SpecularFrame frame = specular_frame((float)radians_from_degrees(theta), EXPONENTS[k]);
+            double sum = 0;
             for (uint32_t id = 0; id < geodesic_count(6); id++)
                 sum += (double)f->geodesic->areas[6][id & 4095] *
                        (double)specular_frame_jacobian(&frame, geodesic_center(6, id));
             assert_close(sum, 2 * PI, 1e-3);
         }
 }
-
 
 TEST_PROGRAM(NULL, NULL)

@@ -5,26 +5,23 @@
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere_fixture.h"
 
-static void query_everything(const Tree *tree, Arena scratch)
-{
+static void query_everything(const Tree *tree, Arena scratch) {
     uint32_t seed = 8;
-    float    value[TREE_MAX_COMPONENTS];
+    float value[TREE_MAX_COMPONENTS];
     for (int i = 0; i < 16; i++) {
         Vec3 d = random_direction(&seed);
         tree_interpolate(tree, d, value);
         tree_value(tree, d, value);
     }
-    float *leaves = ARENA_NEW(&scratch, float,
-                              ((size_t)tree->octants << 2 * tree->level) *
-                                  (size_t)tree->components);
+    float *leaves = ARENA_NEW(
+        &scratch, float, ((size_t)tree->octants << 2 * tree->level) * (size_t)tree->components);
     tree_expand(tree, leaves, scratch);
 }
 
 /* A copy that ends where its memory ends, so that the sanitizer sees any step beyond. */
-static void try_tree(const Fixture *f, const char *blob, size_t size, int *opened)
-{
+static void try_tree(const Fixture *f, const char *blob, size_t size, int *opened) {
     char *copy = malloc(size ? size : 1);
-    Tree  tree;
+    Tree tree;
     Error err = {0};
     memcpy(copy, blob, size);
     if (tree_open(copy, size, f->geodesic, &tree, &err)) {
@@ -36,21 +33,18 @@ static void try_tree(const Fixture *f, const char *blob, size_t size, int *opene
     free(copy);
 }
 
-HEMISPHERE_TEST(mutated_trees_are_refused_or_harmless)
-{
+HEMISPHERE_TEST(mutated_trees_are_refused_or_harmless) {
     f->geodesic = geodesic_create(3, &f->arena); /* not a level more than the tree's */
     for (int rows = 0; rows <= TREE_ROWS_INT16; rows++) {
-        HaarShape   shape = {3, 4, 2, HAAR_AREA};
-        HaarTreeOptions options = {.shape = shape, .keep_share = 0.1f,
-                                   .rows = (TreeRowFormat)rows};
+        HaarShape shape = {3, 4, 2, HAAR_AREA};
+        HaarTreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = (TreeRowFormat)rows};
         const void *blob;
-        uint32_t    seed = 9;
-        int         opened = 0;
-        float      *source = leaves_of_signals(&shape, &f->arena);
+        uint32_t seed = 9;
+        int opened = 0;
+        float *source = leaves_of_signals(&shape, &f->arena);
         assert_done(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err));
         size_t size = tree_size(blob);
-        for (size_t prefix = 0; prefix < size; prefix++)
-            try_tree(f, blob, prefix, &opened);
+        for (size_t prefix = 0; prefix < size; prefix++) try_tree(f, blob, prefix, &opened);
         assert_int_equal(opened, 0);
         char *copy = ARENA_NEW(&f->arena, char, size);
         for (int i = 0; i < 6000; i++) {
@@ -65,21 +59,19 @@ HEMISPHERE_TEST(mutated_trees_are_refused_or_harmless)
 }
 
 /* Level 3, one component. */
-static const void *small_tree(Fixture *f, float keep_share)
-{
-    HaarShape   shape = {3, 4, 1, HAAR_AREA};
+static const void *small_tree(Fixture *f, float keep_share) {
+    HaarShape shape = {3, 4, 1, HAAR_AREA};
     HaarTreeOptions options = {.shape = shape, .keep_share = keep_share};
     const void *blob;
-    float      *source = leaves_of_signals(&shape, &f->arena);
+    float *source = leaves_of_signals(&shape, &f->arena);
     assert_done(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err));
     return blob;
 }
 
 /* A header with fewer levels than the nodes have, and one with fewer rows. */
-HEMISPHERE_TEST(trees_deeper_than_their_header_are_refused)
-{
+HEMISPHERE_TEST(trees_deeper_than_their_header_are_refused) {
     const void *blob = small_tree(f, 0.2f);
-    size_t      size = tree_size(blob);
+    size_t size = tree_size(blob);
     TreeHeader *copy = arena_alloc(&f->arena, 1, 16, size);
     memcpy(copy, blob, size);
     copy->level = 2;
@@ -93,12 +85,11 @@ HEMISPHERE_TEST(trees_deeper_than_their_header_are_refused)
     assert_tree_refused(f, copy, size + 8, "row count is");
 }
 
-HEMISPHERE_TEST(a_bad_header_is_named)
-{
+HEMISPHERE_TEST(a_bad_header_is_named) {
     const void *blob = small_tree(f, 0.5f);
-    Tree        tree;
+    Tree tree;
     size_t size = tree_size(blob);
-    char  *copy = arena_alloc(&f->arena, 1, 16, size + 8);
+    char *copy = arena_alloc(&f->arena, 1, 16, size + 8);
     assert_tree_refused(f, (const char *)blob + 4, size, "multiple of 8");
     assert_tree_refused(f, blob, 20, "number of bytes is 20");
     assert_fails(tree_open(blob, size, geodesic_create(2, &f->arena), &tree, &err),

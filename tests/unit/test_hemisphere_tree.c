@@ -8,18 +8,18 @@
 #include "hemisphere/tree/tree_query.h"
 /* ---- compressed trees -------------------------------------------------------------------- */
 
-HEMISPHERE_TEST(a_query_equals_the_inverted_tree_at_every_leaf)
-{
+HEMISPHERE_TEST(a_query_equals_the_inverted_tree_at_every_leaf) {
     for (int variant = 0; variant < 8; variant++) {
-        Arena       keep = f->arena;
-        HaarShape   shape = {6, variant & 1 ? 2 : 4, 3, WEIGHTS[variant >> 1 & 1]};
-        HaarTreeOptions options = {.shape = shape, .keep_share = 0.05f,
-                               .rows = variant & 4 ? TREE_ROWS_INT16 : TREE_ROWS_FLOAT};
-        uint32_t    count = haar_leaf_count(&shape);
-        TreeReport  report;
-        float      *source = leaves_of_signals(&shape, &f->arena);
-        Tree        tree = build_and_open(f, &options, source, &report);
-        float      *leaves = ARENA_NEW(&f->arena, float, 3 * count);
+        Arena keep = f->arena;
+        HaarShape shape = {6, variant & 1 ? 2 : 4, 3, WEIGHTS[variant >> 1 & 1]};
+        HaarTreeOptions options = {.shape = shape,
+                                   .keep_share = 0.05f,
+                                   .rows = variant & 4 ? TREE_ROWS_INT16 : TREE_ROWS_FLOAT};
+        uint32_t count = haar_leaf_count(&shape);
+        TreeReport report;
+        float *source = leaves_of_signals(&shape, &f->arena);
+        Tree tree = build_and_open(f, &options, source, &report);
+        float *leaves = ARENA_NEW(&f->arena, float, 3 * count);
         tree_expand(&tree, leaves, f->arena);
         assert_int_equal(report.stored_rows, (count * 5 + 50) / 100);
         float error = 0;
@@ -40,15 +40,14 @@ HEMISPHERE_TEST(a_query_equals_the_inverted_tree_at_every_leaf)
     }
 }
 
-HEMISPHERE_TEST(a_tree_with_everything_kept_is_its_source)
-{
-    HaarShape   shape = {5, 4, 3, HAAR_AREA};
+HEMISPHERE_TEST(a_tree_with_everything_kept_is_its_source) {
+    HaarShape shape = {5, 4, 3, HAAR_AREA};
     HaarTreeOptions options = {.shape = shape, .keep_share = 1};
-    TreeReport  report;
-    float      *source = leaves_of_signals(&shape, &f->arena);
-    Tree        tree = build_and_open(f, &options, source, &report);
-    double      squares = 0;
-    uint32_t    count = haar_leaf_count(&shape);
+    TreeReport report;
+    float *source = leaves_of_signals(&shape, &f->arena);
+    Tree tree = build_and_open(f, &options, source, &report);
+    double squares = 0;
+    uint32_t count = haar_leaf_count(&shape);
     for (uint32_t id = 0; id < count; id++) {
         float value[3];
         tree_value(&tree, geodesic_center(5, id), value);
@@ -61,13 +60,12 @@ HEMISPHERE_TEST(a_tree_with_everything_kept_is_its_source)
 }
 
 /* With everything kept, 16 bits are the only error; it is reported, and small. */
-HEMISPHERE_TEST(quantisation_is_part_of_the_report)
-{
-    HaarShape   shape = {5, 4, 1, HAAR_AREA};
+HEMISPHERE_TEST(quantisation_is_part_of_the_report) {
+    HaarShape shape = {5, 4, 1, HAAR_AREA};
     HaarTreeOptions options = {.shape = shape, .keep_share = 1, .rows = TREE_ROWS_INT16};
-    TreeReport  report;
-    float      *source = leaves_of_signals(&shape, &f->arena), largest = 0;
-    Tree        tree = build_and_open(f, &options, source, &report);
+    TreeReport report;
+    float *source = leaves_of_signals(&shape, &f->arena), largest = 0;
+    Tree tree = build_and_open(f, &options, source, &report);
     for (uint32_t id = 0; id < haar_leaf_count(&shape); id++) {
         float value;
         tree_value(&tree, geodesic_center(5, id), &value);
@@ -79,17 +77,16 @@ HEMISPHERE_TEST(quantisation_is_part_of_the_report)
 
 /* Smooth functions have small details on fine levels: these take a byte a component, and the
  * error hardly grows. 23 components are summed in all three ways: 16, 4 and 1 at a time. */
-HEMISPHERE_TEST(fine_details_take_8_bits)
-{
-    HaarShape   shape = {6, 2, 23, HAAR_AREA};
+HEMISPHERE_TEST(fine_details_take_8_bits) {
+    HaarShape shape = {6, 2, 23, HAAR_AREA};
     HaarTreeOptions small = {.shape = shape, .keep_share = 0.3f, .rows = TREE_ROWS_INT16};
     HaarTreeOptions wide = {.shape = shape, .keep_share = 0.3f};
-    TreeReport  small_report, wide_report;
-    uint32_t    count = haar_leaf_count(&shape);
-    float      *source = ARENA_NEW(&f->arena, float, 23 * count), value[23];
+    TreeReport small_report, wide_report;
+    uint32_t count = haar_leaf_count(&shape);
+    float *source = ARENA_NEW(&f->arena, float, 23 * count), value[23];
     for (uint32_t i = 0; i < 23 * count; i++)
         source[i] = smooth_signal(geodesic_center(6, i / 23)) * (1 + 0.1f * (float)(i % 23));
-    Tree   tree = build_and_open(f, &small, source, &small_report);
+    Tree tree = build_and_open(f, &small, source, &small_report);
     float *leaves = ARENA_NEW(&f->arena, float, 23 * count);
     build_and_open(f, &wide, source, &wide_report);
     assert_true(tree.byte_row > 0 && tree.byte_row < tree.row_count / 2);
@@ -106,24 +103,22 @@ HEMISPHERE_TEST(fine_details_take_8_bits)
 }
 
 typedef struct Detail {
-    float    significance;
+    float significance;
     uint32_t place;
 } Detail;
 
-static int larger_first(const void *a, const void *b)
-{
+static int larger_first(const void *a, const void *b) {
     float x = ((const Detail *)a)->significance, y = ((const Detail *)b)->significance;
     return (x < y) - (x > y);
 }
 
 /* Normalised details, largest first; octant means come before all. */
 static Detail *sorted_details(const float *coefficients, const float *norms, uint32_t count,
-                              Arena *arena)
-{
+                              Arena *arena) {
     Detail *details = ARENA_NEW(arena, Detail, count);
     for (uint32_t i = 0; i < count; i++)
-        details[i] = (Detail){
-            i % (count / 4) == 0 ? INFINITY : fabsf(coefficients[i]) * norms[i], i};
+        details[i] =
+            (Detail){i % (count / 4) == 0 ? INFINITY : fabsf(coefficients[i]) * norms[i], i};
     qsort(details, count, sizeof *details, larger_first);
     return details;
 }
@@ -131,29 +126,26 @@ static Detail *sorted_details(const float *coefficients, const float *norms, uin
 /* The error is what dropping the smallest normalised details gives. Families of three details
  * are orthogonal to each other; inside one, the square error is sum a_i d_i^2 +
  * (sum a_i d_i)^2 / a_0, at most three times the sum of squares of normalised details. */
-HEMISPHERE_TEST(thresholding_keeps_the_l2_bound)
-{
+HEMISPHERE_TEST(thresholding_keeps_the_l2_bound) {
     HaarShape shape = {6, 4, 1, HAAR_AREA};
-    uint32_t  count = haar_leaf_count(&shape);
-    float    *source = leaves_of_signals(&shape, &f->arena);
-    float    *coefficients = ARENA_NEW(&f->arena, float, count);
-    float    *norms = ARENA_NEW(&f->arena, float, count);
+    uint32_t count = haar_leaf_count(&shape);
+    float *source = leaves_of_signals(&shape, &f->arena);
+    float *coefficients = ARENA_NEW(&f->arena, float, count);
+    float *norms = ARENA_NEW(&f->arena, float, count);
     memcpy(coefficients, source, count * sizeof *source);
     haar_forward(&shape, coefficients, f->arena);
     haar_norms(&shape, norms, f->arena);
     Detail *details = sorted_details(coefficients, norms, count, &f->arena);
     for (float share = 0.01f; share < 0.5f; share *= 3) {
         HaarTreeOptions options = {.shape = shape, .keep_share = share};
-        TreeReport  report;
-        Arena       keep = f->arena;
+        TreeReport report;
+        Arena keep = f->arena;
         build_and_open(f, &options, source, &report);
         float *values = ARENA_NEW(&f->arena, float, count);
         double dropped = 0, error = 0;
         for (uint32_t i = 0; i < count; i++)
-            if (i < report.stored_rows)
-                values[details[i].place] = coefficients[details[i].place];
-            else
-                dropped += (double)details[i].significance * (double)details[i].significance;
+            if (i < report.stored_rows) values[details[i].place] = coefficients[details[i].place];
+            else dropped += (double)details[i].significance * (double)details[i].significance;
         haar_inverse(&shape, values, f->arena);
         for (uint32_t i = 0; i < count; i++) {
             double e = (double)(values[i] - source[i]);
@@ -165,12 +157,11 @@ HEMISPHERE_TEST(thresholding_keeps_the_l2_bound)
     }
 }
 
-HEMISPHERE_TEST(options_out_of_range_are_refused_in_words)
-{
-    HaarShape       shape = {4, 4, 1, HAAR_AREA};
+HEMISPHERE_TEST(options_out_of_range_are_refused_in_words) {
+    HaarShape shape = {4, 4, 1, HAAR_AREA};
     HaarTreeOptions options = {.shape = shape, .keep_share = 0.5f};
-    float          *source = leaves_of_signals(&shape, &f->arena);
-    const void     *blob;
+    float *source = leaves_of_signals(&shape, &f->arena);
+    const void *blob;
     source[7] = NAN;
     assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err),
                  "leaf 7, component 0 is nan");
@@ -181,8 +172,7 @@ HEMISPHERE_TEST(options_out_of_range_are_refused_in_words)
     assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err),
                  "components are 0");
     options.shape.octants = 3;
-    assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err),
-                 "octants are 3");
+    assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err), "octants are 3");
     options.shape.level = 11;
     assert_fails(haar_tree_build(&options, source, &f->arena, &blob, NULL, &err),
                  "tree level is 11");
@@ -192,9 +182,8 @@ HEMISPHERE_TEST(options_out_of_range_are_refused_in_words)
 
 /* The interpolant straight from its definition, with all leaves at hand. */
 static float reference_interpolation(const float *leaves, const Geodesic *geodesic, int level,
-                                     Vec3 direction)
-{
-    GeodesicPoint    p = geodesic_find(geodesic, level, direction);
+                                     Vec3 direction) {
+    GeodesicPoint p = geodesic_find(geodesic, level, direction);
     GeodesicTriangle t = geodesic_triangle(level, p.id);
     double least = (double)fminf(p.weight[0], fminf(p.weight[1], p.weight[2]));
     double value = 3 * least * (double)leaves[p.id];
@@ -213,16 +202,15 @@ static float reference_interpolation(const float *leaves, const Geodesic *geodes
     return (float)value;
 }
 
-static void check_interpolation(Fixture *f, int level, int directions)
-{
+static void check_interpolation(Fixture *f, int level, int directions) {
     HaarShape shape = {level, 4, 1, HAAR_AREA};
-    uint32_t  seed = 5, count = haar_leaf_count(&shape);
-    float    *source = ARENA_NEW(&f->arena, float, count);
+    uint32_t seed = 5, count = haar_leaf_count(&shape);
+    float *source = ARENA_NEW(&f->arena, float, count);
     for (uint32_t i = 0; i < count; i++) source[i] = random_unit(&seed);
     HaarTreeOptions options = {.shape = shape, .keep_share = 1};
-    Tree        tree = build_and_open(f, &options, source, NULL);
+    Tree tree = build_and_open(f, &options, source, NULL);
     for (int i = 0; i < directions; i++) {
-        Vec3  d = random_direction(&seed);
+        Vec3 d = random_direction(&seed);
         float value;
         if (i % 4 == 0) d.z *= 1e-3f;              /* the horizon's leaves */
         if (i % 4 == 1) d.x *= 1e-2f, d.y *= 0.1f; /* octant borders, the pole */
@@ -231,27 +219,25 @@ static void check_interpolation(Fixture *f, int level, int directions)
     }
 }
 
-HEMISPHERE_TEST(interpolation_follows_its_definition)
-{
+HEMISPHERE_TEST(interpolation_follows_its_definition) {
     for (int level = 0; level < 3; level++) check_interpolation(f, level, 100);
     check_interpolation(f, 3, 400);
 }
 
 /* Where a tree ends early, the answer must not depend on the short ways that are then taken:
  * the same values, with every detail stored. */
-HEMISPHERE_TEST(a_small_tree_interpolates_like_its_expansion)
-{
-    HaarShape   shape = {5, 4, 1, HAAR_AREA};
+HEMISPHERE_TEST(a_small_tree_interpolates_like_its_expansion) {
+    HaarShape shape = {5, 4, 1, HAAR_AREA};
     HaarTreeOptions options = {.shape = shape, .keep_share = 0.03f}, all = options;
-    uint32_t    count = haar_leaf_count(&shape), seed = 17;
-    Tree        small = build_and_open(f, &options, leaves_of_signals(&shape, &f->arena), NULL);
-    float      *leaves = ARENA_NEW(&f->arena, float, count);
+    uint32_t count = haar_leaf_count(&shape), seed = 17;
+    Tree small = build_and_open(f, &options, leaves_of_signals(&shape, &f->arena), NULL);
+    float *leaves = ARENA_NEW(&f->arena, float, count);
     tree_expand(&small, leaves, f->arena);
     for (uint32_t i = 0; i < count; i++) leaves[i] += 0.01f * random_unit(&seed);
     all.keep_share = 1;
     Tree whole = build_and_open(f, &all, leaves, NULL);
     for (int i = 0; i < 20000; i++) {
-        Vec3  d = random_direction(&seed);
+        Vec3 d = random_direction(&seed);
         float a, b;
         tree_interpolate(&small, d, &a);
         tree_interpolate(&whole, d, &b);
@@ -260,18 +246,17 @@ HEMISPHERE_TEST(a_small_tree_interpolates_like_its_expansion)
 }
 
 /* A tree of 2 octants is the tree of 4 of the function mirrored at y = 0. */
-HEMISPHERE_TEST(half_trees_equal_whole_trees_of_symmetric_functions)
-{
-    HaarShape   half = {5, 2, 1, HAAR_AREA}, whole = {5, 4, 1, HAAR_AREA};
-    uint32_t    count = haar_leaf_count(&half), seed = 6;
-    float      *source = ARENA_NEW(&f->arena, float, 2 * count);
+HEMISPHERE_TEST(half_trees_equal_whole_trees_of_symmetric_functions) {
+    HaarShape half = {5, 2, 1, HAAR_AREA}, whole = {5, 4, 1, HAAR_AREA};
+    uint32_t count = haar_leaf_count(&half), seed = 6;
+    float *source = ARENA_NEW(&f->arena, float, 2 * count);
     for (uint32_t i = 0; i < count; i++) source[i] = source[i + count] = random_unit(&seed);
     HaarTreeOptions half_options = {.shape = half, .keep_share = 1};
     HaarTreeOptions whole_options = {.shape = whole, .keep_share = 1};
-    Tree        a = build_and_open(f, &half_options, source, NULL);
-    Tree        b = build_and_open(f, &whole_options, source, NULL);
+    Tree a = build_and_open(f, &half_options, source, NULL);
+    Tree b = build_and_open(f, &whole_options, source, NULL);
     for (int i = 0; i < 3000; i++) {
-        Vec3  d = random_direction(&seed);
+        Vec3 d = random_direction(&seed);
         float x, y;
         if (i % 2) d.y *= 1e-2f;
         tree_interpolate(&a, d, &x);
@@ -280,12 +265,11 @@ HEMISPHERE_TEST(half_trees_equal_whole_trees_of_symmetric_functions)
     }
 }
 
-HEMISPHERE_TEST(interpolation_keeps_centres_and_constants)
-{
-    HaarShape   shape = {6, 4, 3, HAAR_AREA};
+HEMISPHERE_TEST(interpolation_keeps_centres_and_constants) {
+    HaarShape shape = {6, 4, 3, HAAR_AREA};
     HaarTreeOptions options = {.shape = shape, .keep_share = 0.05f};
-    uint32_t    count = haar_leaf_count(&shape), seed = 7;
-    float      *source = leaves_of_signals(&shape, &f->arena);
+    uint32_t count = haar_leaf_count(&shape), seed = 7;
+    float *source = leaves_of_signals(&shape, &f->arena);
     for (uint32_t i = 0; i < count; i++) source[3 * i + 2] = 4;
     Tree tree = build_and_open(f, &options, source, NULL);
     for (uint32_t id = 0; id < count; id++) {
@@ -302,8 +286,7 @@ HEMISPHERE_TEST(interpolation_keeps_centres_and_constants)
 }
 
 /* Half circles over the pole, across both planes between octants, and along the horizon. */
-static Vec3 on_half_circle(int line, float turns)
-{
+static Vec3 on_half_circle(int line, float turns) {
     float sine, cosine;
     sincos_turns(turns, &sine, &cosine);
     if (line == 0) return vec3(0.8f * sine, 0.6f * sine, cosine);
@@ -313,17 +296,16 @@ static Vec3 on_half_circle(int line, float turns)
 }
 
 /* Steps of 4e-5 radian across many edges never jump; the piecewise constant value does. */
-HEMISPHERE_TEST(interpolation_is_continuous)
-{
-    HaarShape   shape = {6, 4, 1, HAAR_AREA};
+HEMISPHERE_TEST(interpolation_is_continuous) {
+    HaarShape shape = {6, 4, 1, HAAR_AREA};
     HaarTreeOptions options = {.shape = shape, .keep_share = 0.02f};
-    Tree        tree = build_and_open(f, &options, leaves_of_signals(&shape, &f->arena), NULL);
-    const int   steps = 80000;
+    Tree tree = build_and_open(f, &options, leaves_of_signals(&shape, &f->arena), NULL);
+    const int steps = 80000;
     for (int line = 0; line < 4; line++) {
         float largest = 0, largest_plain = 0, before = 0, plain_before = 0;
         for (int i = 0; i <= steps; i++) {
             float value, plain;
-            Vec3  d = on_half_circle(line, 0.5f * (float)i / (float)steps - 0.25f);
+            Vec3 d = on_half_circle(line, 0.5f * (float)i / (float)steps - 0.25f);
             tree_interpolate(&tree, d, &value);
             tree_value(&tree, d, &plain);
             if (i > 0) {

@@ -14,32 +14,28 @@
 
 static uint32_t seed = 7;
 
-static double random_unit(void)
-{
+static double random_unit(void) {
     seed = hash_u32(seed + 1);
     return (double)unit_float(seed);
 }
 
 /* Directions of the sphere, each for as much of it. */
-static Response sphere(Arena *arena)
-{
-    Vec3    *centers = ARENA_NEW(arena, Vec3, 2 * UPPER);
+static Response sphere(Arena *arena) {
+    Vec3 *centers = ARENA_NEW(arena, Vec3, 2 * UPPER);
     Response response = {.cells.count = 2 * UPPER, .centers = centers};
     response.first = ARENA_NEW(arena, float, 2 * UPPER * LIGHT_BANDS);
     response.rest = ARENA_NEW(arena, float, 2 * UPPER * LIGHT_BANDS);
     for (int i = 0; i < UPPER; i++) {
         double sine = (i / ROUND + 0.5) / ROUND, turn = 2 * PI * (i % ROUND + 0.5) / ROUND;
         double across = sqrt(1 - sine * sine);
-        centers[i] = vec3((float)(across * cos(turn)), (float)sine,
-                          (float)(across * sin(turn)));
+        centers[i] = vec3((float)(across * cos(turn)), (float)sine, (float)(across * sin(turn)));
         centers[UPPER + i] = vec3(centers[i].x, -centers[i].y, centers[i].z);
     }
     return response;
 }
 
 /* Of clear, broken and overcast hours, the sun from just below the horizon to high. */
-static DaylightInput hour_of(int i)
-{
+static DaylightInput hour_of(int i) {
     static const double elevation_deg[HOURS] = {-3, 0, 0.5, 2, 5, 9, 14, 22, 33, 45, 58, 72};
     static const double cloud[3] = {0, 0.6, 1};
     DaylightInput input = daylight_input_default(DAYLIGHT_PEREZ);
@@ -54,22 +50,20 @@ static DaylightInput hour_of(int i)
     return input;
 }
 
-static Vec3 direction_of(const DaylightInput *input)
-{
+static Vec3 direction_of(const DaylightInput *input) {
     double e = input->sun_elevation, a = input->sun_azimuth;
     return vec3((float)(cos(e) * sin(a)), (float)sin(e), (float)(-cos(e) * cos(a)));
 }
 
 /* By the whole sky, as moments have it. */
-static double whole_reading(const Daylight *sky, const Response *response)
-{
+static double whole_reading(const Daylight *sky, const Response *response) {
     double sum = 0;
     for (int cell = 0; cell < response->cells.count; cell++) {
-        Vec3  d = response->centers[cell];
+        Vec3 d = response->centers[cell];
         float bands[LIGHT_BANDS], shares[LIGHT_BANDS];
         for (int b = 0; b < LIGHT_BANDS; b++)
-            shares[b] = response->first[cell * LIGHT_BANDS + b] +
-                        response->rest[cell * LIGHT_BANDS + b];
+            shares[b] =
+                response->first[cell * LIGHT_BANDS + b] + response->rest[cell * LIGHT_BANDS + b];
         light_bands_sky(sky, asinf(d.y), atan2f(d.x, -d.z), bands);
         sum += light_bands_sum(shares, bands);
     }
@@ -78,15 +72,14 @@ static double whole_reading(const Daylight *sky, const Response *response)
 
 typedef struct Hours {
     DaylightInput inputs[HOURS];
-    Vec3          suns[HOURS];
-    int           of_sun[HOURS];
-    HourSkies     skies;
+    Vec3 suns[HOURS];
+    int of_sun[HOURS];
+    HourSkies skies;
 } Hours;
 
-static void make_hours(Hours *out, Arena *arena)
-{
+static void make_hours(Hours *out, Arena *arena) {
     Error err = {0};
-    int   failed;
+    int failed;
     for (int i = 0; i < HOURS; i++) {
         out->inputs[i] = hour_of(i);
         out->suns[i] = direction_of(&out->inputs[i]);
@@ -100,12 +93,11 @@ static void make_hours(Hours *out, Arena *arena)
 
 /* Two responses: that of a luxmeter in the open, which reads what the hour's light is, and one
  * of small windows and a reflecting floor, each with colours of its own. */
-ARENA_TEST(hours_read_as_their_whole_skies)
-{
-    static Hours    hours;
+ARENA_TEST(hours_read_as_their_whole_skies) {
+    static Hours hours;
     static Daylight sky;
     Response open = sphere(&arena), windows = sphere(&arena);
-    float   *lux = ARENA_NEW(&arena, float, 2 * UPPER * LIGHT_BANDS), *shares[2];
+    float *lux = ARENA_NEW(&arena, float, 2 * UPPER * LIGHT_BANDS), *shares[2];
     for (int i = 0; i < UPPER * LIGHT_BANDS; i++)
         lux[i] = open.centers[i / LIGHT_BANDS].y * (2 * PI_F / UPPER);
     open.first = lux;
@@ -119,8 +111,7 @@ ARENA_TEST(hours_read_as_their_whole_skies)
     windows.rest = shares[1];
     make_hours(&hours, &arena);
     const double *in_open = hour_skies_read(&hours.skies, &open, hours.suns, HOURS, 2, &arena);
-    const double *behind =
-        hour_skies_read(&hours.skies, &windows, hours.suns, HOURS, 2, &arena);
+    const double *behind = hour_skies_read(&hours.skies, &windows, hours.suns, HOURS, 2, &arena);
     for (int i = 0; i < HOURS; i++) {
         double sun = 0;
         assert_done(daylight_build(&hours.inputs[i], &arena, &sky, &err));
@@ -133,11 +124,10 @@ ARENA_TEST(hours_read_as_their_whole_skies)
     }
 }
 
-ARENA_TEST(a_dark_hour_reads_nothing_and_threads_change_nothing)
-{
+ARENA_TEST(a_dark_hour_reads_nothing_and_threads_change_nothing) {
     static Hours hours;
     Response response = sphere(&arena);
-    float   *shares = ARENA_NEW(&arena, float, 2 * UPPER * LIGHT_BANDS);
+    float *shares = ARENA_NEW(&arena, float, 2 * UPPER * LIGHT_BANDS);
     for (int i = 0; i < 2 * UPPER * LIGHT_BANDS; i++) shares[i] = (float)random_unit();
     response.first = shares;
     make_hours(&hours, &arena);
@@ -148,10 +138,9 @@ ARENA_TEST(a_dark_hour_reads_nothing_and_threads_change_nothing)
     for (int i = 0; i < HOURS; i++) assert_true(i == 4 ? one[i] == 0 : one[i] > 0);
 }
 
-ARENA_TEST(an_hour_that_is_no_sky_is_told)
-{
-    Error         err = {0};
-    int           failed = -1;
+ARENA_TEST(an_hour_that_is_no_sky_is_told) {
+    Error err = {0};
+    int failed = -1;
     const HourSky *list;
     DaylightInput inputs[3] = {hour_of(6), hour_of(7), hour_of(8)};
     inputs[1].diffuse_w_m2 = 0;
@@ -161,14 +150,13 @@ ARENA_TEST(an_hour_that_is_no_sky_is_told)
 }
 
 /* Below 2 degrees light changes faster. */
-static void sun_is_the_atmospheres(double elevation_deg, Arena arena)
-{
+static void sun_is_the_atmospheres(double elevation_deg, Arena arena) {
     DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
-    SkyTable      table = sky_table_start(&input, elevation_deg, elevation_deg, &arena);
-    DistantTools  tools = {.table = &table};
-    Daylight      sky;
-    float         bands[LIGHT_BANDS], wanted[LIGHT_BANDS];
-    double        sum = 0, off = 0;
+    SkyTable table = sky_table_start(&input, elevation_deg, elevation_deg, &arena);
+    DistantTools tools = {.table = &table};
+    Daylight sky;
+    float bands[LIGHT_BANDS], wanted[LIGHT_BANDS];
+    double sum = 0, off = 0;
     assert_done(distant_probes_sample_skies(NULL, 0, &tools, &arena, &err));
     input.has_sun = input.no_moon = input.has_time = true;
     input.when = (SkyTime){2026, 1, 4, 12, 0, 0, 0}; /* the earth is near */
@@ -188,13 +176,12 @@ static void sun_is_the_atmospheres(double elevation_deg, Arena arena)
 }
 
 /* Made alone it has the bits of the sky's, in twilight and below the horizon, too. */
-ARENA_TEST(a_sun_alone_is_its_skys)
-{
+ARENA_TEST(a_sun_alone_is_its_skys) {
     static const double elevations[] = {-3, -0.2, 0, 0.5, 5, 30, 90};
     for (size_t i = 0; i < COUNT_OF(elevations); i++) {
-        Arena         room = arena;
+        Arena room = arena;
         DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
-        Daylight      whole, alone;
+        Daylight whole, alone;
         input.has_sun = input.no_moon = true;
         input.sun_elevation = radians_from_degrees(elevations[i]);
         assert_done(daylight_build(&input, &room, &whole, &err));
@@ -206,9 +193,8 @@ ARENA_TEST(a_sun_alone_is_its_skys)
 }
 
 /* Also between its elevations: each has the rows beside it alone, by day one of four. */
-ARENA_TEST(the_sun_of_a_sky_table_is_the_atmospheres)
-{
-    static const double BETWEEN[] = {0.3, 0.75, 1.2, 1.7,  2.2,  3.5, 4.5,
+ARENA_TEST(the_sun_of_a_sky_table_is_the_atmospheres) {
+    static const double BETWEEN[] = {0.3, 0.75, 1.2,  1.7,  2.2, 3.5, 4.5,
                                      6.8, 9,    11.5, 14.5, 18,  33};
     for (size_t i = 0; i < COUNT_OF(BETWEEN); i += all_laws() ? 1 : 4)
         sun_is_the_atmospheres(BETWEEN[i], arena);

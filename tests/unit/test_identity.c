@@ -13,24 +13,25 @@
 /* Everything that an identity is made of. */
 typedef struct Subject {
     RenderRequest request;
-    Scene         scene;
-    SceneCamera   camera;
-    Kernel        kernel;
-    const char   *inputs[2];
-    uint64_t      hashes[2];
-    Texture       texture;
+    Scene scene;
+    SceneCamera camera;
+    Kernel kernel;
+    const char *inputs[2];
+    uint64_t hashes[2];
+    Texture texture;
     unsigned char pixels[4];
-    Display       display;
+    Display display;
     SceneOverride content;
 } Subject;
 
-static void fill(Subject *s)
-{
+static void fill(Subject *s) {
     *s = (Subject){
-        .request = {.render = {.width = 64, .height = 36, .max_bounces = 64,
-                               .layers = LAYER_DEPTH | LAYER_ID, .end_sample = 10}},
-        .camera = {.is_perspective = true, .yfov = 0.5f,
-                   .world_from_camera = transform_identity()},
+        .request = {.render = {.width = 64,
+                               .height = 36,
+                               .max_bounces = 64,
+                               .layers = LAYER_DEPTH | LAYER_ID,
+                               .end_sample = 10}},
+        .camera = {.is_perspective = true, .yfov = 0.5f, .world_from_camera = transform_identity()},
         .kernel = {.isa = "sse2"},
         .inputs = {"a/scene.gltf", "panels/ips.panel"},
         .hashes = {1, 2},
@@ -55,42 +56,108 @@ static void fill(Subject *s)
 
 typedef struct Change {
     const char *difference; /* the beginning; NULL: none */
-    void      (*make)(Subject *s);
+    void (*make)(Subject *s);
 } Change;
 
-static void seed(Subject *s) { s->request.render.seed = 7; }
-static void size(Subject *s) { s->request.render.width = 65; }
-static void bounces(Subject *s) { s->request.render.max_bounces = 1; }
-static void learnt(Subject *s) { s->request.field_hash = 0xabc; }
-static void layers(Subject *s) { s->request.render.layers |= LAYER_UV; }
-static void isa(Subject *s) { s->kernel.isa = "avx2"; }
-static void content(Subject *s) { s->hashes[0] = 0xabc; }
-static void one_less(Subject *s) { s->scene.input_count = 1; }
-static void picture(Subject *s) { s->pixels[3] = 1; }
-static void level(Subject *s) { s->display.level = nextafterf(1, 2); }
-static void panel(Subject *s) { s->display.panel_path = "other/oled.panel"; }
-static void shown(Subject *s) { s->content.value = "night.png"; }
-static void field(Subject *s) { s->camera.yfov = nextafterf(0.5f, 1); }
-static void place(Subject *s) { s->camera.world_from_camera.origin.y = 1; }
-static void flat(Subject *s) { s->camera.is_perspective = false; }
-static void round_view(Subject *s) { s->camera.fisheye = FISHEYE_EQUISOLID; }
-static void kind(Subject *s) { s->scene.environment.kind = ENVIRONMENT_NONE; }
-static void air(Subject *s) { s->scene.environment.daylight.turbidity += 1e-13; }
-static void minute(Subject *s) { s->scene.environment.daylight.when.minute++; }
-static void ground(Subject *s) { s->scene.environment.daylight.floor = FLOOR_SEA; }
-static void billows(Subject *s) { s->scene.environment.daylight.cloud_relief_m = 300; }
-static void moon(Subject *s) { s->scene.environment.daylight.no_moon = true; }
-static void sun(Subject *s) { s->scene.environment.has_sun = true; }
-static void heading(Subject *s) { s->scene.environment.heading = 1; }
-static void samples(Subject *s) { s->request.render.first_sample = 5; }
-static void more(Subject *s) { s->request.render.end_sample = 500; }
-static void crop(Subject *s) { s->request.render.crop = (FilmRect){0, 0, 3, 3}; }
-static void noise(Subject *s) { s->request.render.noise = 0.1; }
-static void threads(Subject *s) { s->request.render.threads = 9; }
-static void sky_threads(Subject *s) { s->scene.environment.daylight.threads = 9; }
-static void output(Subject *s) { s->request.output = "b.exr"; }
-static void folder(Subject *s) { s->inputs[0] = "/elsewhere/scene.gltf"; }
-static void far(Subject *s) { s->camera.zfar = 5; }
+static void seed(Subject *s) {
+    s->request.render.seed = 7;
+}
+static void size(Subject *s) {
+    s->request.render.width = 65;
+}
+static void bounces(Subject *s) {
+    s->request.render.max_bounces = 1;
+}
+static void learnt(Subject *s) {
+    s->request.field_hash = 0xabc;
+}
+static void layers(Subject *s) {
+    s->request.render.layers |= LAYER_UV;
+}
+static void isa(Subject *s) {
+    s->kernel.isa = "avx2";
+}
+static void content(Subject *s) {
+    s->hashes[0] = 0xabc;
+}
+static void one_less(Subject *s) {
+    s->scene.input_count = 1;
+}
+static void picture(Subject *s) {
+    s->pixels[3] = 1;
+}
+static void level(Subject *s) {
+    s->display.level = nextafterf(1, 2);
+}
+static void panel(Subject *s) {
+    s->display.panel_path = "other/oled.panel";
+}
+static void shown(Subject *s) {
+    s->content.value = "night.png";
+}
+static void field(Subject *s) {
+    s->camera.yfov = nextafterf(0.5f, 1);
+}
+static void place(Subject *s) {
+    s->camera.world_from_camera.origin.y = 1;
+}
+static void flat(Subject *s) {
+    s->camera.is_perspective = false;
+}
+static void round_view(Subject *s) {
+    s->camera.fisheye = FISHEYE_EQUISOLID;
+}
+static void kind(Subject *s) {
+    s->scene.environment.kind = ENVIRONMENT_NONE;
+}
+static void air(Subject *s) {
+    s->scene.environment.daylight.turbidity += 1e-13;
+}
+static void minute(Subject *s) {
+    s->scene.environment.daylight.when.minute++;
+}
+static void ground(Subject *s) {
+    s->scene.environment.daylight.floor = FLOOR_SEA;
+}
+static void billows(Subject *s) {
+    s->scene.environment.daylight.cloud_relief_m = 300;
+}
+static void moon(Subject *s) {
+    s->scene.environment.daylight.no_moon = true;
+}
+static void sun(Subject *s) {
+    s->scene.environment.has_sun = true;
+}
+static void heading(Subject *s) {
+    s->scene.environment.heading = 1;
+}
+static void samples(Subject *s) {
+    s->request.render.first_sample = 5;
+}
+static void more(Subject *s) {
+    s->request.render.end_sample = 500;
+}
+static void crop(Subject *s) {
+    s->request.render.crop = (FilmRect){0, 0, 3, 3};
+}
+static void noise(Subject *s) {
+    s->request.render.noise = 0.1;
+}
+static void threads(Subject *s) {
+    s->request.render.threads = 9;
+}
+static void sky_threads(Subject *s) {
+    s->scene.environment.daylight.threads = 9;
+}
+static void output(Subject *s) {
+    s->request.output = "b.exr";
+}
+static void folder(Subject *s) {
+    s->inputs[0] = "/elsewhere/scene.gltf";
+}
+static void far(Subject *s) {
+    s->camera.zfar = 5;
+}
 
 static const Change changes[] = {
     {"isa: sse2 there, avx2 here", isa},
@@ -104,9 +171,11 @@ static const Change changes[] = {
     {"decoded pictures: ", picture},
     {"content 0: cluster=map.png there, cluster=night.png here", shown},
     {"display 0: cluster, level 1, ips.panel 0000000000000002 there, cluster, level "
-     "1.00000012, ips.panel 0000000000000002 here", level},
+     "1.00000012, ips.panel 0000000000000002 here",
+     level},
     {"display 0: cluster, level 1, ips.panel 0000000000000002 there, cluster, level 1, "
-     "oled.panel here", panel},
+     "oled.panel here",
+     panel},
     {"environment: sky there, none here", kind},
     {"when: 2026-06-21T08:30:0+2h there, 2026-06-21T08:31:0+2h here", minute},
     {"turbidity: 2.5 there, 2.500000000000", air},
@@ -119,23 +188,28 @@ static const Change changes[] = {
     {"camera: perspective there, fisheye, equisolid here", round_view},
     {"camera yfov: 0.5 there, 0.50000006 here", field},
     {"camera origin: 0 0 0 there, 0 1 0 here", place},
-    {NULL, samples}, {NULL, more}, {NULL, crop}, {NULL, noise}, {NULL, threads},
-    {NULL, sky_threads}, {NULL, output}, {NULL, folder}, {NULL, far},
+    {NULL, samples},
+    {NULL, more},
+    {NULL, crop},
+    {NULL, noise},
+    {NULL, threads},
+    {NULL, sky_threads},
+    {NULL, output},
+    {NULL, folder},
+    {NULL, far},
 };
 
-static const char *identity_of(Subject *s, Arena *arena)
-{
+static const char *identity_of(Subject *s, Arena *arena) {
     return render_identity(&s->request, &s->scene, &s->camera, &s->kernel, arena);
 }
 
-MEMORY_TEST(what_decides_a_sample_is_in_it_and_nothing_else)
-{
+MEMORY_TEST(what_decides_a_sample_is_in_it_and_nothing_else) {
     Subject one;
     fill(&one);
     const char *there = identity_of(&one, arena);
-    const char *begin = arena_format(
-        arena, "version\t%s\nsources\t%s\nisa\tsse2\nray tracer\tEmbree ", PARHELION_VERSION,
-        SOURCES_HASH);
+    const char *begin =
+        arena_format(arena, "version\t%s\nsources\t%s\nisa\tsse2\nray tracer\tEmbree ",
+                     PARHELION_VERSION, SOURCES_HASH);
     assert_ptr_equal(strstr(there, begin), there);
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
         Subject other;
@@ -150,8 +224,7 @@ MEMORY_TEST(what_decides_a_sample_is_in_it_and_nothing_else)
     }
 }
 
-MEMORY_TEST(a_name_cannot_begin_a_line)
-{
+MEMORY_TEST(a_name_cannot_begin_a_line) {
     Subject one;
     fill(&one);
     one.display.name = "x\nseed\t9";
@@ -160,8 +233,7 @@ MEMORY_TEST(a_name_cannot_begin_a_line)
 
 /* ---- comparing --------------------------------------------------------------------------- */
 
-MEMORY_TEST(the_first_line_that_differs_is_named)
-{
+MEMORY_TEST(the_first_line_that_differs_is_named) {
     static const struct {
         const char *there, *here, *text;
     } cases[] = {
@@ -193,40 +265,40 @@ MEMORY_TEST(the_first_line_that_differs_is_named)
 
 /* ---- a checkpoint of another program ----------------------------------------------------- */
 
-MEMORY_TEST(another_version_is_refused_by_name)
-{
-    Error      err = {0};
+MEMORY_TEST(another_version_is_refused_by_name) {
+    Error err = {0};
     const char *path = in_folder("a.checkpoint");
-    Film      *film = film_create(2, 1, (FilmRect){0, 0, 2, 1}, 0, NULL, arena);
+    Film *film = film_create(2, 1, (FilmRect){0, 0, 2, 1}, 0, NULL, arena);
     FilmSample sample = {.xyz = {1, 1, 1}};
     film_add_sample(film, 0, 0, &sample);
     film_add_sample(film, 1, 0, &sample);
-    Checkpoint what = {.path = path, .identity = "version\t0.0.9\nseed\t0\n",
-                       .done = film_part_of(film, 0, 1)};
+    Checkpoint what = {
+        .path = path, .identity = "version\t0.0.9\nseed\t0\n", .done = film_part_of(film, 0, 1)};
     assert_true(checkpoint_write(&what, film, *arena, &err));
-    const RenderRequest request = {
-        .cli = {.quiet = true}, .checkpoint = path, .resumes = true,
-        .render = {.crop = {0, 0, 2, 1}, .end_sample = 9}};
+    const RenderRequest request = {.cli = {.quiet = true},
+                                   .checkpoint = path,
+                                   .resumes = true,
+                                   .render = {.crop = {0, 0, 2, 1}, .end_sample = 9}};
     const Checkpoint *found;
-    const char       *here = "version\t" PARHELION_VERSION "\nseed\t0\n";
+    const char *here = "version\t" PARHELION_VERSION "\nseed\t0\n";
     bool done = render_find_checkpoint(&request, here, arena, &found, &err);
     bool same = render_find_checkpoint(&request, what.identity, arena, &found, &err);
     unlink(path);
     assert_false(done);
     assert_int_equal(err.code, ERROR_MACHINE);
     assert_string_equal(err.file, path);
-    assert_string_equal(err.text,
-                        "was made by another program or instruction set: version: 0.0.9 there, "
-                        PARHELION_VERSION " here — go on where it was made, or by its --isa; "
-                        "leave out --resume to begin anew");
+    assert_string_equal(
+        err.text,
+        "was made by another program or instruction set: version: 0.0.9 there, " PARHELION_VERSION
+        " here — go on where it was made, or by its --isa; "
+        "leave out --resume to begin anew");
     assert_true(same && found);
 }
 
-MEMORY_TEST(an_instruction_set_is_another_program_and_a_seed_is_not)
-{
+MEMORY_TEST(an_instruction_set_is_another_program_and_a_seed_is_not) {
     static const struct {
         Change change;
-        bool   is_same;
+        bool is_same;
     } cases[] = {{{NULL, isa}, false}, {{NULL, seed}, true}, {{NULL, content}, true}};
     Subject one;
     fill(&one);

@@ -8,11 +8,9 @@ typedef struct Refusal {
     const char *words; /* of the message, its place included */
 } Refusal;
 
-static void check_refusals(Fixture *f, const Importer *importer, const Refusal *row,
-                           size_t count)
-{
+static void check_refusals(Fixture *f, const Importer *importer, const Refusal *row, size_t count) {
     for (size_t i = 0; i < count; i++) {
-        char  line[2048];
+        char line[2048];
         Arena before = f->arena;
         fixture_write(f, row[i].text, strlen(row[i].text));
         f->set = import_set(&f->arena);
@@ -27,22 +25,21 @@ static void check_refusals(Fixture *f, const Importer *importer, const Refusal *
 
 #define CHECK(importer, rows) check_refusals(f, &importer, rows, sizeof rows / sizeof *rows)
 
-#define ZEMAX                                                                                  \
-    "Symmetry Asymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"                    \
-    "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\nScatterRadial 1\n10\n"  \
+#define ZEMAX \
+    "Symmetry Asymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n" \
+    "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\nScatterRadial 1\n10\n" \
     "Monochrome\nDataBegin\n"
 
-FIXTURE_TEST(zemax_refusals)
-{
+FIXTURE_TEST(zemax_refusals) {
     static const Refusal rows[] = {
         {"SpectralContent RGB", "line 1: SpectralContent is 'RGB', required: Monochrome or "
-        "XYZ"},
+                                "XYZ"},
         {"ScatterType BSSRDF", "line 1: ScatterType is 'BSSRDF', required: BRDF"},
         {"Source", "line 1: the file ends after Source"},
         {"Symmetry Asymmetrical\n", "line 1: the file ends in its header, required: DataBegin"},
         {"Colour red\n", "line 1: 'Colour' is no entry of this format's header"},
         {"SampleRotation 0\n", "line 1: SampleRotation is 0, required: a whole number from 1 "
-        "to"},
+                               "to"},
         {"SampleRotation 1.5\n", "SampleRotation is 1.5, required: a whole number from 1 to"},
         {"Symmetry Asymmetrical\nMonochrome\n", "line 1: the header has no SpectralContent"},
         {"Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nSampleRotation 1\n0\n"
@@ -56,7 +53,8 @@ FIXTURE_TEST(zemax_refusals)
          "ScatterRadial 5 follows 5, required: rising angles"},
         {"Symmetry Asymmetrical\nSpectralContent Monochrome\nSampleRotation 1\n0\n"
          "AngleOfIncidence 1\n0\nScatterAzimuth 5\n0 1 2 3 4\nScatterRadial 5\n0 1 2 3 4\n"
-         "DataBegin\n", "the header announces 25 values, more than the file can hold"},
+         "DataBegin\n",
+         "the header announces 25 values, more than the file can hold"},
         {ZEMAX "TIS 0 1\nTIS 0 1\nDataEnd\n", "this TIS is one block too many, required: 1"},
         {ZEMAX "TOS 0 1\nDataEnd\n", "line 14: 'TOS' stands where TIS or DataEnd is required"},
         {ZEMAX "TIS 0 1\n", "the file ends without DataEnd"},
@@ -65,8 +63,7 @@ FIXTURE_TEST(zemax_refusals)
     CHECK(importer_zemax, rows);
 }
 
-FIXTURE_TEST(astm_refusals)
-{
+FIXTURE_TEST(astm_refusals) {
     static const Refusal rows[] = {
         {"VARS theta_i,theta_s\n", "VARS names no column of values"},
         {"NUM_POINTS none\n", "NUM_POINTS is ' none', required: 1 to"},
@@ -88,15 +85,14 @@ FIXTURE_TEST(astm_refusals)
 #define SPEOS_ZERO "2 2\n0 180\n0 0 0\n80 0 0\n"
 #define SPEOS_ONE "2 2\n0 180\n0 1 1\n80 1 1\n"
 
-FIXTURE_TEST(speos_refusals)
-{
+FIXTURE_TEST(speos_refusals) {
     static const Refusal rows[] = {
         {"nothing\n", "the first line is 'nothing', required: OPTIS - ..."},
         {"OPTIS - Anisotropic BSDF surface file v8.0\n2\n", "the mode is 2, required: 0 or 1"},
         {SPEOS "900\n", "the length of the description is 900, more than the rest of the file"},
         {SPEOS_LIGHT "1\n500 50\n" SPEOS_ZERO, "the table at incidence 30 integrates to 0"},
         {SPEOS_LIGHT "2\n500 50\n400 50\n" SPEOS_ONE, "the spectrum has 400 nm, required: "
-        "rising"},
+                                                      "rising"},
         {SPEOS_LIGHT "1\n500 -5\n" SPEOS_ONE, "the spectrum is -5% at 500 nm, required: 0 or"},
         {SPEOS_LIGHT "2\n900 5\n950 5\n" SPEOS_ONE, "required: some of 360 to 830 nm"},
         {SPEOS_LIGHT "1\n500 50\n" SPEOS_ONE "more\n", "'more' follows the last table"},
@@ -113,8 +109,7 @@ FIXTURE_TEST(speos_refusals)
 
 /* ---- formats of before ------------------------------------------------------------------- */
 
-FIXTURE_TEST(a_file_of_a_removed_format_is_named)
-{
+FIXTURE_TEST(a_file_of_a_removed_format_is_named) {
     static const Refusal rows[] = {
         {"type bsdf_data\nformat angles=deg\n30 0\n0 0 1\n", "is of FRED's format"},
         {"!!sample\n!!BSDF Data\n20 90\n20 90 7\n", "is of FRED's format"},

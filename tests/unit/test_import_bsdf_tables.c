@@ -8,14 +8,13 @@
 
 /* ---- ASTM -------------------------------------------------------------------------------- */
 
-#define ASTM                                                                                   \
-    "LAB_NAME \"none\"\nSAMPLE_NAME \"grey\"\nNUM_POINTS 4\n"                                  \
-    "VARS theta_i,phi_i,theta_s,phi_s,650nm,450nm\n"                                           \
-    "0.5,0,0.5,3.141592653589793,7,1\n0.5,0,0.25,1.5707963267948966,8,2\n"                     \
+#define ASTM \
+    "LAB_NAME \"none\"\nSAMPLE_NAME \"grey\"\nNUM_POINTS 4\n" \
+    "VARS theta_i,phi_i,theta_s,phi_s,650nm,450nm\n" \
+    "0.5,0,0.5,3.141592653589793,7,1\n0.5,0,0.25,1.5707963267948966,8,2\n" \
     "0.5,0,0,0,9,3\n1.0,0,1.0,-3.141592653589793,10,4\n"
 
-FIXTURE_TEST(astm_mirror_lies_opposite_the_light)
-{
+FIXTURE_TEST(astm_mirror_lies_opposite_the_light) {
     assert_reads(f, ASTM, "astm");
     assert_int_equal(f->set.count, 2);
     const ImportTable *t = table_at(f, 0.5 / RAD, 0);
@@ -30,8 +29,7 @@ FIXTURE_TEST(astm_mirror_lies_opposite_the_light)
     assert_false(f->set.is_anisotropic);
 }
 
-FIXTURE_TEST(astm_in_plane_lists_and_degrees)
-{
+FIXTURE_TEST(astm_in_plane_lists_and_degrees) {
     assert_reads(f, "VARS theta_i,theta_s,brdf\n30,30,5\n30,-60,6\n", "astm");
     const ImportTable *t = table_at(f, 30, 180);
     assert_near(value_at(t, 30, 0, 0), 5, 0);
@@ -43,8 +41,7 @@ FIXTURE_TEST(astm_in_plane_lists_and_degrees)
     assert_noted(f, "blue, green and red stand as three bands at 465, 550 and 612 nm");
 }
 
-FIXTURE_TEST(astm_errors_name_the_line)
-{
+FIXTURE_TEST(astm_errors_name_the_line) {
     const Importer *i = &importer_astm;
     assert_refused(f, "NUM_POINTS 2\nVARS theta_i,theta_s,brdf\n30,30,5\n", i,
                    "line 3: there are 1 rows, and NUM_POINTS is 2");
@@ -52,7 +49,8 @@ FIXTURE_TEST(astm_errors_name_the_line)
                    "line 3: the row before has fewer than 3 numbers");
     assert_refused(f, "VARS theta_i,theta_s,brdf\n30,30,five\n", i,
                    "line 2: a number of the row is 'five', required: a number");
-    assert_refused(f, "VARS theta_i,theta_s,nice,nasty\n30,30,5,6\n", i, "line 2: VARS names "
+    assert_refused(f, "VARS theta_i,theta_s,nice,nasty\n30,30,5,6\n", i,
+                   "line 2: VARS names "
                    "'nice', required: a wavelength like 550nm, or R,G,B or X,Y,Z, or one "
                    "column");
     assert_refused(f, "VARS theta_i,phi_s,brdf\n30,30,5\n", i, "line 2: VARS names no theta_s");
@@ -65,13 +63,12 @@ FIXTURE_TEST(astm_errors_name_the_line)
 /* ---- half and difference angles ----------------------------------------------------------- */
 
 /* The light in the half vector's frame, turned by theta_h about y, then by phi_h about z. */
-TEST(half_and_difference_angles_come_back)
-{
+TEST(half_and_difference_angles_come_back) {
     for (int half_phi = -150; half_phi <= 180; half_phi += 30)
         for (int diff_phi = -140; diff_phi < 180; diff_phi += 40) {
-            double    h = 20 * RAD, p = half_phi * RAD, d = 35 * RAD, q = diff_phi * RAD;
-            double    x = sin(d) * cos(q), y = sin(d) * sin(q), z = cos(d);
-            double    down = x * cos(h) + z * sin(h);
+            double h = 20 * RAD, p = half_phi * RAD, d = 35 * RAD, q = diff_phi * RAD;
+            double x = sin(d) * cos(q), y = sin(d) * sin(q), z = cos(d);
+            double down = x * cos(h) + z * sin(h);
             Direction half = {sin(h) * cos(p), sin(h) * sin(p), cos(h)};
             Direction light = {down * cos(p) - y * sin(p), down * sin(p) + y * cos(p),
                                z * cos(h) - x * sin(h)};
@@ -87,11 +84,12 @@ TEST(half_and_difference_angles_come_back)
 
 /* Values in proportion to 3 at phi 0 and 1 at phi 180, Lambertian otherwise (2), as intensity:
  * times the cosine. The spectrum says 50% and 30%. */
-static char *speos_text(Arena *arena, bool is_bsdf)
-{
-    char *text = arena_format(arena, "OPTIS - Anisotropic BSDF surface file v8.0\n0\nComment\n"
+static char *speos_text(Arena *arena, bool is_bsdf) {
+    char *text = arena_format(arena,
+                              "OPTIS - Anisotropic BSDF surface file v8.0\n0\nComment\n"
                               "11\nDescription\n0 1 0\n1 0\n%d\n2\n0 90\n2\n0 40\n2\n0 40\n"
-                              "0 0\n\n2\n300 70\n700 30\n", is_bsdf);
+                              "0 0\n\n2\n300 70\n700 30\n",
+                              is_bsdf);
     for (int table = 0; table < 4; table++) {
         text = arena_format(arena, "%s19 5\n0 90 180 270 360\n", text);
         for (int i = 0; i <= 18; i++) {
@@ -104,8 +102,7 @@ static char *speos_text(Arena *arena, bool is_bsdf)
     return arena_format(arena, "%sEnd of file\n", text);
 }
 
-FIXTURE_TEST(speos_values_are_scaled_to_the_stated_reflectance)
-{
+FIXTURE_TEST(speos_values_are_scaled_to_the_stated_reflectance) {
     for (int is_bsdf = 0; is_bsdf < 2; is_bsdf++) {
         assert_reads(f, speos_text(&f->arena, is_bsdf), "speos");
         assert_int_equal(f->set.count, 4);
@@ -123,11 +120,12 @@ FIXTURE_TEST(speos_values_are_scaled_to_the_stated_reflectance)
     }
 }
 
-FIXTURE_TEST(speos_spectral_tables_have_their_own_reflectance)
-{
-    assert_reads(f, "OPTIS - BRDF surface file v8.0\n0\nComment\n0\n\n1 0\n1\n1 2\n30\n"
-                    "450 650\n40\n3 2\n0 180\n0 2 2\n45 2 2\n90 2 2\n"
-                    "20\n3 2\n0 180\n0 5 5\n45 5 5\n90 5 5\n", "speos");
+FIXTURE_TEST(speos_spectral_tables_have_their_own_reflectance) {
+    assert_reads(f,
+                 "OPTIS - BRDF surface file v8.0\n0\nComment\n0\n\n1 0\n1\n1 2\n30\n"
+                 "450 650\n40\n3 2\n0 180\n0 2 2\n45 2 2\n90 2 2\n"
+                 "20\n3 2\n0 180\n0 5 5\n45 5 5\n90 5 5\n",
+                 "speos");
     assert_int_equal(f->set.count, 2);
     assert_close(f->set.table[0].wavelength_nm[0], 450, 1e-7);
     assert_close(value_at(&f->set.table[0], 45, 0, 0), 0.4 / PI, 1e-4);
@@ -135,26 +133,32 @@ FIXTURE_TEST(speos_spectral_tables_have_their_own_reflectance)
     assert_close(value_at(&f->set.table[1], 45, 180, 0), 0.2 / PI, 1e-4);
 }
 
-FIXTURE_TEST(speos_errors_name_the_line)
-{
+FIXTURE_TEST(speos_errors_name_the_line) {
     const Importer *i = &importer_speos;
     assert_refused(f, "OPTIS - Anisotropic BSDF surface file v7.0\n0\n", i,
                    "line 2: the version is 'v7.0', required: v8.0 or later");
-    assert_refused(f, "OPTIS - Anisotropic BSDF surface file v8.0\n0\nC\n0\n\n0 1 0\n0 1\n"
-                      "1\n", i, "line 8: there is transmission only: a display panel is "
+    assert_refused(f,
+                   "OPTIS - Anisotropic BSDF surface file v8.0\n0\nC\n0\n\n0 1 0\n0 1\n"
+                   "1\n",
+                   i,
+                   "line 8: there is transmission only: a display panel is "
                    "opaque");
-    assert_refused(f, "OPTIS - BRDF surface file v8.0\n0\nC\n0\n\n1 0\n1\n1 1\n30\n450\n40\n"
-                      "2 1\n0\n0 1\n95 1\n", i, "theta is 95, required: 0 to 90 degrees");
-    assert_refused(f, "OPTIS - Simple scattering surface file v2.0\nC\nReflection\n"
-                      "10 50 0 5\n", i, "line 4: the shares are 10, 50 and 0%; only a "
+    assert_refused(f,
+                   "OPTIS - BRDF surface file v8.0\n0\nC\n0\n\n1 0\n1\n1 1\n30\n450\n40\n"
+                   "2 1\n0\n0 1\n95 1\n",
+                   i, "theta is 95, required: 0 to 90 degrees");
+    assert_refused(f,
+                   "OPTIS - Simple scattering surface file v2.0\nC\nReflection\n"
+                   "10 50 0 5\n",
+                   i,
+                   "line 4: the shares are 10, 50 and 0%; only a "
                    "Lambertian surface (0, above 0, 0) is known here");
     const char *text = speos_text(&f->arena, true);
     assert_prefixes_refused(f, text, strlen(text) - 12, 61, i); /* without "End of file" */
 }
 
 /* One block of literals: a token of 15 and the rest of the length, then the bytes. */
-static void put_block(unsigned char **at, const double *number, size_t count)
-{
+static void put_block(unsigned char **at, const double *number, size_t count) {
     size_t size = count * sizeof *number, rest = size - 15;
     unsigned char packed[4096], *p = packed;
     assert_true(size >= 15 && size < 4000);
@@ -172,21 +176,18 @@ static void put_block(unsigned char **at, const double *number, size_t count)
     *at += 16 + length;
 }
 
-static void put_u32(unsigned char **at, uint32_t value)
-{
+static void put_u32(unsigned char **at, uint32_t value) {
     memcpy(*at, &value, 4);
     *at += 4;
 }
 
-static void put_doubles(unsigned char **at, const double *list, size_t count)
-{
+static void put_doubles(unsigned char **at, const double *list, size_t count) {
     memcpy(*at, list, count * sizeof *list);
     *at += count * sizeof *list;
 }
 
 /* One light at 30 degrees, BSDF values 2 everywhere but 6 at (45, 0); reflectance 0.25. */
-static size_t speos_binary(unsigned char *bytes)
-{
+static size_t speos_binary(unsigned char *bytes) {
     unsigned char *at = bytes;
     double anisotropy[2] = {0, 90}, incidence[2] = {30, 50}, theta[3] = {0, 45, 90};
     double phi[3] = {0, 120, 240}, flags[2] = {1, 1}, vector[3] = {0, 1, 0};
@@ -231,10 +232,9 @@ static size_t speos_binary(unsigned char *bytes)
     return (size_t)(at - bytes);
 }
 
-FIXTURE_TEST(speos_binary_holds_what_its_text_would)
-{
+FIXTURE_TEST(speos_binary_holds_what_its_text_would) {
     unsigned char bytes[4096];
-    size_t        size = speos_binary(bytes);
+    size_t size = speos_binary(bytes);
     assert_true(fixture_read(f, bytes, size, "speos"));
     assert_int_equal(f->set.count, 4);
     const ImportTable *t = table_at(f, 30, 180);
@@ -248,11 +248,10 @@ FIXTURE_TEST(speos_binary_holds_what_its_text_would)
                                      "save the file as text");
 }
 
-FIXTURE_TEST(speos_binary_refusals)
-{
+FIXTURE_TEST(speos_binary_refusals) {
     static const struct {
-        int         at; /* byte */
-        int         value;
+        int at; /* byte */
+        int value;
         const char *words;
     } row[] = {
         {40, '8', "is binary and not of version 9.0"},
@@ -282,8 +281,7 @@ FIXTURE_TEST(speos_binary_refusals)
 
 /* Worked out from the file by an independent reading: the table at 5 degrees has 0.172308 at
  * (30, 0), times cosine; H(5) = 0.61736, H(10) = 0.62309 and R(6) = 62.27%. */
-FIXTURE_TEST(a_real_measurement_of_speos_has_its_values)
-{
+FIXTURE_TEST(a_real_measurement_of_speos_has_its_values) {
     const char *file = shared_bsdf(f, "speos/R_test.anisotropicbsdf");
     assert_true(fixture_read_file(f, file, "speos"));
     assert_int_equal(f->set.count, 19);
@@ -299,27 +297,27 @@ FIXTURE_TEST(a_real_measurement_of_speos_has_its_values)
 
 /* The anisotropy angles 0 and 90 as a block with a match (thirteen zeros), its bytes written
  * over the plain block of speos_binary. */
-static bool reads_packed(Fixture *f, const unsigned char *block, size_t packed)
-{
+static bool reads_packed(Fixture *f, const unsigned char *block, size_t packed) {
     enum { BLOCK = 125, PLAIN = 18 }; /* u32 packed bytes, then so many of them */
     unsigned char bytes[4096], *at = bytes + BLOCK;
-    size_t        size = speos_binary(bytes);
+    size_t size = speos_binary(bytes);
     memmove(at + 4 + packed, at + 4 + PLAIN, size - BLOCK - 4 - PLAIN);
     put_u32(&at, (unsigned)packed);
     memcpy(at, block, packed);
     return fixture_read(f, bytes, size - PLAIN + packed, "speos");
 }
 
-FIXTURE_TEST(packed_blocks_that_are_not_sound_are_refused)
-{
+FIXTURE_TEST(packed_blocks_that_are_not_sound_are_refused) {
     enum { MATCH = 0, OFFSET = 2 };
     const unsigned char good[] = {0x16, 0, 1, 0, 0x50, 0, 0, 0x80, 0x56, 0x40};
     assert_true(reads_packed(f, good, sizeof good));
     assert_int_equal(f->set.count, 4);
     table_at(f, 50, 90);
     for (size_t n = 0; n < sizeof good; n++) assert_false(reads_packed(f, good, n));
-    static const struct { int at; unsigned char value; } wrong[] = {
-        {MATCH, 0x15}, {MATCH, 0x17}, {MATCH, 0x1F}, {OFFSET, 2}};
+    static const struct {
+        int at;
+        unsigned char value;
+    } wrong[] = {{MATCH, 0x15}, {MATCH, 0x17}, {MATCH, 0x1F}, {OFFSET, 2}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         unsigned char block[sizeof good];
         memcpy(block, good, sizeof good);

@@ -8,26 +8,25 @@
 
 /* ---- EULUMDAT ---------------------------------------------------------------------------- */
 
-#define HEAD_LINES                                                                             \
-    "Maker\n2\n%d\n%d\n%g\n%d\n%g\nreport\nLamp 7\nno\nfile\ndate\n"                           \
-    "100\n50\n20\n%g\n%g\n0\n0\n0\n0\n100\n%g\n%g\n0\n1\n%d\nLED\n%g\n4000K\n80\n10\n"         \
+#define HEAD_LINES \
+    "Maker\n2\n%d\n%d\n%g\n%d\n%g\nreport\nLamp 7\nno\nfile\ndate\n" \
+    "100\n50\n20\n%g\n%g\n0\n0\n0\n0\n100\n%g\n%g\n0\n1\n%d\nLED\n%g\n4000K\n80\n10\n" \
     "1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n"
 
 typedef struct Ldt {
-    int    symmetry, planes, gammas, stored, lamps;
+    int symmetry, planes, gammas, stored, lamps;
     double length_mm, width_mm, ratio, factor, flux;
 } Ldt;
 
 static const Ldt plain = {1, 4, 19, 1, 1, 200, 100, 80, 1, 2000};
 
 /* Intensity of the stored plane k at a gamma: Lambertian, k + 1 times as bright. */
-static char *ldt_text(Lab *lab, const Ldt *ldt)
-{
-    char  *text = ARENA_NEW(&lab->arena, char, 1 << 18);
+static char *ldt_text(Lab *lab, const Ldt *ldt) {
+    char *text = ARENA_NEW(&lab->arena, char, 1 << 18);
     double c_step = 360.0 / ldt->planes, step = 90.0 / (ldt->gammas - 1);
-    size_t at = (size_t)sprintf(text, HEAD_LINES, ldt->symmetry, ldt->planes, c_step,
-                                ldt->gammas, step, ldt->length_mm, ldt->width_mm, ldt->ratio,
-                                ldt->factor, ldt->lamps, ldt->flux);
+    size_t at = (size_t)sprintf(text, HEAD_LINES, ldt->symmetry, ldt->planes, c_step, ldt->gammas,
+                                step, ldt->length_mm, ldt->width_mm, ldt->ratio, ldt->factor,
+                                ldt->lamps, ldt->flux);
     for (int i = 0; i < ldt->planes; i++) at += (size_t)sprintf(text + at, "%g\n", i * c_step);
     for (int i = 0; i < ldt->gammas; i++) at += (size_t)sprintf(text + at, "%g\n", i * step);
     for (int k = 0; k < ldt->stored; k++)
@@ -37,16 +36,14 @@ static char *ldt_text(Lab *lab, const Ldt *ldt)
     return text;
 }
 
-static const ImportTable *import_ldt(Lab *lab, const Ldt *ldt)
-{
+static const ImportTable *import_ldt(Lab *lab, const Ldt *ldt) {
     lab_write(lab, "lamp.ldt", ldt_text(lab, ldt));
     lab_import(lab);
     return lab_table(lab, IMPORT_WHITE, 255);
 }
 
 /* 100 cd/klm, 2000 lm, 0.02 m2: 10,000 cd/m2 everywhere; flux pi I0 = 628 lm of 1600. */
-LAB_TEST(a_lambertian_luminaire_is_equally_bright_everywhere)
-{
+LAB_TEST(a_lambertian_luminaire_is_equally_bright_everywhere) {
     const ImportTable *white = import_ldt(lab, &plain);
     assert_int_equal(white->rows, 36 * 18); /* not the horizon */
     for (int i = 0; i < white->rows; i++) assert_close(white->value[3 * i + 1], 10000, 1e-6);
@@ -55,9 +52,8 @@ LAB_TEST(a_lambertian_luminaire_is_equally_bright_everywhere)
     assert_string_equal(lab->set.panel, "Lamp 7");
 }
 
-LAB_TEST(area_factor_and_absolute_flux_count)
-{
-    Ldt  round = plain, factor = plain, absolute = plain;
+LAB_TEST(area_factor_and_absolute_flux_count) {
+    Ldt round = plain, factor = plain, absolute = plain;
     round.width_mm = 0;
     assert_close(lab_value(import_ldt(lab, &round), 0, 0, 1), 200 / (PI * 0.01), 1e-6);
     factor.factor = 1.5;
@@ -70,13 +66,15 @@ LAB_TEST(area_factor_and_absolute_flux_count)
 }
 
 /* Brightness of each quarter plane, in units of the first stored plane's. */
-LAB_TEST(symmetries_fill_the_other_planes)
-{
-    static const struct { int symmetry, stored; double at[4]; } cases[] = {
-        {0, 4, {1, 2, 3, 4}}, {1, 1, {1, 1, 1, 1}},
-        {2, 3, {1, 2, 3, 2}},  /* C0, C90, C180 */
-        {3, 3, {2, 3, 2, 1}},  /* C270, C0, C90 */
-        {4, 2, {1, 2, 1, 2}}}; /* C0, C90 */
+LAB_TEST(symmetries_fill_the_other_planes) {
+    static const struct {
+        int symmetry, stored;
+        double at[4];
+    } cases[] = {{0, 4, {1, 2, 3, 4}},
+                 {1, 1, {1, 1, 1, 1}},
+                 {2, 3, {1, 2, 3, 2}},  /* C0, C90, C180 */
+                 {3, 3, {2, 3, 2, 1}},  /* C270, C0, C90 */
+                 {4, 2, {1, 2, 1, 2}}}; /* C0, C90 */
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Ldt ldt = plain;
         ldt.symmetry = cases[i].symmetry;
@@ -94,9 +92,8 @@ LAB_TEST(symmetries_fill_the_other_planes)
     assert_close(lab_value(import_ldt(lab, &ldt), 45, 180, 1), 20000, 1e-6);
 }
 
-LAB_TEST(eulumdat_is_refused_with_its_line)
-{
-    Ldt  no_area = plain, odd = plain, dark = plain;
+LAB_TEST(eulumdat_is_refused_with_its_line) {
+    Ldt no_area = plain, odd = plain, dark = plain;
     no_area.length_mm = no_area.width_mm = 0;
     lab_write(lab, "lamp.ldt", ldt_text(lab, &no_area));
     lab_refused(lab, "lamp.ldt: states no luminous area, which luminance needs — give it with "
@@ -120,8 +117,7 @@ LAB_TEST(eulumdat_is_refused_with_its_line)
     lab_refused(lab, "lamp.ldt: line 48: the file ends before the angle");
 }
 
-static void no_prefix_is_taken(Lab *lab, const char *name, const char *text, size_t whole)
-{
+static void no_prefix_is_taken(Lab *lab, const char *name, const char *text, size_t whole) {
     lab_write(lab, name, text);
     for (size_t n = 0; n < whole; n++) {
         Arena before = lab->arena;
@@ -132,9 +128,8 @@ static void no_prefix_is_taken(Lab *lab, const char *name, const char *text, siz
     }
 }
 
-LAB_TEST(a_cut_eulumdat_is_refused)
-{
-    Ldt   small = plain;
+LAB_TEST(a_cut_eulumdat_is_refused) {
+    Ldt small = plain;
     small.gammas = 7;
     char *text = ldt_text(lab, &small);
     char *end = text + strlen(text);
@@ -151,17 +146,15 @@ LAB_TEST(a_cut_eulumdat_is_refused)
 #define PLANE_2 "200 173.205081 100 0\n"
 #define PLANE_3 "300 259.807621 150 0\n"
 
-static const ImportTable *import_ies(Lab *lab, const char *text)
-{
+static const ImportTable *import_ies(Lab *lab, const char *text) {
     lab_write(lab, "lamp.ies", text);
     lab_import(lab);
     return lab_table(lab, IMPORT_WHITE, 255);
 }
 
-LAB_TEST(intensity_over_area_times_cosine_is_luminance)
-{
+LAB_TEST(intensity_over_area_times_cosine_is_luminance) {
     const ImportTable *white = import_ies(lab, IES_HEAD "1 400 2 4 1 1 2 .5 .2 0\n"
-                                               "1.1 1 60\n" GAMMAS "0\n" PLANE_1);
+                                                        "1.1 1 60\n" GAMMAS "0\n" PLANE_1);
     assert_close(lab_value(white, 0, 0, 1), 2200, 1e-6);
     assert_close(lab_value(white, 60, 250, 1), 2200, 1e-6);
     assert_int_equal(white->rows, 36 * 3);
@@ -169,33 +162,39 @@ LAB_TEST(intensity_over_area_times_cosine_is_luminance)
     assert_true(lab_noted(lab, "the file states 440 lm"));
 }
 
-LAB_TEST(sizes_may_be_feet_and_circles)
-{
-    static const struct { const char *sizes; double area_m2; } cases[] = {
-        {"2 .5 .2 0", 0.1}, {"1 1 2 0", 2 * 0.3048 * 0.3048}, {"2 -.2 -.2 0", PI * 0.01},
-        {"2 -.2 0 0", PI * 0.01}, {"2 -.4 -.2 0", PI * 0.02},
-        {"2 -.1 .5 .1", PI / 4 * 0.05}, {"2 0 .5 -.1", 0.05}, {"2 -.2 -.3 -.4", PI / 4 * 0.06},
-        {"2 .1 -.5 -.3", 0.05}, {"2 .5 .2 .3", 0.1}};
+LAB_TEST(sizes_may_be_feet_and_circles) {
+    static const struct {
+        const char *sizes;
+        double area_m2;
+    } cases[] = {{"2 .5 .2 0", 0.1},         {"1 1 2 0", 2 * 0.3048 * 0.3048},
+                 {"2 -.2 -.2 0", PI * 0.01}, {"2 -.2 0 0", PI * 0.01},
+                 {"2 -.4 -.2 0", PI * 0.02}, {"2 -.1 .5 .1", PI / 4 * 0.05},
+                 {"2 0 .5 -.1", 0.05},       {"2 -.2 -.3 -.4", PI / 4 * 0.06},
+                 {"2 .1 -.5 -.3", 0.05},     {"2 .5 .2 .3", 0.1}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const ImportTable *white = import_ies(lab, arena_format(&lab->arena, IES_HEAD
-            "1 -1 1 4 1 1 %s\n1 1 60\n" GAMMAS "0\n" PLANE_1, cases[i].sizes));
+        const ImportTable *white =
+            import_ies(lab, arena_format(&lab->arena,
+                                         IES_HEAD "1 -1 1 4 1 1 %s\n1 1 60\n" GAMMAS "0\n" PLANE_1,
+                                         cases[i].sizes));
         assert_close(lab_value(white, 30, 0, 1), 100 / cases[i].area_m2, 1e-6);
     }
 }
 
-LAB_TEST(the_range_of_horizontal_angles_tells_the_symmetry)
-{
-    static const struct { const char *planes; double at[4]; } cases[] = {
+LAB_TEST(the_range_of_horizontal_angles_tells_the_symmetry) {
+    static const struct {
+        const char *planes;
+        double at[4];
+    } cases[] = {
         {"2 1 2 1 1 0\n1 1 9\n" GAMMAS "0 90\n" PLANE_1 PLANE_2, {1, 2, 1, 2}},
         {"3 1 2 1 1 0\n1 1 9\n" GAMMAS "0 90 180\n" PLANE_1 PLANE_2 PLANE_3, {1, 2, 3, 2}},
         {"3 1 2 1 1 0\n1 1 9\n" GAMMAS "90 180 270\n" PLANE_1 PLANE_2 PLANE_3, {2, 1, 2, 3}},
-        {"5 1 2 1 1 0\n1 1 9\n" GAMMAS "0 90 180 270 360\n" PLANE_1 PLANE_2 PLANE_3 PLANE_2
-         PLANE_1, {1, 2, 3, 2}},
+        {"5 1 2 1 1 0\n1 1 9\n" GAMMAS "0 90 180 270 360\n" PLANE_1 PLANE_2 PLANE_3 PLANE_2 PLANE_1,
+         {1, 2, 3, 2}},
         {"4 1 2 1 1 0\n1 1 9\n" GAMMAS "0, 90, 180, 270\n" PLANE_1 PLANE_3 PLANE_2 PLANE_2,
          {1, 3, 2, 2}}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const ImportTable *white = import_ies(lab, arena_format(&lab->arena, IES_HEAD
-                                              "1 -1 1 4 %s", cases[i].planes));
+        const ImportTable *white =
+            import_ies(lab, arena_format(&lab->arena, IES_HEAD "1 -1 1 4 %s", cases[i].planes));
         for (int quarter = 0; quarter < 4; quarter++)
             assert_close(lab_value(white, 60, -90.0 * quarter, 1), 100 * cases[i].at[quarter],
                          1e-6);
@@ -203,19 +202,18 @@ LAB_TEST(the_range_of_horizontal_angles_tells_the_symmetry)
 }
 
 /* A panel is not tilted: the factor at 0 counts. */
-LAB_TEST(the_factor_of_no_tilt_counts_and_light_behind_is_told)
-{
-    const ImportTable *white = import_ies(lab,
-        "IESNA91\nTILT=INCLUDE\n1\n3\n0 45 90\n.5 .9\n.8\n1 1000 1 3 1 1 2 1 1 0\n1 1 9\n"
-        "0 90 180\n0\n200\n200 200\n");
+LAB_TEST(the_factor_of_no_tilt_counts_and_light_behind_is_told) {
+    const ImportTable *white = import_ies(
+        lab, "IESNA91\nTILT=INCLUDE\n1\n3\n0 45 90\n.5 .9\n.8\n1 1000 1 3 1 1 2 1 1 0\n1 1 9\n"
+             "0 90 180\n0\n200\n200 200\n");
     assert_int_equal(white->rows, 36);
     assert_close(white->value[1], 100, 1e-6);
     assert_true(lab_noted(lab, "is not tilted: of its tilt factors 0.5 is applied"));
     assert_true(lab_noted(lab, "50% of the flux goes beyond 90 degrees"));
     /* A sphere of 100 cd: 400 pi lm. */
     assert_true(lab_noted(lab, "1256.64 lm in all directions, the file states 1000 lm"));
-    static const char text[] = "IESNA91\nTILT= a.tlt\n1 -1 1 4 1 1 2 1 1 0\n1 1 9\n" GAMMAS
-                               "0\n" PLANE_1;
+    static const char text[] =
+        "IESNA91\nTILT= a.tlt\n1 -1 1 4 1 1 2 1 1 0\n1 1 9\n" GAMMAS "0\n" PLANE_1;
     import_ies(lab, text);
     assert_true(lab_noted(lab, "its tilt factors are not there: no file"));
     lab_write(lab, "a.tlt", "2\n2\n0 90\n.25 1\n");
@@ -226,17 +224,27 @@ LAB_TEST(the_factor_of_no_tilt_counts_and_light_behind_is_told)
     lab_refused(lab, "a.tlt: line 5: the file ends before a tilt factor");
 }
 
-TEST(what_is_tilted_is_the_lamp)
-{
+TEST(what_is_tilted_is_the_lamp) {
     static double angle[3] = {0, 60, 90}, factor[3] = {1, 0.7, 0.4};
-    static const struct { int geometry; WebType type; Vec3 down; double tilted, factor; }
-    cases[] = {{1, WEB_C, {0, 0, -1}, 0, 1}, {1, WEB_C, {0.5f, 0, -0.8660254f}, 30, 0.85},
-               {1, WEB_C, {0, 0.8660254f, -0.5f}, 60, 0.7}, {1, WEB_C, {0, 0, 1}, 0, 1},
-               {1, WEB_B, {0.8660254f, 0, 0.5f}, 60, 0.7}, {2, WEB_C, {0, 0, -1}, 0, 1},
-               {2, WEB_C, {0, 1, 0}, 0, 1}, {2, WEB_C, {1, 0, 0}, 90, 0.4},
-               {2, WEB_C, {-0.5f, 0, -0.8660254f}, 30, 0.85}, {3, WEB_C, {1, 0, 0}, 0, 1},
-               {3, WEB_C, {0, 0.5f, -0.8660254f}, 30, 0.85}, {1, WEB_A, {-1, 0, 0}, 0, 1},
-               {2, WEB_A, {0, 0, -1}, 90, 0.4}, {0, WEB_C, {0, 1, 0}, 0, 1}};
+    static const struct {
+        int geometry;
+        WebType type;
+        Vec3 down;
+        double tilted, factor;
+    } cases[] = {{1, WEB_C, {0, 0, -1}, 0, 1},
+                 {1, WEB_C, {0.5f, 0, -0.8660254f}, 30, 0.85},
+                 {1, WEB_C, {0, 0.8660254f, -0.5f}, 60, 0.7},
+                 {1, WEB_C, {0, 0, 1}, 0, 1},
+                 {1, WEB_B, {0.8660254f, 0, 0.5f}, 60, 0.7},
+                 {2, WEB_C, {0, 0, -1}, 0, 1},
+                 {2, WEB_C, {0, 1, 0}, 0, 1},
+                 {2, WEB_C, {1, 0, 0}, 90, 0.4},
+                 {2, WEB_C, {-0.5f, 0, -0.8660254f}, 30, 0.85},
+                 {3, WEB_C, {1, 0, 0}, 0, 1},
+                 {3, WEB_C, {0, 0.5f, -0.8660254f}, 30, 0.85},
+                 {1, WEB_A, {-1, 0, 0}, 0, 1},
+                 {2, WEB_A, {0, 0, -1}, 90, 0.4},
+                 {0, WEB_C, {0, 1, 0}, 0, 1}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         LuminaireTilt tilt = {NULL, cases[i].geometry, 3, angle, factor};
         double tilted;
@@ -252,15 +260,13 @@ TEST(what_is_tilted_is_the_lamp)
 /* ---- types A and B ----------------------------------------------------------------------- */
 
 /* cd towards d; with sides == 0 alike for both signs of d.y. */
-static double tipped_cd(Vec3 d, double sides)
-{
+static double tipped_cd(Vec3 d, double sides) {
     double x = (double)d.x, y = (double)d.y, z = (double)d.z;
     return -z * (100 + 40 * x + 20 * x * z + 30 * y * y) - z * sides * 25 * y;
 }
 
 /* LM-63's angles as directions of the luminaire's frame. */
-static Vec3 direction_of(WebType type, double v, double h)
-{
+static Vec3 direction_of(WebType type, double v, double h) {
     v = radians_from_degrees(v);
     h = radians_from_degrees(h);
     if (type == WEB_C) /* v: gamma, h: C */
@@ -272,20 +278,20 @@ static Vec3 direction_of(WebType type, double v, double h)
 
 typedef struct Tipped {
     WebType type;
-    double  h_first, sides;
+    double h_first, sides;
 } Tipped;
 
-static char *tipped_text(Arena *arena, const Tipped *t)
-{
+static char *tipped_text(Arena *arena, const Tipped *t) {
     double step = 3, v_first = t->type == WEB_C ? 0 : -90, h_last = t->type == WEB_C ? 360 : 90;
-    int    v_count = (int)((90 - v_first) / step) + 1;
-    int    h_count = (int)((h_last - t->h_first) / step) + 1;
-    char  *text = ARENA_NEW(arena, char, 1 << 18);
-    size_t at = (size_t)sprintf(text, "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 %d %d %d 2 %s\n"
-                                "1 1 9\n", v_count, h_count, (int)t->type + 1,
+    int v_count = (int)((90 - v_first) / step) + 1;
+    int h_count = (int)((h_last - t->h_first) / step) + 1;
+    char *text = ARENA_NEW(arena, char, 1 << 18);
+    size_t at = (size_t)sprintf(text,
+                                "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 %d %d %d 2 %s\n"
+                                "1 1 9\n",
+                                v_count, h_count, (int)t->type + 1,
                                 t->type == WEB_A ? ".1 0 .1" : ".1 .1 0");
-    for (int i = 0; i < v_count; i++)
-        at += (size_t)sprintf(text + at, "%g ", v_first + i * step);
+    for (int i = 0; i < v_count; i++) at += (size_t)sprintf(text + at, "%g ", v_first + i * step);
     for (int i = 0; i < h_count; i++)
         at += (size_t)sprintf(text + at, "%g ", t->h_first + i * step);
     for (int i = 0; i < h_count; i++)
@@ -297,13 +303,12 @@ static char *tipped_text(Arena *arena, const Tipped *t)
     return text;
 }
 
-static IntensityWeb tipped_web(Lab *lab, const Tipped *t)
-{
-    Error        err = {0};
+static IntensityWeb tipped_web(Lab *lab, const Tipped *t) {
+    Error err = {0};
     IntensityWeb web = {0};
-    Luminaire    luminaire;
-    char        *text = tipped_text(&lab->arena, t);
-    FileBytes    bytes = {(const unsigned char *)text, strlen(text)};
+    Luminaire luminaire;
+    char *text = tipped_text(&lab->arena, t);
+    FileBytes bytes = {(const unsigned char *)text, strlen(text)};
     lab->set = import_set(&lab->arena);
     if (!ies_read_luminaire("lamp.ies", &bytes, &lab->set, &luminaire, &err) ||
         !luminaire_web(&luminaire, &lab->arena, &web, &err))
@@ -313,8 +318,7 @@ static IntensityWeb tipped_web(Lab *lab, const Tipped *t)
 
 /* One function of the direction written in types A, B and C: bilinear of 3 degrees is within
  * step^2 / 8 of its second derivatives. Flux: pi times 100 + 30 / 4 of the even part. */
-LAB_TEST(types_a_b_and_c_of_one_lamp_are_one_lamp)
-{
+LAB_TEST(types_a_b_and_c_of_one_lamp_are_one_lamp) {
     static const Tipped cases[] = {{WEB_C, 0, 1}, {WEB_B, -90, 1}, {WEB_A, -90, 1},
                                    {WEB_C, 0, 0}, {WEB_B, 0, 0},   {WEB_A, 0, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -322,7 +326,7 @@ LAB_TEST(types_a_b_and_c_of_one_lamp_are_one_lamp)
         assert_true(web.type == cases[i].type);
         for (int k = 0; k < 4000; k++) {
             double z = 2 * ((k + 0.5) / 4000) - 1, phi = 2.399963 * k, r = sqrt(1 - z * z);
-            Vec3   d = vec3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
+            Vec3 d = vec3((float)(r * cos(phi)), (float)(r * sin(phi)), (float)z);
             double wanted = z < 0 ? fmax(tipped_cd(d, cases[i].sides), 0) : 0;
             double found = (double)(intensity_web_at(&web, d) * web.largest_cd);
             if (fabs(z) > 0.003) assert_near(found, wanted, 0.35);
@@ -334,8 +338,7 @@ LAB_TEST(types_a_b_and_c_of_one_lamp_are_one_lamp)
 }
 
 /* As the viewer sees them V runs up, H to the left, and nothing is resampled. */
-LAB_TEST(types_a_and_b_are_panels_at_their_own_directions)
-{
+LAB_TEST(types_a_and_b_are_panels_at_their_own_directions) {
     for (int type = WEB_B; type <= WEB_A; type++) {
         Tipped t = {(WebType)type, -90, 1};
         const ImportTable *white = import_ies(lab, tipped_text(&lab->arena, &t));
@@ -350,30 +353,34 @@ LAB_TEST(types_a_and_b_are_panels_at_their_own_directions)
 
 /* ---- openings ---------------------------------------------------------------------------- */
 
-TEST(sizes_tell_the_shape)
-{
-    static const struct { int year; WebType type; double size[3]; OpeningShape shape;
-                          int axis; double x, y, z; } cases[] = {
-        {2002, WEB_C, {0, 0, 0}, OPENING_POINT, 2, 0, 0, 0},
-        {2002, WEB_C, {2, 3, 0}, OPENING_BOX, 2, 3, 2, 0},
-        {2002, WEB_C, {2, 3, 4}, OPENING_BOX, 2, 3, 2, 4},
-        {2002, WEB_C, {-2, -2, 0}, OPENING_CYLINDER, 2, 2, 2, 0},
-        {2002, WEB_C, {-2, -3, 0}, OPENING_CYLINDER, 2, 3, 2, 0},
-        {2002, WEB_C, {-2, -2, 4}, OPENING_CYLINDER, 2, 2, 2, 4},
-        {2002, WEB_C, {-2, -2, -2}, OPENING_ELLIPSOID, 2, 2, 2, 2},
-        {2002, WEB_C, {-2, 3, -4}, OPENING_CYLINDER, 0, 3, 2, 4},
-        {2002, WEB_C, {2, -3, -4}, OPENING_CYLINDER, 1, 3, 2, 4},
-        {2002, WEB_C, {-2, 0, -4}, OPENING_CYLINDER, 0, 0, 2, 4},
-        {1995, WEB_C, {-2, 0, 0}, OPENING_CYLINDER, 2, 2, 2, 0},
-        {1995, WEB_C, {-2, 0, -2}, OPENING_ELLIPSOID, 2, 2, 2, 2},
-        {1995, WEB_C, {-2, 0, 4}, OPENING_CYLINDER, 2, 2, 2, 4},
-        {1995, WEB_C, {0, 3, -2}, OPENING_CYLINDER, 0, 3, 2, 2},
-        {1995, WEB_C, {3, 0, -2}, OPENING_CYLINDER, 1, 2, 3, 2},
-        {1995, WEB_C, {-2, 3, 0}, OPENING_CYLINDER, 2, 3, 2, 0},
-        {1995, WEB_C, {2, -3, -4}, OPENING_ELLIPSOID, 2, 3, 2, 4},
-        {2002, WEB_A, {-2, 0, -2}, OPENING_CYLINDER, 2, 2, 2, 0},
-        {2002, WEB_A, {2, 0, 4}, OPENING_BOX, 2, 4, 2, 0},
-        {2002, WEB_A, {2, 3, 4}, OPENING_BOX, 2, 4, 2, 3}};
+TEST(sizes_tell_the_shape) {
+    static const struct {
+        int year;
+        WebType type;
+        double size[3];
+        OpeningShape shape;
+        int axis;
+        double x, y, z;
+    } cases[] = {{2002, WEB_C, {0, 0, 0}, OPENING_POINT, 2, 0, 0, 0},
+                 {2002, WEB_C, {2, 3, 0}, OPENING_BOX, 2, 3, 2, 0},
+                 {2002, WEB_C, {2, 3, 4}, OPENING_BOX, 2, 3, 2, 4},
+                 {2002, WEB_C, {-2, -2, 0}, OPENING_CYLINDER, 2, 2, 2, 0},
+                 {2002, WEB_C, {-2, -3, 0}, OPENING_CYLINDER, 2, 3, 2, 0},
+                 {2002, WEB_C, {-2, -2, 4}, OPENING_CYLINDER, 2, 2, 2, 4},
+                 {2002, WEB_C, {-2, -2, -2}, OPENING_ELLIPSOID, 2, 2, 2, 2},
+                 {2002, WEB_C, {-2, 3, -4}, OPENING_CYLINDER, 0, 3, 2, 4},
+                 {2002, WEB_C, {2, -3, -4}, OPENING_CYLINDER, 1, 3, 2, 4},
+                 {2002, WEB_C, {-2, 0, -4}, OPENING_CYLINDER, 0, 0, 2, 4},
+                 {1995, WEB_C, {-2, 0, 0}, OPENING_CYLINDER, 2, 2, 2, 0},
+                 {1995, WEB_C, {-2, 0, -2}, OPENING_ELLIPSOID, 2, 2, 2, 2},
+                 {1995, WEB_C, {-2, 0, 4}, OPENING_CYLINDER, 2, 2, 2, 4},
+                 {1995, WEB_C, {0, 3, -2}, OPENING_CYLINDER, 0, 3, 2, 2},
+                 {1995, WEB_C, {3, 0, -2}, OPENING_CYLINDER, 1, 2, 3, 2},
+                 {1995, WEB_C, {-2, 3, 0}, OPENING_CYLINDER, 2, 3, 2, 0},
+                 {1995, WEB_C, {2, -3, -4}, OPENING_ELLIPSOID, 2, 3, 2, 4},
+                 {2002, WEB_A, {-2, 0, -2}, OPENING_CYLINDER, 2, 2, 2, 0},
+                 {2002, WEB_A, {2, 0, 4}, OPENING_BOX, 2, 4, 2, 0},
+                 {2002, WEB_A, {2, 3, 4}, OPENING_BOX, 2, 4, 2, 3}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         LuminousOpening o;
         assert_null(opening_of_ies(cases[i].year, cases[i].type, cases[i].size, &o));
@@ -395,9 +402,9 @@ TEST(sizes_tell_the_shape)
     assert_true(o.shape == OPENING_CYLINDER && o.is_flat && o.half[0] == 1.5f);
 }
 
-LAB_TEST(ies_is_refused_with_its_line)
-{
-    static const struct { const char *text, *message;
+LAB_TEST(ies_is_refused_with_its_line) {
+    static const struct {
+        const char *text, *message;
     } cases[] = {{"IESNA91\n1 1 1\n", "lamp.ies: has no line TILT="},
                  {IES_HEAD "1 -1 1 4 1 2 2 1 1 0\n1 1 9\n" GAMMAS "0\n" PLANE_1,
                   "lamp.ies: line 8: photometry of types A and B has one horizontal angle, "
@@ -420,10 +427,10 @@ LAB_TEST(ies_is_refused_with_its_line)
                   "angles"},
                  {IES_HEAD "1 -1 1 99999 1 1 2 1 1 0\n", "lamp.ies: line 5: the number of "
                                                          "vertical angles is '99999', "
-                 "required: a number from 2 to 4096"},
+                                                         "required: a number from 2 to 4096"},
                  {IES_HEAD "1 -1 1 4.5 1 1 2 1 1 0\n", "lamp.ies: line 5: the number of "
                                                        "vertical angles is 4.5, required: a "
-                 "whole number"},
+                                                       "whole number"},
                  {IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n" GAMMAS "0\n1 2 x\n",
                   "lamp.ies: line 9: an intensity is 'x', required: a number from 0 to 1e+09"},
                  {IES_HEAD "1 -1 1 2 1 1 2 1 1 0\n1 1 9\n90 180\n0\n0 5\n",
@@ -435,16 +442,14 @@ LAB_TEST(ies_is_refused_with_its_line)
     }
 }
 
-LAB_TEST(a_cut_ies_is_refused)
-{
+LAB_TEST(a_cut_ies_is_refused) {
     static const char text[] = IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n" GAMMAS "0\n100 86 50 ";
     no_prefix_is_taken(lab, "lamp.ies", text, sizeof text);
 }
 
 /* ---- real files -------------------------------------------------------------------------- */
 
-static double ratio_noted(const Lab *lab)
-{
+static double ratio_noted(const Lab *lab) {
     for (int i = 0; i < lab->set.note_count; i++) {
         const char *at = strstr(lab->set.note[i], "ratio ");
         while (at && strstr(at + 1, "ratio ")) at = strstr(at + 1, "ratio ");
@@ -453,8 +458,7 @@ static double ratio_noted(const Lab *lab)
     return 0;
 }
 
-static double lumens_noted(const Lab *lab)
-{
+static double lumens_noted(const Lab *lab) {
     for (int i = 0; i < lab->set.note_count; i++) {
         const char *at = strstr(lab->set.note[i], ".ies: ");
         if (at && strstr(at, " lm in all directions")) return strtod(at + 6, NULL);
@@ -463,22 +467,25 @@ static double lumens_noted(const Lab *lab)
 }
 
 /* The flux that the tables add up to beside what the file, its name or its lamp's line says. */
-LAB_TEST(real_luminaires_add_up_to_their_lumens)
-{
-    static const struct { const char *name; double ratio, lumens, within; } cases[] = {
-        {"FL_MAX_900W_SYM60.ldt", 1, 0, 0.002}, {"road_luminaire.ldt", 1, 0, 0.005},
-        {"Indoor_60W_5300lm.ies", 0, 5300, 0.001}, {"threejs_007cfb.ies", 0, 321, 0.001},
-        {"ASA_15M_R2.ies", 0.735, 0, 0.002}, {"examp1.ies", 0.913, 0, 0.002},
-        {"ABSOLUTE_LED.ies", 0, 0, 0}};
+LAB_TEST(real_luminaires_add_up_to_their_lumens) {
+    static const struct {
+        const char *name;
+        double ratio, lumens, within;
+    } cases[] = {{"FL_MAX_900W_SYM60.ldt", 1, 0, 0.002},
+                 {"road_luminaire.ldt", 1, 0, 0.005},
+                 {"Indoor_60W_5300lm.ies", 0, 5300, 0.001},
+                 {"threejs_007cfb.ies", 0, 321, 0.001},
+                 {"ASA_15M_R2.ies", 0.735, 0, 0.002},
+                 {"examp1.ies", 0.913, 0, 0.002},
+                 {"ABSOLUTE_LED.ies", 0, 0, 0}};
     if (!file_exists(SHARED_DATA_DIR "/photometry/road_luminaire.ldt")) skip();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        lab->file[0] = arena_format(&lab->arena, "%s/photometry/%s", SHARED_DATA_DIR,
-                                    cases[i].name);
+        lab->file[0] =
+            arena_format(&lab->arena, "%s/photometry/%s", SHARED_DATA_DIR, cases[i].name);
         lab->count = 1;
         lab_import(lab);
         if (cases[i].ratio > 0) assert_close(ratio_noted(lab), cases[i].ratio, cases[i].within);
-        if (cases[i].lumens > 0)
-            assert_close(lumens_noted(lab), cases[i].lumens, cases[i].within);
+        if (cases[i].lumens > 0) assert_close(lumens_noted(lab), cases[i].lumens, cases[i].within);
     }
     lab->file[0] = SHARED_DATA_DIR "/photometry/MAXWELL_measured_IESNA.ies";
     assert_false(lab_run(lab));

@@ -2,8 +2,7 @@
 /* Text tables that are refused: the message says where, what was found and what to give. */
 #include "lab_fixture.h"
 
-static void refuse(Lab *lab, const char *text, const char *message)
-{
+static void refuse(Lab *lab, const char *text, const char *message) {
     lab_write(lab, "white.csv", text);
     lab_refused(lab, message);
 }
@@ -12,12 +11,11 @@ typedef struct Refusal {
     const char *text, *message;
 } Refusal;
 
-#define REFUSE_ALL(lab, rows)                                                                  \
-    for (size_t i_ = 0; i_ < sizeof(rows) / sizeof *(rows); i_++)                              \
+#define REFUSE_ALL(lab, rows) \
+    for (size_t i_ = 0; i_ < sizeof(rows) / sizeof *(rows); i_++) \
     refuse(lab, (rows)[i_].text, (rows)[i_].message)
 
-LAB_TEST(cells_and_rows_that_do_not_fit)
-{
+LAB_TEST(cells_and_rows_that_do_not_fit) {
     static const Refusal rows[] = {
         {"theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,abc,3\n",
          "white.csv: line 3: column 'Y' holds 'abc', required: a number or a mark of what was "
@@ -51,8 +49,7 @@ LAB_TEST(cells_and_rows_that_do_not_fit)
     REFUSE_ALL(lab, rows);
 }
 
-LAB_TEST(headers_that_do_not_say_enough)
-{
+LAB_TEST(headers_that_do_not_say_enough) {
     static const Refusal rows[] = {
         {"theta,phi,X,Y\n0,0,1,2\n10,0,1,2\n20,0,1,2\n",
          "white.csv: header line: has not what makes a colour: X, Y, Z; or luminance with x, "
@@ -89,8 +86,7 @@ LAB_TEST(headers_that_do_not_say_enough)
                      "with --wavelength NM or --role FILE=brdf:INCIDENCE:AZIMUTH:NM");
 }
 
-LAB_TEST(matrices_that_do_not_say_enough)
-{
+LAB_TEST(matrices_that_do_not_say_enough) {
     static const Refusal rows[] = {
         {"L\n,0,30\n0,10,20\n60,10,30\n",
          "white.csv: line 2: does not tell whether theta runs down or across — say --table "
@@ -119,9 +115,10 @@ LAB_TEST(matrices_that_do_not_say_enough)
 
 #define SAYS "Azimuth;0 = 12 o'clock; clockwise\nUnit;cd/m2\ntheta;phi;L\n0;0;1\n9;0;1\n8;0;1\n"
 
-LAB_TEST(contradictions_of_file_and_user)
-{
-    static const struct { const char *key, *value, *message; } cases[] = {
+LAB_TEST(contradictions_of_file_and_user) {
+    static const struct {
+        const char *key, *value, *message;
+    } cases[] = {
         {"azimuth_zero", "right",
          "white.csv: line 1: says where azimuth 0 points, and --azimuth-zero says otherwise"},
         {"azimuth_sense", "ccw",
@@ -144,8 +141,7 @@ LAB_TEST(contradictions_of_file_and_user)
            "otherwise");
 }
 
-LAB_TEST(declarations_that_are_wrong)
-{
+LAB_TEST(declarations_that_are_wrong) {
     TextOptions *text = &lab->request->text;
     assert_false(text_options_set(text, "azimuth_zreo", "top", &lab->err));
     assert_non_null(strstr(lab->err.text, "'azimuth_zreo' is no key of a declaration — did you "
@@ -153,10 +149,12 @@ LAB_TEST(declarations_that_are_wrong)
     assert_false(text_options_set(text, "azimuth_zero", "north", &lab->err));
     assert_string_equal(lab->err.text, "azimuth_zero is 'north', required: "
                                        "right|top|left|bottom|DEG");
-    static const char *const wrong[][2] = {{"delimiter", "|"}, {"unit", "lux"}, {"table", ""},
-        {"skip_lines", "-1"}, {"skip_lines", "1.5"}, {"level_max", "0"}, {"quantity", "theta"},
-        {"quantity", "u"}, {"white_reflectance", "0"}, {"encoding", "ebcdic"}, {"columns", ""},
-        {"light_azimuth", "x"}, {"angles", "type C"}};
+    static const char *const wrong[][2] = {
+        {"delimiter", "|"},     {"unit", "lux"},       {"table", ""},
+        {"skip_lines", "-1"},   {"skip_lines", "1.5"}, {"level_max", "0"},
+        {"quantity", "theta"},  {"quantity", "u"},     {"white_reflectance", "0"},
+        {"encoding", "ebcdic"}, {"columns", ""},       {"light_azimuth", "x"},
+        {"angles", "type C"}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         if (text_options_set(text, wrong[i][0], wrong[i][1], &lab->err))
             fail_msg("%s = '%s' is taken", wrong[i][0], wrong[i][1]);
@@ -166,8 +164,9 @@ LAB_TEST(declarations_that_are_wrong)
            "--columns: 'Q' is no name of a column, required: theta, phi, X, Y, Z, L, x, y, u', "
            "v', a wavelength, incidence, ... or -");
     lab_declare(lab, "columns", "X,Y,Z");
-    refuse(lab, "0,0,1,2,3\n", "--columns 'X,Y,Z' has no two angles, required: theta and phi, "
-                               "or horizontal and vertical");
+    refuse(lab, "0,0,1,2,3\n",
+           "--columns 'X,Y,Z' has no two angles, required: theta and phi, "
+           "or horizontal and vertical");
 }
 
 /* ---- nothing crashes --------------------------------------------------------------------- */
@@ -183,10 +182,9 @@ static const char *const samples[] = {
 #define SAMPLES (sizeof samples / sizeof *samples)
 
 /* A sample's bytes; behind the last one its UTF-16 twin. Returns the size. */
-static size_t sample_bytes(size_t index, char bytes[1024])
-{
+static size_t sample_bytes(size_t index, char bytes[1024]) {
     const char *text = samples[index < SAMPLES ? index : SAMPLES - 1];
-    size_t      size = strlen(text);
+    size_t size = strlen(text);
     if (index < SAMPLES) {
         memcpy(bytes, text, size);
         return size;
@@ -198,8 +196,7 @@ static size_t sample_bytes(size_t index, char bytes[1024])
     return 2 * size;
 }
 
-static void run_quietly(Lab *lab, const void *bytes, size_t size)
-{
+static void run_quietly(Lab *lab, const void *bytes, size_t size) {
     Arena before = lab->arena;
     lab_write_bytes(lab, "white.csv", bytes, size);
     if (!lab_run(lab)) {
@@ -211,19 +208,17 @@ static void run_quietly(Lab *lab, const void *bytes, size_t size)
     lab->arena = before;
 }
 
-LAB_TEST(every_prefix_is_refused_or_valid)
-{
+LAB_TEST(every_prefix_is_refused_or_valid) {
     lab_write(lab, "white.csv", "");
     for (size_t s = 0; s <= SAMPLES; s++) {
-        char   bytes[1024];
+        char bytes[1024];
         size_t size = sample_bytes(s, bytes);
         for (size_t n = 0; n <= size; n++) run_quietly(lab, bytes, n);
     }
 }
 
-LAB_TEST(no_changed_byte_crashes)
-{
-    char     bytes[1024];
+LAB_TEST(no_changed_byte_crashes) {
+    char bytes[1024];
     uint32_t random = 1;
     lab_write(lab, "white.csv", "");
     for (int i = 0; i < 1200; i++) {
@@ -231,16 +226,15 @@ LAB_TEST(no_changed_byte_crashes)
         for (int k = 0; k < 1 + i % 3; k++) {
             random = random * 1664525u + 1013904223u;
             static const char common[] = ";,.-0e\n\r\t \"[]\xFF";
-            char to = random & 1 ? common[(random >> 4) % (sizeof common - 1)]
-                                 : (char)(random >> 24);
+            char to =
+                random & 1 ? common[(random >> 4) % (sizeof common - 1)] : (char)(random >> 24);
             bytes[(random >> 8) % size] = to;
         }
         run_quietly(lab, bytes, size);
     }
 }
 
-LAB_TEST(hostile_sizes_are_bounded)
-{
+LAB_TEST(hostile_sizes_are_bounded) {
     char *wide = ARENA_NEW(&lab->arena, char, 20000);
     memset(wide, ',', 19998);
     lab_write(lab, "white.csv", "");
@@ -257,8 +251,7 @@ LAB_TEST(hostile_sizes_are_bounded)
 }
 
 /* Light beyond the last angle of a set is left out, but never all of it. */
-LAB_TEST(light_that_only_grazes)
-{
+LAB_TEST(light_that_only_grazes) {
     lab_write(lab, "i89.5.csv", "theta,phi,450nm\n0,0,0.1\n20,90,0.1\n20,270,0.1\n");
     lab_refused(lab, "i89.5.csv: has light from 89.5 degrees and no file from less, required: "
                      "one of 0 to 89 degrees");

@@ -4,9 +4,11 @@
 
 #include "import/set/role.h"
 
-TEST(names_tell_the_pattern_or_the_light)
-{
-    static const struct { const char *name; ImportSource source; double number;
+TEST(names_tell_the_pattern_or_the_light) {
+    static const struct {
+        const char *name;
+        ImportSource source;
+        double number;
     } cases[] = {{"R_031", IMPORT_RED, 31},
                  {"red_255", IMPORT_RED, 255},
                  {"G127", IMPORT_GREEN, 127},
@@ -31,16 +33,13 @@ TEST(names_tell_the_pattern_or_the_light)
         bool mixed;
         Role role = role_from_words(cases[i].name, 255, &mixed);
         if (!role.is_known || mixed || role.source != cases[i].source)
-            fail_msg("'%s' is taken as %d", cases[i].name,
-                     role.is_known ? (int)role.source : -1);
+            fail_msg("'%s' is taken as %d", cases[i].name, role.is_known ? (int)role.source : -1);
         if (role.source <= IMPORT_BLUE) assert_near(role.level, cases[i].number, 0);
-        if (role.source == IMPORT_REFLECTION)
-            assert_near(role.incidence_deg, cases[i].number, 0);
+        if (role.source == IMPORT_REFLECTION) assert_near(role.incidence_deg, cases[i].number, 0);
     }
 }
 
-TEST(names_tell_the_rest_too)
-{
+TEST(names_tell_the_rest_too) {
     bool mixed;
     Role role = role_from_words("i10_a45_w550", 255, &mixed);
     assert_true(role.has_azimuth);
@@ -53,9 +52,10 @@ TEST(names_tell_the_rest_too)
     assert_near(role_from_words("R_1023", 1023, &mixed).level, 1023, 0);
 }
 
-TEST(what_a_name_does_not_tell_is_not_guessed)
-{
-    static const struct { const char *name; bool is_ambiguous;
+TEST(what_a_name_does_not_tell_is_not_guessed) {
+    static const struct {
+        const char *name;
+        bool is_ambiguous;
     } cases[] = {{"measurement 12", false}, {"truth_emission", false}, {"R", false},
                  {"oled_phi0_90", false},   {"red_and_blue", true},    {"R2_G_255 b31", true},
                  {"BRDF_20-90", true},      {"R_1023", true},          {"white_128", true},
@@ -69,9 +69,8 @@ TEST(what_a_name_does_not_tell_is_not_guessed)
     }
 }
 
-TEST(a_role_is_written_with_colons)
-{
-    Role  role;
+TEST(a_role_is_written_with_colons) {
+    Role role;
     Error err = {0};
     assert_true(role_parse("red:127:X", 255, &role, &err));
     assert_int_equal(role.source, IMPORT_RED);
@@ -83,9 +82,22 @@ TEST(a_role_is_written_with_colons)
     assert_near(role.wavelength_nm, 550, 0);
     assert_true(role_parse("reference", 255, &role, &err) && !role.has_incidence);
     assert_true(role_parse("skip", 255, &role, &err) && role.is_skipped);
-    static const char *const wrong[] = {"", "rot", "red:", "red:0", "red:256", "red:12:W",
-        "red:12:X:1", "black:12", "brdf:x", "brdf:90", "brdf:10:400", "brdf:10:0:50", "dark:1",
-        "skip:1", "brdf:10:0:550:1", "reference:-5"};
+    static const char *const wrong[] = {"",
+                                        "rot",
+                                        "red:",
+                                        "red:0",
+                                        "red:256",
+                                        "red:12:W",
+                                        "red:12:X:1",
+                                        "black:12",
+                                        "brdf:x",
+                                        "brdf:90",
+                                        "brdf:10:400",
+                                        "brdf:10:0:50",
+                                        "dark:1",
+                                        "skip:1",
+                                        "brdf:10:0:550:1",
+                                        "reference:-5"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         if (role_parse(wrong[i], 255, &role, &err)) fail_msg("'%s' is taken", wrong[i]);
         assert_int_equal(err.code, ERROR_USAGE);
@@ -95,8 +107,7 @@ TEST(a_role_is_written_with_colons)
 
 #define TABLE "theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,2,3\n20,0,1,2,3\n"
 
-LAB_TEST(a_files_own_words_tell_its_pattern)
-{
+LAB_TEST(a_files_own_words_tell_its_pattern) {
     lab_write(lab, "m1.csv", "Sample: blue 127\n" TABLE);
     lab_write(lab, "m2.csv", "# pattern = red 255\n" TABLE);
     lab_write(lab, "m3.csv", "Colour,Green\nLevel,63\n" TABLE);
@@ -108,8 +119,7 @@ LAB_TEST(a_files_own_words_tell_its_pattern)
     lab_table(lab, IMPORT_BLACK, 0);
 }
 
-LAB_TEST(words_and_name_must_not_contradict)
-{
+LAB_TEST(words_and_name_must_not_contradict) {
     lab_write(lab, "red_255.csv", "Sample: blue 127\n" TABLE);
     lab_refused(lab, "red_255.csv: line 1: is blue 127 by its contents and red 255 by its name "
                      "— say which with --role red_255.csv=...");
@@ -118,8 +128,7 @@ LAB_TEST(words_and_name_must_not_contradict)
     lab_table(lab, IMPORT_WHITE, 255);
 }
 
-LAB_TEST(a_file_that_does_not_tell_is_named_with_the_option)
-{
+LAB_TEST(a_file_that_does_not_tell_is_named_with_the_option) {
     lab_write(lab, "m1.csv", TABLE);
     lab_refused(lab, "m1.csv: does not tell, by its contents or its name, which pattern it "
                      "shows — say it with --role m1.csv=red:255 (or green, blue, black, "
@@ -136,8 +145,7 @@ LAB_TEST(a_file_that_does_not_tell_is_named_with_the_option)
                      "--role BRDF_20-90.csv=brdf:INCIDENCE");
 }
 
-LAB_TEST(one_message_counts_all_refused_files)
-{
+LAB_TEST(one_message_counts_all_refused_files) {
     lab_write(lab, "m1.csv", TABLE);
     lab_write(lab, "white.csv", TABLE);
     lab_write(lab, "m2.csv", TABLE);
@@ -147,8 +155,7 @@ LAB_TEST(one_message_counts_all_refused_files)
                      "white); 2 more files are refused");
 }
 
-LAB_TEST(levels_scale_from_the_panels_highest_code)
-{
+LAB_TEST(levels_scale_from_the_panels_highest_code) {
     lab_declare(lab, "level_max", "1023");
     lab->request->black_is_zero = true;
     lab_write(lab, "R_1023.csv", TABLE);
@@ -160,8 +167,7 @@ LAB_TEST(levels_scale_from_the_panels_highest_code)
     lab_table(lab, IMPORT_RED, 255);
 }
 
-LAB_TEST(files_are_left_out_as_asked)
-{
+LAB_TEST(files_are_left_out_as_asked) {
     lab_write(lab, "white.csv", TABLE);
     lab_write(lab, "truth_1.csv", "no table\n");
     lab_write(lab, "notes.txt", "no table\n");

@@ -8,8 +8,7 @@
 #define PANELS SHARED_DATA_DIR "/panels"
 #define DISPLAY SHARED_DATA_DIR "/display"
 
-static void add_files(Lab *lab, const char *pattern)
-{
+static void add_files(Lab *lab, const char *pattern) {
     glob_t found;
     if (glob(pattern, 0, NULL, &found) != 0) {
         globfree(&found);
@@ -24,10 +23,9 @@ static void add_files(Lab *lab, const char *pattern)
 /* ---- set-a: lists in this project's own convention --------------------------------------- */
 
 /* Every row of the source as it stands, to the float. */
-static void compare_list(const ImportTable *table)
-{
+static void compare_list(const ImportTable *table) {
     FILE *source = fopen(table->file, "r");
-    char  line[4096];
+    char line[4096];
     assert_non_null(source);
     assert_non_null(fgets(line, sizeof line, source));
     for (int i = 0; i < table->rows; i++) {
@@ -44,8 +42,7 @@ static void compare_list(const ImportTable *table)
     fclose(source);
 }
 
-LAB_TEST(set_a_is_what_it_was)
-{
+LAB_TEST(set_a_is_what_it_was) {
     add_files(lab, PANELS "/set-a/*.csv");
     lab->request->skip.text[lab->request->skip.count++] = "truth_*";
     lab_import(lab);
@@ -59,8 +56,7 @@ LAB_TEST(set_a_is_what_it_was)
     assert_int_equal(lab_table(lab, IMPORT_REFLECTION, 65)->channels, 16);
 }
 
-LAB_TEST(the_truth_files_are_no_tables_and_are_named)
-{
+LAB_TEST(the_truth_files_are_no_tables_and_are_named) {
     add_files(lab, PANELS "/set-a/truth_*.csv");
     assert_false(lab_run(lab));
     assert_non_null(strstr(lab->err.file, "truth_brdf.csv"));
@@ -74,8 +70,7 @@ LAB_TEST(the_truth_files_are_no_tables_and_are_named)
 /* ---- set-b: matrices, Latin-1, decimal comma, clockwise from 12 o'clock ------------------ */
 
 /* The matrix of a component: its cells by row and column; "---" as NAN. */
-static void read_matrix(const char *text, char component, double cell[23][36])
-{
+static void read_matrix(const char *text, char component, double cell[23][36]) {
     char head[8];
     snprintf(head, sizeof head, "\n[%c]", component);
     const char *at = strstr(text, head);
@@ -93,11 +88,10 @@ static void read_matrix(const char *text, char component, double cell[23][36])
     }
 }
 
-static int compare_matrices(Lab *lab, const ImportTable *table)
-{
+static int compare_matrices(Lab *lab, const ImportTable *table) {
     FileBytes bytes;
-    double    cell[23][36];
-    int       holes = 0;
+    double cell[23][36];
+    int holes = 0;
     assert_true(file_read(table->file, 1 << 24, &lab->arena, &bytes, &lab->err));
     for (int c = 0; c < 3; c++) {
         read_matrix((const char *)bytes.data, "XYZ"[c], cell);
@@ -108,7 +102,7 @@ static int compare_matrices(Lab *lab, const ImportTable *table)
                     continue;
                 }
                 double found = 0, phi = 90 - 10 * k;
-                bool   seen = false;
+                bool seen = false;
                 for (int r = 0; r < table->rows && !seen; r++) {
                     seen = table->theta_deg[r] == 4 * i &&
                            fabs(remainder(table->phi_deg[r] - phi, 360)) < 1e-9;
@@ -121,8 +115,7 @@ static int compare_matrices(Lab *lab, const ImportTable *table)
     return holes;
 }
 
-LAB_TEST(set_b_is_turned_to_the_viewers_right)
-{
+LAB_TEST(set_b_is_turned_to_the_viewers_right) {
     add_files(lab, PANELS "/set-b/*.txt");
     lab_import(lab);
     assert_int_equal(lab->set.count, 25);
@@ -140,8 +133,7 @@ LAB_TEST(set_b_is_turned_to_the_viewers_right)
 }
 
 /* Both sets are of one display: their luminances agree where their grids meet. */
-LAB_TEST(both_sets_show_the_same_display)
-{
+LAB_TEST(both_sets_show_the_same_display) {
     add_files(lab, PANELS "/set-a/[RGBK]_*.csv");
     lab_import(lab);
     ImportSet a = lab->set;
@@ -149,7 +141,7 @@ LAB_TEST(both_sets_show_the_same_display)
     add_files(lab, PANELS "/set-b/*.txt");
     lab_import(lab);
     double sum = 0;
-    int    count = 0;
+    int count = 0;
     for (int i = 0; i < a.count; i++) {
         const ImportTable *one = &a.table[i], *other = lab_table(lab, one->source, one->level);
         for (int r = 0; r < one->rows; r += 7) {
@@ -167,8 +159,7 @@ LAB_TEST(both_sets_show_the_same_display)
 
 /* ---- others ------------------------------------------------------------------------------ */
 
-LAB_TEST(a_viewing_angle_table_needs_but_its_role)
-{
+LAB_TEST(a_viewing_angle_table_needs_but_its_role) {
     add_files(lab, DISPLAY "/viewing_angle_oled_phi0_90.csv");
     assert_false(lab_run(lab));
     assert_non_null(strstr(lab->err.text, "--role viewing_angle_oled_phi0_90.csv=red:255"));
@@ -182,8 +173,7 @@ LAB_TEST(a_viewing_angle_table_needs_but_its_role)
     assert_true(lab->set.spectra.rows > 90);
 }
 
-LAB_TEST(every_primaries_file_is_read)
-{
+LAB_TEST(every_primaries_file_is_read) {
     static const char *const names[] = {"OLED-SonyPVM-2541", "apple_studio_display_lcd",
                                         "typical_crt_brainard1997"};
     for (int i = 0; i < 3; i++) {
@@ -197,8 +187,7 @@ LAB_TEST(every_primaries_file_is_read)
 }
 
 /* A reflectance factor at one leaving direction an incidence is no angular table. */
-LAB_TEST(single_directions_are_no_table)
-{
+LAB_TEST(single_directions_are_no_table) {
     add_files(lab, SHARED_DATA_DIR "/bsdf/loft-blacklab/20250210_S7_sample_final.txt");
     assert_false(lab_run(lab));
     assert_non_null(strstr(lab->err.text, "required: an angular table of at least 3"));

@@ -4,11 +4,9 @@
 #include "lab_fixture.h"
 
 /* White at four directions, a list as this project writes it. */
-#define WHITE                                                                                  \
-    "theta,phi,X,Y,Z\n0,0,95,100,109\n30,0,85,90,98\n30,90,75,80,87\n30,180,65,70,76\n"
+#define WHITE "theta,phi,X,Y,Z\n0,0,95,100,109\n30,0,85,90,98\n30,90,75,80,87\n30,180,65,70,76\n"
 
-static void check_white(const Lab *lab)
-{
+static void check_white(const Lab *lab) {
     const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
     assert_int_equal(white->rows, 4);
     assert_int_equal(white->channels, 3);
@@ -18,16 +16,14 @@ static void check_white(const Lab *lab)
     assert_near(lab_value(white, 30, 180, 2), 76, 0);
 }
 
-static void import_white(Lab *lab, const char *text)
-{
+static void import_white(Lab *lab, const char *text) {
     lab_write(lab, "white.csv", text);
     lab_import(lab);
 }
 
 /* ---- how numbers are written ------------------------------------------------------------- */
 
-LAB_TEST(delimiters_and_decimal_signs_are_found)
-{
+LAB_TEST(delimiters_and_decimal_signs_are_found) {
     static const char *const texts[] = {
         WHITE,
         "theta;phi;X;Y;Z\r\n0;0;95,0;100,0;109,0\r\n30;0;85,0;90;98\r\n30;90;75;80;87\r\n"
@@ -53,8 +49,7 @@ LAB_TEST(delimiters_and_decimal_signs_are_found)
     }
 }
 
-LAB_TEST(encodings_are_found)
-{
+LAB_TEST(encodings_are_found) {
     static const char latin[] = "# Leuchtdichte in cd/m\xB2\n" WHITE;
     static const char marked[] = "\xEF\xBB\xBF" WHITE;
     char wide[2][2 * sizeof WHITE];
@@ -80,10 +75,9 @@ LAB_TEST(encodings_are_found)
         }
 }
 
-LAB_TEST(comments_and_lines_before_the_header_are_passed_over)
-{
-    import_white(lab, "! a comment\n% another\n// a third\n\nSerial 17, batch 2\n\n" WHITE
-                      "# end\n");
+LAB_TEST(comments_and_lines_before_the_header_are_passed_over) {
+    import_white(lab,
+                 "! a comment\n% another\n// a third\n\nSerial 17, batch 2\n\n" WHITE "# end\n");
     check_white(lab);
     lab_declare(lab, "comment", "REM");
     lab_declare(lab, "skip_lines", "2");
@@ -96,8 +90,7 @@ LAB_TEST(comments_and_lines_before_the_header_are_passed_over)
 
 /* ---- columns ----------------------------------------------------------------------------- */
 
-LAB_TEST(columns_stand_in_any_order_and_others_are_left)
-{
+LAB_TEST(columns_stand_in_any_order_and_others_are_left) {
     import_white(lab, "no,Z,Azimuth (deg),when,Y [cd/m2],Inclination [deg],X\n"
                       "1,109,0,10:31,100,0,95\n2,98,0,10:32,90,30,85\n3,87,90,10:33,80,30,75\n"
                       "4,76,180,10:34,70,30,65\n");
@@ -109,8 +102,7 @@ LAB_TEST(columns_stand_in_any_order_and_others_are_left)
     check_white(lab);
 }
 
-LAB_TEST(incidence_is_the_viewing_angle_of_luminances)
-{
+LAB_TEST(incidence_is_the_viewing_angle_of_luminances) {
     import_white(lab, "Incidence angle;Azimuth angle;X;Y;Z\n0;0;95;100;109\n30;0;85;90;98\n"
                       "30;90;75;80;87\n30;180;65;70;76\n");
     check_white(lab);
@@ -119,8 +111,7 @@ LAB_TEST(incidence_is_the_viewing_angle_of_luminances)
 }
 
 /* CIE 15: X = Y x/y, Z = Y (1-x-y)/y; X = 9 Y u'/(4v'), Z = Y (12-3u'-20v')/(4v'). */
-LAB_TEST(chromaticities_become_tristimulus_values)
-{
+LAB_TEST(chromaticities_become_tristimulus_values) {
     import_white(lab, "theta,phi,Y,x,y\n0,0,100,0.3,0.4\n10,0,50,0.25,0.5\n20,0,0,0,0\n");
     const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
     assert_close(lab_value(white, 0, 0, 0), 75, 1e-12);
@@ -135,16 +126,16 @@ LAB_TEST(chromaticities_become_tristimulus_values)
     assert_close(lab_value(white, 0, 0, 0) / 100, x / y, 1e-12);
 }
 
-LAB_TEST(luminance_alone_has_the_colour_of_the_spectra_or_of_daylight)
-{
+LAB_TEST(luminance_alone_has_the_colour_of_the_spectra_or_of_daylight) {
     import_white(lab, "theta,phi,L\n0,0,100\n10,0,90\n20,0,80\n");
     const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
     assert_close(lab_value(white, 10, 0, 0), 0.95047 * 90, 1e-9);
     assert_close(lab_value(white, 10, 0, 1), 90, 0);
     assert_true(lab_noted(lab, "taken as D65"));
     const char *spectra = arena_format(&lab->arena, "%s/spectra.csv", lab->folder);
-    lab_write(lab, "spectra.csv", "wavelength_nm,R,G,B\n599,0,0,0\n600,1,0,0\n601,0,0,0\n"
-                                  "650,0,1,0\n660,0,0,1\n661,0,0,0\n");
+    lab_write(lab, "spectra.csv",
+              "wavelength_nm,R,G,B\n599,0,0,0\n600,1,0,0\n601,0,0,0\n"
+              "650,0,1,0\n660,0,0,1\n661,0,0,0\n");
     lab->count = 0;
     lab->request->primaries = spectra;
     for (int p = 0; p < 4; p++) {
@@ -159,17 +150,18 @@ LAB_TEST(luminance_alone_has_the_colour_of_the_spectra_or_of_daylight)
     assert_int_equal(lab->set.spectra.rows, 6);
 }
 
-LAB_TEST(units_of_luminance_become_candela_a_square_metre)
-{
-    static const struct { const char *header; double factor; } cases[] = {
-        {"theta,phi,L (cd/m2)", 1}, {"theta,phi,L [nit]", 1}, {"theta,phi,L_fL", 3.4262590996},
-        {"theta,phi,Luminance [kcd/m\xC2\xB2]", 1000}, {"theta,phi,Lv (cd/m^2)", 1},
-        {"theta,phi,L (cd/ft2)", 10.763910417}};
+LAB_TEST(units_of_luminance_become_candela_a_square_metre) {
+    static const struct {
+        const char *header;
+        double factor;
+    } cases[] = {{"theta,phi,L (cd/m2)", 1},       {"theta,phi,L [nit]", 1},
+                 {"theta,phi,L_fL", 3.4262590996}, {"theta,phi,Luminance [kcd/m\xC2\xB2]", 1000},
+                 {"theta,phi,Lv (cd/m^2)", 1},     {"theta,phi,L (cd/ft2)", 10.763910417}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        import_white(lab, arena_format(&lab->arena, "%s\n0,0,10\n5,0,9\n10,0,8\n",
-                                       cases[i].header));
-        assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1),
-                     10 * cases[i].factor, 1e-9);
+        import_white(lab,
+                     arena_format(&lab->arena, "%s\n0,0,10\n5,0,9\n10,0,8\n", cases[i].header));
+        assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1), 10 * cases[i].factor,
+                     1e-9);
     }
     import_white(lab, "theta;phi;L;u';v'\ndeg;deg;fL;;\n0;0;10;.2;.5\n5;0;9;.2;.5\n"
                       "9;0;8;.2;.5\n");
@@ -183,13 +175,14 @@ LAB_TEST(units_of_luminance_become_candela_a_square_metre)
 
 /* ---- angles ------------------------------------------------------------------------------ */
 
-LAB_TEST(azimuths_are_turned_to_the_viewers_right)
-{
-    static const struct { const char *zero, *sense, *side; double phi_of_30; } cases[] = {
-        {"right", "ccw", "viewer", 30}, {"top", "cw", "viewer", 60},
-        {"top", "ccw", "viewer", 120}, {"left", "cw", "viewer", 150},
-        {"bottom", "ccw", "viewer", 300}, {"45", "ccw", "viewer", 75},
-        {"top", "cw", "behind", 120}, {"right", "ccw", "behind", 150}};
+LAB_TEST(azimuths_are_turned_to_the_viewers_right) {
+    static const struct {
+        const char *zero, *sense, *side;
+        double phi_of_30;
+    } cases[] = {{"right", "ccw", "viewer", 30},   {"top", "cw", "viewer", 60},
+                 {"top", "ccw", "viewer", 120},    {"left", "cw", "viewer", 150},
+                 {"bottom", "ccw", "viewer", 300}, {"45", "ccw", "viewer", 75},
+                 {"top", "cw", "behind", 120},     {"right", "ccw", "behind", 150}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         lab_declare(lab, "azimuth_zero", cases[i].zero);
         lab_declare(lab, "azimuth_sense", cases[i].sense);
@@ -201,14 +194,12 @@ LAB_TEST(azimuths_are_turned_to_the_viewers_right)
     }
 }
 
-LAB_TEST(a_file_says_its_own_azimuths_and_units)
-{
+LAB_TEST(a_file_says_its_own_azimuths_and_units) {
     import_white(lab, "[Conoscope export]\nPanel;Type 7\nInstrument;Cone 88\n"
                       "Date;2026-03-14 09:30\nOperator;A. Name\n"
                       "Azimuth;0 = 12 o'clock; clockwise\nUnit;fL\n\n"
                       "theta;phi;X;Y;Z\n0;0;1;2;3\n40;30;4;5;6\n40;60;7;8;9\n");
-    assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 40, 60, 1), 5 * 3.4262590996,
-                 1e-9);
+    assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 40, 60, 1), 5 * 3.4262590996, 1e-9);
     assert_string_equal(lab->set.panel, "Type 7");
     assert_string_equal(lab->set.instrument, "Cone 88");
     assert_string_equal(lab->set.date, "2026-03-14 09:30");
@@ -219,8 +210,7 @@ LAB_TEST(a_file_says_its_own_azimuths_and_units)
     assert_true(lab_noted(lab, "luminances are taken in cd/m2"));
 }
 
-LAB_TEST(radians_are_told_from_degrees_by_their_name)
-{
+LAB_TEST(radians_are_told_from_degrees_by_their_name) {
     import_white(lab, "theta_rad,phi_rad,X,Y,Z\n0,0,1,2,3\n0.5235987755982988,"
                       "1.5707963267948966,4,5,6\n0.1,0,7,8,9\n");
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 90, 1), 5, 0);
@@ -230,11 +220,12 @@ LAB_TEST(radians_are_told_from_degrees_by_their_name)
 }
 
 /* Directions of closed form: on the axes all conventions agree; off them each has its own. */
-LAB_TEST(horizontal_and_vertical_angles_become_theta_and_phi)
-{
-    static const struct { const char *angles; double theta, phi; } cases[] = {
-        {"projected", 0, 45}, {"equidistant", 0, 45}, {"north-polar", 0, 0},
-        {"east-polar", 0, 0}};
+LAB_TEST(horizontal_and_vertical_angles_become_theta_and_phi) {
+    static const struct {
+        const char *angles;
+        double theta, phi;
+    } cases[] = {
+        {"projected", 0, 45}, {"equidistant", 0, 45}, {"north-polar", 0, 0}, {"east-polar", 0, 0}};
     double r = 3.14159265358979323846 / 180, h = 30 * r, v = 30 * r;
     double theta[4], phi[4];
     theta[0] = atan(hypot(tan(h), tan(v))) / r, phi[0] = 45;
@@ -255,8 +246,7 @@ LAB_TEST(horizontal_and_vertical_angles_become_theta_and_phi)
 
 /* ---- matrices ---------------------------------------------------------------------------- */
 
-LAB_TEST(matrices_read_down_and_across)
-{
+LAB_TEST(matrices_read_down_and_across) {
     import_white(lab, "[X]\ntheta\\phi;0;90;180;\n0;1;1;1;\n30;2;3;4;\n\n"
                       "[Y]\ntheta\\phi;0;90;180;\n0;10;10;10;\n30;20;30;40;\n\n"
                       "[Z]\ntheta\\phi;0;90;180;\n0;100;100;100;\n30;200;300;400;\n");
@@ -273,8 +263,7 @@ LAB_TEST(matrices_read_down_and_across)
     assert_near(lab_value(white, 0, 0, 1), 10, 0);
 }
 
-LAB_TEST(a_matrix_without_names_is_told_by_its_range)
-{
+LAB_TEST(a_matrix_without_names_is_told_by_its_range) {
     lab_declare(lab, "quantity", "L");
     import_white(lab, ",0,120,240\n0,10,10,10\n30,20,30,40\n");
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 240, 1), 40, 0);
@@ -285,8 +274,7 @@ LAB_TEST(a_matrix_without_names_is_told_by_its_range)
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 80, 1), 40, 0);
 }
 
-LAB_TEST(a_matrix_may_have_horizontal_and_vertical_angles)
-{
+LAB_TEST(a_matrix_may_have_horizontal_and_vertical_angles) {
     lab_declare(lab, "angles", "equidistant");
     import_white(lab, "[L]\ntheta_V\\theta_H;-30;0;40\n-20;1;2;3\n0;4;5;6\n");
     const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
@@ -299,8 +287,7 @@ LAB_TEST(a_matrix_may_have_horizontal_and_vertical_angles)
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 20, 270, 1), 2, 0);
 }
 
-LAB_TEST(one_file_a_component_is_joined)
-{
+LAB_TEST(one_file_a_component_is_joined) {
     static const char matrix[] = "theta\\phi,0,120,240\n0,1,1,1\n30,2,3,4\n";
     lab_write(lab, "white_255_X.csv", matrix);
     lab_write(lab, "white_255_Y.csv", matrix);
@@ -313,8 +300,7 @@ LAB_TEST(one_file_a_component_is_joined)
 
 /* ---- what was not measured --------------------------------------------------------------- */
 
-LAB_TEST(marks_are_left_out_and_counted)
-{
+LAB_TEST(marks_are_left_out_and_counted) {
     lab_declare(lab, "mask", "-999");
     import_white(lab, "theta;phi;X;Y;Z\n0;0;1;2;3\n10;0;---;5;6\n10;90;NaN;;6\n"
                       "10;180;4;5;n/a\n10;270;4;-999;6\n20;0;4;5;6\n20;90;4;5;6\n");
@@ -325,15 +311,13 @@ LAB_TEST(marks_are_left_out_and_counted)
     assert_near(white->masked_phi_deg[3], 270, 0);
 }
 
-LAB_TEST(directions_beyond_the_horizon_are_left_out_and_told)
-{
+LAB_TEST(directions_beyond_the_horizon_are_left_out_and_told) {
     import_white(lab, "theta,phi,L\n0,0,3\n80,0,2\n90,0,1\n100,0,1\n180,0,1\n");
     assert_int_equal(lab_table(lab, IMPORT_WHITE, 255)->rows, 3);
     assert_true(lab_noted(lab, "2 of 5 directions lie beyond 90 degrees"));
 }
 
-LAB_TEST(a_direction_that_stands_twice_becomes_the_mean)
-{
+LAB_TEST(a_direction_that_stands_twice_becomes_the_mean) {
     import_white(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n0,90,1,2,3\n30,0,10,20,30\n30,360,12,24,36\n"
                       "30,90,5,6,7\n");
     const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
@@ -344,43 +328,45 @@ LAB_TEST(a_direction_that_stands_twice_becomes_the_mean)
 }
 
 /* A second run of another scale is no noise; one that is noisy is. */
-LAB_TEST(two_runs_are_of_one_scale)
-{
+LAB_TEST(two_runs_are_of_one_scale) {
     static const double scales[] = {0.5, 0.75, 0.85, 1.1, 2, 1};
     for (int run = 0; run < COUNT_OF(scales); run++) {
         const char *text = "theta,phi,L\n0,0,100\n";
         for (int i = 0; i < 24; i++) {
             double noise = run == 5 && i >= 12 ? (i % 2 ? 0.75 : 1.25) : 1;
-            text = arena_format(&lab->arena, "%s%d,%d,%g\n", text, i % 12 < 6 ? 30 : 60,
-                                i % 6 * 60, 80 * noise * (i < 12 ? 1 : scales[run]));
+            text = arena_format(&lab->arena, "%s%d,%d,%g\n", text, i % 12 < 6 ? 30 : 60, i % 6 * 60,
+                                80 * noise * (i < 12 ? 1 : scales[run]));
         }
         lab_write(lab, "white.csv", text);
-        if (scales[run] == 1.1 || scales[run] == 1)
-            lab_import(lab);
+        if (scales[run] == 1.1 || scales[run] == 1) lab_import(lab);
         else
-            lab_refused(lab, arena_format(&lab->arena, "white.csv: 12 directions stand more "
+            lab_refused(lab, arena_format(&lab->arena,
+                                          "white.csv: 12 directions stand more "
                                           "than once, with %g times the light when they stand "
                                           "again: required within 10 %% — leave one run out, "
-                                          "or say --accept for their mean", scales[run]));
+                                          "or say --accept for their mean",
+                                          scales[run]));
     }
 }
 
 /* What contradicts itself is refused by its place, unless the user takes the mean. */
-LAB_TEST(a_direction_that_contradicts_itself_is_refused_or_accepted)
-{
-    static const struct { const char *rows, *words; } cases[] = {
-        {"30,0,80\n30,0,30\n30,180,80\n", "theta 30, phi 0 stands more than once, and its "
+LAB_TEST(a_direction_that_contradicts_itself_is_refused_or_accepted) {
+    static const struct {
+        const char *rows, *words;
+    } cases[] = {
+        {"30,0,80\n30,0,30\n30,180,80\n",
+         "theta 30, phi 0 stands more than once, and its "
          "values are 62.5 % apart: required within 50 % (of what is at least 5 % of the "
          "table's largest) — leave one out, or say --accept for their mean"},
         {"0,90,40\n30,0,80\n", "theta 0, phi 90 stands more than once, and its values are "
-         "60 %"},
+                               "60 %"},
         {"30,0,80\n30,0,60\n30,180,80\n", NULL},
         {"30,0,80\n60,0,1\n60,0,3\n60,180,2\n", NULL}, /* dim beside the table's largest */
     };
     for (int i = 0; i < COUNT_OF(cases); i++) {
         lab->request->accepts_repeats = false;
-        lab_write(lab, "white.csv", arena_format(&lab->arena, "theta,phi,L\n0,0,100\n%s",
-                                                 cases[i].rows));
+        lab_write(lab, "white.csv",
+                  arena_format(&lab->arena, "theta,phi,L\n0,0,100\n%s", cases[i].rows));
         if (!cases[i].words) {
             lab_import(lab);
             continue;
@@ -394,8 +380,7 @@ LAB_TEST(a_direction_that_contradicts_itself_is_refused_or_accepted)
 
 /* ---- sections ---------------------------------------------------------------------------- */
 
-LAB_TEST(sections_of_one_pattern_make_one_table)
-{
+LAB_TEST(sections_of_one_pattern_make_one_table) {
     lab_declare(lab, "section", "*_hor*=0");
     lab_declare(lab, "section", "*_ver*=90");
     lab_declare(lab, "azimuth_zero", "left");
@@ -419,8 +404,7 @@ LAB_TEST(sections_of_one_pattern_make_one_table)
 
 #define BRDF "theta,phi,450nm,550nm\n0,0,1,2\n30,0,3,4\n30,90,5,6\n60,180,7,8\n"
 
-LAB_TEST(reflection_has_a_column_a_wavelength)
-{
+LAB_TEST(reflection_has_a_column_a_wavelength) {
     lab_write(lab, "BRDF_20.csv", "theta,phi,550 nm,R_450nm\n0,0,2,1\n30,0,4,3\n30,90,6,5\n");
     lab_write(lab, "BRDF_40.csv", BRDF);
     lab_import(lab);
@@ -434,8 +418,7 @@ LAB_TEST(reflection_has_a_column_a_wavelength)
     assert_true(lab_noted(lab, "count from the mirror direction"));
 }
 
-LAB_TEST(one_file_a_wavelength_is_joined)
-{
+LAB_TEST(one_file_a_wavelength_is_joined) {
     lab_write(lab, "i10_w550.csv", "theta,phi,brdf\n0,0,2\n30,0,4\n30,90,6\n");
     lab_write(lab, "i10_w450.csv", "theta,phi,brdf\n0,0,1\n30,0,3\n30,90,5\n");
     lab_import(lab);
@@ -446,8 +429,7 @@ LAB_TEST(one_file_a_wavelength_is_joined)
     assert_near(lab_value(table, 30, 90, 1), 6, 0);
 }
 
-LAB_TEST(long_lists_are_cut_into_tables)
-{
+LAB_TEST(long_lists_are_cut_into_tables) {
     lab_write(lab, "all.csv",
               "theta_i,phi_i,theta,phi,wavelength,brdf\n"
               "0,0,0,0,450,1\n0,0,10,0,450,2\n0,0,20,0,450,3\n"
@@ -470,8 +452,7 @@ LAB_TEST(long_lists_are_cut_into_tables)
     assert_near(lab_value(lab_table(lab, IMPORT_BLACK, 0), 10, 0, 1), 1, 0);
 }
 
-LAB_TEST(scatter_units_become_brdf)
-{
+LAB_TEST(scatter_units_become_brdf) {
     double pi = 3.14159265358979323846;
     static const char *const units[] = {"brdf", "brdf-cos", "factor"};
     double wanted[] = {0.5, 0.5 / cos(60 * pi / 180), 0.5 * 0.98 / pi};
@@ -480,13 +461,11 @@ LAB_TEST(scatter_units_become_brdf)
         lab_declare(lab, "white_reflectance", "0.98");
         lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,1\n30,0,1\n60,0,0.5\n");
         lab_import(lab);
-        assert_close(lab_value(lab_table(lab, IMPORT_REFLECTION, 20), 60, 0, 0), wanted[i],
-                     1e-12);
+        assert_close(lab_value(lab_table(lab, IMPORT_REFLECTION, 20), 60, 0, 0), wanted[i], 1e-12);
     }
 }
 
-LAB_TEST(signals_are_divided_by_the_white_reference_without_the_dark)
-{
+LAB_TEST(signals_are_divided_by_the_white_reference_without_the_dark) {
     lab_declare(lab, "unit", "signal");
     lab_declare(lab, "white_reflectance", "0.99");
     lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,11\n30,0,21\n60,0,31\n70,0,5\n");
@@ -501,8 +480,7 @@ LAB_TEST(signals_are_divided_by_the_white_reference_without_the_dark)
     assert_close(lab_value(table, 30, 0, 0), 0.2 * 0.99 / 3.14159265358979323846, 1e-12);
 }
 
-LAB_TEST(one_reading_of_a_reference_serves_every_direction)
-{
+LAB_TEST(one_reading_of_a_reference_serves_every_direction) {
     lab_declare(lab, "unit", "signal");
     lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,11\n30,0,21\n60,0,31\n");
     lab_write(lab, "ref.csv", "theta,phi,550nm\n0,0,101\n");
@@ -516,8 +494,7 @@ LAB_TEST(one_reading_of_a_reference_serves_every_direction)
     assert_true(lab_noted(lab, "ref.csv is one reading"));
 }
 
-LAB_TEST(azimuths_of_the_light_make_an_anisotropic_set)
-{
+LAB_TEST(azimuths_of_the_light_make_an_anisotropic_set) {
     static const char table[] = "theta,phi,550nm\n0,0,1\n30,180,9\n30,270,3\n60,0,4\n";
     lab_write(lab, "i0.csv", table);
     lab_write(lab, "i30_a0.csv", table);

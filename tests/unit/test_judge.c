@@ -7,25 +7,30 @@
 #include "review/profile_table.h"
 
 /* A case whose contrast ratio is `ratio`, known within a share: 100 cd/m2 of difference. */
-static ReviewCase case_of(double ratio, double doubt)
-{
-    return (ReviewCase){.ambient = AMBIENT_DAY, .contrast_ratio = ratio,
+static ReviewCase case_of(double ratio, double doubt) {
+    return (ReviewCase){.ambient = AMBIENT_DAY,
+                        .contrast_ratio = ratio,
                         .contrast_low = ratio * (1 - doubt),
-                        .contrast_high = ratio * (1 + doubt), .contrast_with_veil = ratio,
-                        .luminance_cd_m2 = {.foreground = 110, .background = 10,
+                        .contrast_high = ratio * (1 + doubt),
+                        .contrast_with_veil = ratio,
+                        .luminance_cd_m2 = {.foreground = 110,
+                                            .background = 10,
                                             .reflected = 100 / (ratio - 1) - 10},
-                        .height_arcmin = 25, .stroke_ratio = 0.15, .visible_share = 1};
+                        .height_arcmin = 25,
+                        .stroke_ratio = 0.15,
+                        .visible_share = 1};
 }
 
-static ProfileLimit limit_of(LimitKind kind, double value)
-{
-    return (ProfileLimit){.name = "one", .kind = kind, .ambients = {true, true, true, true},
-                          .value = value, .source = "a test"};
+static ProfileLimit limit_of(LimitKind kind, double value) {
+    return (ProfileLimit){.name = "one",
+                          .kind = kind,
+                          .ambients = {true, true, true, true},
+                          .value = value,
+                          .source = "a test"};
 }
 
 static ReviewCase judged(ReviewCase c, const ProfileLimit *limits, int count, bool uses_veil,
-                         Arena *arena)
-{
+                         Arena *arena) {
     const Profile profile = {.limits = limits, .limit_count = count, .uses_veil = uses_veil};
     judge_case(&c, &profile, arena);
     assert_true(c.limit_count <= count);
@@ -36,31 +41,25 @@ static ReviewCase judged(ReviewCase c, const ProfileLimit *limits, int count, bo
 
 typedef struct Row {
     LimitKind kind;
-    bool      is_upper;
-    double    limit, ratio, height; /* what gives the limit exactly */
+    bool is_upper;
+    double limit, ratio, height; /* what gives the limit exactly */
 } Row;
 
 static const Row ROWS[] = {
-    {LIMIT_CONTRAST_RATIO, false, 5, 5, 25},
-    {LIMIT_CONTRAST_RATIO, false, 3, 3, 25},
-    {LIMIT_CONTRAST_RATIO, false, 2, 2, 25},
-    {LIMIT_CONTRAST_RATIO, true, 40, 40, 25},
-    {LIMIT_LUMINANCE_CONTRAST, false, 2, 3, 25},
-    {LIMIT_LUMINANCE_CONTRAST, false, 4.66, 5.66, 25},
-    {LIMIT_MODULATION, false, 0.5, 3, 25},
-    {LIMIT_MODULATION, true, 0.6, 4, 25},
-    {LIMIT_CHARACTER_HEIGHT, false, 12, 5, 12},
-    {LIMIT_CHARACTER_HEIGHT, true, 60, 5, 60},
+    {LIMIT_CONTRAST_RATIO, false, 5, 5, 25},     {LIMIT_CONTRAST_RATIO, false, 3, 3, 25},
+    {LIMIT_CONTRAST_RATIO, false, 2, 2, 25},     {LIMIT_CONTRAST_RATIO, true, 40, 40, 25},
+    {LIMIT_LUMINANCE_CONTRAST, false, 2, 3, 25}, {LIMIT_LUMINANCE_CONTRAST, false, 4.66, 5.66, 25},
+    {LIMIT_MODULATION, false, 0.5, 3, 25},       {LIMIT_MODULATION, true, 0.6, 4, 25},
+    {LIMIT_CHARACTER_HEIGHT, false, 12, 5, 12},  {LIMIT_CHARACTER_HEIGHT, true, 60, 5, 60},
 };
 
-ARENA_TEST(two_per_cent_decide)
-{
+ARENA_TEST(two_per_cent_decide) {
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
         for (int side = -1; side <= 1; side += 2) {
-            const Row   *r = &ROWS[i];
+            const Row *r = &ROWS[i];
             ProfileLimit limit = limit_of(r->kind, r->limit);
-            bool         is_contrast = limit_kinds[r->kind].is_contrast;
-            ReviewCase   c = case_of(r->ratio * (is_contrast ? 1 + 0.02 * side : 1), 0.001);
+            bool is_contrast = limit_kinds[r->kind].is_contrast;
+            ReviewCase c = case_of(r->ratio * (is_contrast ? 1 + 0.02 * side : 1), 0.001);
             limit.is_upper = r->is_upper;
             c.height_arcmin = r->height * (is_contrast ? 1 : 1 + 0.02 * side);
             c = judged(c, &limit, 1, false, &arena);
@@ -75,10 +74,9 @@ ARENA_TEST(two_per_cent_decide)
     }
 }
 
-ARENA_TEST(margins_are_what_they_say)
-{
+ARENA_TEST(margins_are_what_they_say) {
     ProfileLimit least = limit_of(LIMIT_CONTRAST_RATIO, 3), most = least;
-    ReviewCase   c = judged(case_of(3.6, 0), &least, 1, false, &arena);
+    ReviewCase c = judged(case_of(3.6, 0), &least, 1, false, &arena);
     assert_close(c.margin, log(3.6) / log(3) - 1, 1e-12);
     assert_close(c.limits[0].margin, c.margin, 0);
     assert_near(c.limits[0].found, 3.6, 0);
@@ -95,8 +93,7 @@ ARENA_TEST(margins_are_what_they_say)
 
 /* Full wash-out is -1 under every limit, a limit that is just kept 0; what two limits require
  * in other words has one margin. 1.014 under 3 lies behind 1.347 under 2. */
-TEST(wash_out_is_the_same_for_every_limit)
-{
+TEST(wash_out_is_the_same_for_every_limit) {
     static const LimitKind KINDS[] = {LIMIT_CONTRAST_RATIO, LIMIT_LUMINANCE_CONTRAST,
                                       LIMIT_MODULATION};
     static const double ASKED[] = {1.05, 1.5, 2, 3, 10, 1000}, FOUND[] = {1.014, 1.347, 2, 7};
@@ -104,8 +101,8 @@ TEST(wash_out_is_the_same_for_every_limit)
         for (int i = 0; i < COUNT_OF(ASKED); i++) {
             double limit = contrast_from_ratio(KINDS[k], ASKED[i]);
             assert_close(ratio_from_contrast(KINDS[k], limit), ASKED[i], 1e-12);
-            assert_near(quantity_margin(KINDS[k], false, contrast_from_ratio(KINDS[k], 1),
-                                        limit), -1, 0);
+            assert_near(quantity_margin(KINDS[k], false, contrast_from_ratio(KINDS[k], 1), limit),
+                        -1, 0);
             assert_near(quantity_margin(KINDS[k], false, limit, limit), 0, 0);
             for (int f = 0; f < COUNT_OF(FOUND); f++) {
                 double found = contrast_from_ratio(KINDS[k], FOUND[f]);
@@ -128,10 +125,8 @@ TEST(wash_out_is_the_same_for_every_limit)
     assert_true(isnan(quantity_margin(LIMIT_CONTRAST_RATIO, false, NAN, 2)));
 }
 
-ARENA_TEST(what_lies_on_the_limit_keeps_it)
-{
-    ProfileLimit limits[] = {limit_of(LIMIT_CONTRAST_RATIO, 3),
-                             limit_of(LIMIT_CONTRAST_RATIO, 3)};
+ARENA_TEST(what_lies_on_the_limit_keeps_it) {
+    ProfileLimit limits[] = {limit_of(LIMIT_CONTRAST_RATIO, 3), limit_of(LIMIT_CONTRAST_RATIO, 3)};
     limits[1].is_upper = true;
     ReviewCase c = judged(case_of(3, 0), limits, 2, false, &arena);
     assert_int_equal(c.verdict, VERDICT_PASS);
@@ -139,8 +134,7 @@ ARENA_TEST(what_lies_on_the_limit_keeps_it)
 
 /* ---- doubt ------------------------------------------------------------------------------- */
 
-ARENA_TEST(an_interval_across_the_limit_is_too_close)
-{
+ARENA_TEST(an_interval_across_the_limit_is_too_close) {
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
         for (int side = -1; side <= 1; side += 2) {
             ProfileLimit limit = limit_of(ROWS[i].kind, ROWS[i].limit);
@@ -155,18 +149,16 @@ ARENA_TEST(an_interval_across_the_limit_is_too_close)
     }
 }
 
-static void assert_unjudged(ReviewCase c, Unjudged why)
-{
+static void assert_unjudged(ReviewCase c, Unjudged why) {
     assert_int_equal(c.verdict, VERDICT_UNJUDGED);
     assert_int_equal(c.unjudged, why);
     assert_true(unjudged_names[why] != NULL);
 }
 
-ARENA_TEST(what_is_not_known_cannot_be_judged)
-{
+ARENA_TEST(what_is_not_known_cannot_be_judged) {
     ProfileLimit contrast = limit_of(LIMIT_CONTRAST_RATIO, 3);
     ProfileLimit height = limit_of(LIMIT_CHARACTER_HEIGHT, 12);
-    ReviewCase   c = case_of(NAN, 0);
+    ReviewCase c = case_of(NAN, 0);
     assert_unjudged(judged(c, &contrast, 1, false, &arena), UNJUDGED_FIGURE);
     c = case_of(5, 0);
     c.contrast_low = NAN;
@@ -181,8 +173,7 @@ ARENA_TEST(what_is_not_known_cannot_be_judged)
 
 /* A panel that is not usable makes everything so, light via things without data the contrast
  * alone: a height that fails fails. */
-ARENA_TEST(panels_and_data_decide_what_can_be_judged)
-{
+ARENA_TEST(panels_and_data_decide_what_can_be_judged) {
     ProfileLimit limits[] = {limit_of(LIMIT_CONTRAST_RATIO, 3),
                              limit_of(LIMIT_CHARACTER_HEIGHT, 12)};
     ReviewCase c = case_of(5, 0);
@@ -205,10 +196,9 @@ ARENA_TEST(panels_and_data_decide_what_can_be_judged)
 }
 
 /* What an eye need not see, and what has no limit, does not count. */
-ARENA_TEST(what_is_not_asked_does_not_count)
-{
+ARENA_TEST(what_is_not_asked_does_not_count) {
     ProfileLimit limit = limit_of(LIMIT_CONTRAST_RATIO, 3);
-    ReviewCase   c = case_of(5, 0);
+    ReviewCase c = case_of(5, 0);
     assert_unjudged(judged(c, NULL, 0, false, &arena), UNJUDGED_LIMIT);
     c = judged(c, NULL, 0, false, &arena);
     assert_false(review_case_counts(&c));
@@ -231,12 +221,11 @@ ARENA_TEST(what_is_not_asked_does_not_count)
 /* Of what is reflected alone: 110 and 10 cd/m2 with 40 of it give 3. A panel whose reflection
  * is known within a standard error of 10 % gives the ends of 40 (1 +- 0.196); with errors of
  * the two luminances, and of sampling, the halves add up as squares. */
-ARENA_TEST(the_panel_s_own_error_is_in_the_interval)
-{
-    double     sigmas = INTERVAL_SIGMAS;
-    ReviewCase c = {.luminance_cd_m2 = {.foreground = 110, .background = 10, .reflected = 40,
-                                        .veil = NAN},
-                    .panel = {.reflection_error = 0.1}};
+ARENA_TEST(the_panel_s_own_error_is_in_the_interval) {
+    double sigmas = INTERVAL_SIGMAS;
+    ReviewCase c = {
+        .luminance_cd_m2 = {.foreground = 110, .background = 10, .reflected = 40, .veil = NAN},
+        .panel = {.reflection_error = 0.1}};
     judge_contrasts(&c, (MeanInterval){40, 40});
     assert_close(c.contrast_low, 1 + 100 / (10 + 40 * (1 + 0.1 * sigmas)), 1e-9);
     assert_close(c.contrast_high, 1 + 100 / (10 + 40 * (1 - 0.1 * sigmas)), 1e-9);
@@ -249,8 +238,7 @@ ARENA_TEST(the_panel_s_own_error_is_in_the_interval)
     c.panel = (CasePanel){.reflection_error = 0.1, .emission_error = 0.02};
     judge_contrasts(&c, (MeanInterval){38, 43});
     double by_sampling = 3 - 153.0 / 53;
-    assert_close(3 - c.contrast_low, hypot(by_sampling, hypot(by_reflection, by_emission)),
-                 1e-9);
+    assert_close(3 - c.contrast_low, hypot(by_sampling, hypot(by_reflection, by_emission)), 1e-9);
     c.panel = (CasePanel){0};
     judge_contrasts(&c, (MeanInterval){38, 43});
     assert_close(c.contrast_low, 153.0 / 53, 1e-12);
@@ -261,12 +249,14 @@ ARENA_TEST(the_panel_s_own_error_is_in_the_interval)
 }
 
 /* Sampling gives 2 % of doubt, the panel as much: paths lessen the first alone. */
-ARENA_TEST(no_path_lessens_the_panel_s_error)
-{
+ARENA_TEST(no_path_lessens_the_panel_s_error) {
     ProfileLimit limit = limit_of(LIMIT_CONTRAST_RATIO, 2.9);
-    ReviewCase   c = {.ambient = AMBIENT_DAY, .visible_share = 1, .height_arcmin = 25,
-                      .luminance_cd_m2 = {110, 10, 40, 0, 40, NAN}, .paths = 1000,
-                      .panel = {.reflection_error = 0.1}};
+    ReviewCase c = {.ambient = AMBIENT_DAY,
+                    .visible_share = 1,
+                    .height_arcmin = 25,
+                    .luminance_cd_m2 = {110, 10, 40, 0, 40, NAN},
+                    .paths = 1000,
+                    .panel = {.reflection_error = 0.1}};
     judge_contrasts(&c, (MeanInterval){38, 43});
     c = judged(c, &limit, 1, false, &arena);
     assert_int_equal(c.verdict, VERDICT_TOO_CLOSE);
@@ -279,10 +269,9 @@ ARENA_TEST(no_path_lessens_the_panel_s_error)
     assert_int_equal(c.open_by, OPEN_BY_PATHS);
 }
 
-ARENA_TEST(nothing_visible_is_no_verdict_on_legibility)
-{
+ARENA_TEST(nothing_visible_is_no_verdict_on_legibility) {
     ProfileLimit limit = limit_of(LIMIT_CONTRAST_RATIO, 3);
-    ReviewCase   c = case_of(9, 0);
+    ReviewCase c = case_of(9, 0);
     c.visible_share = 0;
     c = judged(c, &limit, 1, false, &arena);
     assert_int_equal(c.verdict, VERDICT_UNJUDGED);
@@ -299,10 +288,8 @@ ARENA_TEST(nothing_visible_is_no_verdict_on_legibility)
 
 /* ---- which limits ------------------------------------------------------------------------ */
 
-ARENA_TEST(the_worst_that_counts_decides)
-{
-    ProfileLimit limits[] = {limit_of(LIMIT_CONTRAST_RATIO, 2),
-                             limit_of(LIMIT_CONTRAST_RATIO, 6),
+ARENA_TEST(the_worst_that_counts_decides) {
+    ProfileLimit limits[] = {limit_of(LIMIT_CONTRAST_RATIO, 2), limit_of(LIMIT_CONTRAST_RATIO, 6),
                              limit_of(LIMIT_CHARACTER_HEIGHT, 30)};
     limits[1].is_advice = true;
     limits[2].is_advice = true;
@@ -321,8 +308,7 @@ ARENA_TEST(the_worst_that_counts_decides)
 }
 
 /* 0.7 of modulation is a ratio of 5.67, a luminance contrast of 5 one of 6. */
-ARENA_TEST(the_contrast_that_is_asked_most_of_is_the_limit)
-{
+ARENA_TEST(the_contrast_that_is_asked_most_of_is_the_limit) {
     ProfileLimit limits[] = {
         limit_of(LIMIT_CHARACTER_HEIGHT, 12), limit_of(LIMIT_CONTRAST_RATIO, 5),
         limit_of(LIMIT_LUMINANCE_CONTRAST, 5), limit_of(LIMIT_MODULATION, 0.7)};
@@ -339,13 +325,12 @@ ARENA_TEST(the_contrast_that_is_asked_most_of_is_the_limit)
     assert_string_equal(c.limits[c.limit_id].kind, "modulation");
 }
 
-ARENA_TEST(limits_belong_to_their_light)
-{
+ARENA_TEST(limits_belong_to_their_light) {
     const Profile *profile;
     assert_done(profile_load("iso-15008", &arena, &profile, &err));
     for (int a = 0; a < AMBIENT_COUNT; a++) {
         const Verdict expected[] = {VERDICT_FAIL, VERDICT_FAIL, VERDICT_PASS, VERDICT_PASS};
-        ReviewCase    c = case_of(4, 0.01);
+        ReviewCase c = case_of(4, 0.01);
         c.ambient = (Ambient)a;
         judge_case(&c, profile, &arena);
         assert_int_equal(c.verdict, expected[a]);
@@ -354,8 +339,7 @@ ARENA_TEST(limits_belong_to_their_light)
 }
 
 /* NUREG-0700: the smaller the characters, the more modulation, from 17 down to 10 minutes. */
-ARENA_TEST(small_characters_need_more)
-{
+ARENA_TEST(small_characters_need_more) {
     static const double HEIGHTS[] = {10, 12, 15, 17}, VALUES[] = {1, 0.86, 0.65, 0.51};
     const Profile *profile;
     assert_done(profile_load("nureg-0700", &arena, &profile, &err));
@@ -375,11 +359,9 @@ ARENA_TEST(small_characters_need_more)
 }
 
 /* Where a shape has strokes their ratio is held against its limit; a width is not measured. */
-ARENA_TEST(strokes_count_where_there_are_some)
-{
-    ProfileLimit limits[] = {limit_of(LIMIT_STROKE_RATIO, 0.1),
-                             limit_of(LIMIT_WIDTH_RATIO, 0.65)};
-    ReviewCase   c = case_of(4, 0);
+ARENA_TEST(strokes_count_where_there_are_some) {
+    ProfileLimit limits[] = {limit_of(LIMIT_STROKE_RATIO, 0.1), limit_of(LIMIT_WIDTH_RATIO, 0.65)};
+    ReviewCase c = case_of(4, 0);
     c.stroke_ratio = NAN;
     c = judged(c, limits, 2, false, &arena);
     assert_int_equal(c.limit_count, 2);
@@ -393,8 +375,7 @@ ARENA_TEST(strokes_count_where_there_are_some)
     assert_int_equal(judged(c, limits, 2, false, &arena).verdict, VERDICT_FAIL);
 }
 
-ARENA_TEST(without_limits_nothing_can_be_judged)
-{
+ARENA_TEST(without_limits_nothing_can_be_judged) {
     for (int i = 0; i < profile_count; i++) {
         const Profile *profile;
         assert_done(profile_load(profile_table[i].name, &arena, &profile, &err));
@@ -410,10 +391,9 @@ ARENA_TEST(without_limits_nothing_can_be_judged)
 /* ---- the veil ---------------------------------------------------------------------------- */
 
 /* 110 and 10 cd/m2 with 40 reflected: 3; below a veil of 50: 2. */
-ARENA_TEST(a_veil_counts_where_the_profile_says_so)
-{
+ARENA_TEST(a_veil_counts_where_the_profile_says_so) {
     ProfileLimit limit = limit_of(LIMIT_CONTRAST_RATIO, 2.5);
-    ReviewCase   c = case_of(3, 0.02);
+    ReviewCase c = case_of(3, 0.02);
     assert_close(c.luminance_cd_m2.reflected, 40, 1e-12);
     c.luminance_cd_m2.veil = 50;
     c.contrast_with_veil = (110.0 + 40 + 50) / (10 + 40 + 50);
@@ -438,10 +418,9 @@ ARENA_TEST(a_veil_counts_where_the_profile_says_so)
 
 /* ---- the ambient ------------------------------------------------------------------------- */
 
-ARENA_TEST(the_ambient_comes_from_the_display_s_light)
-{
+ARENA_TEST(the_ambient_comes_from_the_display_s_light) {
     const Profile *profile;
-    ReviewCase     c = case_of(4, 0);
+    ReviewCase c = case_of(4, 0);
     assert_done(profile_load("iso-15008", &arena, &profile, &err));
     c.display_lux = 0.2;
     judge_ambient(&c, profile, false);

@@ -8,44 +8,48 @@
 #include "review/judge.h"
 #include "vision/visibility.h"
 
-static ProfileLimit level_limit(double value)
-{
-    return (ProfileLimit){.name = "one", .kind = LIMIT_VISIBILITY_LEVEL, .value = value,
-                          .ambients = {true, true, true, true}, .source = "a test"};
+static ProfileLimit level_limit(double value) {
+    return (ProfileLimit){.name = "one",
+                          .kind = LIMIT_VISIBILITY_LEVEL,
+                          .value = value,
+                          .ambients = {true, true, true, true},
+                          .source = "a test"};
 }
 
-static ReviewCase judged(ReviewCase c, const ProfileLimit *limit, Arena *arena)
-{
+static ReviewCase judged(ReviewCase c, const ProfileLimit *limit, Arena *arena) {
     const Profile profile = {.limits = limit, .limit_count = limit ? 1 : 0};
     judge_case(&c, &profile, arena);
     return c;
 }
 
 /* 30 on 2 cd/m2, of which 1 is reflected, beside a veil of 0.5 in the observer's eye. */
-static ReviewCase seen_by(const CaseVisibility *levels, int count)
-{
-    return (ReviewCase){.ambient = AMBIENT_NIGHT, .visible_share = 1, .height_arcmin = 25,
-                        .stroke_ratio = 0.15, .glasses_transmittance = 1,
-                        .contrast_ratio = 15.5, .contrast_low = 15, .contrast_high = 16,
-                        .contrast_with_veil = 12.6,
-                        .luminance_cd_m2 = {.foreground = 30, .background = 1, .reflected = 1,
-                                            .veil = 0.5},
-                        .reflected_range = {0.9, 1.1},
-                        .visibilities = levels, .visibility_count = count};
+static ReviewCase seen_by(const CaseVisibility *levels, int count) {
+    return (ReviewCase){
+        .ambient = AMBIENT_NIGHT,
+        .visible_share = 1,
+        .height_arcmin = 25,
+        .stroke_ratio = 0.15,
+        .glasses_transmittance = 1,
+        .contrast_ratio = 15.5,
+        .contrast_low = 15,
+        .contrast_high = 16,
+        .contrast_with_veil = 12.6,
+        .luminance_cd_m2 = {.foreground = 30, .background = 1, .reflected = 1, .veil = 0.5},
+        .reflected_range = {0.9, 1.1},
+        .visibilities = levels,
+        .visibility_count = count};
 }
 
 static const CaseVisibility TWO_AGES[] = {
     {.age_years = 30, .is_observer = true, .size_arcmin = 3, .glance_s = 0.2, .veil_times = 1},
     {.age_years = 70, .size_arcmin = 3, .glance_s = 0.2, .veil_times = 1.4}};
 
-static double level_by_hand(double reflected, double veil, double age)
-{
+static double level_by_hand(double reflected, double veil, double age) {
     VisibilityTarget t = {3, 1 + reflected + veil, age, 0.2, false};
     return visibility_level(&t, 29);
 }
 
-ARENA_TEST(levels_follow_the_luminances)
-{
+ARENA_TEST(levels_follow_the_luminances) {
     ReviewCase c = judged(seen_by(TWO_AGES, 2), NULL, &arena);
     const CaseVisibility *v = c.visibilities;
     assert_close(v[0].level, level_by_hand(1, 0.5, 30), 1e-14);
@@ -60,8 +64,7 @@ ARENA_TEST(levels_follow_the_luminances)
 }
 
 /* Dark on light: darker than its background, and a lower threshold by the polarity's factor. */
-ARENA_TEST(levels_know_the_polarity)
-{
+ARENA_TEST(levels_know_the_polarity) {
     ReviewCase c = seen_by(TWO_AGES, 1);
     c.luminance_cd_m2.foreground = 1;
     c.luminance_cd_m2.background = 30;
@@ -71,8 +74,7 @@ ARENA_TEST(levels_know_the_polarity)
 }
 
 /* Behind lenses of 20 % the eye is adapted to less, and sees less of a difference. */
-ARENA_TEST(levels_are_those_behind_glasses)
-{
+ARENA_TEST(levels_are_those_behind_glasses) {
     ReviewCase c = seen_by(TWO_AGES, 1);
     c.glasses_transmittance = 0.2;
     VisibilityTarget t = {3, 0.2 * 2.5, 30, 0.2, false};
@@ -81,8 +83,7 @@ ARENA_TEST(levels_are_those_behind_glasses)
 }
 
 /* The panel's errors are in the ends: each by itself, as squares. */
-ARENA_TEST(levels_hold_the_panels_errors)
-{
+ARENA_TEST(levels_hold_the_panels_errors) {
     ReviewCase c = seen_by(TWO_AGES, 1);
     c.panel.emission_error = 0.05;
     c.panel.reflection_error = 0.1;
@@ -100,13 +101,12 @@ ARENA_TEST(levels_hold_the_panels_errors)
 }
 
 /* A limit is about the least level of all ages, an upper one about the greatest. */
-ARENA_TEST(a_limit_of_visibility_is_about_the_least)
-{
+ARENA_TEST(a_limit_of_visibility_is_about_the_least) {
     double young = level_by_hand(1, 0.5, 30), old = level_by_hand(1, 0.7, 70);
     assert_true(old < young);
     for (int side = -1; side <= 1; side++) {
         ProfileLimit limit = level_limit(old * (1 + 0.2 * side));
-        ReviewCase   c = judged(seen_by(TWO_AGES, 2), &limit, &arena);
+        ReviewCase c = judged(seen_by(TWO_AGES, 2), &limit, &arena);
         const LimitVerdict *l = &c.limits[0];
         Verdict wants = side < 0 ? VERDICT_PASS : side ? VERDICT_FAIL : VERDICT_TOO_CLOSE;
         assert_int_equal(c.verdict, wants);
@@ -127,10 +127,9 @@ ARENA_TEST(a_limit_of_visibility_is_about_the_least)
 
 /* Too much light by things without data leaves a level as open as a contrast; an age that is
  * not published leaves none. */
-ARENA_TEST(a_level_that_is_not_known_is_not_judged)
-{
+ARENA_TEST(a_level_that_is_not_known_is_not_judged) {
     ProfileLimit limit = level_limit(1);
-    ReviewCase   c = seen_by(TWO_AGES, 2);
+    ReviewCase c = seen_by(TWO_AGES, 2);
     c.without_data_share = 0.2;
     c = judged(c, &limit, &arena);
     assert_int_equal(c.unjudged, UNJUDGED_DATA);
@@ -147,14 +146,13 @@ ARENA_TEST(a_level_that_is_not_known_is_not_judged)
 
 /* What is known of the veil is an end of its own; where that reaches the limit, no path to the
  * symbol decides. */
-ARENA_TEST(a_level_is_as_sure_as_the_veil)
-{
+ARENA_TEST(a_level_is_as_sure_as_the_veil) {
     CaseVisibility in_doubt = TWO_AGES[0];
     in_doubt.veil_doubt = 0.4;
     double level = level_by_hand(1, 0.5, 30), sampled = level_by_hand(1.1, 0.5, 30) - level;
     double veiled = level_by_hand(1, 0.7, 30) - level;
     ProfileLimit limit = level_limit(level * 1.001);
-    ReviewCase   c = seen_by(&in_doubt, 1);
+    ReviewCase c = seen_by(&in_doubt, 1);
     c.paths = 8192;
     c = judged(c, &limit, &arena);
     double both = sqrt(sampled * sampled + veiled * veiled);
@@ -166,12 +164,11 @@ ARENA_TEST(a_level_is_as_sure_as_the_veil)
 }
 
 /* Errors of sampling alone keep it open. */
-ARENA_TEST(paths_decide_a_level)
-{
+ARENA_TEST(paths_decide_a_level) {
     double old = level_by_hand(1, 0.7, 70);
     for (int i = 0; i < 3; i++) {
         ProfileLimit limit = level_limit(old * (1 + 0.004 * (i + 1)));
-        ReviewCase   c = seen_by(TWO_AGES, 2);
+        ReviewCase c = seen_by(TWO_AGES, 2);
         c.paths = 8192;
         c = judged(c, &limit, &arena);
         assert_int_equal(c.verdict, VERDICT_TOO_CLOSE);

@@ -7,8 +7,7 @@
 static const ReviewLevelPoint points[] = {{0, 0.02}, {50, 0.08}, {1000, 0.4}, {20000, 1}};
 static const ReviewLevel curve = {.is_curve = true, .points = points, .point_count = 4};
 
-TEST(a_level_curve_goes_through_its_points)
-{
+TEST(a_level_curve_goes_through_its_points) {
     for (int i = 0; i < 4; i++)
         assert_close(review_level_of_lux(&curve, points[i].lux), points[i].level, 1e-12);
     assert_near(review_level_of_lux(&curve, -5), 0.02, 0);
@@ -16,8 +15,7 @@ TEST(a_level_curve_goes_through_its_points)
 }
 
 /* Halfway in log-log the level is the geometric mean; next to 0 lx the piece is linear. */
-TEST(a_level_curve_is_a_power_law_between_points)
-{
+TEST(a_level_curve_is_a_power_law_between_points) {
     assert_close(review_level_of_lux(&curve, sqrt(50.0 * 1000)), sqrt(0.08 * 0.4), 1e-12);
     assert_close(review_level_of_lux(&curve, sqrt(1000.0 * 20000)), sqrt(0.4), 1e-12);
     double whole = review_level_of_lux(&curve, 4000) / review_level_of_lux(&curve, 2000);
@@ -26,8 +24,7 @@ TEST(a_level_curve_is_a_power_law_between_points)
     assert_close(review_level_of_lux(&curve, 25), 0.05, 1e-12);
 }
 
-TEST(a_level_curve_does_not_fall)
-{
+TEST(a_level_curve_does_not_fall) {
     double last = 0;
     for (double lux = 0; lux < 30000; lux = lux * 1.003 + 0.01) {
         double level = review_level_of_lux(&curve, lux);
@@ -36,10 +33,9 @@ TEST(a_level_curve_does_not_fall)
     }
 }
 
-TEST(fixed_levels_go_by_name_material_and_the_rest)
-{
-    ReviewFixedLevel  fixed[] = {{"*", 0.5}, {"windows", 0.2}, {"node:alt", 0.1}};
-    ReviewLevel       level = {.fixed = fixed, .fixed_count = 3};
+TEST(fixed_levels_go_by_name_material_and_the_rest) {
+    ReviewFixedLevel fixed[] = {{"*", 0.5}, {"windows", 0.2}, {"node:alt", 0.1}};
+    ReviewLevel level = {.fixed = fixed, .fixed_count = 3};
     ReviewDisplayName alt = {"node:alt", "windows"}, hdg = {"node:hdg", "windows"};
     ReviewDisplayName other = {"pfd", "pfd"};
     assert_near(review_level_at(&level, alt, 7, 1e4), 0.1, 0);

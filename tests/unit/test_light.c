@@ -4,8 +4,7 @@
 #include "light/sky.h"
 #include "light_fixture.h"
 
-TEST(the_suns_irradiance_is_exact_whatever_its_size)
-{
+TEST(the_suns_irradiance_is_exact_whatever_its_size) {
     const float radius[] = {0.0005f, 0.00465f, 0.05f};
     for (int i = 0; i < 3; i++) {
         ENDS_BY(arena_release) Arena arena = arena_reserve(1 << 28);
@@ -16,13 +15,11 @@ TEST(the_suns_irradiance_is_exact_whatever_its_size)
         Vec3 to_sun =
             vec3((float)(cos(0.6) * sin(1.1)), (float)sin(0.6), (float)(-cos(0.6) * cos(1.1)));
         assert_illuminance("facing the sun", lights, LIGHTS_SUN, to_sun, 90000);
-        assert_illuminance("on the ground", lights, LIGHTS_SUN, vec3(0, 1, 0),
-                           90000 * sin(0.6));
+        assert_illuminance("on the ground", lights, LIGHTS_SUN, vec3(0, 1, 0), 90000 * sin(0.6));
     }
 }
 
-ARENA_TEST(the_heading_turns_the_sun_and_not_the_scene)
-{
+ARENA_TEST(the_heading_turns_the_sun_and_not_the_scene) {
     Scene *scene = builder_scene(&arena);
     Sky sky;
     builder_sun(scene, PI / 2, 0, 1); /* east */
@@ -36,8 +33,7 @@ ARENA_TEST(the_heading_turns_the_sun_and_not_the_scene)
     assert_near(sky.sun_direction.x, 1, 1e-6);
 }
 
-ARENA_TEST(a_uniform_sky_of_luminance_l_gives_pi_l)
-{
+ARENA_TEST(a_uniform_sky_of_luminance_l_gives_pi_l) {
     Scene *scene = builder_scene(&arena);
     builder_sky(scene, 1000);
     const Lights *lights = build(scene, &arena);
@@ -45,8 +41,7 @@ ARENA_TEST(a_uniform_sky_of_luminance_l_gives_pi_l)
 }
 
 /* A picture with a soft gradient, a small sun, a dark half and a negative pixel. */
-static Scene *picture_scene(Arena *arena, int width, int height)
-{
+static Scene *picture_scene(Arena *arena, int width, int height) {
     Scene *scene = builder_scene(arena);
     float *pixels = ARENA_NEW(arena, float, 4 * width * height);
     for (int y = 0; y < height; y++)
@@ -62,8 +57,7 @@ static Scene *picture_scene(Arena *arena, int width, int height)
     return scene;
 }
 
-ARENA_TEST(a_picture_can_be_scaled_to_an_illuminance)
-{
+ARENA_TEST(a_picture_can_be_scaled_to_an_illuminance) {
     Scene *scene = picture_scene(&arena, 64, 32);
     scene->environment.horizontal_illuminance_lx = 15000;
     const Lights *lights = build(scene, &arena);
@@ -71,8 +65,7 @@ ARENA_TEST(a_picture_can_be_scaled_to_an_illuminance)
 }
 
 /* North is the left edge, east a quarter, south (+Z) the middle; rotation adds to azimuth. */
-ARENA_TEST(a_picture_hangs_the_right_way_round)
-{
+ARENA_TEST(a_picture_hangs_the_right_way_round) {
     Scene *scene = builder_scene(&arena);
     float pixels[8 * 4 * 4] = {0}; /* 8 columns, 4 rows: column 0 north, 2 east ... */
     Sky sky;
@@ -91,15 +84,13 @@ ARENA_TEST(a_picture_hangs_the_right_way_round)
             float angle = (float)(k * PI / 2 + 0.35 + PI / 4);
             Vec3 d = vec3((float)sin((double)angle), 0, (float)-cos((double)angle));
             SkySample seen = sky_seen(&sky, d, d, &lanes);
-            assert_close(spectrum_sum(seen.radiance * lanes.xyz[1]), (k - turn + 4) % 4 + 1,
-                         1e-2);
+            assert_close(spectrum_sum(seen.radiance * lanes.xyz[1]), (k - turn + 4) % 4 + 1, 1e-2);
         }
     }
 }
 
 /* Pearson's test of a sampler against its density, both over a grid of directions. */
-ARENA_TEST(picture_samples_follow_their_density)
-{
+ARENA_TEST(picture_samples_follow_their_density) {
     enum { ROWS = 16, COLUMNS = 32, COUNT = 400000, FINE = 24 };
     Scene *scene = picture_scene(&arena, 64, 32);
     Sky sky;
@@ -130,8 +121,8 @@ ARENA_TEST(picture_samples_follow_their_density)
             double phi = 2 * PI * (column + 0.5) / (COLUMNS * FINE) - PI;
             Vec3 d = vec3((float)(sin(theta) * cos(phi)), (float)cos(theta),
                           (float)(sin(theta) * sin(phi)));
-            double share = (double)sky_seen(&sky, d, vec3(0, 1, 0), &lanes).pdf * sin(theta) *
-                           PI / (ROWS * FINE) * 2 * PI / (COLUMNS * FINE);
+            double share = (double)sky_seen(&sky, d, vec3(0, 1, 0), &lanes).pdf * sin(theta) * PI /
+                           (ROWS * FINE) * 2 * PI / (COLUMNS * FINE);
             expected[row / FINE * COLUMNS + column / FINE] += share * COUNT;
             total += share;
         }
@@ -139,11 +130,10 @@ ARENA_TEST(picture_samples_follow_their_density)
     assert_chi_square(0, found, expected, ROWS * COLUMNS, (ChiLimits){2e-5, 100, 4});
 }
 
-ARENA_TEST(sun_samples_are_uniform_on_the_disc_and_never_off_it)
-{
+ARENA_TEST(sun_samples_are_uniform_on_the_disc_and_never_off_it) {
     enum { RINGS = 8, SECTORS = 16 };
-    Scene   *scene = builder_scene(&arena);
-    Sky      sky;
+    Scene *scene = builder_scene(&arena);
+    Sky sky;
     uint32_t random = 3;
     static double counts[RINGS * SECTORS], even[RINGS * SECTORS];
     builder_sun(scene, 0, 0.4f, 1);
@@ -151,12 +141,12 @@ ARENA_TEST(sun_samples_are_uniform_on_the_disc_and_never_off_it)
     Frame frame = frame_from_z(sky.sun_direction);
     for (int i = 0; i < SAMPLES; i++) {
         float u0 = random_unit(&random), u1 = random_unit(&random);
-        Vec3  d = sun_sample(&sky, u0, u1), local = frame_to_local(&frame, d);
+        Vec3 d = sun_sample(&sky, u0, u1), local = frame_to_local(&frame, d);
         assert_close(sun_pdf(&sky, d), 1 / sky.sun_solid_angle, 1e-6);
         double away2 = (double)(local.x * local.x + local.y * local.y);
         double share = away2 / pow(sin((double)sky.sun_radius), 2);
         double turns = atan2((double)local.y, (double)local.x) / (2 * PI) + 0.5;
-        int    ring = (int)(share * RINGS), sector = (int)(turns * SECTORS);
+        int ring = (int)(share * RINGS), sector = (int)(turns * SECTORS);
         counts[(ring < RINGS ? ring : RINGS - 1) * SECTORS + sector % SECTORS]++;
     }
     for (int i = 0; i < RINGS * SECTORS; i++) even[i] = SAMPLES / (double)(RINGS * SECTORS);
@@ -166,8 +156,7 @@ ARENA_TEST(sun_samples_are_uniform_on_the_disc_and_never_off_it)
 
 /* ---- emitters ---------------------------------------------------------------------------- */
 
-static double triangle_area(const Scene *scene, uint32_t triangle)
-{
+static double triangle_area(const Scene *scene, uint32_t triangle) {
     TrianglePoint p[3];
     for (int k = 0; k < 3; k++) p[k] = triangle_point(scene, triangle, k == 1, k == 2);
     return 0.5 * (double)vec3_length(vec3_cross(vec3_sub(p[1].position, p[0].position),
@@ -177,12 +166,11 @@ static double triangle_area(const Scene *scene, uint32_t triangle)
 /* The integral of the density over a triangle's pieces, fine^2 of them, by their middles;
  * strips: NULL, or by the strip of u that the piece lies in. */
 static double density_total(const Emitters *emitters, const Scene *scene, const LitPoint *from,
-                            uint32_t triangle, int fine, int strip_count, double *strips)
-{
+                            uint32_t triangle, int fine, int strip_count, double *strips) {
     double total = 0, area = triangle_area(scene, triangle) / ((double)fine * fine);
     for (int i = 0; i < fine; i++)
         for (int k = 0; k < 2 * (fine - i) - 1; k++) {
-            float        in = k % 2 ? 2 / 3.0f : 1 / 3.0f, side = (float)fine;
+            float in = k % 2 ? 2 / 3.0f : 1 / 3.0f, side = (float)fine;
             EmitterPoint at = {triangle, ((float)i + in) / side, ((float)(k / 2) + in) / side};
             EmitterDensity density = emitters_density(emitters, scene, from, at);
             double share = density_on_area(scene, at, from->position, density) * area;
@@ -194,8 +182,7 @@ static double density_total(const Emitters *emitters, const Scene *scene, const 
 
 /* Two lamps, one four times as large and three times as bright, and a picture with a bright
  * corner and a dark half. */
-static Scene *lamp_scene(Arena *arena)
-{
+static Scene *lamp_scene(Arena *arena) {
     static uint8_t picture[16 * 16 * 4];
     Scene *scene = builder_scene(arena);
     for (int lamp = 0; lamp < 3; lamp++) {
@@ -208,8 +195,7 @@ static Scene *lamp_scene(Arena *arena)
     for (int i = 0; i < 16 * 16; i++)
         for (int k = 0; k < 4; k++)
             picture[4 * i + k] = k == 3 ? 255 : i % 16 > 7 ? 0 : i < 16 * 4 ? 255 : 90;
-    scene->textures[0] =
-        (Texture){{16, 16, IMAGE_RGBA8, picture}, WRAP_CLAMP, WRAP_CLAMP, true};
+    scene->textures[0] = (Texture){{16, 16, IMAGE_RGBA8, picture}, WRAP_CLAMP, WRAP_CLAMP, true};
     return scene;
 }
 
@@ -222,9 +208,8 @@ static const LitPoint LIT[] = {{{0, 0, 0}, {0, 1, 0}, false},
                                {{9, 5, 0}, {0, -1, 0}, false},
                                {{0, 0, 0}, {0, -1, 0}, false}};
 
-ARENA_TEST(densities_of_emitters_integrate_to_one_from_anywhere)
-{
-    Scene   *scene = lamp_scene(&arena);
+ARENA_TEST(densities_of_emitters_integrate_to_one_from_anywhere) {
+    Scene *scene = lamp_scene(&arena);
     Emitters emitters = emitters_build(scene, &arena);
     assert_int_equal(emitters.count, 6);
     for (size_t i = 0; i < sizeof LIT / sizeof *LIT; i++) {
@@ -239,17 +224,16 @@ ARENA_TEST(densities_of_emitters_integrate_to_one_from_anywhere)
 }
 
 /* Points fall into strips of every triangle as the density says. */
-ARENA_TEST(emitter_samples_follow_their_density)
-{
+ARENA_TEST(emitter_samples_follow_their_density) {
     enum { STRIPS = 9, TRIANGLES = 6 };
-    Scene   *scene = lamp_scene(&arena);
-    int      fine = STRIPS * (all_laws() ? 64 : 16); /* 16: at most 0.3 % of a strip amiss */
-    int      count = all_laws() ? SAMPLES : SAMPLES / 2;
+    Scene *scene = lamp_scene(&arena);
+    int fine = STRIPS * (all_laws() ? 64 : 16); /* 16: at most 0.3 % of a strip amiss */
+    int count = all_laws() ? SAMPLES : SAMPLES / 2;
     Emitters emitters = emitters_build(scene, &arena);
     uint32_t random = 8;
     for (size_t p = 0; p < sizeof LIT / sizeof *LIT; p++) {
         double found[TRIANGLES * STRIPS] = {0}, expected[TRIANGLES * STRIPS] = {0};
-        int    unlike = 0;
+        int unlike = 0;
         for (int i = 0; i < count; i++) {
             float u[3];
             EmitterDensity density, seen;
@@ -265,16 +249,14 @@ ARENA_TEST(emitter_samples_follow_their_density)
         for (uint32_t t = 0; t < TRIANGLES; t++)
             density_total(&emitters, scene, &LIT[p], t, fine, STRIPS, expected + t * STRIPS);
         for (int i = 0; i < TRIANGLES * STRIPS; i++) expected[i] *= count;
-        assert_chi_square((int)p, found, expected, TRIANGLES * STRIPS,
-                          (ChiLimits){4e-5, 15, 4.5});
+        assert_chi_square((int)p, found, expected, TRIANGLES * STRIPS, (ChiLimits){4e-5, 15, 4.5});
         assert_true(unlike < count / 1000);
     }
 }
 
 /* From far away the choice is by power; from near it is the lamp at hand. */
-ARENA_TEST(emitters_are_chosen_by_what_they_send_to_the_point)
-{
-    Scene   *scene = builder_scene(&arena);
+ARENA_TEST(emitters_are_chosen_by_what_they_send_to_the_point) {
+    Scene *scene = builder_scene(&arena);
     uint32_t random = 3;
     for (int lamp = 0; lamp < 2; lamp++) {
         builder_part(scene, builder_lamp(lamp ? 300 : 100));
@@ -299,16 +281,14 @@ ARENA_TEST(emitters_are_chosen_by_what_they_send_to_the_point)
 }
 
 /* Lit texels are found in proportion to their light. */
-ARENA_TEST(bright_texels_are_chosen_more_often)
-{
+ARENA_TEST(bright_texels_are_chosen_more_often) {
     enum { SIDE = 64 };
-    Scene   *scene = builder_scene(&arena);
+    Scene *scene = builder_scene(&arena);
     uint32_t random = 21;
-    int      lit = 0;
-    uint8_t *picture = ARENA_NEW(&arena, uint8_t, SIDE * SIDE * 4);
+    int lit = 0;
+    uint8_t *picture = ARENA_NEW(&arena, uint8_t, SIDE *SIDE * 4);
     for (int i = 0; i < SIDE * SIDE; i++) /* one texel in 64, and a grey that gives a tenth */
-        for (int k = 0; k < 3; k++)
-            picture[4 * i + k] = i % 8 == 3 && i / SIDE % 8 == 5 ? 255 : 12;
+        for (int k = 0; k < 3; k++) picture[4 * i + k] = i % 8 == 3 && i / SIDE % 8 == 5 ? 255 : 12;
     scene->textures[0] =
         (Texture){{SIDE, SIDE, IMAGE_RGBA8, picture}, WRAP_CLAMP, WRAP_CLAMP, true};
     Material material = builder_lamp(1000);
@@ -320,7 +300,7 @@ ARENA_TEST(bright_texels_are_chosen_more_often)
         float u[3], rgb[3];
         EmitterDensity density;
         random3(&random, u);
-        EmitterPoint  at = emitters_sample(&emitters, scene, &LIT[0], u, &density);
+        EmitterPoint at = emitters_sample(&emitters, scene, &LIT[0], u, &density);
         TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
         emitted_rgb(scene, at.triangle, &point, rgb);
         lit += rgb[1] > 500;
@@ -330,8 +310,7 @@ ARENA_TEST(bright_texels_are_chosen_more_often)
     assert_true(lit > SAMPLES / 2);
 }
 
-ARENA_TEST(point_and_spot_follow_the_inverse_square_and_the_cone)
-{
+ARENA_TEST(point_and_spot_follow_the_inverse_square_and_the_cone) {
     Scene *scene = builder_scene(&arena);
     scene->lights[scene->light_count++] = (PunctualLight){
         .kind = LIGHT_POINT, .position = {0, 3, 0}, .intensity = {1000, 1000, 1000}};
@@ -351,13 +330,11 @@ ARENA_TEST(point_and_spot_follow_the_inverse_square_and_the_cone)
         1000.0 / 9 * pow(cos(0.3), 3) * ramp * ramp);
 }
 
-ARENA_TEST(many_lights_are_chosen_without_bias)
-{
+ARENA_TEST(many_lights_are_chosen_without_bias) {
     Scene *scene = builder_scene(&arena);
     double expected = 0;
     for (int i = 0; i < 50; i++) {
-        Vec3 at =
-            vec3((float)(i % 10) - 4.5f, 2 + 0.1f * (float)(i % 3), (float)(i / 10) - 2.0f);
+        Vec3 at = vec3((float)(i % 10) - 4.5f, 2 + 0.1f * (float)(i % 3), (float)(i / 10) - 2.0f);
         float cd = 10.0f * (float)(i % 7 + 1);
         double d2 = (double)vec3_dot(at, at);
         scene->lights[scene->light_count++] =
@@ -370,8 +347,7 @@ ARENA_TEST(many_lights_are_chosen_without_bias)
 
 /* Discs close to the point with beams so narrow that the middle of most sends nothing there:
  * together they give what each gives alone, chosen among few and among many. */
-TEST(lamps_with_openings_are_chosen_without_bias)
-{
+TEST(lamps_with_openings_are_chosen_without_bias) {
     static const float c[2] = {0, 6.2831853f}, gamma[3] = {0, 0.4f, 0.6f};
     static const float relative[6] = {1, 1, 0, 1, 1, 0};
     static const IntensityWeb web = {WEB_C, 1, 3, c, gamma, relative, 1, 1, {0, 0, -1}};
@@ -380,53 +356,52 @@ TEST(lamps_with_openings_are_chosen_without_bias)
         Scene *scene = builder_scene(&arena);
         double expected = 0;
         for (int i = 0; i < count; i++) {
-            PunctualLight lamp = {.kind = LIGHT_LUMINAIRE, .web = &web,
+            PunctualLight lamp = {.kind = LIGHT_LUMINAIRE,
+                                  .web = &web,
                                   .position = {0.5f * (float)(i % 4) - 0.6f, 1.0f, 0.3f},
-                                  .axis_x = {1, 0, 0}, .axis_y = {0, 0, -1},
+                                  .axis_x = {1, 0, 0},
+                                  .axis_y = {0, 0, -1},
                                   .axis_z = {0, 1, 0},
                                   .opening = {OPENING_CYLINDER, 2, true, {0.3f, 0.3f, 0}}};
             for (int k = 0; k < 3; k++) lamp.intensity[k] = 100 + 50 * (float)i;
             scene->lights[0] = lamp;
             scene->light_count = 1;
-            Mean alone = illuminance(build(scene, &arena), LIGHTS_PUNCTUAL, vec3(0, 0, 0),
-                                     vec3(0, 1, 0));
+            Mean alone =
+                illuminance(build(scene, &arena), LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0));
             expected += alone.sum / (double)alone.count;
         }
         for (int i = 0; i < count; i++) {
             scene->lights[i] = scene->lights[0];
             scene->lights[i].position.x = 0.5f * (float)(i % 4) - 0.6f;
-            for (int k = 0; k < 3; k++)
-                scene->lights[i].intensity[k] = 100 + 50 * (float)i;
+            for (int k = 0; k < 3; k++) scene->lights[i].intensity[k] = 100 + 50 * (float)i;
         }
         scene->light_count = count;
-        assert_mean("lamps with openings",
-                    illuminance(build(scene, &arena), LIGHTS_PUNCTUAL, vec3(0, 0, 0),
-                                vec3(0, 1, 0)), expected);
+        assert_mean(
+            "lamps with openings",
+            illuminance(build(scene, &arena), LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0)),
+            expected);
     }
 }
 
 /* A square of half side a at height h over the point: E = L * 4 * (corner factor). */
-ARENA_TEST(an_area_light_gives_its_configuration_factor)
-{
+ARENA_TEST(an_area_light_gives_its_configuration_factor) {
     Scene *scene = builder_scene(&arena);
     builder_part(scene, builder_lamp(2000));
     builder_quad(scene, vec3(0, 2, 0), vec3(1, 0, 0), vec3(0, 0, 1)); /* front looks down */
     double x = 0.5, root = sqrt(1 + x * x);
     double factor = 4 / (2 * PI) * 2 * (x / root * atan(x / root));
     const Lights *lights = build(scene, &arena);
-    assert_illuminance("square lamp", lights, LIGHTS_EMITTERS, vec3(0, 1, 0),
-                       PI * 2000 * factor);
+    assert_illuminance("square lamp", lights, LIGHTS_EMITTERS, vec3(0, 1, 0), PI * 2000 * factor);
     LightSample sample;
     float u[3] = {0.3f, 0.4f, 0.1f};
     assert_true(lights_sample(lights, LIGHTS_EMITTERS, LIT[0], u, &sample));
     /* the ray that finds the same point: on the plane y = 2, u and v along the quad's edges */
     Vec3 at = vec3_scale(sample.wi, sample.distance);
     float s = 0.5f + 0.5f * at.x, t = 0.5f - 0.5f * at.z; /* builder_quad's corners */
-    Hit hits[2] = {{sample.distance, s - (1 - t), 1 - t, 0},
-                   {sample.distance, s, 1 - t - s, 1}};
+    Hit hits[2] = {{sample.distance, s - (1 - t), 1 - t, 0}, {sample.distance, s, 1 - t - s, 1}};
     Hit hit = hits[hits[0].u >= 0 ? 0 : 1];
-    assert_close(lights_emitter_pdf(lights, &LIT[0], &hit, sample.wi, vec3(0, -1, 0)),
-                 sample.pdf, 1e-3);
+    assert_close(lights_emitter_pdf(lights, &LIT[0], &hit, sample.wi, vec3(0, -1, 0)), sample.pdf,
+                 1e-3);
     assert_false(lights_sample(lights, LIGHTS_EMITTERS,
                                (LitPoint){vec3(0, 4, 0), vec3(0, -1, 0), false}, u,
                                &sample)); /* its back is dark */

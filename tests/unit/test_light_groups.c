@@ -4,14 +4,12 @@
 
 #include "light/light_groups.h"
 
-static void add_lamp(Scene *scene, const char *name)
-{
+static void add_lamp(Scene *scene, const char *name) {
     scene->lights[scene->light_count++] =
         (PunctualLight){.name = name, .kind = LIGHT_POINT, .intensity = {1, 1, 1}};
 }
 
-static void add_emitter(Scene *scene, const char *name, float cd_m2)
-{
+static void add_emitter(Scene *scene, const char *name, float cd_m2) {
     Material m = builder_lamp(cd_m2);
     m.name = name;
     m.is_emitter = cd_m2 > 0;
@@ -19,22 +17,19 @@ static void add_emitter(Scene *scene, const char *name, float cd_m2)
     builder_quad(scene, vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0));
 }
 
-static LightGroups groups_of(const Scene *scene, Arena *arena, Problems *problems)
-{
+static LightGroups groups_of(const Scene *scene, Arena *arena, Problems *problems) {
     *problems = problems_start(arena);
     return light_groups_build(scene, build(scene, arena), arena, problems);
 }
 
-static void assert_names(const LightGroups *groups, const char *const *names, int count)
-{
+static void assert_names(const LightGroups *groups, const char *const *names, int count) {
     assert_int_equal(groups->count, count);
     for (int i = 0; i < count; i++) assert_string_equal(groups->names[i], names[i]);
 }
 
 /* A lamp and the bulb about it are one; what does not emit is none. */
-ARENA_TEST(lights_of_one_name_are_one_group)
-{
-    Scene   *scene = builder_scene(&arena);
+ARENA_TEST(lights_of_one_name_are_one_group) {
+    Scene *scene = builder_scene(&arena);
     Problems problems;
     builder_sky(scene, 5);
     builder_sun(scene, 0, 0, 1);
@@ -57,9 +52,8 @@ ARENA_TEST(lights_of_one_name_are_one_group)
     assert_int_equal(problems.count, 0);
 }
 
-ARENA_TEST(what_a_scene_has_not_is_no_group)
-{
-    Problems    problems;
+ARENA_TEST(what_a_scene_has_not_is_no_group) {
+    Problems problems;
     LightGroups groups = groups_of(builder_scene(&arena), &arena, &problems);
     assert_int_equal(groups.count, 0);
     assert_int_equal(groups.sun, NO_ID);
@@ -67,9 +61,8 @@ ARENA_TEST(what_a_scene_has_not_is_no_group)
 }
 
 /* A display is not the lamp of its name, and no lamp is the sun. */
-ARENA_TEST(names_that_become_the_same_are_told_apart_and_told_of)
-{
-    Scene   *scene = builder_scene(&arena);
+ARENA_TEST(names_that_become_the_same_are_told_apart_and_told_of) {
+    Scene *scene = builder_scene(&arena);
     Problems problems;
     builder_sun(scene, 0, 0, 1);
     add_lamp(scene, "sun");
@@ -87,16 +80,17 @@ ARENA_TEST(names_that_become_the_same_are_told_apart_and_told_of)
                         "light.a_b");
 }
 
-ARENA_TEST(names_are_those_of_channels)
-{
-    Scene   *scene = builder_scene(&arena);
+ARENA_TEST(names_are_those_of_channels) {
+    Scene *scene = builder_scene(&arena);
     Problems problems;
-    char     longest[200] = "x";
+    char longest[200] = "x";
     for (int i = 1; i < 180; i += 2) memcpy(longest + i, "\xc3\xa4", 3);
-    add_lamp(scene, "Lampe \xc3\xbc" "ber\tTuer-1+2_3,4");
+    add_lamp(scene, "Lampe \xc3\xbc"
+                    "ber\tTuer-1+2_3,4");
     add_lamp(scene, longest);
     LightGroups groups = groups_of(scene, &arena, &problems);
-    assert_string_equal(groups.names[0], "Lampe_\xc3\xbc" "ber_Tuer-1+2_3_4");
+    assert_string_equal(groups.names[0], "Lampe_\xc3\xbc"
+                                         "ber_Tuer-1+2_3_4");
     assert_int_equal(strlen(groups.names[1]), 63);
     assert_memory_equal(groups.names[1], longest, 63);
 }

@@ -4,15 +4,14 @@
 #include "reading_fixture.h"
 
 static const Vec3 eye = {0.1f, 0.1f, 0.7f};
-static const Vec3 targets[4] = {{-0.1f, -0.05f, 0}, {0.1f, 0.05f, 0}, {-0.1f, 0.05f, 0},
-                                {0.1f, -0.05f, 0}};
+static const Vec3 targets[4] = {
+    {-0.1f, -0.05f, 0}, {0.1f, 0.05f, 0}, {-0.1f, 0.05f, 0}, {0.1f, -0.05f, 0}};
 static const LitPoint head = {{0, -0.2f, 0.5f}, {0, 1, 0}, false};
 
 /* A display that looks along +z, another to the side that shines on it, grey walls, a lamp. */
-static World room(void)
-{
-    World    world = world_start();
-    Scene   *scene = world.scene;
+static World room(void) {
+    World world = world_start();
+    Scene *scene = world.scene;
     builder_part(scene, builder_material(0.5f));
     builder_quad(scene, vec3(0, -0.3f, 0.5f), vec3(0.6f, 0, 0), vec3(0, 0, -0.6f));
     builder_part(scene, builder_material(0.5f));
@@ -28,16 +27,13 @@ static World room(void)
 }
 
 /* Whose lights are made anew for these levels. */
-static void set_levels(World *world, const double level[2])
-{
+static void set_levels(World *world, const double level[2]) {
     for (int i = 0; i < 2; i++) world->scene->displays[i].level = (float)level[i];
     world->context = path_context_relight(
-        &world->context, lights_with_levels(world->context.lights, &world->arena),
-        &world->arena);
+        &world->context, lights_with_levels(world->context.lights, &world->arena), &world->arena);
 }
 
-static ProbeAim aim_of(const World *world, uint32_t seed, bool by_meter)
-{
+static ProbeAim aim_of(const World *world, uint32_t seed, bool by_meter) {
     ProbeAim aim = {.context = &world->context, .seed = seed};
     if (by_meter) {
         aim.meter = &head;
@@ -50,21 +46,18 @@ static ProbeAim aim_of(const World *world, uint32_t seed, bool by_meter)
 }
 
 /* Under these levels, of lights that stood under `then`. */
-static const Lights *changed(World *world, const double then[2], const double now[2])
-{
+static const Lights *changed(World *world, const double then[2], const double now[2]) {
     set_levels(world, then);
     for (int i = 0; i < 2; i++) world->scene->displays[i].level = (float)now[i];
     return lights_with_levels(world->context.lights, &world->arena);
 }
 
-TEST(emitters_are_sorted_again_where_a_display_changes_four_times)
-{
+TEST(emitters_are_sorted_again_where_a_display_changes_four_times) {
     static const struct {
         double then[2], now[2];
-        bool   is_again;
-    } CASES[] = {{{1, 1}, {1, 1}, false},   {{1, 1}, {0.25, 4}, false},
-                 {{1, 1}, {0.24, 1}, true}, {{1, 1}, {1, 4.1}, true},
-                 {{1, 1}, {0, 1}, true},    {{0, 1}, {0, 1}, false},
+        bool is_again;
+    } CASES[] = {{{1, 1}, {1, 1}, false},  {{1, 1}, {0.25, 4}, false}, {{1, 1}, {0.24, 1}, true},
+                 {{1, 1}, {1, 4.1}, true}, {{1, 1}, {0, 1}, true},     {{0, 1}, {0, 1}, false},
                  {{0, 1}, {1e-6, 1}, true}};
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         ENDS_BY(world_end) World world = room();
@@ -74,14 +67,13 @@ TEST(emitters_are_sorted_again_where_a_display_changes_four_times)
 }
 
 /* Which emitters are chosen how often is no part of the light: both say the same of it. */
-TEST(emitters_of_other_levels_tell_the_same_light)
-{
+TEST(emitters_of_other_levels_tell_the_same_light) {
     static const double ONE[2] = {1, 1}, LEVELS[2] = {0.25, 4}, FAR[2] = {8, 0.05};
-    ReadingGoal  longer = {.most = all_laws() ? 1 << 17 : 1 << 16};
+    ReadingGoal longer = {.most = all_laws() ? 1 << 17 : 1 << 16};
     ENDS_BY(world_end) World world = room();
     ReadingTools tools = reading_tools(2);
     for (int by_meter = 0; by_meter < 2; by_meter++) {
-        Reading  kept, own;
+        Reading kept, own;
         ProbeAim aim = aim_of(&world, 5, by_meter);
         set_levels(&world, FAR);
         set_levels(&world, ONE);

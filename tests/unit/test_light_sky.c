@@ -3,14 +3,13 @@
 #include "light/sky.h"
 #include "light_fixture.h"
 
-static Scene *sky_scene(EnvironmentKind kind, double elevation_deg, Arena *arena)
-{
+static Scene *sky_scene(EnvironmentKind kind, double elevation_deg, Arena *arena) {
     Scene *scene = builder_scene(arena);
     Environment *e = &scene->environment;
     e->kind = kind;
     e->daylight = daylight_input_default(kind == ENVIRONMENT_CIE     ? DAYLIGHT_CIE
                                          : kind == ENVIRONMENT_PEREZ ? DAYLIGHT_PEREZ
-                                                                   : DAYLIGHT_CLEAR);
+                                                                     : DAYLIGHT_CLEAR);
     e->daylight.direct_w_m2 = 700;
     e->daylight.diffuse_w_m2 = 120;
     e->daylight.where.altitude_m = 9000;
@@ -23,11 +22,10 @@ static Scene *sky_scene(EnvironmentKind kind, double elevation_deg, Arena *arena
     return scene;
 }
 
-ARENA_TEST(a_modelled_sky_and_its_sun_give_the_stated_illuminance)
-{
+ARENA_TEST(a_modelled_sky_and_its_sun_give_the_stated_illuminance) {
     for (int kind = ENVIRONMENT_CIE; kind <= ENVIRONMENT_SKY; kind++) {
-        Arena   scratch = arena;
-        Scene  *scene = sky_scene((EnvironmentKind)kind, 35, &scratch);
+        Arena scratch = arena;
+        Scene *scene = sky_scene((EnvironmentKind)kind, 35, &scratch);
         Daylight *out = arena_alloc(&scratch, sizeof *out, 64, 1);
         DaylightInput input = scene->environment.daylight;
         input.has_sun = true;
@@ -42,8 +40,7 @@ ARENA_TEST(a_modelled_sky_and_its_sun_give_the_stated_illuminance)
     }
 }
 
-ARENA_TEST(a_half_set_sun_gives_half_its_light)
-{
+ARENA_TEST(a_half_set_sun_gives_half_its_light) {
     Scene *scene = sky_scene(ENVIRONMENT_SKY, 0, &arena);
     scene->environment.daylight.where.altitude_m = 0; /* the horizon is the horizontal */
     const Lights *lights = build(scene, &arena);
@@ -62,19 +59,18 @@ ARENA_TEST(a_half_set_sun_gives_half_its_light)
     assert_true(sum[0] == 0 && sum[1] > 0);
 }
 
-ARENA_TEST(modelled_sky_samples_follow_their_density)
-{
+ARENA_TEST(modelled_sky_samples_follow_their_density) {
     enum { ROWS = 24, COLUMNS = 24, COUNT = 300000, FINE = 40 };
     Wavelengths lanes;
     wavelengths_sample(0.3f, &lanes);
     for (int kind = ENVIRONMENT_CIE; kind <= ENVIRONMENT_SKY; kind++) {
         static double found[ROWS * COLUMNS], expected[ROWS * COLUMNS];
-        Arena  scratch = arena;
+        Arena scratch = arena;
         Scene *scene = sky_scene((EnvironmentKind)kind, 20, &scratch);
-        Sky    sky;
+        Sky sky;
         uint32_t random = 11;
         double total = 0;
-        int    unlike = 0;
+        int unlike = 0;
         memset(found, 0, sizeof found);
         memset(expected, 0, sizeof expected);
         assert_done(sky_build(&scene->environment, &scratch, &sky, &err));
@@ -84,8 +80,7 @@ ARENA_TEST(modelled_sky_samples_follow_their_density)
             Vec3 n = vec3(0, 1, 0);
             assert_true(sky_choose(&sky, n, u, &sample));
             Vec3 d = sample.direction;
-            unlike += !(fabsf(sample.pdf - sky_seen(&sky, d, n, &lanes).pdf) <=
-                        1e-4f * sample.pdf);
+            unlike += !(fabsf(sample.pdf - sky_seen(&sky, d, n, &lanes).pdf) <= 1e-4f * sample.pdf);
             int row = (int)((double)(d.y + 1) / 2 * ROWS);
             int column = (int)((atan2((double)d.z, (double)d.x) + PI) / (2 * PI) * COLUMNS);
             found[(row < ROWS ? row : ROWS - 1) * COLUMNS + column % COLUMNS]++;
@@ -107,8 +102,7 @@ ARENA_TEST(modelled_sky_samples_follow_their_density)
 }
 
 /* On a plane that faces down, lux, by quadrature over what is seen. */
-static double light_from_below(const Daylight *sky)
-{
+static double light_from_below(const Daylight *sky) {
     enum { ROWS = 700, COLUMNS = 2400 };
     const LitAir *air = &sky->sunlight;
     double sum = 0;
@@ -126,10 +120,9 @@ static double light_from_below(const Daylight *sky)
 
 /* Directions are sampled by the mean of a cloud deck, and the light that they bring has its
  * relief: the estimate is that of the relief. */
-ARENA_TEST(a_deck_with_a_relief_gives_its_light_by_its_own_samples)
-{
+ARENA_TEST(a_deck_with_a_relief_gives_its_light_by_its_own_samples) {
     Scene *scene = sky_scene(ENVIRONMENT_SKY, 12, &arena);
-    Sky    sky, even;
+    Sky sky, even;
     scene->environment.daylight.floor = FLOOR_CLOUD;
     assert_done(sky_build(&scene->environment, &arena, &even, &err));
     scene->environment.daylight.cloud_relief_m = 600;
@@ -142,8 +135,7 @@ ARENA_TEST(a_deck_with_a_relief_gives_its_light_by_its_own_samples)
     assert_memory_equal(sky.model->row_cdf, even.model->row_cdf, sizeof even.model->row_cdf);
 }
 
-ARENA_TEST(a_sky_without_a_sun_to_stand_by_is_refused)
-{
+ARENA_TEST(a_sky_without_a_sun_to_stand_by_is_refused) {
     Scene *scene = sky_scene(ENVIRONMENT_PEREZ, -5, &arena);
     Lights *lights;
     assert_fails_as(lights_build(scene, &arena, &lights, &err), ERROR_INPUT,
@@ -153,11 +145,10 @@ ARENA_TEST(a_sky_without_a_sun_to_stand_by_is_refused)
 /* ---- the disc ---------------------------------------------------------------------------- */
 
 /* A sun of 100 klx and of some radius in any environment. */
-static void build_disc(EnvironmentKind kind, double radius_deg, Arena *arena, Sky *sky)
-{
-    Scene       *scene = sky_scene(kind < ENVIRONMENT_CIE ? ENVIRONMENT_CIE : kind, 40, arena);
+static void build_disc(EnvironmentKind kind, double radius_deg, Arena *arena, Sky *sky) {
+    Scene *scene = sky_scene(kind < ENVIRONMENT_CIE ? ENVIRONMENT_CIE : kind, 40, arena);
     Environment *e = &scene->environment;
-    float       *pixels = ARENA_NEW(arena, float, 4 * 8 * 4);
+    float *pixels = ARENA_NEW(arena, float, 4 * 8 * 4);
     for (int i = 0; i < 4 * 8 * 4; i++) pixels[i] = 1;
     e->kind = kind;
     e->sun_illuminance_lx = 100000;
@@ -172,27 +163,23 @@ static void build_disc(EnvironmentKind kind, double radius_deg, Arena *arena, Sk
 }
 
 /* Towards a place of the disc: a share of the sine of its radius, and an azimuth around it. */
-static Vec3 disc_direction(const Sky *sky, double share, double turn)
-{
-    Frame  frame = frame_from_z(sky->sun_direction);
+static Vec3 disc_direction(const Sky *sky, double share, double turn) {
+    Frame frame = frame_from_z(sky->sun_direction);
     double s = share * sin((double)sky->sun_radius), c = sqrt(1 - s * s);
-    return frame_to_world(&frame, vec3((float)(s * cos(turn)), (float)(s * sin(turn)),
-                                       (float)c));
+    return frame_to_world(&frame, vec3((float)(s * cos(turn)), (float)(s * sin(turn)), (float)c));
 }
 
-TEST(every_environment_has_the_same_disc)
-{
+TEST(every_environment_has_the_same_disc) {
     Wavelengths lanes;
     wavelengths_sample(0.3f, &lanes);
     for (int kind = ENVIRONMENT_NONE; kind <= ENVIRONMENT_SKY; kind++) {
         Arena arena = test_arena(state);
-        Sky   sky;
+        Sky sky;
         build_disc((EnvironmentKind)kind, 0.26645, &arena, &sky);
         Spectrum centre = sun_radiance(&sky, sky.sun_direction, &lanes);
         for (int i = 1; i < 20; i++) {
-            double   mu = sqrt(1 - i * i * 0.0025);
-            Spectrum there = sun_radiance(&sky, disc_direction(&sky, 0.05 * i, 0.7 * i),
-                                          &lanes);
+            double mu = sqrt(1 - i * i * 0.0025);
+            Spectrum there = sun_radiance(&sky, disc_direction(&sky, 0.05 * i, 0.7 * i), &lanes);
             for (int k = 0; k < SPECTRUM_LANES; k++) {
                 double c[SUN_LIMB_TERMS], middle = 0, value = 0;
                 sun_limb((double)lanes.nm[k], c);
@@ -205,43 +192,39 @@ TEST(every_environment_has_the_same_disc)
 }
 
 /* The flux through a plane that faces the disc, in rings; also of one as large as a fist. */
-TEST(the_discs_shape_does_not_change_its_illuminance)
-{
+TEST(the_discs_shape_does_not_change_its_illuminance) {
     static const double radius_deg[] = {0.26645, 5};
     for (int kind = ENVIRONMENT_NONE; kind <= ENVIRONMENT_HDRI; kind++)
         for (int r = 0; r < 2; r++) {
-            Arena  arena = test_arena(state);
-            Sky    sky;
+            Arena arena = test_arena(state);
+            Sky sky;
             double lux = 0;
             build_disc((EnvironmentKind)kind, radius_deg[r], &arena, &sky);
             double sine = sin((double)sky.sun_radius);
             for (int i = 0; i < 4000; i++) {
-                double      share = sqrt((i + 0.5) / 4000), y = 0;
+                double share = sqrt((i + 0.5) / 4000), y = 0;
                 Wavelengths lanes;
                 wavelengths_sample((float)fmod(i * 0.6180339887, 1), &lanes);
-                Spectrum there = sun_radiance(&sky, disc_direction(&sky, share, 2.4 * i),
-                                              &lanes);
-                for (int k = 0; k < SPECTRUM_LANES; k++)
-                    y += (double)(there[k] * lanes.xyz[1][k]);
+                Spectrum there = sun_radiance(&sky, disc_direction(&sky, share, 2.4 * i), &lanes);
+                for (int k = 0; k < SPECTRUM_LANES; k++) y += (double)(there[k] * lanes.xyz[1][k]);
                 lux += y * PI * sine * sine / 4000;
             }
             assert_close(lux, 100000, 2e-3);
         }
 }
 
-TEST(directions_to_the_sun_follow_their_density)
-{
+TEST(directions_to_the_sun_follow_their_density) {
     enum { RINGS = 8, SECTORS = 16, COUNT = 64000 };
     for (int kind = ENVIRONMENT_CONSTANT; kind <= ENVIRONMENT_SKY; kind++) {
-        Arena  arena = test_arena(state);
-        Sky    sky;
+        Arena arena = test_arena(state);
+        Sky sky;
         double found[RINGS * SECTORS] = {0}, even[RINGS * SECTORS];
         uint32_t random = 5;
         build_disc((EnvironmentKind)kind, 0.26645, &arena, &sky);
         Frame frame = frame_from_z(sky.sun_direction);
         for (int i = 0; i < COUNT; i++) {
             float u0 = random_unit(&random);
-            Vec3  d = sun_sample(&sky, u0, random_unit(&random));
+            Vec3 d = sun_sample(&sky, u0, random_unit(&random));
             assert_true(sun_pdf(&sky, d) > 0);
             double x = (double)vec3_dot(d, frame.x), y = (double)vec3_dot(d, frame.y);
             double share2 = (x * x + y * y) / pow(sin((double)sky.sun_radius), 2);
@@ -249,8 +232,9 @@ TEST(directions_to_the_sun_follow_their_density)
             int sector = (int)((atan2(y, x) / (2 * PI) + 0.5) * SECTORS) % SECTORS;
             found[ring * SECTORS + sector]++;
         }
-        assert_close((double)(sun_pdf(&sky, sky.sun_direction)) * PI *
-                         pow(sin((double)sky.sun_radius), 2), 1, 1e-4);
+        assert_close((double)(sun_pdf(&sky, sky.sun_direction))*PI *
+                         pow(sin((double)sky.sun_radius), 2),
+                     1, 1e-4);
         for (int i = 0; i < RINGS * SECTORS; i++) even[i] = (double)COUNT / (RINGS * SECTORS);
         assert_chi_square(kind, found, even, RINGS * SECTORS, (ChiLimits){0, 100, 5});
     }
@@ -258,9 +242,8 @@ TEST(directions_to_the_sun_follow_their_density)
 
 /* The half moon's disc as a light: its own samples give its illuminance, all from the side that
  * the sun lights; Munich, 2026 October 3, after midnight. */
-ARENA_TEST(the_moon_lights_as_the_disc_when_the_sun_is_down)
-{
-    Sky    sky;
+ARENA_TEST(the_moon_lights_as_the_disc_when_the_sun_is_down) {
+    Sky sky;
     Scene *scene = sky_scene(ENVIRONMENT_SKY, 0, &arena);
     Environment *e = &scene->environment;
     e->has_sun = false;
@@ -282,10 +265,9 @@ ARENA_TEST(the_moon_lights_as_the_disc_when_the_sun_is_down)
     wavelengths_sample(0.3f, &lanes);
     for (int i = 0; i < 20000; i++) {
         float u0 = random_unit(&random);
-        Vec3  d = sun_sample(&sky, u0, random_unit(&random));
+        Vec3 d = sun_sample(&sky, u0, random_unit(&random));
         assert_true(sun_pdf(&sky, d) > 0);
-        side[vec3_dot(d, sky.moon_lit) > 0] +=
-            (double)spectrum_sum(sun_radiance(&sky, d, &lanes));
+        side[vec3_dot(d, sky.moon_lit) > 0] += (double)spectrum_sum(sun_radiance(&sky, d, &lanes));
     }
     assert_true(side[1] > 20 * side[0]);
     Vec3 sun = vec3((float)(sin(sky.model->daylight->sun_azimuth - (double)sky.model->turn)), 0,

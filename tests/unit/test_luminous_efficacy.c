@@ -25,17 +25,15 @@ static const double published[3][4][8] = {
      {11.50, 1.79, 4.40, 8.36, 7.10, 6.06, 4.93, -4.46},
      {-9.16, -1.19, -6.95, -8.31, -10.94, -7.60, -11.37, -3.15}}};
 
-static double efficacy(int kind, int bin, double brightness, double zenith, double water)
-{
-    PerezState       state = {.brightness = brightness, .bin = bin + 1};
+static double efficacy(int kind, int bin, double brightness, double zenith, double water) {
+    PerezState state = {.brightness = brightness, .bin = bin + 1};
     LuminousEfficacy e = luminous_efficacy(&state, zenith, water);
     return kind == 0 ? e.direct : kind == 1 ? e.diffuse : e.global;
 }
 
 /* From five values of the function, each coefficient by differences: that of water, of the
  * zenith angle's term, of the brightness's, and what is left. */
-TEST(every_coefficient_is_the_published_one)
-{
+TEST(every_coefficient_is_the_published_one) {
     const double z = 0.3, far = 0.9, delta = 0.2, more = 0.4, water = 1;
     for (int kind = 0; kind < 3; kind++)
         for (int bin = 0; bin < 8; bin++) {
@@ -51,16 +49,13 @@ TEST(every_coefficient_is_the_published_one)
         }
 }
 
-TEST(a_sun_at_the_horizon_has_no_direct_light_rather_than_less)
-{
+TEST(a_sun_at_the_horizon_has_no_direct_light_rather_than_less) {
     for (int bin = 0; bin < 8; bin++)
-        for (double z = 0; z < 1.57; z += 0.05)
-            assert_true(efficacy(0, bin, 0.01, z, 8) >= 0);
+        for (double z = 0; z < 1.57; z += 0.05) assert_true(efficacy(0, bin, 0.01, z, 8) >= 0);
     assert_near(efficacy(0, 0, 0.2, 1.56, 2), 0, 0);
 }
 
-TEST(water_follows_the_dew_point)
-{
+TEST(water_follows_the_dew_point) {
     assert_close(water_from_dew_point_cm(10.97), WATER_USUAL_CM, 5e-4);
     assert_near(water_from_dew_point_cm(0), 0.927743, 1e-6);
     assert_near(water_from_dew_point_cm(24), 4.978, 1e-3);
@@ -69,8 +64,7 @@ TEST(water_follows_the_dew_point)
 /* ---- skies ------------------------------------------------------------------------------- */
 
 static DaylightInput sky_of(double elevation_deg, int month, int day, double direct,
-                            double diffuse)
-{
+                            double diffuse) {
     DaylightInput in = daylight_input_default(DAYLIGHT_PEREZ);
     in.has_time = in.has_sun = true;
     in.when = (SkyTime){2023, month, day, 12, 0, 0, 0};
@@ -84,22 +78,21 @@ static DaylightInput sky_of(double elevation_deg, int month, int day, double dir
 
 /* Radiance's gendaylit for rows of a weather file: lm/W of what its sky sends, the diffuse
  * light by its own sum over the sky. */
-ARENA_TEST(skies_have_the_lux_of_gendaylits)
-{
+ARENA_TEST(skies_have_the_lux_of_gendaylits) {
     FILE *file = fopen(SHARED_DATA_DIR "/cases/sky/perez.csv", "r");
-    char  line[400], name[40];
-    int   rows = 0, month, day;
+    char line[400], name[40];
+    int rows = 0, month, day;
     if (!file) {
         print_message("skipped: no shared data\n");
         skip();
     }
     assert_non_null(fgets(line, sizeof line, file));
     for (; fgets(line, sizeof line, file); rows++) {
-        double   v[10] = {0}, direct = 0, diffuse;
+        double v[10] = {0}, direct = 0, diffuse;
         Daylight out;
-        assert_int_equal(sscanf(line, "%39[^,],%lf,%lf,%lf,%d,%d,%lf,%lf,%lf,%lf,%lf", name,
-                                &v[0], &v[1], &v[2], &month, &day, &v[3], &v[4], &v[5], &v[6],
-                                &v[7]), 11);
+        assert_int_equal(sscanf(line, "%39[^,],%lf,%lf,%lf,%d,%d,%lf,%lf,%lf,%lf,%lf", name, &v[0],
+                                &v[1], &v[2], &month, &day, &v[3], &v[4], &v[5], &v[6], &v[7]),
+                         11);
         const char *last = strrchr(line, ',');
         const char *before = last - 1;
         while (*before != ',') before--;
@@ -110,8 +103,7 @@ ARENA_TEST(skies_have_the_lux_of_gendaylits)
         assert_done(daylight_build(&in, &arena, &out, &err));
         const DaylightMetrics *f = &out.metrics;
         printf("%-16s diffuse %.2f lm/W (%.1f), direct %.2f (%.1f)\n", name,
-               f->diffuse_horizontal_lx / v[7], diffuse, v[6] > 0 ? f->efficacy.direct : 0,
-               direct);
+               f->diffuse_horizontal_lx / v[7], diffuse, v[6] > 0 ? f->efficacy.direct : 0, direct);
         assert_close(f->diffuse_horizontal_lx / v[7], diffuse, 0.03);
         if (v[6] > 0) assert_close(f->direct_normal_lx / v[6], direct, 0.01);
         assert_near(f->direct_normal_w_m2, v[6], 1e-9);
@@ -122,8 +114,7 @@ ARENA_TEST(skies_have_the_lux_of_gendaylits)
 }
 
 /* The colour is the air's and does not hang on the watts; the lux do. */
-ARENA_TEST(spectra_keep_the_colour_alone)
-{
+ARENA_TEST(spectra_keep_the_colour_alone) {
     Daylight one, two;
     DaylightInput in = sky_of(35, 6, 21, 400, 100);
     assert_done(daylight_build(&in, &arena, &one, &err));
@@ -142,15 +133,17 @@ ARENA_TEST(spectra_keep_the_colour_alone)
 
 /* ---- a weather file's rows --------------------------------------------------------------- */
 
-static WeatherHour row(double direct, double diffuse, double direct_lx, double diffuse_lx)
-{
-    return (WeatherHour){.has_light = true, .has_dew_point = true, .dew_point_c = 3,
-                         .direct_normal_w_m2 = direct, .diffuse_horizontal_w_m2 = diffuse,
-                         .direct_normal_lx = direct_lx, .diffuse_horizontal_lx = diffuse_lx};
+static WeatherHour row(double direct, double diffuse, double direct_lx, double diffuse_lx) {
+    return (WeatherHour){.has_light = true,
+                         .has_dew_point = true,
+                         .dew_point_c = 3,
+                         .direct_normal_w_m2 = direct,
+                         .diffuse_horizontal_w_m2 = diffuse,
+                         .direct_normal_lx = direct_lx,
+                         .diffuse_horizontal_lx = diffuse_lx};
 }
 
-TEST(what_a_row_lacks_is_its_state)
-{
+TEST(what_a_row_lacks_is_its_state) {
     static const struct {
         double direct, diffuse, direct_lx, diffuse_lx;
         WeatherRowState perez, file;
@@ -171,19 +164,17 @@ TEST(what_a_row_lacks_is_its_state)
         {1300, 100, 150000, 12000, WEATHER_ROW_LIT, WEATHER_ROW_TOO_BRIGHT},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        WeatherHour hour = row(rows[i].direct, rows[i].diffuse, rows[i].direct_lx,
-                               rows[i].diffuse_lx);
+        WeatherHour hour =
+            row(rows[i].direct, rows[i].diffuse, rows[i].direct_lx, rows[i].diffuse_lx);
         assert_int_equal(weather_row_state(&hour, WEATHER_LUX_PEREZ), rows[i].perez);
         assert_int_equal(weather_row_state(&hour, WEATHER_LUX_FILE), rows[i].file);
         hour.has_light = false;
-        assert_int_equal(weather_row_state(&hour, WEATHER_LUX_PEREZ),
-                         WEATHER_ROW_WITHOUT_VALUES);
+        assert_int_equal(weather_row_state(&hour, WEATHER_LUX_PEREZ), WEATHER_ROW_WITHOUT_VALUES);
     }
 }
 
-ARENA_TEST(a_row_becomes_a_sky_by_either_rule)
-{
-    WeatherHour   hour = row(300, 100, 28000, 12000);
+ARENA_TEST(a_row_becomes_a_sky_by_either_rule) {
+    WeatherHour hour = row(300, 100, 28000, 12000);
     DaylightInput in = daylight_input_default(DAYLIGHT_PEREZ);
     weather_light_take(&hour, WEATHER_LUX_PEREZ, &in);
     assert_true(!in.has_lux && in.water_source == WATER_DEW_POINT);
@@ -204,11 +195,10 @@ ARENA_TEST(a_row_becomes_a_sky_by_either_rule)
 
 /* A real file's own lux columns, which its makers had of the same publication: whole hundreds
  * of lux. Instants of low suns are left out: theirs are another. */
-ARENA_TEST(a_real_years_own_lux_are_these)
-{
+ARENA_TEST(a_real_years_own_lux_are_these) {
     Weather w;
-    double  own[2] = {0, 0}, ours[2] = {0, 0}, apart[2] = {0, 0};
-    int     rows = 0;
+    double own[2] = {0, 0}, ours[2] = {0, 0}, apart[2] = {0, 0};
+    int rows = 0;
     const char *file = SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw";
     if (access(file, R_OK)) {
         print_message("skipped: no shared data\n");
@@ -217,13 +207,13 @@ ARENA_TEST(a_real_years_own_lux_are_these)
     assert_done(weather_read(file, &arena, &w, &err));
     for (int i = 0; i < w.count; i += 3) {
         const WeatherHour *hour = &w.hour[i];
-        Daylight      sky;
+        Daylight sky;
         DaylightInput in = daylight_input_default(DAYLIGHT_PEREZ);
         if (weather_row_state(hour, WEATHER_LUX_FILE) != WEATHER_ROW_LIT) continue;
         weather_light_take(hour, WEATHER_LUX_PEREZ, &in);
         in.has_time = true;
         in.when = (SkyTime){hour->year, hour->month, hour->day, 0, 60 * (hour->label_h - 0.5),
-                            0, w.zone_h};
+                            0,          w.zone_h};
         in.where = w.place;
         in.integral_steps = 8;
         if (!daylight_build(&in, &arena, &sky, why()) || sky.metrics.sun_elevation_deg < 5)

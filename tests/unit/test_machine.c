@@ -7,8 +7,7 @@
 #include "base/machine.h"
 #include "base/parallel.h"
 
-static void write_limit(const char *name, const char *text)
-{
+static void write_limit(const char *name, const char *text) {
     char *path = strdup(in_folder(name));
     for (char *end = strchr(path + strlen(test_folder()) + 1, '/'); end;
          end = strchr(end + 1, '/')) {
@@ -23,14 +22,12 @@ static void write_limit(const char *name, const char *text)
     free(path);
 }
 
-static size_t least_of(const char *groups)
-{
+static size_t least_of(const char *groups) {
     write_limit("groups", groups);
     return machine_group_bytes(in_folder("groups"), test_folder());
 }
 
-TEST(version_two_takes_the_least_of_all_that_hold_it)
-{
+TEST(version_two_takes_the_least_of_all_that_hold_it) {
     write_limit("a/memory.max", "3000\n");
     write_limit("a/b/memory.max", "5000\n");
     write_limit("a/b/c/memory.max", "max\n");
@@ -43,16 +40,14 @@ TEST(version_two_takes_the_least_of_all_that_hold_it)
 }
 
 /* A container sees its own limit at the root, and a name that only the host knows. */
-TEST(the_root_counts_where_the_name_is_not_there)
-{
+TEST(the_root_counts_where_the_name_is_not_there) {
     write_limit("memory.max", "7000\n");
     assert_int_equal(least_of("0::/\n"), 7000);
     assert_int_equal(least_of("0::/not/there\n"), 7000);
     write_limit("memory.max", "max\n");
 }
 
-TEST(version_one_has_a_tree_for_memory)
-{
+TEST(version_one_has_a_tree_for_memory) {
     write_limit("memory/x/memory.limit_in_bytes", "9223372036854771712\n");
     write_limit("memory/x/y/memory.limit_in_bytes", "4000\n");
     assert_int_equal(least_of("9:name=systemd:/x\n4:cpu,memory:/x/y\n0::/\n"), 4000);
@@ -60,14 +55,12 @@ TEST(version_one_has_a_tree_for_memory)
     assert_true(least_of("4:cpuset:/x/y\n") == SIZE_MAX);
 }
 
-TEST(nobody_has_more_than_is_installed)
-{
+TEST(nobody_has_more_than_is_installed) {
     assert_true(machine_memory_bytes() <= machine_installed_bytes());
     assert_true(machine_installed_bytes() > (size_t)1 << 26);
 }
 
-TEST(threads_are_granted_one_by_one)
-{
+TEST(threads_are_granted_one_by_one) {
     assert_int_equal(parallel_grantable_threads(1), 1);
     assert_int_equal(parallel_grantable_threads(3), 3);
     assert_true(parallel_grantable_threads(1 << 20) <= PARALLEL_THREADS_MAX);

@@ -6,19 +6,17 @@
 #include "base/mathd.h"
 #include "check.h"
 
-typedef double      Function(double x);
+typedef double Function(double x);
 typedef long double Truth(long double x);
 
 /* A repeatable number in [0, 1). */
-static double uniform(uint64_t *state)
-{
+static double uniform(uint64_t *state) {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
     return (double)(*state >> 11) * 0x1p-53;
 }
 
 /* Units of the last place between value and truth. */
-static double ulps(double value, long double truth)
-{
+static double ulps(double value, long double truth) {
     if ((long double)value == truth || (isnan(value) && isnan(truth))) return 0;
     double size = fabs((double)truth);
     if (size < DBL_MIN) size = DBL_MIN;
@@ -26,10 +24,9 @@ static double ulps(double value, long double truth)
 }
 
 /* The greatest error over `count` random arguments of [low, high]. */
-static double worst(Function *function, Truth *truth, double low, double high)
-{
+static double worst(Function *function, Truth *truth, double low, double high) {
     uint64_t seed = 1;
-    double   most = 0;
+    double most = 0;
     for (int i = 0; i < 200000; i++) {
         double x = low + (high - low) * uniform(&seed);
         double error = ulps(function(x), truth(x));
@@ -38,8 +35,7 @@ static double worst(Function *function, Truth *truth, double low, double high)
     return most;
 }
 
-TEST(exponentials)
-{
+TEST(exponentials) {
     assert_true(worst(exp_d, expl, -700, 709) < 1.01);
     assert_true(worst(exp_d, expl, -1, 1) < 1.01);
     assert_true(worst(expm1_d, expm1l, -0.5, 0.5) < 3.01);
@@ -49,8 +45,7 @@ TEST(exponentials)
     assert_true(fabs(exp_d(-744) - exp(-744)) < 1e-323);
 }
 
-TEST(logarithms)
-{
+TEST(logarithms) {
     assert_true(worst(log_d, logl, 1e-300, 1e300) < 1.01);
     assert_true(worst(log_d, logl, 0.5, 2) < 1.01);
     assert_true(worst(log_d, logl, 0.999, 1.001) < 1.01);
@@ -61,11 +56,10 @@ TEST(logarithms)
     assert_true(isinf(log_d(0)) && isnan(log_d(-1)) && isinf(log_d(INFINITY)));
 }
 
-TEST(powers)
-{
+TEST(powers) {
     uint64_t seed = 2;
     for (int i = 0; i < 200000; i++) {
-        double      x = exp_d(20 * uniform(&seed) - 10), y = 20 * uniform(&seed) - 10;
+        double x = exp_d(20 * uniform(&seed) - 10), y = 20 * uniform(&seed) - 10;
         long double truth = powl(x, y);
         assert_true(ulps(pow_d(x, y), truth) < 2 + (double)fabsl(logl(truth)));
     }
@@ -75,8 +69,7 @@ TEST(powers)
     assert_true(worst(exp2_d, exp2l, -300, 300) < 1.51);
 }
 
-TEST(circular)
-{
+TEST(circular) {
     assert_true(worst(sin_d, sinl, -0.7, 0.7) < 1.01);
     assert_true(worst(cos_d, cosl, -0.7, 0.7) < 1.01);
     assert_true(worst(sin_d, sinl, -100, 100) < 1.5);
@@ -90,8 +83,7 @@ TEST(circular)
     }
 }
 
-TEST(arcs)
-{
+TEST(arcs) {
     assert_true(worst(asin_d, asinl, -1, 1) < 2.51);
     assert_true(worst(acos_d, acosl, -1, 1) < 2.51);
     uint64_t seed = 4;
@@ -108,8 +100,7 @@ TEST(arcs)
     assert_true(signbit(atan2_d(-0.0, 1)) && isnan(asin_d(1.5)) && isnan(acos_d(-1.1)));
 }
 
-TEST(tails)
-{
+TEST(tails) {
     assert_true(worst(erfc_d, erfcl, -5, 1) < 25);
     assert_true(worst(erfc_d, erfcl, 1, 26) < 3);
     assert_true(erfc_d(0) == 1 && erfc_d(30) == 0 && erfc_d(-30) == 2);

@@ -5,16 +5,14 @@
 #include "base/confidence.h"
 #include "measure/light_shares.h"
 
-static FrameMeasurement measure(const FrameImage *frame, MeasureRequest request, Arena arena)
-{
+static FrameMeasurement measure(const FrameImage *frame, MeasureRequest request, Arena arena) {
     FrameMeasurement m;
     request.frame_name = "f.exr";
     assert_done(measure_frame(frame, &request, arena, &m, &err));
     return m;
 }
 
-static void add_layer(FrameImage *frame, const char *layer, float value, Arena *arena)
-{
+static void add_layer(FrameImage *frame, const char *layer, float value, Arena *arena) {
     for (int c = 0; c < 3; c++) {
         char name[64];
         snprintf(name, sizeof name, "%s.%c", layer, "RGB"[c]);
@@ -23,14 +21,12 @@ static void add_layer(FrameImage *frame, const char *layer, float value, Arena *
     }
 }
 
-static void add_plane(FrameImage *frame, const char *name, float value, Arena *arena)
-{
+static void add_plane(FrameImage *frame, const char *name, float value, Arena *arena) {
     float *plane = frame_add_channel(frame, name, false, arena);
     for (size_t i = 0; i < frame_pixel_count(frame); i++) plane[i] = value;
 }
 
-static float *plane_of(FrameImage *frame, const char *layer, int channel)
-{
+static float *plane_of(FrameImage *frame, const char *layer, int channel) {
     char name[64];
     snprintf(name, sizeof name, "%s.%c", layer, "RGB"[channel]);
     for (int c = 0; c < frame->channel_count; c++)
@@ -40,8 +36,7 @@ static float *plane_of(FrameImage *frame, const char *layer, int channel)
 }
 
 /* A display of 10 x 10 pixels: 400 cd m^-2 in white, 20 reflected. */
-static FrameImage display_frame(float variance, float black, Arena *arena)
-{
+static FrameImage display_frame(float variance, float black, Arena *arena) {
     FrameImage frame = uniform_frame(10, 10, 100, arena);
     add_layer(&frame, "variance", variance, arena);
     add_layer(&frame, "display.white", 400, arena);
@@ -50,19 +45,16 @@ static FrameImage display_frame(float variance, float black, Arena *arena)
     return frame;
 }
 
-static double half(Measured figure)
-{
+static double half(Measured figure) {
     return measured_half_width(figure);
 }
 
-static void assert_interval(Measured figure, double low, double high)
-{
+static void assert_interval(Measured figure, double low, double high) {
     assert_close(figure.low, low, 1e-5);
     assert_close(figure.high, high, 1e-5);
 }
 
-ARENA_TEST(a_region_has_the_mean_of_its_pixels)
-{
+ARENA_TEST(a_region_has_the_mean_of_its_pixels) {
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
     for (int c = 0; c < 3; c++) frame.channels[c].values[0] = 500;
     MeasureRequest corner = {.has_region = true, .region = {0, 0, 2, 2}};
@@ -83,14 +75,12 @@ ARENA_TEST(a_region_has_the_mean_of_its_pixels)
 }
 
 /* Half of bright_missing of 100 pixels alike, whose means have this error. */
-static double half_missing(double error)
-{
+static double half_missing(double error) {
     return 0.5 * (1 + 14.0 / 100) * error / 100;
 }
 
 /* 100 pixels whose means have a variance of 4 each: 1.96 * 2 / sqrt(100). */
-ARENA_TEST(intervals_follow_from_the_variance_layer)
-{
+ARENA_TEST(intervals_follow_from_the_variance_layer) {
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
     add_layer(&frame, "variance", 4, &arena);
     FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
@@ -100,14 +90,13 @@ ARENA_TEST(intervals_follow_from_the_variance_layer)
 }
 
 /* With channels that are independent and normal the interval of x holds 95 of 100 times. */
-ARENA_TEST(the_interval_of_chromaticity_covers)
-{
+ARENA_TEST(the_interval_of_chromaticity_covers) {
     enum { TRIALS = 2000 };
     unsigned seed = 7;
-    int      inside = 0;
-    double   truth = 0;
+    int inside = 0;
+    double truth = 0;
     for (int trial = -1; trial < TRIALS; trial++) {
-        Arena      scratch = arena;
+        Arena scratch = arena;
         FrameImage frame = uniform_frame(1, 1, 100, &scratch);
         add_layer(&frame, "variance", 4, &scratch);
         for (int c = 0; c < 3; c++) {
@@ -125,8 +114,7 @@ ARENA_TEST(the_interval_of_chromaticity_covers)
     assert_near(inside / (double)TRIALS, 0.95, 0.02);
 }
 
-ARENA_TEST(a_display_has_its_contrast)
-{
+ARENA_TEST(a_display_has_its_contrast) {
     FrameImage frame = display_frame(4, 0.4f, &arena);
     add_layer(&frame, "display.emitted", 80, &arena);
     add_layer(&frame, "display.mirror", 5, &arena);
@@ -150,8 +138,7 @@ ARENA_TEST(a_display_has_its_contrast)
 
 /* Of the light, not of the pixels: half of them reflect 20 cd/m2, half 60, of which 0.1 and 0.5
  * by directions that were not measured. */
-ARENA_TEST(a_display_states_what_was_not_measured)
-{
+ARENA_TEST(a_display_states_what_was_not_measured) {
     FrameImage frame = display_frame(4, 0.4f, &arena);
     for (int c = 0; c < 3; c++)
         for (int i = 50; i < 100; i++) plane_of(&frame, "display.reflected", c)[i] = 60;
@@ -175,8 +162,7 @@ ARENA_TEST(a_display_states_what_was_not_measured)
 
 /* A contrast hangs on what is reflected alone: its halves count, not those of the pixel, which
  * differ by what the display emits, too. */
-ARENA_TEST(a_contrast_has_the_noise_of_the_reflected)
-{
+ARENA_TEST(a_contrast_has_the_noise_of_the_reflected) {
     FrameImage frame = display_frame(4, 0.4f, &arena);
     add_layer(&frame, "halves", 2, &arena);
     FrameMeasurement whole = measure(&frame, (MeasureRequest){0}, arena);
@@ -190,8 +176,7 @@ ARENA_TEST(a_contrast_has_the_noise_of_the_reflected)
 
 /* A pixel that shows a display alone has the noise of what is reflected, and of what is shown:
  * that by its samples stands 0.3 from that by finer rays. Others have their halves'. */
-ARENA_TEST(what_a_display_shows_is_known_twice)
-{
+ARENA_TEST(what_a_display_shows_is_known_twice) {
     for (int k = 0; k < 4; k++) {
         FrameImage frame = display_frame(4, 0.4f, &arena);
         add_layer(&frame, "halves", 2, &arena);
@@ -200,15 +185,14 @@ ARENA_TEST(what_a_display_shows_is_known_twice)
         add_layer(&frame, "display.fine", k == 1 ? NAN : 79.7f, &arena);
         add_plane(&frame, "display.coverage", k == 2 ? 0.99f : 1, &arena);
         FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
-        double           error = k ? 2 : 0.5, spread = student_quantile(300) * error / 10;
+        double error = k ? 2 : 0.5, spread = student_quantile(300) * error / 10;
         assert_close(half(m.luminance), spread + half_missing(error), 1e-4);
     }
 }
 
 /* Where less than nothing might be reflected the lower end is nothing: of a display whose black
  * is dark no contrast is too great. */
-ARENA_TEST(noise_beyond_the_reflected_leaves_no_upper_end)
-{
+ARENA_TEST(noise_beyond_the_reflected_leaves_no_upper_end) {
     for (int k = 0; k < 2; k++) {
         FrameImage frame = display_frame(100 * 200 * 200, k ? 0 : 0.4f, &arena);
         FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
@@ -220,9 +204,8 @@ ARENA_TEST(noise_beyond_the_reflected_leaves_no_upper_end)
     }
 }
 
-ARENA_TEST(what_cannot_be_measured_is_told)
-{
-    FrameImage     frame = uniform_frame(10, 10, 100, &arena);
+ARENA_TEST(what_cannot_be_measured_is_told) {
+    FrameImage frame = uniform_frame(10, 10, 100, &arena);
     MeasureRequest request = {"f.exr", true, {5, 5, 11, 8}, NULL};
     FrameMeasurement m;
     assert_fails_as(measure_frame(&frame, &request, arena, &m, &err), ERROR_USAGE,
@@ -232,29 +215,25 @@ ARENA_TEST(what_cannot_be_measured_is_told)
     assert_fails_as(measure_frame(&frame, &request, arena, &m, &err), ERROR_USAGE,
                     "its displays: cluster");
     request.display = "cluster";
-    assert_fails_as(measure_frame(&frame, &request, arena, &m, &err), ERROR_INPUT,
-                    "--layers id");
+    assert_fails_as(measure_frame(&frame, &request, arena, &m, &err), ERROR_INPUT, "--layers id");
     float *id = frame_add_channel(&frame, "id.display", true, &arena);
     for (int i = 0; i < 100; i++) id[i] = -1;
     assert_fails_as(measure_frame(&frame, &request, arena, &m, &err), ERROR_INPUT,
                     "no pixel to measure on display cluster");
 }
 
-static double uniform(unsigned *seed)
-{
+static double uniform(unsigned *seed) {
     *seed = *seed * 1664525u + 1013904223u;
     return ((double)(*seed >> 8) + 0.5) / (1 << 24);
 }
 
-static double normal(unsigned *seed)
-{
+static double normal(unsigned *seed) {
     double radius = sqrt(-2 * log(uniform(seed)));
     return radius * cos(6.283185307179586 * uniform(seed));
 }
 
-static int poisson(double mean, unsigned *seed)
-{
-    int    count = 0;
+static int poisson(double mean, unsigned *seed) {
+    int count = 0;
     double least = exp(-mean);
     for (double product = uniform(seed); product > least; product *= uniform(seed)) count++;
     return count;
@@ -263,14 +242,12 @@ static int poisson(double mean, unsigned *seed)
 #define GLINT 5.0 /* cd m^-2 that one bright sample adds to its pixel */
 
 /* What each half of a pixel's samples found besides 20 cd m^-2: noise, and `glints` in all. */
-static void scatter_glints(FrameImage *frame, double glints, unsigned *seed)
-{
+static void scatter_glints(FrameImage *frame, double glints, unsigned *seed) {
     size_t pixels = frame_pixel_count(frame);
     for (size_t i = 0; i < pixels; i++) {
         double part[2];
         for (int k = 0; k < 2; k++)
-            part[k] = GLINT * poisson(0.5 * glints / (double)pixels, seed) +
-                      0.1 * normal(seed);
+            part[k] = GLINT * poisson(0.5 * glints / (double)pixels, seed) + 0.1 * normal(seed);
         for (int c = 0; c < 3; c++) {
             plane_of(frame, "display.reflected", c)[i] = (float)(20 + part[0] + part[1]);
             plane_of(frame, "display.halves", c)[i] = (float)(part[0] - part[1]);
@@ -279,17 +256,16 @@ static void scatter_glints(FrameImage *frame, double glints, unsigned *seed)
 }
 
 /* Of a few bright samples, as of many: the interval of a contrast holds the true one. */
-ARENA_TEST(the_interval_of_contrast_covers_glints)
-{
+ARENA_TEST(the_interval_of_contrast_covers_glints) {
     enum { TRIALS = 2000 };
     static const double glints[] = {0, 4, 10, 40, 400};
-    unsigned   seed = 11;
+    unsigned seed = 11;
     FrameImage frame = display_frame(100, 0.4f, &arena);
     add_layer(&frame, "display.halves", 0, &arena);
     for (size_t k = 0; k < sizeof glints / sizeof *glints; k++) {
         double reflected = 20 + GLINT * glints[k] / 100;
         double truth = (400 + reflected) / (0.4 + reflected);
-        int    inside = 0;
+        int inside = 0;
         for (int trial = 0; trial < TRIALS; trial++) {
             scatter_glints(&frame, glints[k], &seed);
             Measured m = measure(&frame, (MeasureRequest){0}, arena).contrast;
@@ -302,17 +278,16 @@ ARENA_TEST(the_interval_of_contrast_covers_glints)
 }
 
 /* The same of the luminance: without what may be missing, 88 % of four. */
-ARENA_TEST(the_interval_of_luminance_covers_glints)
-{
+ARENA_TEST(the_interval_of_luminance_covers_glints) {
     enum { TRIALS = 2000 };
     static const double glints[] = {0, 4, 6, 10, 40, 400};
-    unsigned   seed = 12;
+    unsigned seed = 12;
     FrameImage frame = display_frame(0, 0.4f, &arena);
     add_layer(&frame, "halves", 0, &arena);
     add_layer(&frame, "display.halves", 0, &arena);
     for (size_t k = 0; k < sizeof glints / sizeof *glints; k++) {
         double truth = 20 + GLINT * glints[k] / 100;
-        int    inside = 0;
+        int inside = 0;
         for (int trial = 0; trial < TRIALS; trial++) {
             scatter_glints(&frame, glints[k], &seed);
             for (size_t i = 0; i < frame_pixel_count(&frame); i++)
@@ -333,11 +308,10 @@ ARENA_TEST(the_interval_of_luminance_covers_glints)
 
 /* Samples that fill each other's gaps: their halves lie three times as far apart as their mean
  * from what is true, and finer rays a third as far. */
-ARENA_TEST(the_interval_of_a_displays_luminance_covers)
-{
+ARENA_TEST(the_interval_of_a_displays_luminance_covers) {
     enum { TRIALS = 2000 };
-    unsigned   seed = 19;
-    int        inside = 0;
+    unsigned seed = 19;
+    int inside = 0;
     FrameImage frame = display_frame(4, 0.4f, &arena);
     add_layer(&frame, "halves", 0, &arena);
     add_layer(&frame, "display.halves", 0, &arena);
@@ -363,12 +337,11 @@ ARENA_TEST(the_interval_of_a_displays_luminance_covers)
 }
 
 /* The brightest first, whatever order they stand in; those without a measure behind them. */
-ARENA_TEST(lights_are_told_by_their_brightness)
-{
+ARENA_TEST(lights_are_told_by_their_brightness) {
     static const char *const names[] = {"light.a", "light.b", "light.c", "light.d", "light.e"};
     const float light[] = {10, NAN, 30, NAN, 20};
     static const char *const wanted[] = {"light.c", "light.e", "light.a", "light.b", "light.d"};
-    FrameImage     frame = uniform_frame(4, 4, 60, &arena);
+    FrameImage frame = uniform_frame(4, 4, 60, &arena);
     MeasureRequest all = {.frame_name = "f.exr"};
     for (int i = 0; i < 5; i++) add_layer(&frame, names[i], light[i], &arena);
     LightShares shares = light_shares_measure(&frame, &all, 60, &arena);

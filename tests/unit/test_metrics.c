@@ -14,15 +14,13 @@
 
 /* ---- ranks ---- */
 
-static int compare_floats(const void *a, const void *b)
-{
+static int compare_floats(const void *a, const void *b) {
     float x = *(const float *)a, y = *(const float *)b;
     return (x > y) - (x < y);
 }
 
-TEST(ranks_are_those_of_sorting)
-{
-    float    values[501], sorted[501];
+TEST(ranks_are_those_of_sorting) {
+    float values[501], sorted[501];
     uint64_t seed = 3;
     for (int i = 0; i < 501; i++) {
         double magnitude = pow(10, 60 * fixture_random(&seed) - 30);
@@ -35,9 +33,8 @@ TEST(ranks_are_those_of_sorting)
     assert_near(rank_value(values, 501, NULL, 1), sorted[500], 0);
 }
 
-TEST(ranks_keep_to_the_mask)
-{
-    const float   values[5] = {9, -2, 4, -7, 1};
+TEST(ranks_keep_to_the_mask) {
+    const float values[5] = {9, -2, 4, -7, 1};
     unsigned char mask[5] = {0, 1, 1, 0, 7};
     assert_near(rank_value(values, 5, mask, 0), -2, 0);
     assert_near(rank_value(values, 5, mask, 0.5), 1, 0);
@@ -50,15 +47,13 @@ TEST(ranks_keep_to_the_mask)
 /* ---- pixel errors ---- */
 
 static PixelErrors errors_of(const Canvas *r, const Canvas *t, PixelMask mask, bool is_light,
-                             Arena arena)
-{
+                             Arena arena) {
     return pixel_errors_measure(&r->planes, &t->planes, mask, is_light, arena);
 }
 
-ARENA_TEST(equal_pictures_have_no_error)
-{
+ARENA_TEST(equal_pictures_have_no_error) {
     const Canvas scene = canvas_scene(50, 40, 0.3, 1, &arena);
-    PixelErrors  e = errors_of(&scene, &scene, NULL, false, arena);
+    PixelErrors e = errors_of(&scene, &scene, NULL, false, arena);
     assert_near(e.mae, 0, 0);
     assert_near(e.mse, 0, 0);
     assert_near(e.rel_mse, 0, 0);
@@ -69,11 +64,10 @@ ARENA_TEST(equal_pictures_have_no_error)
 }
 
 /* Grey 0.5 against grey 0.75: e is a hundredth of 0.5. */
-ARENA_TEST(even_pictures_follow_the_closed_forms)
-{
+ARENA_TEST(even_pictures_follow_the_closed_forms) {
     const Canvas r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
     const Canvas t = canvas_uniform(0.75f, 0.75f, 0.75f, &arena);
-    PixelErrors  e = errors_of(&r, &t, NULL, false, arena);
+    PixelErrors e = errors_of(&r, &t, NULL, false, arena);
     assert_close(e.mae, 0.25, 1e-12);
     assert_close(e.mse, 0.0625, 1e-12);
     assert_close(e.rel_mse, 0.0625 / (0.25 + 0.005 * 0.005), 1e-7);
@@ -83,8 +77,7 @@ ARENA_TEST(even_pictures_follow_the_closed_forms)
 }
 
 /* One channel in one pixel of 108 is off. */
-ARENA_TEST(one_pixel_is_one_of_all)
-{
+ARENA_TEST(one_pixel_is_one_of_all) {
     const Canvas r = canvas_uniform(1, 1, 1, &arena), t = canvas_uniform(1, 1, 1, &arena);
     t.rgb[2][17] = -2;
     PixelErrors e = errors_of(&r, &t, NULL, false, arena);
@@ -96,8 +89,7 @@ ARENA_TEST(one_pixel_is_one_of_all)
 }
 
 /* 999 of 1000 pixels are not above 40: the sun of 1e9 does not set the peak of a frame. */
-ARENA_TEST(a_frame_has_its_own_peak)
-{
+ARENA_TEST(a_frame_has_its_own_peak) {
     const Canvas r = canvas_create(50, 20, &arena), t = canvas_create(50, 20, &arena);
     canvas_fill(&r, 40, 40, 40);
     canvas_fill(&t, 42, 42, 42);
@@ -109,13 +101,12 @@ ARENA_TEST(a_frame_has_its_own_peak)
     assert_near(errors_of(&r, &t, NULL, false, arena).peak, 1, 0);
 }
 
-ARENA_TEST(errors_grow_with_the_unit_of_light)
-{
+ARENA_TEST(errors_grow_with_the_unit_of_light) {
     const Canvas r = canvas_scene(50, 40, 0.3, 1, &arena);
     const Canvas t = canvas_scene(50, 40, 0.3, 2, &arena);
     const Canvas r4 = canvas_scaled(&r, 4, &arena), t4 = canvas_scaled(&t, 4, &arena);
-    PixelErrors  a = errors_of(&r, &t, NULL, true, arena);
-    PixelErrors  b = errors_of(&r4, &t4, NULL, true, arena);
+    PixelErrors a = errors_of(&r, &t, NULL, true, arena);
+    PixelErrors b = errors_of(&r4, &t4, NULL, true, arena);
     assert_close(b.mae, 4 * a.mae, 1e-12);
     assert_close(b.mse, 16 * a.mse, 1e-12);
     assert_close(b.rel_mse, a.rel_mse, 1e-6);
@@ -124,12 +115,11 @@ ARENA_TEST(errors_grow_with_the_unit_of_light)
     assert_true(a.rel_mse > 0.01);
 }
 
-ARENA_TEST(a_black_reference_is_told_apart)
-{
+ARENA_TEST(a_black_reference_is_told_apart) {
     const Canvas black = canvas_uniform(0, 0, 0, &arena);
     const Canvas grey = canvas_uniform(1, 1, 1, &arena);
-    PixelErrors  same = errors_of(&black, &black, NULL, true, arena);
-    PixelErrors  other = errors_of(&black, &grey, NULL, true, arena);
+    PixelErrors same = errors_of(&black, &black, NULL, true, arena);
+    PixelErrors other = errors_of(&black, &grey, NULL, true, arena);
     assert_near(same.rel_mse, 0, 0);
     assert_near(same.mean_shift, 0, 0);
     assert_true(isinf(same.psnr_db) && same.psnr_db > 0);
@@ -140,13 +130,12 @@ ARENA_TEST(a_black_reference_is_told_apart)
 }
 
 /* Whatever stands behind the mask: not one bit of any figure changes. */
-ARENA_TEST(masked_pixels_count_for_nothing)
-{
-    const Canvas   r = canvas_scene(40, 30, 0.3, 1, &arena);
-    const Canvas   t = canvas_scene(40, 30, 0.3, 2, &arena);
-    const Canvas   spoilt = canvas_scene(40, 30, 0.3, 2, &arena);
+ARENA_TEST(masked_pixels_count_for_nothing) {
+    const Canvas r = canvas_scene(40, 30, 0.3, 1, &arena);
+    const Canvas t = canvas_scene(40, 30, 0.3, 2, &arena);
+    const Canvas spoilt = canvas_scene(40, 30, 0.3, 2, &arena);
     unsigned char *mask = ARENA_NEW(&arena, unsigned char, 40 * 30);
-    float         *map = ARENA_NEW(&arena, float, 40 * 30);
+    float *map = ARENA_NEW(&arena, float, 40 * 30);
     for (int i = 0; i < 40 * 30; i++) mask[i] = i % 40 > 9 || i / 40 > 9;
     for (int i = 0; i < 40 * 30; i++)
         if (!mask[i]) spoilt.rgb[i % 3][i] = (float)(50 - i % 100);
@@ -167,13 +156,12 @@ ARENA_TEST(masked_pixels_count_for_nothing)
     assert_true(errors_of(&r, &spoilt, NULL, true, arena).mse > 2 * a.mse);
 }
 
-ARENA_TEST(no_pixel_gives_no_number)
-{
-    const Canvas   r = canvas_uniform(1, 2, 3, &arena);
+ARENA_TEST(no_pixel_gives_no_number) {
+    const Canvas r = canvas_uniform(1, 2, 3, &arena);
     unsigned char *mask = ARENA_NEW(&arena, unsigned char, 12 * 9);
-    float          map[12 * 9];
-    PixelErrors    e = errors_of(&r, &r, mask, true, arena);
-    MapSummary     d = deltae_pictures(&r.planes, &r.planes, mask, map);
+    float map[12 * 9];
+    PixelErrors e = errors_of(&r, &r, mask, true, arena);
+    MapSummary d = deltae_pictures(&r.planes, &r.planes, mask, map);
     assert_true(isnan(e.mae) && isnan(e.mse) && isnan(e.rel_mse) && isnan(e.max_difference));
     assert_true(isnan(e.psnr_db) && isnan(e.peak) && isnan(e.mean_shift));
     assert_true(isnan(errors_of(&r, &r, mask, false, arena).psnr_db));
@@ -184,34 +172,30 @@ ARENA_TEST(no_pixel_gives_no_number)
 
 /* ---- SSIM ---- */
 
-static double ssim_of(const Canvas *r, const Canvas *t, Arena arena)
-{
+static double ssim_of(const Canvas *r, const Canvas *t, Arena arena) {
     return ssim_mean(&r->planes, &t->planes, NULL, NULL, arena);
 }
 
-ARENA_TEST(equal_pictures_are_similar)
-{
+ARENA_TEST(equal_pictures_are_similar) {
     const Canvas scene = canvas_scene(50, 40, 0.3, 1, &arena);
-    float       *map = ARENA_NEW(&arena, float, 50 * 40);
+    float *map = ARENA_NEW(&arena, float, 50 * 40);
     assert_near(ssim_mean(&scene.planes, &scene.planes, NULL, map, arena), 1, 0);
     for (int i = 0; i < 50 * 40; i++) assert_near(map[i], 1, 0);
 }
 
 /* A hole in a picture is no part of it, not a black one. */
-ARENA_TEST(holes_do_not_show)
-{
-    const Canvas  r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
-    const Canvas  t = canvas_uniform(0.25f, 0.25f, 0.25f, &arena);
+ARENA_TEST(holes_do_not_show) {
+    const Canvas r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
+    const Canvas t = canvas_uniform(0.25f, 0.25f, 0.25f, &arena);
     unsigned char mask[12 * 9];
-    float         map[12 * 9];
+    float map[12 * 9];
     for (int i = 0; i < 12 * 9; i++) mask[i] = i % 12 > 3 && i % 7 != 0;
     ssim_mean(&r.planes, &t.planes, mask, map, arena);
     for (int i = 0; i < 12 * 9; i++) assert_close(map[i], 0.2501 / 0.3126, 1e-6);
 }
 
 /* No contrast: what is left is (2 r t + C1) / (r^2 + t^2 + C1). */
-ARENA_TEST(even_pictures_differ_by_luminance)
-{
+ARENA_TEST(even_pictures_differ_by_luminance) {
     const Canvas r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
     const Canvas t = canvas_uniform(0.25f, 0.25f, 0.25f, &arena);
     assert_close(ssim_of(&r, &t, arena), 0.2501 / 0.3126, 1e-12);
@@ -223,10 +207,9 @@ ARENA_TEST(even_pictures_differ_by_luminance)
 /* A pattern of greys about the same mean, with half of the contrast: wherever the window's mean
  * is m + d and its variance v, the test's are m + d / 2 and v / 4. For stripes of one pixel
  * the window sees all of the mean but 1e-3 of the amplitude. */
-ARENA_TEST(contrast_counts_by_its_own_term)
-{
+ARENA_TEST(contrast_counts_by_its_own_term) {
     const Canvas r = canvas_create(41, 41, &arena), t = canvas_create(41, 41, &arena);
-    float       *map = ARENA_NEW(&arena, float, 41 * 41);
+    float *map = ARENA_NEW(&arena, float, 41 * 41);
     for (int i = 0; i < 41 * 41; i++)
         for (int c = 0; c < 3; c++) {
             float wave = (i % 41 + i / 41) % 2 ? 0.25f : -0.25f;
@@ -238,15 +221,14 @@ ARENA_TEST(contrast_counts_by_its_own_term)
     assert_near(map[20 * 41 + 20], expected, 1e-5);
 }
 
-static double direct_ssim(const Canvas *r, const Canvas *t, int px, int py)
-{
+static double direct_ssim(const Canvas *r, const Canvas *t, int px, int py) {
     const int width = r->planes.width, height = r->planes.height;
-    double    w = 0, mr = 0, mt = 0, vr = 0, vt = 0, cov = 0;
+    double w = 0, mr = 0, mt = 0, vr = 0, vt = 0, cov = 0;
     for (int pass = 0; pass < 2; pass++)
         for (int y = py - 5; y <= py + 5; y++)
             for (int x = px - 5; x <= px + 5; x++) {
                 if (x < 0 || y < 0 || x >= width || y >= height) continue;
-                int    i = y * width + x;
+                int i = y * width + x;
                 double g = exp(-((x - px) * (x - px) + (y - py) * (y - py)) / 4.5);
                 double a = 0.299 * r->rgb[0][i] + 0.587 * r->rgb[1][i] + 0.114 * r->rgb[2][i];
                 double b = 0.299 * t->rgb[0][i] + 0.587 * t->rgb[1][i] + 0.114 * t->rgb[2][i];
@@ -266,12 +248,11 @@ static double direct_ssim(const Canvas *r, const Canvas *t, int px, int py)
     return luminance * (2 * cov + 9e-4) / (vr + vt + 9e-4);
 }
 
-ARENA_TEST(windows_agree_with_direct_sums)
-{
+ARENA_TEST(windows_agree_with_direct_sums) {
     const Canvas r = canvas_scene(31, 23, 0.2, 1, &arena);
     const Canvas t = canvas_scene(31, 23, 0.2, 2, &arena);
-    float       *map = ARENA_NEW(&arena, float, 31 * 23);
-    double       mean = ssim_mean(&r.planes, &t.planes, NULL, map, arena), sum = 0;
+    float *map = ARENA_NEW(&arena, float, 31 * 23);
+    double mean = ssim_mean(&r.planes, &t.planes, NULL, map, arena), sum = 0;
     for (int y = 0; y < 23; y++)
         for (int x = 0; x < 31; x++) {
             double expected = direct_ssim(&r, &t, x, y);
@@ -284,8 +265,7 @@ ARENA_TEST(windows_agree_with_direct_sums)
 
 /* ---- colours ---- */
 
-TEST(third_roots_are_exact)
-{
+TEST(third_roots_are_exact) {
     double worst = 0;
     for (double x = 0.008; x < 3; x *= 1.0003) {
         double error = fabs(cube_root(x) / cbrt(x) - 1);
@@ -294,8 +274,7 @@ TEST(third_roots_are_exact)
     assert_near(worst, 0, 2e-14);
 }
 
-static void assert_lab(float r, float g, float b, const double expected[3], double absolute)
-{
+static void assert_lab(float r, float g, float b, const double expected[3], double absolute) {
     double lab[3];
     const ColourMatrix ratios = relative_to_white(xyz_from_primaries(REC709_CHROMATICITIES));
     lab_from_rgb(&ratios, (const float[3]){r, g, b}, lab);
@@ -304,8 +283,7 @@ static void assert_lab(float r, float g, float b, const double expected[3], doub
 
 /* Primaries: as published for sRGB (Lindbloom's calculator and others give these within the
  * 0.02 that D65's digits make). */
-TEST(known_colours_have_their_lab)
-{
+TEST(known_colours_have_their_lab) {
     assert_lab(1, 1, 1, (double[]){100, 0, 0}, 1e-11);
     assert_lab(0, 0, 0, (double[]){0, 0, 0}, 1e-11);
     assert_lab(1, 0, 0, (double[]){53.24, 80.09, 67.20}, 0.02);
@@ -356,8 +334,7 @@ static const double SHARMA[34][7] = {
     {2.0776, 0.0795, -1.1350, 0.9033, -0.0636, -0.5514, 0.9082},
 };
 
-TEST(published_pairs_have_their_difference)
-{
+TEST(published_pairs_have_their_difference) {
     for (int i = 0; i < 34; i++) {
         const double *pair = SHARMA[i];
         assert_near(deltae_2000(pair, pair + 3), pair[6], 1e-4);
@@ -367,11 +344,10 @@ TEST(published_pairs_have_their_difference)
 }
 
 /* The same pairs as the shared data has them. */
-TEST(the_file_of_pairs_agrees)
-{
+TEST(the_file_of_pairs_agrees) {
     FILE *file = fopen(SHARED_DATA_DIR "/imgmetrics/ciede2000_sharma2005.csv", "r");
-    char  line[256];
-    int   pairs = 0;
+    char line[256];
+    int pairs = 0;
     if (!file) {
         print_message("skipped: no shared data\n");
         skip();
@@ -389,11 +365,10 @@ TEST(the_file_of_pairs_agrees)
 }
 
 /* White against grey: only the lightness term, (100 - L) / SL, is there. */
-ARENA_TEST(pictures_have_their_difference)
-{
+ARENA_TEST(pictures_have_their_difference) {
     const Canvas white = canvas_uniform(1, 1, 1, &arena);
     const Canvas mixed = canvas_uniform(1, 1, 1, &arena);
-    float        map[12 * 9];
+    float map[12 * 9];
     for (int i = 0; i < 10; i++)
         for (int c = 0; c < 3; c++) mixed.rgb[c][i] = 0.125f;
     double step = 100 - 42, from_grey = (71.0 - 50) * (71 - 50);

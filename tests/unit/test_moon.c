@@ -7,14 +7,12 @@
 
 static const SkyPlace anywhere = {48.14, 11.58, 520};
 
-static double day_of(const char *text)
-{
+static double day_of(const char *text) {
     SkyTime time = moment(text);
     return sky_julian_day(&time);
 }
 
-static MoonPosition moon_at(const char *text, SkyPlace place)
-{
+static MoonPosition moon_at(const char *text, SkyPlace place) {
     double day = day_of(text);
     return moon_position(day, sky_delta_t_s(day), &place);
 }
@@ -22,8 +20,7 @@ static MoonPosition moon_at(const char *text, SkyPlace place)
 /* ---- where it stands --------------------------------------------------------------------- */
 
 /* Meeus, Astronomical Algorithms, example 47.a: 1992 April 12, 0h dynamical time. */
-TEST(the_published_example_holds)
-{
+TEST(the_published_example_holds) {
     MoonPosition p = moon_position(2448724.5 - 59.0 / 86400, 59, &anywhere);
     assert_float_equal(p.longitude_deg, 133.162655, 1e-6);
     assert_float_equal(p.latitude_deg, -3.229126, 1e-6);
@@ -35,32 +32,34 @@ TEST(the_published_example_holds)
 
 /* Almanacs define the phases by the excess of the moon's apparent longitude over the sun's;
  * their minutes are rounded, and the moon gains 0.0085 degrees a minute. */
-TEST(published_phases_come_in_their_minute)
-{
-    static const struct { const char *when; double excess; } phase[] = {
-        {"2019-01-06T01:28Z", 0},   {"2019-01-14T06:46Z", 90},  {"2019-01-21T05:16Z", 180},
-        {"2019-01-27T21:10Z", 270}, {"2019-07-02T19:16Z", 0},   {"2019-07-16T21:38Z", 180},
-        {"2019-11-04T10:23Z", 90},  {"2019-12-26T05:13Z", 0},   {"2024-01-25T17:54Z", 180},
-        {"2024-04-08T18:21Z", 0},   {"2000-01-21T04:40Z", 180}, {"2000-07-31T02:25Z", 0}};
+TEST(published_phases_come_in_their_minute) {
+    static const struct {
+        const char *when;
+        double excess;
+    } phase[] = {{"2019-01-06T01:28Z", 0},   {"2019-01-14T06:46Z", 90},  {"2019-01-21T05:16Z", 180},
+                 {"2019-01-27T21:10Z", 270}, {"2019-07-02T19:16Z", 0},   {"2019-07-16T21:38Z", 180},
+                 {"2019-11-04T10:23Z", 90},  {"2019-12-26T05:13Z", 0},   {"2024-01-25T17:54Z", 180},
+                 {"2024-04-08T18:21Z", 0},   {"2000-01-21T04:40Z", 180}, {"2000-07-31T02:25Z", 0}};
     for (size_t i = 0; i < sizeof phase / sizeof *phase; i++) {
         double day = day_of(phase[i].when), delta = sky_delta_t_s(day);
         MoonPosition p = moon_position(day, delta, &anywhere);
-        SunPosition  s = sun_position(day, delta, &anywhere);
-        double off = remainder(p.apparent_longitude_deg - s.apparent_longitude_deg -
-                               phase[i].excess, 360);
+        SunPosition s = sun_position(day, delta, &anywhere);
+        double off =
+            remainder(p.apparent_longitude_deg - s.apparent_longitude_deg - phase[i].excess, 360);
         if (!(fabs(off) < 0.013)) fail_msg("%s: %.4f degrees off", phase[i].when, off);
     }
 }
 
 /* Greatest eclipse (NASA's catalogues): there and then the moon stands before the sun. */
-TEST(total_eclipses_of_the_sun_are_seen_where_they_were)
-{
-    static const struct { const char *when; SkyPlace place; } eclipse[] = {
-        {"1999-08-11T11:03:07Z", {45.1, 24.3, 0}},
-        {"2017-08-21T18:25:32Z", {36.97, -87.67, 0}},
-        {"2024-04-08T18:17:18Z", {25.29, -104.14, 0}},
-        {"2024-04-08T18:42:40Z", {32.78, -96.8, 0}}, /* Dallas */
-        {"2026-08-12T17:45:51Z", {65.22, -25.23, 0}}};
+TEST(total_eclipses_of_the_sun_are_seen_where_they_were) {
+    static const struct {
+        const char *when;
+        SkyPlace place;
+    } eclipse[] = {{"1999-08-11T11:03:07Z", {45.1, 24.3, 0}},
+                   {"2017-08-21T18:25:32Z", {36.97, -87.67, 0}},
+                   {"2024-04-08T18:17:18Z", {25.29, -104.14, 0}},
+                   {"2024-04-08T18:42:40Z", {32.78, -96.8, 0}}, /* Dallas */
+                   {"2026-08-12T17:45:51Z", {65.22, -25.23, 0}}};
     for (size_t i = 0; i < sizeof eclipse / sizeof *eclipse; i++) {
         MoonPosition p = moon_at(eclipse[i].when, eclipse[i].place);
         double moon = degrees_from_radians(moon_angular_radius(p.topocentric_km));
@@ -73,14 +72,13 @@ TEST(total_eclipses_of_the_sun_are_seen_where_they_were)
 }
 
 /* In the umbra: within 0.45 degrees of the point opposite the sun, from the Earth's centre. */
-TEST(total_eclipses_of_the_moon_stand_opposite_the_sun)
-{
+TEST(total_eclipses_of_the_moon_stand_opposite_the_sun) {
     static const char *const when[] = {"2018-07-27T20:21:44Z", "2019-01-21T05:12:16Z",
                                        "2022-11-08T10:59:11Z", "2025-03-14T06:58:43Z"};
     for (size_t i = 0; i < sizeof when / sizeof *when; i++) {
         double day = day_of(when[i]), delta = sky_delta_t_s(day);
         MoonPosition p = moon_position(day, delta, &anywhere);
-        SunPosition  s = sun_position(day, delta, &anywhere);
+        SunPosition s = sun_position(day, delta, &anywhere);
         double excess = p.apparent_longitude_deg - s.apparent_longitude_deg;
         double along = remainder(excess - 180, 360);
         assert_true(hypot(along, p.latitude_deg) < 0.45);
@@ -90,14 +88,13 @@ TEST(total_eclipses_of_the_moon_stand_opposite_the_sun)
 
 /* Seen from the place it stands lower by nearly the horizontal parallax times the cosine of
  * its elevation, and nearer by what the place is closer to it. */
-TEST(the_place_shifts_the_moon_by_its_parallax)
-{
+TEST(the_place_shifts_the_moon_by_its_parallax) {
     for (int i = 0; i < 2000; i++) {
         SkyPlace place = {180 * random_unit() - 90, 360 * random_unit() - 180, 0};
         double day = 2451545 + 20000 * (random_unit() - 0.5);
         double delta = sky_delta_t_s(day);
         MoonPosition p = moon_position(day, delta, &place);
-        SunPosition  s = sun_position(day, delta, &place);
+        SunPosition s = sun_position(day, delta, &place);
         double h = radians_from_degrees(s.apparent_sidereal_deg + place.longitude_deg -
                                         p.right_ascension_deg);
         double l = radians_from_degrees(place.latitude_deg);
@@ -117,34 +114,31 @@ TEST(the_place_shifts_the_moon_by_its_parallax)
 }
 
 /* Sun, moon and observer make a triangle. */
-TEST(phase_and_elongation_agree)
-{
+TEST(phase_and_elongation_agree) {
     for (int i = 0; i < 500; i++) {
         double day = 2451545 + 20000 * (random_unit() - 0.5);
         MoonPosition p = moon_position(day, sky_delta_t_s(day), &anywhere);
-        SunPosition  s = sun_position(day, sky_delta_t_s(day), &anywhere);
+        SunPosition s = sun_position(day, sky_delta_t_s(day), &anywhere);
         double au = p.topocentric_km / ASTRONOMICAL_UNIT_KM;
         double third = 180 - p.phase_angle_deg - p.elongation_deg; /* at the sun */
         assert_true(third > -1e-9 && third < 0.17);
         assert_true(fabs(sin(radians_from_degrees(third)) * p.sun_moon_au -
                          sin(radians_from_degrees(p.elongation_deg)) * au) < 1e-6);
         assert_true(fabs(p.sun_moon_au - s.distance_au) < 0.0028);
-        assert_true(fabs(p.illuminated -
-                         pow(cos(radians_from_degrees(p.phase_angle_deg) / 2), 2)) < 1e-12);
+        assert_true(fabs(p.illuminated - pow(cos(radians_from_degrees(p.phase_angle_deg) / 2), 2)) <
+                    1e-12);
     }
 }
 
 /* ---- its light --------------------------------------------------------------------------- */
 
-static double ratio_at(double phase_deg, double km, double au)
-{
+static double ratio_at(double phase_deg, double km, double au) {
     Curve ratio;
     moon_over_sun(&(MoonDistances){phase_deg, km, au}, &ratio);
     return (double)ratio.value[551 - CURVE_FIRST_NM];
 }
 
-TEST(moonlight_falls_with_phase_and_distance)
-{
+TEST(moonlight_falls_with_phase_and_distance) {
     double full = ratio_at(0, 384400, 1);
     assert_in(full * 133000, 0.30, 0.35); /* lx above the air */
     assert_in(ratio_at(90, 384400, 1) / full, 0.08, 0.12);
@@ -154,13 +148,11 @@ TEST(moonlight_falls_with_phase_and_distance)
     }
     assert_close(ratio_at(40, 384400 * 0.93, 1) * 0.93 * 0.93, ratio_at(40, 384400, 1), 1e-6);
     assert_close(ratio_at(40, 384400, 1.01) * 1.01 * 1.01, ratio_at(40, 384400, 1), 1e-6);
-    for (int a = 1; a <= 180; a++)
-        assert_true(ratio_at(a, 384400, 1) < ratio_at(a - 1, 384400, 1));
+    for (int a = 1; a <= 180; a++) assert_true(ratio_at(a, 384400, 1) < ratio_at(a - 1, 384400, 1));
 }
 
 /* B - V: 445 and 551 nm, 0.27 mag more than the sun's. */
-TEST(moonlight_is_redder_than_sunlight)
-{
+TEST(moonlight_is_redder_than_sunlight) {
     Curve ratio;
     moon_over_sun(&(MoonDistances){30, 384400, 1}, &ratio);
     double b = (double)ratio.value[445 - CURVE_FIRST_NM];
@@ -169,17 +161,16 @@ TEST(moonlight_is_redder_than_sunlight)
     for (int i = 1; i < CURVE_COUNT; i++) assert_true(ratio.value[i] > ratio.value[i - 1]);
 }
 
-TEST(the_disc_keeps_its_light_and_is_dark_beyond_the_terminator)
-{
+TEST(the_disc_keeps_its_light_and_is_dark_beyond_the_terminator) {
     for (int a = 0; a <= 170; a += 10) {
-        double   phase = radians_from_degrees(a), sum = 0;
+        double phase = radians_from_degrees(a), sum = 0;
         MoonDisc disc = moon_disc(phase);
-        int      steps = 1000, lit = 0, inside = 0, columns = 4 * steps;
+        int steps = 1000, lit = 0, inside = 0, columns = 4 * steps;
         for (int j = 0; j < steps; j++)
             for (int i = 0; i < columns; i++) {
                 double x = 2 * (i + 0.5) / columns - 1, y = 2 * (j + 0.5) / steps - 1;
                 if (x * x + y * y >= 1) continue;
-                float  value = moon_disc_shade(&disc, (float)x, (float)(x * x + y * y));
+                float value = moon_disc_shade(&disc, (float)x, (float)(x * x + y * y));
                 double edge = -sqrt(1 - y * y) * cos(phase); /* the terminator's ellipse */
                 if (fabs(x - edge) > 1e-3) assert_int_equal(value > 0, x > edge);
                 sum += (double)value;

@@ -21,51 +21,46 @@ static const LuminousOpening OPENINGS[] = {
 static const int OPENING_COUNT = (int)(sizeof OPENINGS / sizeof *OPENINGS);
 
 /* cd, in no way symmetric. */
-static double intensity(Vec3 d)
-{
+static double intensity(Vec3 d) {
     return 10 + 3 * (double)d.x - 2 * (double)d.y + 4 * (double)(d.z * d.x);
 }
 
-static Vec3 direction_of(uint32_t *random)
-{
+static Vec3 direction_of(uint32_t *random) {
     float z = 2 * random_unit(random) - 1, r = sqrtf(1 - z * z);
     double phi = 2 * PI * (double)random_unit(random);
     return vec3(r * (float)cos(phi), r * (float)sin(phi), z);
 }
 
-static Mean sampled(const LuminousOpening *opening, Vec3 from, Vec3 facing)
-{
-    Mean     mean = {0};
+static Mean sampled(const LuminousOpening *opening, Vec3 from, Vec3 facing) {
+    Mean mean = {0};
     uint32_t random = 5;
     for (int i = 0; i < SAMPLES; i++) {
         float u[3], weight;
         random3(&random, u);
-        Vec3   away = vec3_sub(from, opening_sample(opening, from, u, &weight));
-        Vec3   d = vec3_normalize(away);
+        Vec3 away = vec3_sub(from, opening_sample(opening, from, u, &weight));
+        Vec3 d = vec3_normalize(away);
         double cosine = fmax(-(double)vec3_dot(d, facing), 0);
         mean_add(&mean, (double)weight * intensity(d) * cosine / (double)vec3_dot(away, away));
     }
     return mean;
 }
 
-TEST(far_away_it_is_the_measured_intensity)
-{
+TEST(far_away_it_is_the_measured_intensity) {
     uint32_t random = 3;
     for (int i = 0; i < OPENING_COUNT; i++) {
-        Vec3   d = direction_of(&random);
+        Vec3 d = direction_of(&random);
         double r = 300;
-        Mean   mean = sampled(&OPENINGS[i], vec3_scale(d, (float)r), vec3_neg(d));
+        Mean mean = sampled(&OPENINGS[i], vec3_scale(d, (float)r), vec3_neg(d));
         double wanted = intensity(d) / (r * r);
         assert_close(mean.sum / (double)mean.count, wanted, 2e-3);
     }
 }
 
 /* A point of the unit body's surface on a grid, with its vector area there. */
-static bool grid_point(OpeningShape shape, int part, const double g[2], double size,
-                       Vec3 *at, Vec3 *area)
-{
+static bool grid_point(OpeningShape shape, int part, const double g[2], double size, Vec3 *at,
+                       Vec3 *area) {
     double a = 2 * g[0] - 1, b = 2 * g[1] - 1, phi = 2 * PI * g[1], sign = part & 1 ? -1 : 1;
-    Vec3   n = vec3(0, 0, 0);
+    Vec3 n = vec3(0, 0, 0);
     if (shape == OPENING_BOX && part >= 6) return false;
     if (shape == OPENING_BOX) {
         float p[3], m[3] = {0};
@@ -94,11 +89,10 @@ static bool grid_point(OpeningShape shape, int part, const double g[2], double s
 }
 
 /* Integral of I(d) / A(d) n.d over what faces `from`, on a grid of the whole surface. */
-static double integrated(const LuminousOpening *opening, Vec3 from, Vec3 facing)
-{
+static double integrated(const LuminousOpening *opening, Vec3 from, Vec3 facing) {
     enum { GRID = 400 };
     double sum = 0;
-    Vec3   half = opening_half(opening), at, area;
+    Vec3 half = opening_half(opening), at, area;
     for (int part = 0; part < 7; part++)
         for (int i = 0; i < GRID * GRID; i++) {
             double g[2] = {(i / GRID + 0.5) / GRID, (i % GRID + 0.5) / GRID};
@@ -116,8 +110,7 @@ static double integrated(const LuminousOpening *opening, Vec3 from, Vec3 facing)
     return sum;
 }
 
-TEST(near_by_it_is_the_integral_over_the_surface)
-{
+TEST(near_by_it_is_the_integral_over_the_surface) {
     uint32_t random = 8;
     for (int i = 0; i < OPENING_COUNT; i++)
         for (int k = 0; k < 3; k++) {
@@ -131,18 +124,17 @@ TEST(near_by_it_is_the_integral_over_the_surface)
 }
 
 /* L = I / pi r^2 all over: pi L (r/d)^2 on a plane that faces its middle, however near. */
-TEST(an_even_sphere_is_the_inverse_square_down_to_its_surface)
-{
+TEST(an_even_sphere_is_the_inverse_square_down_to_its_surface) {
     const LuminousOpening ball = {OPENING_ELLIPSOID, 2, false, {0.3f, 0.3f, 0.3f}};
     for (int i = 0; i < 3; i++) {
-        float    distance = 0.33f + 0.4f * (float)i;
-        Mean     mean = {0};
+        float distance = 0.33f + 0.4f * (float)i;
+        Mean mean = {0};
         uint32_t random = 5;
         for (int k = 0; k < SAMPLES; k++) {
             float u[3], weight;
             random3(&random, u);
-            Vec3   from = vec3(0, 0, distance);
-            Vec3   away = vec3_sub(from, opening_sample(&ball, from, u, &weight));
+            Vec3 from = vec3(0, 0, distance);
+            Vec3 away = vec3_sub(from, opening_sample(&ball, from, u, &weight));
             double d2 = (double)vec3_dot(away, away), cosine = (double)away.z / sqrt(d2);
             mean_add(&mean, (double)weight * fmax(cosine, 0) / d2);
         }
@@ -151,16 +143,14 @@ TEST(an_even_sphere_is_the_inverse_square_down_to_its_surface)
 }
 
 /* Distance from the surface of the unit body: 0 on it. */
-static float off_surface(OpeningShape shape, Vec3 p)
-{
+static float off_surface(OpeningShape shape, Vec3 p) {
     float across = sqrtf(p.x * p.x + p.y * p.y), z = fabsf(p.z);
     if (shape == OPENING_BOX) return fmaxf(fmaxf(fabsf(p.x), fabsf(p.y)), z) - 1;
     if (shape == OPENING_CYLINDER) return fmaxf(across, z) - 1;
     return vec3_length(p) - 1;
 }
 
-TEST(points_lie_on_the_surface_and_flat_ones_everywhere_on_it)
-{
+TEST(points_lie_on_the_surface_and_flat_ones_everywhere_on_it) {
     uint32_t random = 21;
     for (int i = 0; i < OPENING_COUNT; i++)
         for (int k = 0; k < 2000; k++) {
@@ -183,14 +173,13 @@ TEST(points_lie_on_the_surface_and_flat_ones_everywhere_on_it)
 
 /* From inside nothing of a body is seen; from its middle, and in the plane of a flat one, all
  * stays finite. */
-TEST(inside_it_is_dark_and_nothing_is_infinite)
-{
+TEST(inside_it_is_dark_and_nothing_is_infinite) {
     const float u[2] = {0.3f, 0.8f};
     for (int i = 0; i < OPENING_COUNT; i++) {
         const float *h = OPENINGS[i].half;
         float weight;
-        Vec3  inside = vec3(0.3f * h[0], -0.2f * h[1], 0.4f * h[2]);
-        Vec3  at = opening_sample(&OPENINGS[i], inside, u, &weight);
+        Vec3 inside = vec3(0.3f * h[0], -0.2f * h[1], 0.4f * h[2]);
+        Vec3 at = opening_sample(&OPENINGS[i], inside, u, &weight);
         assert_true(vec3_is_within(at, FLT_MAX) && weight == (OPENINGS[i].is_flat ? 1 : 0));
         at = opening_sample(&OPENINGS[i], vec3(0, 0, 0), u, &weight);
         assert_true(vec3_is_within(at, FLT_MAX) && isfinite(weight));

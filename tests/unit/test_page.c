@@ -9,8 +9,7 @@
 static const char WILD[] = "a<b>&\"c'\xff";
 static const char TAME[] = "a&lt;b&gt;&amp;&quot;c&#39;\\xFF";
 
-static const char *doubled(double value, Arena *arena)
-{
+static const char *doubled(double value, Arena *arena) {
     return isnan(value) ? "none" : arena_format(arena, "%g", 2 * value);
 }
 
@@ -22,10 +21,9 @@ static const char VALUES[] =
     " 'words': ['p', 'q'], 'object': {'inner': {'name': 'deep'}}, 'name': 'outer',"
     " 'raw': '<b>&</b>'}";
 
-static json_t *values_of(const char *text)
-{
+static json_t *values_of(const char *text) {
     json_error_t error;
-    char        *json = arena_string(test_memory(), text, strlen(text));
+    char *json = arena_string(test_memory(), text, strlen(text));
     for (char *c = json; *c; c++)
         if (*c == '\'') *c = '"';
     json_t *values = json_loads(json, 0, &error);
@@ -34,8 +32,7 @@ static json_t *values_of(const char *text)
 }
 
 /* A template of a test is one that no page has: it is rendered as a text. */
-static bool rendered(const char *template, Text *page, Error *error)
-{
+static bool rendered(const char *template, Text *page, Error *error) {
     json_t *values = values_of(VALUES);
     *page = (Text){.arena = test_memory()};
     bool ok = page_render_text(page, (PageFile){"test.html", template}, values, FORMATS,
@@ -44,9 +41,10 @@ static bool rendered(const char *template, Text *page, Error *error)
     return ok;
 }
 
-TEST(a_template_shows_its_values)
-{
-    static const struct { const char *template, *page; } ROWS[] = {
+TEST(a_template_shows_its_values) {
+    static const struct {
+        const char *template, *page;
+    } ROWS[] = {
         {"<p>{{text}}|{{empty}}|{{null}}|{{one}}|{{pi}}</p>", "<p>a&lt;b|||1|3.14159</p>"},
         {"{{{raw}}}{{raw}}", "<b>&</b>&lt;b&gt;&amp;&lt;/b&gt;"},
         {"{{pi|f2}} {{pi|g2}} {{one|doubled}} {{null|doubled}} {{text|doubled}}",
@@ -58,51 +56,56 @@ TEST(a_template_shows_its_values)
         {"{{object.inner.name}}{{#object.inner}}-{{name}}{{/object.inner}}", "deep-deep"},
         {"{{#yes}}1{{/yes}}{{#text}}2{{/text}}{{#one}}3{{/one}}{{#real}}4{{/real}}", "1234"},
         {"{{#no}}1{{/no}}{{#empty}}2{{/empty}}{{#null}}3{{/null}}{{#zero}}4{{/zero}}"
-         "{{#none}}5{{/none}}{{#absent}}6{{/absent}}", ""},
+         "{{#none}}5{{/none}}{{#absent}}6{{/absent}}",
+         ""},
         {"{{^no}}1{{/no}}{{^none}}2{{/none}}{{^absent}}3{{/absent}}{{^yes}}4{{/yes}}", "123"},
         {"{{#list}}{{#list}}{{name}}{{/list}}{{/list}}", "xyxy"},
         {"<ul>\n  {{#words}}\n  <li>{{.}}</li>\n  {{/words}}\n</ul>\n",
          "<ul>\n<li>p</li>\n<li>q</li>\n</ul>\n"},
-        {"a<!-- not\nshown -->b <link rel=\"stylesheet\" href=\"{{one}}\">", "ab "
+        {"a<!-- not\nshown -->b <link rel=\"stylesheet\" href=\"{{one}}\">",
+         "ab "
          "<link rel=\"stylesheet\" href=\"1\">"},
         {"{{list.1.name}}{{list.7.name}}{{null.any}}{{words| > }}", "yp &gt; q"},
         {"{ {a} {{text}} }}", "{ {a} a&lt;b }}"}};
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
         Text page;
-        if (!rendered(ROWS[i].template, &page, why())) fail_msg("%s: %s", ROWS[i].template,
-                                                                why()->text);
+        if (!rendered(ROWS[i].template, &page, why()))
+            fail_msg("%s: %s", ROWS[i].template, why()->text);
         assert_string_equal(page.data ? page.data : "", ROWS[i].page);
     }
 }
 
 /* Lines and cells as RFC 4180 has them. */
-TEST(a_template_of_csv_quotes_its_cells)
-{
-    Text    page = {.arena = test_memory()};
+TEST(a_template_of_csv_quotes_its_cells) {
+    Text page = {.arena = test_memory()};
     json_t *values = values_of("{'rows': [{'a': 'x, y', 'b': 1.23456789},"
                                " {'a': '5\\u0022', 'b': null}]}");
-    assert_done(page_render_text(&page, (PageFile){"t.csv", "a,b\n{{#rows}}\n{{a}},{{b}}\n"
-                                                            "{{/rows}}\n"},
+    assert_done(page_render_text(&page,
+                                 (PageFile){"t.csv", "a,b\n{{#rows}}\n{{a}},{{b}}\n"
+                                                     "{{/rows}}\n"},
                                  values, NULL, arena_reserve(1 << 20), &err));
     assert_string_equal(page.data, "a,b\r\n\"x, y\",1.23457\r\n\"5\"\"\",\r\n");
     json_decref(values);
 }
 
-TEST(a_fault_of_a_template_is_named)
-{
-    static const struct { const char *template, *text; } ROWS[] = {
-        {"{{absent}}", "has no value for 'absent'"},
-        {"{{{absent}}}", "has no value for 'absent'"},
-        {"{{object.absent}}", "has no value for 'object.absent'"},
-        {"{{#words}}{{name.x}}{{/words}}", "has no value for 'name.x'"},
-        {"{{pi|odd}}", "has no such format: 'pi'"}, {"{{pi|f10}}", "has no such format: 'pi'"},
-        {"{{#yes}}", "has no end of 'yes'"}, {"{{#yes}}{{/no}}", "has no end of 'yes'"},
-        {"{{/yes}}", "has no beginning of 'yes'"}, {"{{>absent}}", "has no part 'absent'"},
-        {"<link rel=\"stylesheet\" href=\"a.css\">", "has no file 'a.css'"}};
+TEST(a_fault_of_a_template_is_named) {
+    static const struct {
+        const char *template, *text;
+    } ROWS[] = {{"{{absent}}", "has no value for 'absent'"},
+                {"{{{absent}}}", "has no value for 'absent'"},
+                {"{{object.absent}}", "has no value for 'object.absent'"},
+                {"{{#words}}{{name.x}}{{/words}}", "has no value for 'name.x'"},
+                {"{{pi|odd}}", "has no such format: 'pi'"},
+                {"{{pi|f10}}", "has no such format: 'pi'"},
+                {"{{#yes}}", "has no end of 'yes'"},
+                {"{{#yes}}{{/no}}", "has no end of 'yes'"},
+                {"{{/yes}}", "has no beginning of 'yes'"},
+                {"{{>absent}}", "has no part 'absent'"},
+                {"<link rel=\"stylesheet\" href=\"a.css\">", "has no file 'a.css'"}};
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
         Text page;
-        assert_false(rendered(arena_format(test_memory(), "first\n%s", ROWS[i].template), &page,
-                              why()));
+        assert_false(
+            rendered(arena_format(test_memory(), "first\n%s", ROWS[i].template), &page, why()));
         assert_string_equal(why()->text, ROWS[i].text);
         assert_string_equal(why()->file, "test.html");
         assert_string_equal(why()->path, "line 2");
@@ -115,9 +118,8 @@ static const char FRAME[] = "<!DOCTYPE html>\n<html{{#is_dark}} class=\"dark\"{{
                             "</head><body>\n<footer>{{command}}</footer>\n"
                             "<script src=\"page.js\"></script>\n</body></html>\n";
 
-static const char *small_page(bool is_dark)
-{
-    Text    page = {.arena = test_memory()};
+static const char *small_page(bool is_dark) {
+    Text page = {.arena = test_memory()};
     json_t *values = json_object();
     assert_done(page_set_head(values, &(PageHead){WILD, WILD, is_dark}, &err));
     assert_done(page_render_text(&page, (PageFile){"frame.html", FRAME}, values, NULL,
@@ -126,16 +128,15 @@ static const char *small_page(bool is_dark)
     return page.data;
 }
 
-TEST(a_page_is_whole_and_asks_nobody)
-{
+TEST(a_page_is_whole_and_asks_nobody) {
     const char *page = small_page(false);
-    static const char *const ONCE[] = {"<!DOCTYPE html>", "<style>", "</style>", "<script>",
-                                       "</script>", "</html>", "prefers-color-scheme:dark",
-                                       "@media print"};
+    static const char *const ONCE[] = {
+        "<!DOCTYPE html>",           "<style>",     "</style>", "<script>", "</script>", "</html>",
+        "prefers-color-scheme:dark", "@media print"};
     for (size_t i = 0; i < sizeof ONCE / sizeof *ONCE; i++)
         if (count_of(page, ONCE[i]) != 1) fail_msg("not once: %s", ONCE[i]);
-    static const char *const NEVER[] = {"http:", "https:", "src=", "@import", "<link", "<!-- ",
-                                        "http-equiv=\"refresh\""};
+    static const char *const NEVER[] = {
+        "http:", "https:", "src=", "@import", "<link", "<!-- ", "http-equiv=\"refresh\""};
     for (size_t i = 0; i < sizeof NEVER / sizeof *NEVER; i++)
         if (strstr(page, NEVER[i])) fail_msg("there is %s", NEVER[i]);
     assert_int_equal(count_of(page, TAME), 2);
@@ -144,10 +145,9 @@ TEST(a_page_is_whole_and_asks_nobody)
 }
 
 /* Behind the style of every page; CSS alone. */
-TEST(a_firm_has_a_style_of_its_own)
-{
+TEST(a_firm_has_a_style_of_its_own) {
     const char *path = in_folder("firm.css");
-    json_t     *values = json_object();
+    json_t *values = json_object();
     setenv(PAGE_STYLE_VARIABLE, path, 1);
     write_text(path, "h1{color:teal}");
     assert_done(page_set_head(values, &(PageHead){"t", "c", false}, &err));
@@ -163,11 +163,10 @@ TEST(a_firm_has_a_style_of_its_own)
 }
 
 /* Every page and part: its files and parts are there, and sections nest. */
-TEST(all_templates_are_whole)
-{
+TEST(all_templates_are_whole) {
     for (int i = 0; i < page_file_count; i++) {
         const char *name = page_file_table[i].name, *at = page_file_table[i].text, *open[32];
-        int         depth = 0;
+        int depth = 0;
         if (!strstr(name, ".html")) continue;
         if (strstr(at, "<!DOCTYPE html>") == at)
             assert_true(strstr(at, "{{>head}}") < strstr(at, "<style>{{{style}}}</style>"));
@@ -182,8 +181,7 @@ TEST(all_templates_are_whole)
     }
 }
 
-TEST(pictures_lie_in_the_page)
-{
+TEST(pictures_lie_in_the_page) {
     Picture picture = picture_create(2, 2, test_memory());
     json_t *png = page_picture(&picture, false, arena_reserve(1 << 24), why());
     assert_non_null(png);
@@ -191,10 +189,9 @@ TEST(pictures_lie_in_the_page)
     json_decref(png);
 }
 
-TEST(parts_become_one_file)
-{
-    Arena      *arena = test_memory();
-    Text        a = {.arena = arena}, b = {.arena = arena}, none = {.arena = arena};
+TEST(parts_become_one_file) {
+    Arena *arena = test_memory();
+    Text a = {.arena = arena}, b = {.arena = arena}, none = {.arena = arena};
     const Text *parts[] = {&a, &none, &b};
     const char *path = in_folder("page");
     text_add(&a, "one ");

@@ -15,18 +15,19 @@ static const Vec3 display_at = {0.4f, 0.3f, 0.6f};
 
 static const ReviewCondition condition = {.name = "night"};
 
-static ReviewEye eyes[] = {{.name = "driver", .kind = EYE_POINT, .grid = {1, 1, 1},
-                            .camera_id = NO_ID}};
+static ReviewEye eyes[] = {
+    {.name = "driver", .kind = EYE_POINT, .grid = {1, 1, 1}, .camera_id = NO_ID}};
 
-static ReviewRequest request_of(const ReviewPaneImages *panes)
-{
-    return (ReviewRequest){.forward = {0, 0, -1}, .observer = {50, 0.5}, .eyes = eyes,
-                           .eye_count = 1, .pane_images = panes};
+static ReviewRequest request_of(const ReviewPaneImages *panes) {
+    return (ReviewRequest){.forward = {0, 0, -1},
+                           .observer = {50, 0.5},
+                           .eyes = eyes,
+                           .eye_count = 1,
+                           .pane_images = panes};
 }
 
 /* half: of the pane, m. */
-static World world_of(float half)
-{
+static World world_of(float half) {
     World world = world_start();
     world_display(&world);
     builder_quad(world.scene, display_at, vec3(-0.05f, 0, 0), vec3(0, 0.04f, 0));
@@ -36,11 +37,13 @@ static World world_of(float half)
     return world;
 }
 
-static Review findings(World *world, const ReviewRequest *request)
-{
+static Review findings(World *world, const ReviewRequest *request) {
     Review review = {0};
-    Setup  setup = {.request = request, .condition = &condition, .scene = world->scene,
-                    .context = world->context, .tools = {.threads = 2}};
+    Setup setup = {.request = request,
+                   .condition = &condition,
+                   .scene = world->scene,
+                   .context = world->context,
+                   .tools = {.threads = 2}};
     assert_done(kernel_choose(NULL, &setup.tools.kernel, &err));
     assert_done(setup_pane_images(&setup, &world->arena, &review, &err));
     assert_int_equal(review.pane_image_count, 1);
@@ -49,13 +52,12 @@ static Review findings(World *world, const ReviewRequest *request)
 
 /* ---- where and how bright ---------------------------------------------------------------- */
 
-TEST(a_pane_across_the_way_shows_what_is_behind_at_its_mirrored_place)
-{
+TEST(a_pane_across_the_way_shows_what_is_behind_at_its_mirrored_place) {
     SCOPED_WORLD world = world_of(2);
-    const ReviewPaneImages panes = {.within_deg = 60, .contrast_most = (double)NAN,
-                                    .against_cd_m2 = 0.25};
+    const ReviewPaneImages panes = {
+        .within_deg = 60, .contrast_most = (double)NAN, .against_cd_m2 = 0.25};
     ReviewRequest request = request_of(&panes);
-    Review        review = findings(&world, &request);
+    Review review = findings(&world, &request);
     const PaneFinding *f = &review.pane_images[0];
     double far = 2 * (double)PANE_M + (double)display_at.z;
     double right = atan2((double)display_at.x, far);
@@ -82,12 +84,11 @@ TEST(a_pane_across_the_way_shows_what_is_behind_at_its_mirrored_place)
         fail_msg("%g cd/m2, %g of 905", f->image, both);
 }
 
-TEST(a_pane_that_ends_has_no_image_and_no_figure)
-{
+TEST(a_pane_that_ends_has_no_image_and_no_figure) {
     SCOPED_WORLD world = world_of(0.05f);
     const ReviewPaneImages panes = {.within_deg = 60, .contrast_most = 0.1};
     ReviewRequest request = request_of(&panes);
-    Review        review = findings(&world, &request);
+    Review review = findings(&world, &request);
     const PaneFinding *f = &review.pane_images[0];
     assert_string_equal(f->none, "the pane ends before it");
     assert_near(f->ends_share, 1, 1e-6);
@@ -98,20 +99,23 @@ TEST(a_pane_that_ends_has_no_image_and_no_figure)
 /* ---- areas ------------------------------------------------------------------------------- */
 
 /* The image lies 10.8 degrees off ahead; its nearest corner 9.5. */
-TEST(the_area_that_allows_least_judges_an_image)
-{
-    ReviewPaneArea areas[] = {{"wide", {0, 0, -1}, 20, 1e6}, {"strict", {0, 0, -1}, 12, 1e-3},
+TEST(the_area_that_allows_least_judges_an_image) {
+    ReviewPaneArea areas[] = {{"wide", {0, 0, -1}, 20, 1e6},
+                              {"strict", {0, 0, -1}, 12, 1e-3},
                               {"elsewhere", {-1, 0, 0}, 30, 1e-6}};
-    ReviewPaneImages panes = {.within_deg = 5, .contrast_most = 1e-6, .against_cd_m2 = 1,
-                              .areas = areas, .area_count = 3};
+    ReviewPaneImages panes = {.within_deg = 5,
+                              .contrast_most = 1e-6,
+                              .against_cd_m2 = 1,
+                              .areas = areas,
+                              .area_count = 3};
     SCOPED_WORLD world = world_of(2);
     ReviewRequest request = request_of(&panes);
-    Review        review = findings(&world, &request);
+    Review review = findings(&world, &request);
     const PaneFinding *f = &review.pane_images[0];
     assert_string_equal(f->area, "strict");
     assert_true(pane_counts(f) && f->limit.verdict == VERDICT_FAIL);
-    Vec3   corner = vec3_normalize(vec3(display_at.x - 0.05f, display_at.y - 0.04f,
-                                        -2 * PANE_M - display_at.z));
+    Vec3 corner = vec3_normalize(
+        vec3(display_at.x - 0.05f, display_at.y - 0.04f, -2 * PANE_M - display_at.z));
     assert_near(f->off_deg, degrees_from_radians(acos(-(double)corner.z)), 0.05);
     panes.area_count = 1;
     review = findings(&world, &request);
@@ -124,15 +128,14 @@ TEST(the_area_that_allows_least_judges_an_image)
 }
 
 /* A gaze of another eye is none of this one's; without any the way ahead counts. */
-TEST(gazes_of_the_eye_are_areas_and_so_is_ahead_without_them)
-{
-    bool       looks[] = {true};
+TEST(gazes_of_the_eye_are_areas_and_so_is_ahead_without_them) {
+    bool looks[] = {true};
     ReviewGaze gazes[] = {{.name = "symbols", .at_symbols = true, .for_eye = looks},
                           {.name = "road", .direction = {0, 0, -1}, .for_eye = looks}};
     ReviewPaneImages panes = {.within_deg = 12, .contrast_most = 1e9, .against_cd_m2 = 1};
     SCOPED_WORLD world = world_of(2);
     ReviewRequest request = request_of(&panes);
-    Review        review = findings(&world, &request);
+    Review review = findings(&world, &request);
     assert_string_equal(review.pane_images[0].area, "ahead");
     request.gazes = gazes;
     request.gaze_count = 2;

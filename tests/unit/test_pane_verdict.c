@@ -11,8 +11,7 @@
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
-TEST(contrast_is_the_quotient_and_its_ends_are_both_doubts)
-{
+TEST(contrast_is_the_quotient_and_its_ends_are_both_doubts) {
     PaneFinding f = fixture_pane("a");
     assert_close(f.contrast, 0.25, 1e-12);
     double low = hypot(0.25 - 0.9 / 4, 0.25 - 1 / 4.4);
@@ -22,9 +21,8 @@ TEST(contrast_is_the_quotient_and_its_ends_are_both_doubts)
 }
 
 /* Limits below, in and above the interval, 0.216 to 0.287. */
-TEST(a_verdict_follows_from_interval_and_limit)
-{
-    static const double  LIMITS[] = {0.2, 0.25, 0.26, 0.3};
+TEST(a_verdict_follows_from_interval_and_limit) {
+    static const double LIMITS[] = {0.2, 0.25, 0.26, 0.3};
     static const Verdict WANTED[] = {VERDICT_FAIL, VERDICT_TOO_CLOSE, VERDICT_TOO_CLOSE,
                                      VERDICT_PASS};
     for (int i = 0; i < 4; i++) {
@@ -37,8 +35,7 @@ TEST(a_verdict_follows_from_interval_and_limit)
     }
 }
 
-TEST(an_image_before_nothing_fails_any_limit)
-{
+TEST(an_image_before_nothing_fails_any_limit) {
     PaneFinding f = fixture_pane("a");
     f.against = 0;
     f.against_range = (MeanInterval){0, 0};
@@ -57,8 +54,7 @@ TEST(an_image_before_nothing_fails_any_limit)
 /* ---- the review -------------------------------------------------------------------------- */
 
 /* One case that passes, and these. */
-static Review review_of(PaneFinding *list, int count)
-{
+static Review review_of(PaneFinding *list, int count) {
     Review review = fixture_review(&arena);
     review.cases = ARENA_NEW(&arena, ReviewCase, 1);
     review.cases[0] = review_case_unknown();
@@ -76,10 +72,9 @@ static Review review_of(PaneFinding *list, int count)
     return review;
 }
 
-TEST(what_counts_decides_the_review)
-{
+TEST(what_counts_decides_the_review) {
     PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near"), fixture_pane("far")};
-    Review      review = review_of(list, 3);
+    Review review = review_of(list, 3);
     assert_true(review.pass && !review_worst_pane(&review));
     assert_int_equal(review_count(&review).total, 1);
     pane_judge(&list[1], "road", 0.26);
@@ -94,15 +89,13 @@ TEST(what_counts_decides_the_review)
 
 /* ---- files ------------------------------------------------------------------------------- */
 
-static void assert_same_finding(const PaneFinding *a, const PaneFinding *b)
-{
+static void assert_same_finding(const PaneFinding *a, const PaneFinding *b) {
     assert_same(a->shown_share, b->shown_share);
     assert_same(a->covered_share, b->covered_share);
     assert_string_equal(a->display, b->display);
     assert_string_equal(a->none ? a->none : "", b->none ? b->none : "");
     assert_int_equal(a->outline_count, b->outline_count);
-    for (int i = 0; i < a->outline_count; i++)
-        assert_same(a->outline_deg[i], b->outline_deg[i]);
+    for (int i = 0; i < a->outline_count; i++) assert_same(a->outline_deg[i], b->outline_deg[i]);
     assert_same(a->image_range.high, b->image_range.high);
     assert_same(a->behind, b->behind);
     assert_same(a->contrast, b->contrast);
@@ -113,11 +106,10 @@ static void assert_same_finding(const PaneFinding *a, const PaneFinding *b)
     if (a->has_limit) assert_int_equal(a->limit.verdict, b->limit.verdict);
 }
 
-TEST(review_json_keeps_them_and_others_have_no_such_key)
-{
+TEST(review_json_keeps_them_and_others_have_no_such_key) {
     PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near")};
     const char *path = fresh_name(".json");
-    Review      review = review_of(list, 2), again;
+    Review review = review_of(list, 2), again;
     pane_judge(&list[1], "road", 0.1);
     assert_done(review_json_write(review_json(&review), path, &err));
     assert_done(review_json_read(path, &arena, &again, &err));
@@ -128,10 +120,9 @@ TEST(review_json_keeps_them_and_others_have_no_such_key)
     assert_null(strstr(taken(path), "pane_images"));
 }
 
-TEST(every_output_has_the_same_figures)
-{
+TEST(every_output_has_the_same_figures) {
     PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near \"screen\"")};
-    Review      review = review_of(list, 2);
+    Review review = review_of(list, 2);
     pane_judge(&list[1], "road", 0.1);
     review_decide(&review);
     const char *path = fresh_name(".csv");
@@ -145,7 +136,7 @@ TEST(every_output_has_the_same_figures)
     assert_non_null(strstr(junit, "tests=\"2\" failures=\"1\""));
     assert_non_null(strstr(junit, "seen by driver, night"));
     assert_null(strstr(junit, "side &lt;glass&gt;"));
-    ReviewPage  page = {.review = &review};
+    ReviewPage page = {.review = &review};
     const char *html = page_of(&page);
     assert_non_null(strstr(html, "Displays in glass"));
     assert_non_null(strstr(html, "points=\"-12.00,-8.00 -6.00,-8.50 -6.00,-11.00\""));
@@ -156,14 +147,18 @@ TEST(every_output_has_the_same_figures)
 }
 
 /* Ahead and to the left, in a picture of 90 degrees. */
-TEST(outlines_lie_over_a_frame_where_its_view_has_them)
-{
+TEST(outlines_lie_over_a_frame_where_its_view_has_them) {
     static const Vec3 CORNERS[] = {{-0.5f, 0.25f, -1}, {0, 0.25f, -1}, {0, 0.5f, -1}};
-    CaseView    view = {.right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1},
-                        .is_perspective = true, .half_width = 1, .half_height = 0.5,
-                        .width = 200, .height = 100};
+    CaseView view = {.right = {1, 0, 0},
+                     .up = {0, 1, 0},
+                     .forward = {0, 0, -1},
+                     .is_perspective = true,
+                     .half_width = 1,
+                     .half_height = 0.5,
+                     .width = 200,
+                     .height = 100};
     PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near")};
-    Review      review = review_of(list, 2);
+    Review review = review_of(list, 2);
     list[1].corners = CORNERS;
     assert_null(review_panes_drawn(&review, &review.cases[0], &arena));
     review.cases[0].view = &view;

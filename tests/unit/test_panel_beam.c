@@ -11,8 +11,8 @@
 #include "panel/query/panel_file.h"
 #include "panel/query/panel_opened.h"
 
-#define WIDTH 0.5    /* degrees, full width at half maximum */
-#define BOUND 0.02   /* relative, at every sample */
+#define WIDTH 0.5  /* degrees, full width at half maximum */
+#define BOUND 0.02 /* relative, at every sample */
 #define MEAN_BOUND 0.001
 #define BYTES_MOST 3000
 
@@ -25,57 +25,46 @@ typedef struct Beam {
     double between; /* error between samples a tenth of a degree apart */
 } Beam;
 
-static double gaussian(double r)
-{
+static double gaussian(double r) {
     return exp(-log(2) * r * r);
 }
 
-static double super_gaussian(double r)
-{
+static double super_gaussian(double r) {
     return exp(-log(2) * r * r * r * r);
 }
 
-static double lorentzian(double r)
-{
+static double lorentzian(double r) {
     return 1 / (1 + r * r);
 }
 
-static double abc(double r)
-{
+static double abc(double r) {
     return pow(1 + 0.5874 * r * r, -1.5);
 }
 
-static double lambert(double theta)
-{
+static double lambert(double theta) {
     return 100 * cos(theta);
 }
 
-static double steep(double theta)
-{
+static double steep(double theta) {
     return 100 * exp(-2.7 * theta * theta) + 2 * cos(theta);
 }
 
-static double nearly_none(double theta)
-{
+static double nearly_none(double theta) {
     return cos(theta);
 }
 
 /* The last one ends in an edge between two rings, where ln E falls by 3: no grid shows its
  * place. The first two are what a short run fits. */
 static const Beam beams[] = {
-    {30, 0, 900, gaussian, lambert, 1.6, 0.01},
-    {0, 0, 900, lorentzian, steep, 1, 0.02},
-    {30, 0, 900, gaussian, lambert, 1, 0.01},
-    {30.03, 0.05, 900, super_gaussian, steep, 1, 0.02},
-    {30, 0, 90000, abc, lambert, 1, 0.02},
-    {0, 0, 2000, super_gaussian, nearly_none, 1, 0.5},
+    {30, 0, 900, gaussian, lambert, 1.6, 0.01}, {0, 0, 900, lorentzian, steep, 1, 0.02},
+    {30, 0, 900, gaussian, lambert, 1, 0.01},   {30.03, 0.05, 900, super_gaussian, steep, 1, 0.02},
+    {30, 0, 90000, abc, lambert, 1, 0.02},      {0, 0, 2000, super_gaussian, nearly_none, 1, 0.5},
 };
 #define SHORT_COUNT 2
 #define BEAM_COUNT ((int)(sizeof beams / sizeof *beams))
 
 /* The truth at a direction in degrees; directions near the beam are told apart in double. */
-static double luminance(const Beam *b, double theta, double phi)
-{
+static double luminance(const Beam *b, double theta, double phi) {
     double t = radians_from_degrees(theta), p = radians_from_degrees(phi);
     double u = radians_from_degrees(b->theta), q = radians_from_degrees(b->phi);
     double x = sin(t) * cos(p), y = sin(t) * sin(p), z = cos(t);
@@ -89,16 +78,14 @@ static double luminance(const Beam *b, double theta, double phi)
 /* The rows' angles in degrees: a tenth of a degree apart around the beam. */
 typedef struct Grid {
     double theta[200], phi[200];
-    int    thetas, phis;
+    int thetas, phis;
 } Grid;
 
-static void add_steps(double *to, int *count, double first, double last, double step)
-{
+static void add_steps(double *to, int *count, double first, double last, double step) {
     for (int i = 0; first + i * step < last - 1e-9; i++) to[(*count)++] = first + i * step;
 }
 
-static Grid grid_of(const Beam *b)
-{
+static Grid grid_of(const Beam *b) {
     Grid g = {.thetas = 0};
     if (b->theta > 1) {
         add_steps(g.theta, &g.thetas, 0, 28, 4);
@@ -115,8 +102,7 @@ static Grid grid_of(const Beam *b)
     return g;
 }
 
-static void write_table(const Beam *b, const Grid *g, const char *path)
-{
+static void write_table(const Beam *b, const Grid *g, const char *path) {
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fprintf(file, "theta,phi,X,Y,Z\n");
@@ -129,9 +115,8 @@ static void write_table(const Beam *b, const Grid *g, const char *path)
     assert_int_equal(fclose(file), 0);
 }
 
-static void fit_beam(Fixture *f, const Beam *b)
-{
-    Grid       grid = grid_of(b);
+static void fit_beam(Fixture *f, const Beam *b) {
+    Grid grid = grid_of(b);
     FitOptions options = fit_options_default();
     options.bound = BOUND;
     fixture_folder(f);
@@ -141,17 +126,15 @@ static void fit_beam(Fixture *f, const Beam *b)
     fixture_fit(f, &options);
 }
 
-static double miss(const Fixture *f, const Beam *b, double theta, double phi)
-{
+static double miss(const Fixture *f, const Beam *b, double theta, double phi) {
     static const float white[3] = {255, 255, 255};
-    float              xyz[3];
+    float xyz[3];
     panel_emission_xyz(f->panel, direction_deg(theta, phi), white, xyz);
     return fabs((double)xyz[1] / luminance(b, theta, phi) - 1);
 }
 
-static double worst_sample(const Fixture *f, const Beam *b)
-{
-    Grid   g = grid_of(b);
+static double worst_sample(const Fixture *f, const Beam *b) {
+    Grid g = grid_of(b);
     double worst = 0;
     for (int i = 0; i < g.thetas; i++)
         for (int j = 0; j < (i ? g.phis : 1); j++)
@@ -160,10 +143,9 @@ static double worst_sample(const Fixture *f, const Beam *b)
 }
 
 /* Within a degree and a half of the beam's centre, at random. */
-static double worst_between(const Fixture *f, const Beam *b)
-{
+static double worst_between(const Fixture *f, const Beam *b) {
     uint32_t random = 5;
-    double   worst = 0;
+    double worst = 0;
     for (int i = 0; i < 4000; i++) {
         double t = b->theta + 1.5 * (2 * steady_random(&random) - 1);
         double p = b->theta > 1 ? b->phi + 3 * (2 * steady_random(&random) - 1)
@@ -174,28 +156,26 @@ static double worst_between(const Fixture *f, const Beam *b)
 }
 
 /* Midpoints, even in ln of the distance from the beam and then over the rest. */
-static double true_mean(const Beam *b)
-{
+static double true_mean(const Beam *b) {
     double sum = 0;
-    Frame  frame = frame_from_z(direction_deg(b->theta, b->phi));
+    Frame frame = frame_from_z(direction_deg(b->theta, b->phi));
     for (int i = 0; i < 400; i++)
         for (int j = 0; j < 200; j++) {
             double low = PI * pow((double)i / 400, 3), high = PI * pow((i + 1.0) / 400, 3);
             double r = 0.5 * (low + high), turn = 2 * PI * (j + 0.5) / 200;
-            Vec3   d = frame_to_world(&frame, vec3((float)(sin(r) * cos(turn)),
-                (float)(sin(r) * sin(turn)), (float)cos(r)));
+            Vec3 d = frame_to_world(&frame, vec3((float)(sin(r) * cos(turn)),
+                                                 (float)(sin(r) * sin(turn)), (float)cos(r)));
             if (d.z <= 0) continue;
             double t = acos(fmin(1, (double)d.z));
             double shape = hypot(cos(turn), sin(turn) / b->longer);
-            double y = b->background(t) + b->height * b->profile(degrees_from_radians(r) *
-                                                                 shape / (0.5 * WIDTH));
+            double y = b->background(t) +
+                       b->height * b->profile(degrees_from_radians(r) * shape / (0.5 * WIDTH));
             sum += y * (double)d.z * (cos(low) - cos(high)) * 2 * PI / 200;
         }
     return sum / PI;
 }
 
-TEST(beams_keep_the_bound)
-{
+TEST(beams_keep_the_bound) {
     const char *all = getenv("PARHELION_BEAMS");
     for (int i = 0; i < (all ? BEAM_COUNT : SHORT_COUNT); i++) {
         ENDS_BY(fixture_end) Fixture f;
@@ -221,10 +201,9 @@ TEST(beams_keep_the_bound)
 #define KNOTS 12
 #define COMPONENTS 3
 
-static size_t pack(Arena *arena, const PanelBeamHead *head, const void **bytes)
-{
+static size_t pack(Arena *arena, const PanelBeamHead *head, const void **bytes) {
     static const float step[COMPONENTS] = {1e-3f, 1e-3f, 1e-4f};
-    float              coefficient[COMPONENTS * KNOTS] = {0};
+    float coefficient[COMPONENTS * KNOTS] = {0};
     for (int i = 0; i < KNOTS; i++) {
         coefficient[i] = 2.0f / (float)(i + 1);
         coefficient[2 * KNOTS + i] = 30.0f - (float)i; /* more than 16 bits of its step */
@@ -234,12 +213,11 @@ static size_t pack(Arena *arena, const PanelBeamHead *head, const void **bytes)
 
 static const PanelBeamHead round_beam = {{0.6f, 0, 0.8f}, {0, 0, 0}, 0.01f, KNOTS, {0}};
 
-TEST(a_stored_beam_comes_back)
-{
+TEST(a_stored_beam_comes_back) {
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 20);
     const void *bytes;
-    size_t      used, size = pack(&arena, &round_beam, &bytes);
-    PanelBeam   beam;
+    size_t used, size = pack(&arena, &round_beam, &bytes);
+    PanelBeam beam;
     assert_true(panel_beam_open(bytes, size, COMPONENTS, &arena, &beam, &used));
     assert_int_equal(used, size);
     for (int i = 0; i < KNOTS; i++) {
@@ -256,13 +234,12 @@ TEST(a_stored_beam_comes_back)
     assert_true(fabsf(out[0] - (row[0] + 4 * row[4] + row[8]) / 6) < 1e-5f);
 }
 
-TEST(damaged_beams_are_refused)
-{
+TEST(damaged_beams_are_refused) {
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 20);
-    const void   *bytes;
-    PanelBeam     beam;
+    const void *bytes;
+    PanelBeam beam;
     PanelBeamHead bad[9];
-    size_t        used, size = pack(&arena, &round_beam, &bytes);
+    size_t used, size = pack(&arena, &round_beam, &bytes);
     for (size_t cut = 0; cut < size; cut++)
         assert_false(panel_beam_open(bytes, cut, COMPONENTS, &arena, &beam, &used));
     for (int i = 0; i < 9; i++) bad[i] = round_beam;

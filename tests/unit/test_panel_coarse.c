@@ -17,9 +17,8 @@
 
 static const char *const NAMES[] = {"ips_cluster", "oled_centre"};
 
-static Panel *opened(const char *name)
-{
-    char   path[1024];
+static Panel *opened(const char *name) {
+    char path[1024];
     Panel *panel = NULL;
     snprintf(path, sizeof path, "%s/assets/panels/%s.panel", PROJECT_DIR, name);
     assert_done(panel_open(path, test_memory(), &panel, &err));
@@ -28,20 +27,18 @@ static Panel *opened(const char *name)
 
 /* A question: directions, codes from 1 on, 16 wavelengths. */
 typedef struct Question {
-    Vec3        wo, wi; /* wi: within the measured incidences */
-    float       rgb[3];
+    Vec3 wo, wi; /* wi: within the measured incidences */
+    float rgb[3];
     Wavelengths wavelengths;
 } Question;
 
-static Vec3 direction(float cosine, float turn)
-{
+static Vec3 direction(float cosine, float turn) {
     float sine = sqrtf(1 - cosine * cosine), phi = 6.2831853f * turn;
     return vec3(sine * cosf(phi), sine * sinf(phi), cosine);
 }
 
-static Question question(uint32_t *seed, float least_cosine)
-{
-    float    u[7];
+static Question question(uint32_t *seed, float least_cosine) {
+    float u[7];
     Question q;
     q.wavelengths = (Wavelengths){0};
     for (int i = 0; i < 7; i++) u[i] = unit_float(hash_u32((*seed)++));
@@ -52,40 +49,36 @@ static Question question(uint32_t *seed, float least_cosine)
     return q;
 }
 
-static float last_cosine(const Panel *panel)
-{
+static float last_cosine(const Panel *panel) {
     double theta[PANEL_INFO_INCIDENCES_MAX];
-    int    count = panel_info_incidences(panel, theta);
+    int count = panel_info_incidences(panel, theta);
     return (float)cos(theta[count - 1]) + 1e-4f;
 }
 
 /* The largest relative differences found between two panels. */
-static void compare(const Panel *a, const Panel *b, int asked, double found[2])
-{
+static void compare(const Panel *a, const Panel *b, int asked, double found[2]) {
     uint32_t seed = 5;
-    float    least = last_cosine(b);
+    float least = last_cosine(b);
     found[0] = found[1] = 0;
     for (int i = 0; i < asked; i++) {
         Question q = question(&seed, least);
-        float    x[3], y[3];
+        float x[3], y[3];
         panel_emission_xyz(a, q.wo, q.rgb, x);
         panel_emission_xyz(b, q.wo, q.rgb, y);
         Spectrum f = panel_brdf(a, q.wo, q.wi, &q.wavelengths);
         Spectrum g = panel_brdf(b, q.wo, q.wi, &q.wavelengths);
-        for (int j = 0; j < 3; j++)
-            found[0] = fmax(found[0], fabs((double)(x[j] / y[j]) - 1));
+        for (int j = 0; j < 3; j++) found[0] = fmax(found[0], fabs((double)(x[j] / y[j]) - 1));
         for (int j = 0; j < SPECTRUM_LANES; j++)
             found[1] = fmax(found[1], fabs((double)(f[j] / g[j]) - 1));
     }
 }
 
-TEST(the_finest_level_is_the_panel_to_the_bit)
-{
+TEST(the_finest_level_is_the_panel_to_the_bit) {
     for (int p = 0; p < 2; p++) {
-        Panel      *whole = opened(NAMES[p]), *same = opened(NAMES[p]);
+        Panel *whole = opened(NAMES[p]), *same = opened(NAMES[p]);
         PanelCoarse c;
-        double      found[2];
-        int         finest = panel_coarse_finest(same);
+        double found[2];
+        int finest = panel_coarse_finest(same);
         panel_coarse_compare(same, finest, PANEL_COARSE_ALL, *test_memory(), &c);
         panel_coarsen(same, finest, PANEL_COARSE_ALL, test_memory());
         assert_true(c.emission.is_asked && c.reflection.is_asked);
@@ -101,24 +94,22 @@ TEST(the_finest_level_is_the_panel_to_the_bit)
 }
 
 static void check_part(const PanelCoarsePart *part, const PanelCoarsePart *last, int level,
-                       double found)
-{
+                       double found) {
     assert_int_equal(part->level, level < part->finest ? level : part->finest);
     assert_true(found <= part->max + 1e-5); /* what rounding of a sum of logarithms adds */
     assert_true(part->rms <= part->max);
     assert_true(part->rms <= last->rms);
 }
 
-TEST(stated_errors_hold_and_fall_with_the_level)
-{
+TEST(stated_errors_hold_and_fall_with_the_level) {
     for (int p = 0; p < 2; p++) {
-        Panel      *whole = opened(NAMES[p]);
+        Panel *whole = opened(NAMES[p]);
         PanelCoarse last = {.emission.rms = 1e30, .reflection.rms = 1e30};
-        int         finest = panel_coarse_finest(whole);
+        int finest = panel_coarse_finest(whole);
         for (int level = 0; level < finest; level++) {
-            Panel      *panel = opened(NAMES[p]);
+            Panel *panel = opened(NAMES[p]);
             PanelCoarse c;
-            double      found[2];
+            double found[2];
             panel_coarse_compare(panel, level, PANEL_COARSE_ALL, *test_memory(), &c);
             panel_coarsen(panel, level, PANEL_COARSE_ALL, test_memory());
             bool is_all = level == 5;
@@ -135,16 +126,15 @@ TEST(stated_errors_hold_and_fall_with_the_level)
 
 /* Emission at the vertices of the level, as queries find them. 1e-5: what rounding of places
  * and sums of logarithms adds. */
-TEST(at_its_vertices_a_level_is_the_whole_panel)
-{
+TEST(at_its_vertices_a_level_is_the_whole_panel) {
     static const float RGB[3] = {255, 31, 127};
     for (int p = 0; p < 2; p++) {
         Panel *whole = opened(NAMES[p]);
         for (int level = 0; level <= whole->emission_tree.level; level++) {
-            Panel        *panel = opened(NAMES[p]);
+            Panel *panel = opened(NAMES[p]);
             VertexLattice lattice = {level, 4};
-            uint32_t      count = vertex_count(lattice);
-            Vec3         *d = ARENA_NEW(test_memory(), Vec3, count);
+            uint32_t count = vertex_count(lattice);
+            Vec3 *d = ARENA_NEW(test_memory(), Vec3, count);
             vertex_directions(lattice, d);
             panel_coarsen(panel, level, PANEL_COARSE_EMISSION, test_memory());
             for (uint32_t v = 0; v < count; v += level < 6 ? 1 : 7) {
@@ -159,12 +149,11 @@ TEST(at_its_vertices_a_level_is_the_whole_panel)
     }
 }
 
-TEST(only_what_is_asked_for_is_coarser)
-{
+TEST(only_what_is_asked_for_is_coarser) {
     double found[2];
     for (int reflects = 0; reflects < 2; reflects++) {
-        Panel      *whole = opened("ips_cluster"), *panel = opened("ips_cluster");
-        unsigned    part = reflects ? PANEL_COARSE_REFLECTION : PANEL_COARSE_EMISSION;
+        Panel *whole = opened("ips_cluster"), *panel = opened("ips_cluster");
+        unsigned part = reflects ? PANEL_COARSE_REFLECTION : PANEL_COARSE_EMISSION;
         PanelCoarse c;
         panel_coarse_compare(panel, 2, part, *test_memory(), &c);
         panel_coarsen(panel, 2, part, test_memory());

@@ -15,16 +15,15 @@
 
 /* A broad lobe, black leaks at 45 degrees of azimuth, a narrower one of 24 degrees: at least
  * four samples a width. */
-#define RECIPE                                                                                 \
-    "{\"panel\": \"to probe\", \"emission\": {" FIXTURE_SPECTRA                                \
+#define RECIPE \
+    "{\"panel\": \"to probe\", \"emission\": {" FIXTURE_SPECTRA \
     "\"black_cd_m2\": 0.5, \"leak\": 2, \"cosine_power\": [1.1, 1.6], \"levels\": [127, 255]," \
-    "\"lobe\": {\"theta_deg\": 40, \"phi_deg\": 60, \"width_deg\": 12, \"gain\": 0.5}},"       \
+    "\"lobe\": {\"theta_deg\": 40, \"phi_deg\": 60, \"width_deg\": 12, \"gain\": 0.5}}," \
     "\"instrument\": {\"theta_step_deg\": 2, \"phi_step_deg\": 6}}"
 
 static Fixture fixture;
 
-static int start(void **state)
-{
+static int start(void **state) {
     *state = &fixture;
     FitOptions options = fit_options_default();
     options.bound = (float)BOUND;
@@ -33,8 +32,7 @@ static int start(void **state)
 }
 
 /* XYZ of what is shown: 0 black, 1 a full white, 2 level 127 of red. */
-static void truth(int colour, double theta, double phi, double xyz[3])
-{
+static void truth(int colour, double theta, double phi, double xyz[3]) {
     double angles[2] = {theta, phi}, add[3];
     closed_form_black_xyz(&fixture.recipe, angles, xyz);
     for (int p = 0; p < 3; p++) {
@@ -45,9 +43,8 @@ static void truth(int colour, double theta, double phi, double xyz[3])
 }
 
 /* Bilinear over the source's grid, in logarithms. */
-static void interpolated(int colour, double theta_deg, double phi_deg, double xyz[3])
-{
-    int    t = (int)(theta_deg / THETA_STEP), p = (int)(phi_deg / PHI_STEP);
+static void interpolated(int colour, double theta_deg, double phi_deg, double xyz[3]) {
+    int t = (int)(theta_deg / THETA_STEP), p = (int)(phi_deg / PHI_STEP);
     double x = theta_deg / THETA_STEP - t, y = phi_deg / PHI_STEP - p;
     double sum[3] = {0, 0, 0};
     for (int c = 0; c < 4; c++) {
@@ -59,26 +56,24 @@ static void interpolated(int colour, double theta_deg, double phi_deg, double xy
     for (int j = 0; j < 3; j++) xyz[j] = exp(sum[j]);
 }
 
-static double largest_error(const double found[3], const double wanted[3])
-{
+static double largest_error(const double found[3], const double wanted[3]) {
     double largest = 0;
     for (int j = 0; j < 3; j++) largest = fmax(largest, fabs(found[j] / wanted[j] - 1));
     return largest;
 }
 
-TEST(the_bound_holds_between_the_samples)
-{
+TEST(the_bound_holds_between_the_samples) {
     static const float codes[3][3] = {{0, 0, 0}, {255, 255, 255}, {127, 0, 0}};
-    double   fit[3][BANDS] = {{0}}, grid[3][BANDS] = {{0}};
+    double fit[3][BANDS] = {{0}}, grid[3][BANDS] = {{0}};
     uint32_t random = 1;
-    int      directions = all_laws() ? 1000000 : 250000;
+    int directions = all_laws() ? 1000000 : 250000;
     for (int i = 0; i < directions; i++) {
         double z = 1 - steady_random(&random) * (1 - cos(radians_from_degrees(87.99)));
         double theta_deg = degrees_from_radians(acos(z));
         double phi_deg = 360 * steady_random(&random);
-        int    colour = i % 3, band = (int)(theta_deg / 2);
+        int colour = i % 3, band = (int)(theta_deg / 2);
         double wanted[3], by_grid[3], found[3];
-        float  xyz[3];
+        float xyz[3];
         assert_true(panel_emission_xyz(fixture.panel, direction_deg(theta_deg, phi_deg),
                                        codes[colour], xyz));
         truth(colour, radians_from_degrees(theta_deg), radians_from_degrees(phi_deg), wanted);
@@ -92,8 +87,8 @@ TEST(the_bound_holds_between_the_samples)
         for (int b = 0; b < BANDS; b++)
             if (!(fit[colour][b] <= BOUND + grid[colour][b]))
                 fail_msg("colour %d, theta %d to %d: error %.4f, bound %.4f and the grid's own "
-                         "%.4f", colour, 2 * b, 2 * b + 2, fit[colour][b], BOUND,
-                         grid[colour][b]);
+                         "%.4f",
+                         colour, 2 * b, 2 * b + 2, fit[colour][b], BOUND, grid[colour][b]);
 }
 
 TEST_PROGRAM(start, fixture_group_end)

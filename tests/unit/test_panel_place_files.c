@@ -12,8 +12,7 @@
 
 static Fixture folder; /* files */
 
-static int start(void **state)
-{
+static int start(void **state) {
     *state = &folder;
     fixture_folder(&folder);
     return 0;
@@ -22,8 +21,7 @@ static int start(void **state)
 #define TABLE "theta,phi,X,Y,Z\n0,0,95,100,108\n50,0,60,70,75\n50,180,61,70,75\n"
 #define HAZE "theta,phi,brdf\n0,0,0.1\n20,0,0.1\n50,0,0.1\n50,90,0.1\n"
 
-static void write_tables(void)
-{
+static void write_tables(void) {
     fixture_file(&folder, "a.csv", TABLE);
     fixture_file(&folder, "b.csv", "theta,phi,X,Y,Z\n0,0,190,200,216\n50,0,120,140,150\n");
     fixture_file(&folder, "i20.csv", HAZE);
@@ -47,22 +45,22 @@ static void write_tables(void)
 }
 
 /* 3 x 2 pixels of X, Y, Z and black's Y, in steps of a 16-bit picture. */
-static const float seen[4][6] = {
-    {0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1},     {1, 0.9f, 0.8f, 0.7f, 0.6f, 0.5f},
-    {0.25f, 0.5f, 0.75f, 1, 0.75f, 0.5f},  {0.1f, 0.2f, 0.1f, 0.2f, 0.1f, 0.4f}};
+static const float seen[4][6] = {{0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1},
+                                 {1, 0.9f, 0.8f, 0.7f, 0.6f, 0.5f},
+                                 {0.25f, 0.5f, 0.75f, 1, 0.75f, 0.5f},
+                                 {0.1f, 0.2f, 0.1f, 0.2f, 0.1f, 0.4f}};
 
-static void write_exr(const char *name, const char *const names[4])
-{
+static void write_exr(const char *name, const char *const names[4]) {
     ExrChannel channel[4];
-    float      plane[4][6];
-    ExrBytes  *encoded;
-    size_t     size;
+    float plane[4][6];
+    ExrBytes *encoded;
+    size_t size;
     for (int k = 0; k < 4; k++) {
         memcpy(plane[k], seen[k], sizeof plane[k]);
         channel[k] = (ExrChannel){.name = names[k], .values = plane[k]};
     }
-    ExrPicture picture = {.display = {0, 0, 3, 2}, .data = {0, 0, 3, 2}, .channel_count = 4,
-                          .channels = channel};
+    ExrPicture picture = {
+        .display = {0, 0, 3, 2}, .data = {0, 0, 3, 2}, .channel_count = 4, .channels = channel};
     assert_done(exr_encode(&picture, &encoded, &err));
     const void *bytes = exr_bytes(encoded, &size);
     assert_done(file_write(fixture_path(&folder, name), bytes, size, &err));
@@ -71,25 +69,25 @@ static void write_exr(const char *name, const char *const names[4])
 
 #define WHITE(file) "\"emission\": {\"white\": \"" file "\"}"
 #define SPOT(at, file) "{\"position\": [" at "], " WHITE(file) "}"
-#define REFLECTION                                                                             \
-    "\"reflection\": {\"wavelengths_nm\": [550], \"incidence_deg\": [20], \"files\": "         \
+#define REFLECTION \
+    "\"reflection\": {\"wavelengths_nm\": [550], \"incidence_deg\": [20], \"files\": " \
     "\"i{incidence}.csv\"}"
 #define MAP(text) "{" WHITE("a.csv") ", \"uniformity\": {" text "}}"
 
 /* What a manifest of this text becomes; false: err says why not. */
 static bool try_manifest(const char *text, const char *panel, Panel **out, FileBytes *bytes,
-                         Error *err)
-{
-    FitOptions  fit = fit_options_default();
+                         Error *err) {
+    FitOptions fit = fit_options_default();
     const char *path = fixture_file(&folder, "MANIFEST.json", text);
     *err = (Error){0};
     fit.force = true;
     return fixture_try(&folder, path, &fit, fixture_path(&folder, panel), bytes, out, err);
 }
 
-TEST(what_is_wrong_with_places_is_named)
-{
-    static const struct { const char *text, *parts[3]; } cases[] = {
+TEST(what_is_wrong_with_places_is_named) {
+    static const struct {
+        const char *text, *parts[3];
+    } cases[] = {
         {"{\"spots\": 3}", {"/spots", "is a number", "an array"}},
         {"{\"spots\": []}", {"/spots", "0 values", "1 to 49"}},
         {"{\"spots\": [5]}", {"/spots/0", "required: an object", ""}},
@@ -100,20 +98,18 @@ TEST(what_is_wrong_with_places_is_named)
          {"/spots/0/position", "1 values", "required: 2"}},
         {"{\"spots\": [{\"position\": 0.5," WHITE("a.csv") "}]}",
          {"/spots/0/position", "is a number", ""}},
-        {"{\"spots\": [" SPOT("0.5, 1.2", "a.csv") "]}",
-         {"/spots/0/position", "1.2", "0 to 1"}},
-        {"{\"spots\": [" SPOT("-0.1, 0", "a.csv") "]}",
-         {"/spots/0/position", "-0.1", "0 to 1"}},
+        {"{\"spots\": [" SPOT("0.5, 1.2", "a.csv") "]}", {"/spots/0/position", "1.2", "0 to 1"}},
+        {"{\"spots\": [" SPOT("-0.1, 0", "a.csv") "]}", {"/spots/0/position", "-0.1", "0 to 1"}},
         {"{\"spots\": [{\"position_mm\": [5, 5]," WHITE("a.csv") "}]}",
          {"/spots/0/position_mm", "no 'size_mm'", ""}},
         {"{\"size_mm\": [10, 20], \"spots\": [{\"position_mm\": [11, 5]," WHITE("a.csv") "}]}",
          {"/spots/0/position_mm", "is 11", "0 to 10 mm"}},
         {"{\"spots\": [{\"position_mm\": [5, 5], \"position\": [0, 0]," WHITE("a.csv") "}]}",
          {"/spots/0", "both 'position' and 'position_mm'", ""}},
-        {"{\"spots\": [{\"at\": [0, 0]," WHITE("a.csv") "}]}",
-         {"/spots/0/at", "unknown key", ""}},
-        {"{\"spots\": [" SPOT("0, 0", "a.csv") "," SPOT("0.5, 0.5", "a.csv") ","
-         SPOT("0, 0", "b.csv") "]}", {"/spots/2", "same place as spot 0", ""}},
+        {"{\"spots\": [{\"at\": [0, 0]," WHITE("a.csv") "}]}", {"/spots/0/at", "unknown key", ""}},
+        {"{\"spots\": [" SPOT("0, 0", "a.csv") "," SPOT("0.5, 0.5", "a.csv") "," SPOT("0, 0",
+                                                                                      "b.csv") "]}",
+         {"/spots/2", "same place as spot 0", ""}},
         {"{\"spots\": [" SPOT("0, 0", "gone.csv") "]}", {"gone.csv", "", ""}},
         {"{\"spots\": [" SPOT("0, 0", "a.csv") ", {\"position\": [1, 1], " REFLECTION "}]}",
          {"/spots/0", "no 'reflection' as other spots have", "none that would serve"}},
@@ -132,8 +128,7 @@ TEST(what_is_wrong_with_places_is_named)
         {MAP("\"file\": \"half.csv\""), {"half.csv", "3 pixels of 2 x 2", "all"}},
         {MAP("\"file\": \"twice.csv\""), {"twice.csv: line 3", "0,0", "twice"}},
         {MAP("\"file\": \"broken.csv\""), {"broken.csv: line 2", "column is 0.5", "whole"}},
-        {MAP("\"file\": \"negative.csv\""),
-         {"negative.csv: pixel 1,0", "-0.5", "from 0 to 1e+09"}},
+        {MAP("\"file\": \"negative.csv\""), {"negative.csv: pixel 1,0", "-0.5", "from 0 to 1e+09"}},
         {MAP("\"file\": \"most.csv\""), {"most.csv: pixel 0,0", "2e+09", "from 0 to 1e+09"}},
         {MAP("\"file\": \"nan.csv\""), {"nan.csv: line 3", "nan", ""}},
         {MAP("\"file\": \"dark.csv\""), {"dark.csv", "white's Y is 0 everywhere", ""}},
@@ -141,8 +136,7 @@ TEST(what_is_wrong_with_places_is_named)
         {MAP("\"file\": \"xy.csv\""), {"xy.csv", "only some of X, Y and Z", ""}},
         {MAP("\"file\": \"none.csv\""), {"none.csv", "has no column Y", ""}},
         {MAP("\"file\": \"rgb.exr\""), {"rgb.exr", "has no channel Y", ""}},
-        {MAP("\"file\": \"other.csv\""),
-         {"other.csv", "column 'Black_Y' is unknown", "'black_Y'"}},
+        {MAP("\"file\": \"other.csv\""), {"other.csv", "column 'Black_Y' is unknown", "'black_Y'"}},
         {MAP("\"file\": \"map.csv\", \"black\": \"both.csv\""),
          {"both.csv", "named as \"black\"", "alone"}},
         {MAP("\"file\": \"rows.csv\""), {"rows.csv", "no column 'column'", ""}},
@@ -155,7 +149,8 @@ TEST(what_is_wrong_with_places_is_named)
         {MAP("\"file\": \"map.csv\", \"camera_mm\": 500"),
          {"/uniformity/camera_mm", "no 'size_mm'", ""}},
         {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 0}, \"spots\": [{\"position\": "
-         "[0, 0], " REFLECTION "}]}", {"/polarisation", "no 'emission'", ""}},
+         "[0, 0], " REFLECTION "}]}",
+         {"/polarisation", "no 'emission'", ""}},
         {"{" REFLECTION ", \"polarisation\": {\"degree\": 1, \"azimuth_deg\": 0}}",
          {"/polarisation", "no 'emission'", ""}},
         {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 0}, \"spots\": {}}",
@@ -165,7 +160,7 @@ TEST(what_is_wrong_with_places_is_named)
     write_tables();
     write_exr("rgb.exr", (const char *const[4]){"R", "G", "B", "A"});
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Panel    *panel;
+        Panel *panel;
         FileBytes bytes;
         if (try_manifest(cases[i].text, "wrong.panel", &panel, &bytes, why()))
             fail_msg("was accepted: %s", cases[i].text);
@@ -174,15 +169,15 @@ TEST(what_is_wrong_with_places_is_named)
 }
 
 /* One spot, or spots that leave nothing to choose, and no map: the file of old. */
-TEST(one_spot_is_a_plain_panel_to_the_byte)
-{
-    Panel    *plain, *spot;
+TEST(one_spot_is_a_plain_panel_to_the_byte) {
+    Panel *plain, *spot;
     FileBytes old, now;
     write_tables();
-    assert_done(try_manifest("{" WHITE("a.csv") ", " REFLECTION "}", "x.panel", &plain, &old,
-                             &err));
-    assert_done(try_manifest("{\"spots\": [{\"position\": [0.2, 0.7], " WHITE("a.csv") ", "
-                             REFLECTION "}]}", "x.panel", &spot, &now, &err));
+    assert_done(
+        try_manifest("{" WHITE("a.csv") ", " REFLECTION "}", "x.panel", &plain, &old, &err));
+    assert_done(try_manifest(
+        "{\"spots\": [{\"position\": [0.2, 0.7], " WHITE("a.csv") ", " REFLECTION "}]}", "x.panel",
+        &spot, &now, &err));
     assert_int_equal(now.size, old.size);
     assert_memory_equal(now.data, old.data, old.size);
     assert_false(panel_varies(spot));
@@ -195,16 +190,16 @@ TEST(one_spot_is_a_plain_panel_to_the_byte)
 }
 
 /* Where a spot leaves a part out, the manifest's own serves there. */
-TEST(the_manifests_own_tables_serve_where_a_spot_has_none)
-{
-    Panel      *panel;
-    FileBytes   bytes;
+TEST(the_manifests_own_tables_serve_where_a_spot_has_none) {
+    Panel *panel;
+    FileBytes bytes;
     const float rgb[3] = {255, 255, 255}, places[3][2] = {{0, 0}, {1, 0}, {0.25f, 0}};
     const double wanted[3] = {100, 200, 125};
     write_tables();
     assert_done(try_manifest("{" WHITE("a.csv") ", " REFLECTION ", \"spots\": ["
-                             "{\"position\": [0, 0], " REFLECTION "}, " SPOT("1, 0", "b.csv")
-                             "]}", "x.panel", &panel, &bytes, &err));
+                                                "{\"position\": [0, 0], " REFLECTION
+                                                "}, " SPOT("1, 0", "b.csv") "]}",
+                             "x.panel", &panel, &bytes, &err));
     for (int i = 0; i < 3; i++) {
         float xyz[3];
         panel_place_emission_xyz(panel, places[i], vec3(0, 0, 1), rgb, xyz);
@@ -216,15 +211,17 @@ TEST(the_manifests_own_tables_serve_where_a_spot_has_none)
 
 /* A map alone: ratios to the middle, bilinear between pixels, held at the edges; cd/m2 or
  * shares are the same. Black without a map of its own follows white. */
-TEST(a_map_counts_relative_to_where_the_panel_was_measured)
-{
-    Panel    *panel;
+TEST(a_map_counts_relative_to_where_the_panel_was_measured) {
+    Panel *panel;
     FileBytes bytes;
     const float rgb[3] = {255, 255, 255};
     /* the middle is (1 + 0.5 + 2 + 1) / 4 */
-    const struct { float at[2]; double share; } cases[] = {
-        {{0.5f, 0.5f}, 1}, {{0.25f, 0.25f}, 1 / 1.125}, {{0.75f, 0.25f}, 0.5 / 1.125},
-        {{0.25f, 0.75f}, 2 / 1.125}, {{0, 1}, 2 / 1.125}, {{0.5f, 0.25f}, 0.75 / 1.125},
+    const struct {
+        float at[2];
+        double share;
+    } cases[] = {
+        {{0.5f, 0.5f}, 1},           {{0.25f, 0.25f}, 1 / 1.125}, {{0.75f, 0.25f}, 0.5 / 1.125},
+        {{0.25f, 0.75f}, 2 / 1.125}, {{0, 1}, 2 / 1.125},         {{0.5f, 0.25f}, 0.75 / 1.125},
     };
     write_tables();
     assert_done(try_manifest(MAP("\"file\": \"map.csv\""), "x.panel", &panel, &bytes, &err));
@@ -241,30 +238,27 @@ TEST(a_map_counts_relative_to_where_the_panel_was_measured)
     panel_close(panel);
 }
 
-static void write_png(const char *name, int first, int step, int bits)
-{
+static void write_png(const char *name, int first, int step, int bits) {
     Picture picture = picture_create(3, 2, &folder.arena);
     for (int i = 0; i < 6; i++)
         for (int k = 0; k < 3; k++) picture.rgb[3 * i + k] = seen[first + step * k][i];
-    assert_done(picture_write(fixture_path(&folder, name), &picture, (PictureFile){.bits =
-                                                                                   bits},
+    assert_done(picture_write(fixture_path(&folder, name), &picture, (PictureFile){.bits = bits},
                               folder.arena, &err));
 }
 
 /* The same map as numbers, as OpenEXR and as 16-bit pictures; 8 bits are refused. */
-TEST(a_map_is_the_same_in_every_format)
-{
+TEST(a_map_is_the_same_in_every_format) {
     static const char *const maps[3] = {MAP("\"file\": \"m.csv\""), MAP("\"file\": \"m.exr\""),
                                         MAP("\"file\": \"m.png\", \"black\": \"k.png\"")};
-    Panel    *panel[3];
+    Panel *panel[3];
     FileBytes bytes;
-    char      text[1024];
-    size_t    n = (size_t)snprintf(text, sizeof text, "column,row,X,Y,Z,black_Y\n");
+    char text[1024];
+    size_t n = (size_t)snprintf(text, sizeof text, "column,row,X,Y,Z,black_Y\n");
     write_tables();
     for (int i = 0; i < 6; i++)
         n += (size_t)snprintf(text + n, sizeof text - n, "%d,%d,%.9g,%.9g,%.9g,%.9g\n", i % 3,
-                              i / 3, (double)seen[0][i], (double)seen[1][i],
-                              (double)seen[2][i], (double)seen[3][i]);
+                              i / 3, (double)seen[0][i], (double)seen[1][i], (double)seen[2][i],
+                              (double)seen[3][i]);
     fixture_file(&folder, "m.csv", text);
     write_exr("m.exr", (const char *const[4]){"X", "Y", "Z", "black.Y"});
     write_png("m.png", 0, 1, 16);
@@ -287,11 +281,10 @@ TEST(a_map_is_the_same_in_every_format)
 }
 
 /* A bent display and a camera close by: what only the angle made is taken out again. */
-TEST(what_the_camera_saw_under_an_angle_is_no_mura)
-{
-    Panel    *panel;
+TEST(what_the_camera_saw_under_an_angle_is_no_mura) {
+    Panel *panel;
     FileBytes bytes;
-    char      text[16384], cosines[8192];
+    char text[16384], cosines[8192];
     const float rgb[3] = {255, 255, 255};
     size_t n = (size_t)snprintf(text, sizeof text, "theta,phi,X,Y,Z\n");
     for (int t = 0; t <= 85; t += 5) /* light that falls with the cosine's square */
@@ -310,30 +303,30 @@ TEST(what_the_camera_saw_under_an_angle_is_no_mura)
         n += (size_t)snprintf(cosines + n, sizeof cosines - n, "%d,0,%.8g\n", i, c * c);
     }
     fixture_file(&folder, "seen.csv", cosines);
-    assert_done(try_manifest("{\"size_mm\": [300, 100], " WHITE("cosine.csv")
-                             ", \"uniformity\": {\"file\": \"seen.csv\", \"camera_mm\": 500, "
-                             "\"bend_deg\": 57.29577951308232}}", "x.panel", &panel, &bytes,
-                             &err));
+    assert_done(try_manifest(
+        "{\"size_mm\": [300, 100], " WHITE(
+            "cosine.csv") ", \"uniformity\": {\"file\": \"seen.csv\", \"camera_mm\": 500, "
+                          "\"bend_deg\": 57.29577951308232}}",
+        "x.panel", &panel, &bytes, &err));
     PanelEvenness e = panel_evenness(panel, rgb);
     assert_true(panel_non_uniformity(e.least, e.most) < 2e-3);
     panel_close(panel);
 }
 
-#define PLACED                                                                                 \
-    "{\"emission\": {" FIXTURE_SPECTRA "\"black_cd_m2\": 0.7, \"levels\": [127, 255]},"        \
-    "\"reflection\": {\"haze_share\": 0.5, \"haze_width\": 0.2, \"incidence_deg\": [20, 50],"  \
-    "\"wavelengths_nm\": [450, 550, 650]},"                                                    \
-    "\"instrument\": {\"theta_step_deg\": 2, \"phi_step_deg\": 6}, \"places\": {"              \
-    "\"u\": [0.2, 0.9, 0.4], \"v\": [0.1, 0.3, 0.8], \"map\": [48, 27], \"mura\": 0.06,"       \
+#define PLACED \
+    "{\"emission\": {" FIXTURE_SPECTRA "\"black_cd_m2\": 0.7, \"levels\": [127, 255]}," \
+    "\"reflection\": {\"haze_share\": 0.5, \"haze_width\": 0.2, \"incidence_deg\": [20, 50]," \
+    "\"wavelengths_nm\": [450, 550, 650]}," \
+    "\"instrument\": {\"theta_step_deg\": 2, \"phi_step_deg\": 6}, \"places\": {" \
+    "\"u\": [0.2, 0.9, 0.4], \"v\": [0.1, 0.3, 0.8], \"map\": [48, 27], \"mura\": 0.06," \
     "\"mura_cycles\": [3, 2], \"tint\": 0.08, \"clouding\": 0.6}}"
 
 /* What is exported is fitted to the same display again. */
-TEST(an_export_of_places_says_the_same)
-{
+TEST(an_export_of_places_says_the_same) {
     ENDS_BY(fixture_end) Fixture f;
-    Panel        *again;
-    ExportOptions coarse = {.theta_step_deg = 2, .phi_step_deg = 6, .mirror_fwhm_deg = -1,
-                            .progress = PROGRESS_NONE};
+    Panel *again;
+    ExportOptions coarse = {
+        .theta_step_deg = 2, .phi_step_deg = 6, .mirror_fwhm_deg = -1, .progress = PROGRESS_NONE};
     fixture_start(&f, PLACED, NULL);
     const char *out = fixture_path(&f, "out"), *file = fixture_path(&f, "again.panel");
     const char *manifest = fixture_path(&f, "out/MANIFEST.json");
@@ -344,7 +337,7 @@ TEST(an_export_of_places_says_the_same)
     for (int i = 0; i < 40; i++) {
         float place[2] = {0.025f * (float)i, 0.5f + 0.012f * (float)i}, rgb[3] = {255, 90, 180};
         float a[3], b[3];
-        Vec3  d = direction_deg(2.0 * i, 31.0 * i);
+        Vec3 d = direction_deg(2.0 * i, 31.0 * i);
         panel_place_emission_xyz(f.panel, place, d, rgb, a);
         panel_place_emission_xyz(again, place, d, rgb, b);
         for (int j = 0; j < 3; j++) assert_close((double)b[j], (double)a[j], 0.006);

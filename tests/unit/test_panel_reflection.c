@@ -8,20 +8,19 @@
 /* ---- surfaces ---------------------------------------------------------------------------- */
 
 /* Haze of the ABC form and a floor, bluer in the haze. */
-static double hazy(double theta_i, double phi_i, double theta, double phi, double nm)
-{
+static double hazy(double theta_i, double phi_i, double theta, double phi, double nm) {
     double si = sin(theta_i), so = sin(theta), sp = sin(0.5 * phi), w = 0.12;
     double b2 = (so - si) * (so - si) + 4 * so * si * sp * sp, d = (nm - 550) / 150;
     (void)phi_i;
     return (0.8 + 0.2 * d * d) * sqrt(fresnel(cos(theta_i)) * fresnel(cos(theta))) * 0.5 / w *
-               pow(1 + b2 / (w * w), -1.7) + 0.002;
+               pow(1 + b2 / (w * w), -1.7) +
+           0.002;
 }
 
 /* The same, and a lobe of 3 degrees on it. */
 #define LOBE_FWHM_DEG 3.0
 #define LOBE_SHARE 0.3 /* of Fresnel's reflectance */
-static double lobed(double theta_i, double phi_i, double theta, double phi, double nm)
-{
+static double lobed(double theta_i, double phi_i, double theta, double phi, double nm) {
     double dt = sin(0.5 * (theta - theta_i)), dp = sin(0.5 * phi);
     double angle = 2 * asin(sqrt(dt * dt + sin(theta) * sin(theta_i) * dp * dp));
     double sigma = radians_from_degrees(LOBE_FWHM_DEG) / sqrt(8 * log(2));
@@ -31,11 +30,9 @@ static double lobed(double theta_i, double phi_i, double theta, double phi, doub
 }
 
 /* Brushed along x: wide across it. */
-static double brushed(double theta_i, double phi_i, double theta, double phi, double nm)
-{
+static double brushed(double theta_i, double phi_i, double theta, double phi, double nm) {
     double along = phi_i - PI, si = sin(theta_i), so = sin(theta);
-    double x = so * cos(phi + along) - si * cos(along), y = so * sin(phi + along) -
-                                                            si * sin(along);
+    double x = so * cos(phi + along) - si * cos(along), y = so * sin(phi + along) - si * sin(along);
     double b2 = x * x / (0.15 * 0.15) + y * y / (0.3 * 0.3);
     (void)nm;
     return 0.4 * sqrt(fresnel(cos(theta_i)) * fresnel(cos(theta))) * pow(1 + b2, -1.5) / 0.045 +
@@ -43,25 +40,28 @@ static double brushed(double theta_i, double phi_i, double theta, double phi, do
 }
 
 /* As bright as white can be. */
-static double white(double theta_i, double phi_i, double theta, double phi, double nm)
-{
+static double white(double theta_i, double phi_i, double theta, double phi, double nm) {
     (void)theta_i, (void)phi_i, (void)theta, (void)phi, (void)nm;
     return 1.02 / PI;
 }
 
-static const Tables HAZY = {.incidence_deg = {5, 20, 35, 50, 65}, .incidences = 5,
-                            .azimuths = 1, .wavelengths = WAVELENGTHS, .theta_step = 2,
-                            .phi_step = 6, .theta_max = 84, .surface = hazy};
+static const Tables HAZY = {.incidence_deg = {5, 20, 35, 50, 65},
+                            .incidences = 5,
+                            .azimuths = 1,
+                            .wavelengths = WAVELENGTHS,
+                            .theta_step = 2,
+                            .phi_step = 6,
+                            .theta_max = 84,
+                            .surface = hazy};
 
 /* Where it differs from HAZY, fitted with `options`; a zero keeps what HAZY has. */
 typedef struct Grid {
-    int    incidences, azimuths, wavelengths;
+    int incidences, azimuths, wavelengths;
     double theta_step, phi_step, theta_max; /* degrees */
     double instrument_fwhm_deg;
 } Grid;
 
-static Fitted fit_surface(Surface *surface, Grid grid, FitOptions options)
-{
+static Fitted fit_surface(Surface *surface, Grid grid, FitOptions options) {
     Fitted f;
     Tables tables = HAZY;
     tables.surface = surface;
@@ -82,17 +82,15 @@ static Fitted shared; /* of HAZY, with what `fit` chooses */
 
 /* Largest error relative to the surface's value, at samples (between = 0) or off them; light
  * at phi_i. */
-static double largest_error(const Fitted *f, double incidence_deg, double phi_i, double between)
-{
+static double largest_error(const Fitted *f, double incidence_deg, double phi_i, double between) {
     const Tables *t = &f->tables;
     double worst = 0, theta_i = radians_from_degrees(incidence_deg);
     Wavelengths w = even_wavelengths(400, 20);
-    Vec3   light = direction_deg(incidence_deg, degrees_from_radians(phi_i));
+    Vec3 light = direction_deg(incidence_deg, degrees_from_radians(phi_i));
     for (double a = between; a <= t->theta_max; a += 2 * t->theta_step)
         for (double p = between; p < 360; p += 3 * t->phi_step) {
-            Spectrum v = panel_brdf(f->fit.panel,
-                                    direction_deg(a, p + degrees_from_radians(phi_i) - 180),
-                                    light, &w);
+            Spectrum v = panel_brdf(
+                f->fit.panel, direction_deg(a, p + degrees_from_radians(phi_i) - 180), light, &w);
             for (int k = 0; k < t->wavelengths; k++) {
                 double truth = t->surface(theta_i, phi_i, radians_from_degrees(a),
                                           radians_from_degrees(p), (double)w.nm[k]);
@@ -102,25 +100,22 @@ static double largest_error(const Fitted *f, double incidence_deg, double phi_i,
     return worst;
 }
 
-TEST(the_bound_holds_at_every_sample_and_wavelength)
-{
+TEST(the_bound_holds_at_every_sample_and_wavelength) {
     for (int i = 0; i < HAZY_INCIDENCES; i++) {
         double worst = largest_error(&shared, HAZY.incidence_deg[i], PI, 0);
-        if (!(worst <= 0.0205))
-            fail_msg("%g degrees: %.4f", HAZY.incidence_deg[i], worst);
+        if (!(worst <= 0.0205)) fail_msg("%g degrees: %.4f", HAZY.incidence_deg[i], worst);
     }
 }
 
-TEST(between_incidences_the_peak_has_moved_and_keeps_its_height)
-{
+TEST(between_incidences_the_peak_has_moved_and_keeps_its_height) {
     Wavelengths w = even_wavelengths(400, 20);
     for (double incidence = 10; incidence <= 60; incidence += 10) {
         double best = 0, at = 0, truth = 0;
         double theta_i = radians_from_degrees(incidence);
-        Vec3   light = direction_deg(incidence, 180);
+        Vec3 light = direction_deg(incidence, 180);
         for (double a = incidence - 8; a < incidence + 8; a += 0.05) {
-            double f = (double)panel_brdf(
-                shared.fit.panel, direction_deg(fabs(a), a < 0 ? 180 : 0), light, &w)[8];
+            double f = (double)panel_brdf(shared.fit.panel, direction_deg(fabs(a), a < 0 ? 180 : 0),
+                                          light, &w)[8];
             double t = hazy(theta_i, PI, radians_from_degrees(fabs(a)), a < 0 ? PI : 0, 560);
             if (f > best) best = f, at = a;
             truth = fmax(truth, t);
@@ -130,15 +125,13 @@ TEST(between_incidences_the_peak_has_moved_and_keeps_its_height)
     }
 }
 
-TEST(light_from_any_azimuth_reads_the_same)
-{
+TEST(light_from_any_azimuth_reads_the_same) {
     Wavelengths w = even_wavelengths(400, 20);
     for (double turn = 0; turn < 360; turn += 37)
         assert_turns(shared.fit.panel, (double[]){40, 12}, 30, turn, &w, 5);
 }
 
-TEST(at_the_normal_the_azimuth_does_not_matter)
-{
+TEST(at_the_normal_the_azimuth_does_not_matter) {
     Wavelengths w = even_wavelengths(400, 20);
     Spectrum a = panel_brdf(shared.fit.panel, direction_deg(9, 0), direction_deg(0, 0), &w);
     for (double p = 0; p < 360; p += 30) {
@@ -148,13 +141,11 @@ TEST(at_the_normal_the_azimuth_does_not_matter)
     }
 }
 
-TEST(wavelengths_between_the_measured_ones_lie_between_their_values)
-{
+TEST(wavelengths_between_the_measured_ones_lie_between_their_values) {
     Wavelengths at = even_wavelengths(400, 20), between = even_wavelengths(410, 20);
-    Spectrum a =
-        panel_brdf(shared.fit.panel, direction_deg(30, 20), direction_deg(35, 180), &at);
-    Spectrum b = panel_brdf(shared.fit.panel, direction_deg(30, 20), direction_deg(35, 180),
-                            &between);
+    Spectrum a = panel_brdf(shared.fit.panel, direction_deg(30, 20), direction_deg(35, 180), &at);
+    Spectrum b =
+        panel_brdf(shared.fit.panel, direction_deg(30, 20), direction_deg(35, 180), &between);
     for (int i = 0; i < 15; i++) {
         assert_true(b[i] <= fmaxf(a[i], a[i + 1]) * 1.0001f);
         assert_true(b[i] >= fminf(a[i], a[i + 1]) * 0.9999f);
@@ -162,18 +153,16 @@ TEST(wavelengths_between_the_measured_ones_lie_between_their_values)
     assert_close(b[15], a[15], 1e-5);
 }
 
-static bool is_measured(double incidence_deg, double theta_deg)
-{
+static bool is_measured(double incidence_deg, double theta_deg) {
     return panel_brdf_is_measured(shared.fit.panel, direction_deg(theta_deg, 90),
                                   direction_deg(incidence_deg, 180));
 }
 
-TEST(extrapolation_is_continuous_and_flagged)
-{
+TEST(extrapolation_is_continuous_and_flagged) {
     Wavelengths w = even_wavelengths(400, 20);
     for (double theta = 0; theta < 84; theta += 7)
         for (double phi = 0; phi <= 180; phi += 45) {
-            Vec3     out = direction_deg(theta, phi);
+            Vec3 out = direction_deg(theta, phi);
             Spectrum a = panel_brdf(shared.fit.panel, out, direction_deg(64.99, 180), &w);
             Spectrum b = panel_brdf(shared.fit.panel, out, direction_deg(65.01, 180), &w);
             for (int k = 0; k < SPECTRUM_LANES; k++) assert_close(b[k], a[k], 0.01);
@@ -183,8 +172,7 @@ TEST(extrapolation_is_continuous_and_flagged)
     assert_false(is_measured(30, 86));
 }
 
-TEST(beyond_the_measured_incidences_haze_follows_fresnel)
-{
+TEST(beyond_the_measured_incidences_haze_follows_fresnel) {
     for (double theta = 68; theta <= 80; theta += 4) {
         double f = brdf_deg(shared.fit.panel, (double[]){theta, 0}, (double[]){theta, 180}, 8);
         double angle = radians_from_degrees(theta);
@@ -193,8 +181,7 @@ TEST(beyond_the_measured_incidences_haze_follows_fresnel)
 }
 
 /* Haze integrated over the hemisphere, with the cosine. */
-static double albedo_at(const Panel *panel, double incidence_deg, int lane)
-{
+static double albedo_at(const Panel *panel, double incidence_deg, int lane) {
     double sum = 0, step = radians_from_degrees(1);
     for (double a = 0.5; a < 90; a++)
         for (double p = 1; p < 360; p += 2) {
@@ -205,38 +192,34 @@ static double albedo_at(const Panel *panel, double incidence_deg, int lane)
     return sum;
 }
 
-TEST(a_white_furnace_gives_no_more_than_it_gets)
-{
+TEST(a_white_furnace_gives_no_more_than_it_gets) {
     ENDS_BY(fitted_end) Fitted f = fit_surface(white, (Grid){.wavelengths = 2}, quick());
     for (double i = 0; i < 90; i += 8.9)
         if (!(albedo_at(f.fit.panel, i, 0) <= 1.001))
             fail_msg("%g degrees: %.5f", i, albedo_at(f.fit.panel, i, 0));
 }
 
-TEST(the_albedo_is_the_integral)
-{
-    size_t  i;
+TEST(the_albedo_is_the_integral) {
+    size_t i;
     json_t *table;
     json_array_foreach(json_object_get(shared.fit.report, "tables"), i, table)
         assert_near(json_number_at(table, "integral_error"), 0, 1e-3);
     for (double theta = 5; theta <= 65; theta += 15) { /* the luminous mean is near 560 nm */
         double albedo = albedo_at(shared.fit.panel, theta, 8);
-        assert_close(
-            panel_haze_albedo(shared.fit.panel, (float)cos(radians_from_degrees(theta))),
-            albedo, 0.02);
+        assert_close(panel_haze_albedo(shared.fit.panel, (float)cos(radians_from_degrees(theta))),
+                     albedo, 0.02);
     }
 }
 
 /* ---- bases along the wavelengths and on the hemisphere ----------------------------------- */
 
-TEST(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound)
-{
+TEST(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound) {
     static const struct {
         const char *name;
-        FitBasis    basis;
-        bool        has_wavelet;
+        FitBasis basis;
+        bool has_wavelet;
         WaveletKind wavelet;
-        double      most;
+        double most;
     } CASES[] = {{"principal", FIT_VERTEX, false, WAVELET_HAAR, 0.0205},
                  {"haar spectra", FIT_VERTEX, true, WAVELET_HAAR, 0.0205},
                  {"cdf53 spectra", FIT_VERTEX, true, WAVELET_CDF53, 0.0205},
@@ -247,7 +230,8 @@ TEST(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound)
         options.basis = CASES[i].basis;
         options.has_wavelet = CASES[i].has_wavelet;
         options.wavelet = CASES[i].wavelet;
-        ENDS_BY(fitted_end) Fitted f = fit_surface(
+        ENDS_BY(fitted_end)
+        Fitted f = fit_surface(
             hazy, (Grid){.incidences = 2, .phi_step = 12, .theta_step = 3, .wavelengths = 8},
             options);
         double worst = fmax(largest_error(&f, 5, PI, 0), largest_error(&f, 20, PI, 0));
@@ -257,14 +241,13 @@ TEST(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound)
 
 /* ---- the parts --------------------------------------------------------------------------- */
 
-static const json_t *part_at(const Fitted *f, size_t incidence)
-{
+static const json_t *part_at(const Fitted *f, size_t incidence) {
     return json_array_get(json_at(f->fit.report, "reflection/mirror"), incidence);
 }
 
-TEST(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences)
-{
-    ENDS_BY(fitted_end) Fitted f =
+TEST(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences) {
+    ENDS_BY(fitted_end)
+    Fitted f =
         fit_surface(lobed, (Grid){.wavelengths = 3, .theta_step = 1, .phi_step = 3}, quick());
     for (size_t i = 0; i < HAZY_INCIDENCES; i++) {
         const json_t *part = part_at(&f, i);
@@ -274,17 +257,19 @@ TEST(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences)
     }
     for (double incidence = 12; incidence < 60; incidence += 15) {
         Wavelengths w = even_wavelengths(400, 20);
-        Spectrum v = panel_brdf(f.fit.panel, direction_deg(incidence, 0),
-                                direction_deg(incidence, 180), &w);
+        Spectrum v =
+            panel_brdf(f.fit.panel, direction_deg(incidence, 0), direction_deg(incidence, 180), &w);
         double theta = radians_from_degrees(incidence);
         assert_close(v[2], lobed(theta, PI, theta, 0, 440), 0.015);
     }
 }
 
-TEST(an_image_as_wide_as_the_instrument_becomes_the_mirror)
-{
+TEST(an_image_as_wide_as_the_instrument_becomes_the_mirror) {
     Wavelengths w = even_wavelengths(400, 20);
-    Grid grid = {.wavelengths = 4, .incidences = 3, .theta_step = 1, .phi_step = 3,
+    Grid grid = {.wavelengths = 4,
+                 .incidences = 3,
+                 .theta_step = 1,
+                 .phi_step = 3,
                  .instrument_fwhm_deg = LOBE_FWHM_DEG};
     ENDS_BY(fitted_end) Fitted f = fit_surface(lobed, grid, quick());
     for (int i = 0; i < 3; i++) {
@@ -297,14 +282,13 @@ TEST(an_image_as_wide_as_the_instrument_becomes_the_mirror)
     }
 }
 
-TEST(a_lobe_becomes_the_mirror_only_when_asked)
-{
-    FitOptions  options = quick();
+TEST(a_lobe_becomes_the_mirror_only_when_asked) {
+    FitOptions options = quick();
     Wavelengths w = even_wavelengths(400, 20);
     options.lobe_is_mirror = true;
-    ENDS_BY(fitted_end) Fitted f = fit_surface(
-        lobed, (Grid){.wavelengths = 1, .incidences = 2, .theta_step = 1, .phi_step = 3},
-        options);
+    ENDS_BY(fitted_end)
+    Fitted f = fit_surface(
+        lobed, (Grid){.wavelengths = 1, .incidences = 2, .theta_step = 1, .phi_step = 3}, options);
     for (int i = 0; i < 2; i++) {
         double theta = f.fit.set->incidence[i];
         assert_close(panel_mirror(f.fit.panel, (float)cos(theta), &w)[0],
@@ -318,40 +302,35 @@ TEST(a_lobe_becomes_the_mirror_only_when_asked)
 /* ---- the lambertian part ----------------------------------------------------------------- */
 
 #define FLOOR 0.002 /* sr^-1, of hazy */
-static Spectrum lambertian(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *w)
-{
+static Spectrum lambertian(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *w) {
     PanelLanes lanes;
     panel_lanes(panel, w, &lanes);
     return panel_lambertian_at(panel, panel_brdf_at(panel, wo, wi, &lanes), wi, &lanes);
 }
 
-static double floor_at(const Panel *panel, Vec3 wo, Vec3 wi)
-{
+static double floor_at(const Panel *panel, Vec3 wo, Vec3 wi) {
     Wavelengths w = even_wavelengths(400, 20);
     return (double)lambertian(panel, wo, wi, &w)[8];
 }
 
-TEST(the_lambertian_part_is_a_share_of_the_whole)
-{
+TEST(the_lambertian_part_is_a_share_of_the_whole) {
     Wavelengths w = even_wavelengths(395, 21);
     for (double incidence = 0; incidence < 90; incidence += 7.3)
         for (double theta = 0; theta < 90; theta += 11)
             for (double phi = 0; phi < 360; phi += 40) {
-                Vec3     wo = direction_deg(theta, phi), wi = direction_deg(incidence, 180);
+                Vec3 wo = direction_deg(theta, phi), wi = direction_deg(incidence, 180);
                 Spectrum f = panel_brdf(shared.fit.panel, wo, wi, &w);
                 Spectrum l = lambertian(shared.fit.panel, wo, wi, &w);
-                for (int k = 0; k < SPECTRUM_LANES; k++)
-                    assert_true(l[k] > 0 && l[k] <= f[k]);
+                for (int k = 0; k < SPECTRUM_LANES; k++) assert_true(l[k] > 0 && l[k] <= f[k]);
             }
     assert_true(floor_at(shared.fit.panel, direction_deg(95, 0), direction_deg(5, 0)) == 0);
     assert_true(floor_at(shared.fit.panel, direction_deg(5, 0), direction_deg(95, 0)) == 0);
 }
 
 /* Above it by the haze that is left far from the mirror direction, 3e-4 at most here. */
-TEST(the_lambertian_part_is_the_floor_below_the_haze)
-{
+TEST(the_lambertian_part_is_the_floor_below_the_haze) {
     for (double incidence = 0; incidence <= 65; incidence += 2.5) {
-        Vec3   wi = direction_deg(incidence, 180);
+        Vec3 wi = direction_deg(incidence, 180);
         double mirror = floor_at(shared.fit.panel, direction_deg(incidence, 0), wi);
         assert_true(mirror > 0.98 * FLOOR && mirror < 1.15 * FLOOR);
         for (double phi = 0; phi < 360; phi += 60) /* alike to all sides */
@@ -359,9 +338,8 @@ TEST(the_lambertian_part_is_the_floor_below_the_haze)
     }
 }
 
-TEST(beyond_the_measured_incidences_the_floor_stays)
-{
-    Vec3   wo = direction_deg(10, 0);
+TEST(beyond_the_measured_incidences_the_floor_stays) {
+    Vec3 wo = direction_deg(10, 0);
     double last = floor_at(shared.fit.panel, wo, direction_deg(65, 180));
     for (double theta = 65.01; theta <= 89; theta += 4)
         assert_close(floor_at(shared.fit.panel, wo, direction_deg(theta, 180)), last, 1e-4);
@@ -369,13 +347,12 @@ TEST(beyond_the_measured_incidences_the_floor_stays)
 
 /* Helmholtz: where the two directions exchanged were measured, both are one number; it is the
  * surface's, which is reciprocal, and it comes and goes smoothly. */
-TEST(beyond_the_measured_incidences_exchanged_directions_are_read)
-{
+TEST(beyond_the_measured_incidences_exchanged_directions_are_read) {
     const Panel *panel = shared.fit.panel;
     for (double theta = 68; theta <= 81; theta += 3)
         for (double to = 5; to <= 62; to += 15) /* as measured */
             for (double phi = 0; phi < 360; phi += 40) {
-                Vec3   wi = direction_deg(theta, 180), wo = direction_deg(to, phi);
+                Vec3 wi = direction_deg(theta, 180), wo = direction_deg(to, phi);
                 double here = brdf_deg(panel, (double[]){to, phi}, (double[]){theta, 180}, 8);
                 double back = brdf_deg(panel, (double[]){theta, 180}, (double[]){to, phi}, 8);
                 double truth = hazy(radians_from_degrees(theta), PI, radians_from_degrees(to),
@@ -392,20 +369,18 @@ TEST(beyond_the_measured_incidences_exchanged_directions_are_read)
     }
 }
 
-static double matt(double theta_i, double phi_i, double theta, double phi, double nm)
-{
+static double matt(double theta_i, double phi_i, double theta, double phi, double nm) {
     (void)theta_i, (void)phi_i, (void)theta, (void)phi;
     return 0.003 * nm / 550;
 }
 
-TEST(a_face_alike_to_all_sides_has_no_haze)
-{
+TEST(a_face_alike_to_all_sides_has_no_haze) {
     Wavelengths w = even_wavelengths(400, 20);
     Grid grid = {.wavelengths = 4, .azimuths = 4, .incidences = 3};
     ENDS_BY(fitted_end) Fitted f = fit_surface(matt, grid, quick());
     for (double turn = 0; turn < 360; turn += 51)
         for (double incidence = 3; incidence < 35; incidence += 9) {
-            Vec3     wo = direction_deg(30, 2 * turn), wi = direction_deg(incidence, turn);
+            Vec3 wo = direction_deg(30, 2 * turn), wi = direction_deg(incidence, turn);
             Spectrum all = panel_brdf(f.fit.panel, wo, wi, &w);
             Spectrum part = lambertian(f.fit.panel, wo, wi, &w);
             for (int k = 0; k < 4; k++) assert_close(part[k], all[k], 0.021);
@@ -414,10 +389,13 @@ TEST(a_face_alike_to_all_sides_has_no_haze)
 
 /* ---- azimuths of the light --------------------------------------------------------------- */
 
-TEST(a_brushed_surface_is_told_between_azimuths)
-{
-    Grid grid = {.wavelengths = 1, .azimuths = 16, .incidences = 2, .theta_step = 3,
-                 .phi_step = 9, .theta_max = 81};
+TEST(a_brushed_surface_is_told_between_azimuths) {
+    Grid grid = {.wavelengths = 1,
+                 .azimuths = 16,
+                 .incidences = 2,
+                 .theta_step = 3,
+                 .phi_step = 9,
+                 .theta_max = 81};
     ENDS_BY(fitted_end) Fitted f = fit_surface(brushed, grid, quick());
     for (int a = 0; a < 16; a += 5) {
         double at = largest_error(&f, 20, 2 * PI * a / 16, 0);
@@ -427,10 +405,9 @@ TEST(a_brushed_surface_is_told_between_azimuths)
     }
 }
 
-TEST(an_isotropic_surface_stored_with_azimuths_answers_the_same)
-{
-    ENDS_BY(fitted_end) Fitted f =
-        fit_surface(hazy, (Grid){.wavelengths = 1, .azimuths = 4, .incidences = 3}, quick());
+TEST(an_isotropic_surface_stored_with_azimuths_answers_the_same) {
+    ENDS_BY(fitted_end)
+    Fitted f = fit_surface(hazy, (Grid){.wavelengths = 1, .azimuths = 4, .incidences = 3}, quick());
     for (double turn = 0; turn < 360; turn += 51) {
         double worst = largest_error(&f, 20, radians_from_degrees(turn), 0);
         if (!(worst <= 0.0205)) fail_msg("turned by %g: %.4f", turn, worst);
@@ -441,26 +418,22 @@ TEST(an_isotropic_surface_stored_with_azimuths_answers_the_same)
 
 /* ---- zeros ------------------------------------------------------------------------------- */
 
-static double with_zeros(double theta_i, double phi_i, double theta, double phi, double nm)
-{
+static double with_zeros(double theta_i, double phi_i, double theta, double phi, double nm) {
     return fabs(phi - PI) < 0.3 && theta > 1.2 ? -1e-6 : hazy(theta_i, phi_i, theta, phi, nm);
 }
 
-TEST(zeros_and_negative_values_are_held_counted_and_told)
-{
+TEST(zeros_and_negative_values_are_held_counted_and_told) {
     Grid grid = {.wavelengths = 1, .incidences = 1};
     ENDS_BY(fitted_end) Fitted f = fit_surface(with_zeros, grid, quick());
     long masked = 0;
-    for (int i = 0; i < f.fit.set->brdf[0].rows; i++)
-        masked += f.fit.set->brdf[0].value[i] < 0;
+    for (int i = 0; i < f.fit.set->brdf[0].rows; i++) masked += f.fit.set->brdf[0].value[i] < 0;
     assert_true(masked > 0);
     assert_int_equal(json_number_at(f.fit.report, "reflection/zeros_masked"), masked);
     for (double a = 0; a < 90; a += 3)
         assert_true(brdf_deg(f.fit.panel, (double[]){a, 180}, (double[]){5, 180}, 0) > 0);
 }
 
-static int start(void **state)
-{
+static int start(void **state) {
     FitOptions options = fit_options_default();
     *state = &shared.fit;
     fit_tables(&shared, HAZY, &options);

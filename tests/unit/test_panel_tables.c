@@ -7,36 +7,34 @@
 
 static Fixture folder; /* a folder for files, nothing fitted */
 
-static int start(void **state)
-{
+static int start(void **state) {
     *state = &folder;
     fixture_folder(&folder);
     return 0;
 }
 
-#define EXPECT_LINE(err, ...)                                                                  \
-    do {                                                                                       \
-        const char *const parts_[] = {__VA_ARGS__};                                            \
-        assert_line_has(&(err), parts_, (int)(sizeof parts_ / sizeof *parts_));                \
+#define EXPECT_LINE(err, ...) \
+    do { \
+        const char *const parts_[] = {__VA_ARGS__}; \
+        assert_line_has(&(err), parts_, (int)(sizeof parts_ / sizeof *parts_)); \
     } while (0)
 
 /* Why a measurement whose file `name` holds this text is refused; it must be. */
-static Error bad_file(const char *name, const char *text)
-{
-    Error        err = {0};
+static Error bad_file(const char *name, const char *text) {
+    Error err = {0};
     Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
-    const char  *path = fixture_file(&folder, name, text);
+    const char *path = fixture_file(&folder, name, text);
     if (measurement_read(path, &folder.arena, set, &err)) fail_msg("was accepted: %s", text);
     return err;
 }
 
-TEST(tables_name_file_line_and_value)
-{
-    static const struct { const char *text, *parts[3]; } cases[] = {
+TEST(tables_name_file_line_and_value) {
+    static const struct {
+        const char *text, *parts[3];
+    } cases[] = {
         {"theta,phi,X,Y,Z\n0,0,1,1,1\n10,0,1,nan,1\n",
          {"table.csv: line 3", "column 'Y' holds 'nan'", "a finite number"}},
-        {"theta,phi,X,Y,Z\n0,0,100,100,100\n10,0,1,-7,1\n",
-         {"line 3", "-7", "noise below zero"}},
+        {"theta,phi,X,Y,Z\n0,0,100,100,100\n10,0,1,-7,1\n", {"line 3", "-7", "noise below zero"}},
         {"theta,phi,X,Y,Z\n10,0,1,1,1\n# note\n10,360,1,2,1\n",
          {"line 4", "in line 2 with different values", "every direction once"}},
         {"theta,phi,X,Y,Z\n95,0,1,1,1\n", {"line 2", "theta is 95", "0 to 90 degrees"}},
@@ -57,22 +55,21 @@ TEST(tables_name_file_line_and_value)
     }
 }
 
-TEST(every_prefix_of_a_table_is_read_or_refused)
-{
+TEST(every_prefix_of_a_table_is_read_or_refused) {
     const char *text = "theta,phi,X,Y,Z\n0,0,1,1,1\n# c\n10,0,1.5e0,2,1\n10,90,1,2,3\n";
     for (size_t n = 0; n < strlen(text); n++) {
         Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
-        const char  *cut = arena_string(&folder.arena, text, n);
-        const char  *path = fixture_file(&folder, "table.csv", cut);
-        Error        err = {0};
+        const char *cut = arena_string(&folder.arena, text, n);
+        const char *path = fixture_file(&folder, "table.csv", cut);
+        Error err = {0};
         if (!measurement_read(path, &folder.arena, set, &err)) assert_true(err.text[0] != 0);
     }
 }
 
-TEST(rows_at_the_normal_are_averaged_and_equal_doubles_pass)
-{
+TEST(rows_at_the_normal_are_averaged_and_equal_doubles_pass) {
     Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
-    const char  *path = fixture_file(&folder, "table.csv",
+    const char *path = fixture_file(
+        &folder, "table.csv",
         "phi,theta,X,Y,Z\n0,0,95,100,108\n90,0,97,102,110\n-90,-10,90,95,99\n90,10,90,95,99\n"
         "0,10,91,96,100\n");
     assert_done(measurement_read(path, &folder.arena, set, &err));
@@ -83,22 +80,21 @@ TEST(rows_at_the_normal_are_averaged_and_equal_doubles_pass)
     assert_close(sum, 101, 1e-4);
 }
 
-#define BRDF_ONLY                                                                              \
-    "\"reflection\": {\"wavelengths_nm\": [500], \"incidence_deg\": [0], "                     \
+#define BRDF_ONLY \
+    "\"reflection\": {\"wavelengths_nm\": [500], \"incidence_deg\": [0], " \
     "\"files\": \"{incidence}.csv\"}"
-#define POLARISED(text)                                                                        \
-    "{\"emission\": {\"white\": \"good.csv\"}, \"polarisation\": " text "}"
+#define POLARISED(text) "{\"emission\": {\"white\": \"good.csv\"}, \"polarisation\": " text "}"
 
-TEST(manifests_name_the_key)
-{
-    static const struct { const char *text, *parts[3]; } cases[] = {
+TEST(manifests_name_the_key) {
+    static const struct {
+        const char *text, *parts[3];
+    } cases[] = {
         {"{\"panel\": \"x\", \"emision\": {}}", {"/emision", "unknown key", "'emission'"}},
         {"{\"panel\": \"x\"}", {"MANIFEST.json", "'emission' is missing", ""}},
         {"{\"emission\": {\"red\": {}}}", {"/emission", "'black' is missing", ""}},
         {"{\"emission\": {\"white\": \"no.csv\"}}", {"no.csv", "", ""}},
         {"{\"emission\": {\"white\": 3}}", {"/emission/white", "a table's path", ""}},
-        {"{\"emission\": {\"white\": \"t.csv\", \"red\": {}}}",
-         {"both 'white' and 'red'", "", ""}},
+        {"{\"emission\": {\"white\": \"t.csv\", \"red\": {}}}", {"both 'white' and 'red'", "", ""}},
         {"{\"emission\": 3}", {"/emission", "is a number", "required: an object"}},
         {"{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {"
          "\"wavelengths_nm\": [500, 400], \"incidence_deg\": [10],"
@@ -112,7 +108,8 @@ TEST(manifests_name_the_key)
         {"{\"emission\": {\"black\": \"good.csv\", \"red\": {\"256\": \"good.csv\"}}}",
          {"/emission/red/256", "no grey level", "up to 255"}},
         {"{\"emission\": {\"black\": \"good.csv\", \"red\": {\"128\": \"good.csv\", \"128.0\": "
-         "\"good.csv\"}}}", {"same grey level", "", ""}},
+         "\"good.csv\"}}}",
+         {"same grey level", "", ""}},
         {POLARISED("3"), {"/polarisation", "is a number", "required: an object"}},
         {POLARISED("{\"degree\": 1}"), {"/polarisation", "'azimuth_deg' is missing", ""}},
         {POLARISED("{\"azimuth_deg\": 1}"), {"/polarisation", "'degree' is missing", ""}},
@@ -138,17 +135,18 @@ TEST(manifests_name_the_key)
 }
 
 /* The panel of a manifest, and the bytes of its file. */
-static Panel *fitted(const char *manifest, FileBytes *bytes)
-{
-    Panel      *panel = NULL;
+static Panel *fitted(const char *manifest, FileBytes *bytes) {
+    Panel *panel = NULL;
     const char *path = fixture_file(&folder, "MANIFEST.json", manifest);
     assert_done(fixture_try(&folder, path, NULL, folder.panel_path, bytes, &panel, &err));
     return panel;
 }
 
-TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
-{
-    static const struct { const char *text; float degree, azimuth_deg; } cases[] = {
+TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none) {
+    static const struct {
+        const char *text;
+        float degree, azimuth_deg;
+    } cases[] = {
         {POLARISED("{\"degree\": 0.995, \"azimuth_deg\": 45}"), 0.995f, 45},
         {POLARISED("{\"degree\": 1, \"azimuth_deg\": -60}"), 1, 120},
         {POLARISED("{\"degree\": 0.25, \"azimuth_deg\": 360}"), 0.25f, 0},
@@ -163,8 +161,8 @@ TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
         Panel *panel = fitted(cases[i].text, &some);
         PanelPolarisation p = panel_polarisation(panel);
         assert_true(p.degree == cases[i].degree);
-        assert_close(1 + (double)p.azimuth,
-                     1 + radians_from_degrees((double)cases[i].azimuth_deg), 1e-6);
+        assert_close(1 + (double)p.azimuth, 1 + radians_from_degrees((double)cases[i].azimuth_deg),
+                     1e-6);
         if (p.degree > 0) assert_true(some.size > none.size && some.size <= none.size + 32);
         else assert_int_equal(some.size, none.size);
         if (p.degree == 0) assert_memory_equal(some.data, none.data, none.size);
@@ -173,15 +171,14 @@ TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
 }
 
 /* Kind 14, sub-pixels, was written by releases of before. */
-TEST(a_section_that_nobody_knows_is_passed_over)
-{
-    Arena     scratch = folder.arena;
+TEST(a_section_that_nobody_knows_is_passed_over) {
+    Arena scratch = folder.arena;
     FileBytes bytes;
-    Panel    *panel;
+    Panel *panel;
     fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,95,100,108\n50,0,60,70,75\n");
     panel_close(fitted(POLARISED("{\"degree\": 1, \"azimuth_deg\": 0}"), &bytes));
     unsigned char *copy = malloc(bytes.size);
-    PanelSection  *section = (PanelSection *)(copy + sizeof(PanelHeader));
+    PanelSection *section = (PanelSection *)(copy + sizeof(PanelHeader));
     memcpy(copy, bytes.data, bytes.size);
     while (section->kind != PANEL_POLARISED) section++;
     section->kind = 14;
@@ -192,15 +189,14 @@ TEST(a_section_that_nobody_knows_is_passed_over)
 }
 
 #define PRIMARY "{\"peaks_nm\": [600], \"fwhm_nm\": [20], \"weights\": [1]}"
-#define PRIMARIES                                                                              \
-    "{\"red\": " PRIMARY ", \"green\": " PRIMARY ", \"blue\": " PRIMARY "}"
-#define RECIPE(polarisation)                                                                   \
-    "{\"emission\": " PRIMARIES ", \"polarisation\": " polarisation "}"
+#define PRIMARIES "{\"red\": " PRIMARY ", \"green\": " PRIMARY ", \"blue\": " PRIMARY "}"
+#define RECIPE(polarisation) "{\"emission\": " PRIMARIES ", \"polarisation\": " polarisation "}"
 #define PLACES(keys) "{\"emission\": " PRIMARIES ", \"places\": {" keys "}}"
 
-TEST(recipes_name_the_key)
-{
-    static const struct { const char *text, *parts[2]; } cases[] = {
+TEST(recipes_name_the_key) {
+    static const struct {
+        const char *text, *parts[2];
+    } cases[] = {
         {"{\"emission\": {\"red\": {\"peaks_nm\": [600], \"fwhm_nm\": [1], \"weights\": [1]}}}",
          {"/emission/red/fwhm_nm", "required: a number from 2 to 400"}},
         {"{\"emission\": {\"red\": {\"peak_nm\": [600]}}}",
@@ -236,17 +232,18 @@ TEST(recipes_name_the_key)
 
 /* A set in the other layouts: polar grids, one file a wavelength, rows in any order and a
  * shadow of missing directions. It must say what the plain layout says. */
-TEST(other_layouts_say_the_same)
-{
-    char   text[40000] = "";
+TEST(other_layouts_say_the_same) {
+    char text[40000] = "";
     for (int j = 0; j < 3; j++) {
-        size_t at = (size_t)snprintf(text, sizeof text, "theta\\phi,0,30,60,90,120,150,180,210,"
+        size_t at = (size_t)snprintf(text, sizeof text,
+                                     "theta\\phi,0,30,60,90,120,150,180,210,"
                                      "240,270,300,330\n");
         for (int t = 0; t <= 90; t += 5) {
             at += (size_t)snprintf(text + at, sizeof text - at, "%d", t);
             for (int p = 0; p < 12; p++)
                 at += (size_t)snprintf(text + at, sizeof text - at, ",%g",
-                    t ? 100 * (j + 1) * cos(radians_from_degrees(t)) : 100.0 * (j + 1));
+                                       t ? 100 * (j + 1) * cos(radians_from_degrees(t))
+                                         : 100.0 * (j + 1));
             at += (size_t)snprintf(text + at, sizeof text - at, "\n");
         }
         fixture_file(&folder, j == 0 ? "X.csv" : j == 1 ? "Y.csv" : "Z.csv", text);
@@ -264,7 +261,7 @@ TEST(other_layouts_say_the_same)
         "{\"emission\": {\"white\": {\"X\": \"X.csv\", \"Y\": \"Y.csv\", \"Z\": \"Z.csv\"}}}",
         "{\"emission\": {\"white\": \"rows.csv\"}}"};
     for (int m = 0; m < 2; m++) {
-        float  rgb[3] = {255, 255, 255}, xyz[3];
+        float rgb[3] = {255, 255, 255}, xyz[3];
         Panel *panel = fitted(manifests[m], NULL);
         for (int t = 0; t < 78; t += 6) {
             panel_emission_xyz(panel, direction_deg(t, 7.0 * t), rgb, xyz);
@@ -274,13 +271,12 @@ TEST(other_layouts_say_the_same)
     }
 }
 
-TEST(one_file_a_wavelength_is_one_table)
-{
-    Error        err = {0};
+TEST(one_file_a_wavelength_is_one_table) {
+    Error err = {0};
     Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
-    const char  *manifest = "{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {"
-        "\"wavelengths_nm\": [500, 600.5], \"incidence_deg\": [12.5],"
-        "\"files\": \"i{incidence}_w{wavelength}.csv\"}}";
+    const char *manifest = "{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {"
+                           "\"wavelengths_nm\": [500, 600.5], \"incidence_deg\": [12.5],"
+                           "\"files\": \"i{incidence}_w{wavelength}.csv\"}}";
     fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,1,1,1\n10,0,1,1,1\n");
     fixture_file(&folder, "i12.5_w500.csv", "theta,phi,brdf\n0,0,0.5\n10,90,0.25\n");
     fixture_file(&folder, "i12.5_w600.5.csv", "phi,theta,brdf\n90,10,2\n0,0,4\n");

@@ -12,19 +12,18 @@ enum { SIDE_MAX = 70, BYTES_MAX = 1 << 16 };
 
 /* What a file is required to be. */
 typedef struct Wish {
-    int  width, height, components, quality;
-    int  across, down; /* samples of the first component for one of the others; 0: 1 */
-    int  restart;      /* rows of blocks between marks */
+    int width, height, components, quality;
+    int across, down; /* samples of the first component for one of the others; 0: 1 */
+    int restart;      /* rows of blocks between marks */
     bool is_progressive;
 } Wish;
 
 typedef struct Bytes {
     unsigned char *data;
-    unsigned long  size;
+    unsigned long size;
 } Bytes;
 
-static void set(struct jpeg_compress_struct *jpeg, const Wish *wish)
-{
+static void set(struct jpeg_compress_struct *jpeg, const Wish *wish) {
     static const J_COLOR_SPACE spaces[] = {0, JCS_GRAYSCALE, 0, JCS_RGB, JCS_CMYK};
     jpeg->image_width = (JDIMENSION)wish->width;
     jpeg->image_height = (JDIMENSION)wish->height;
@@ -39,12 +38,11 @@ static void set(struct jpeg_compress_struct *jpeg, const Wish *wish)
 }
 
 /* Any bytes are a picture. To be freed. */
-static Bytes make_jpeg(const Wish *wish)
-{
-    static unsigned char        rows[4 * SIDE_MAX];
-    struct jpeg_error_mgr       errors;
+static Bytes make_jpeg(const Wish *wish) {
+    static unsigned char rows[4 * SIDE_MAX];
+    struct jpeg_error_mgr errors;
     struct jpeg_compress_struct jpeg = {.err = jpeg_std_error(&errors)};
-    Bytes    out = {0};
+    Bytes out = {0};
     uint32_t dice = 0;
     jpeg_create_compress(&jpeg);
     jpeg_mem_dest(&jpeg, &out.data, &out.size);
@@ -61,18 +59,16 @@ static Bytes make_jpeg(const Wish *wish)
     return out;
 }
 
-static bool read_plain(Bytes jpeg, PlainJpeg *head, unsigned char *rgba)
-{
+static bool read_plain(Bytes jpeg, PlainJpeg *head, unsigned char *rgba) {
     return plain_jpeg_open(jpeg.data, jpeg.size, head) && plain_jpeg_read(head, rgba);
 }
 
 /* Both readers' pixels, compared: grey is all three colours, and everything is opaque. */
-static void assert_as_the_library(Wish wish)
-{
+static void assert_as_the_library(Wish wish) {
     static unsigned char rgba[4 * BYTES_MAX], pixels[BYTES_MAX];
-    PlainJpeg     head;
+    PlainJpeg head;
     ImageDecoder *decoder;
-    Bytes         jpeg = make_jpeg(&wish);
+    Bytes jpeg = make_jpeg(&wish);
     assert_true(read_plain(jpeg, &head, rgba));
     assert_done(image_decoder_create("jpeg", "test", jpeg.data, jpeg.size, &decoder, &err));
     ImageFileInfo info = image_decoder_info(decoder);
@@ -89,12 +85,16 @@ static void assert_as_the_library(Wish wish)
     free(jpeg.data);
 }
 
-TEST(pixels_are_the_librarys_for_every_size_and_kind)
-{
+TEST(pixels_are_the_librarys_for_every_size_and_kind) {
     for (int side = 1; side <= SIDE_MAX; side += 23)
         for (int way = 0; way < 16; way++) {
-            Wish wish = {side, SIDE_MAX + 1 - side, 3, way & 1 ? 95 : 30, .across = 1 + way / 8,
-                         .down = 1 + way / 4 % 2, .is_progressive = way & 2};
+            Wish wish = {side,
+                         SIDE_MAX + 1 - side,
+                         3,
+                         way & 1 ? 95 : 30,
+                         .across = 1 + way / 8,
+                         .down = 1 + way / 4 % 2,
+                         .is_progressive = way & 2};
             assert_as_the_library(wish);
         }
     assert_as_the_library((Wish){50, 60, 1, 80, .restart = 0});
@@ -102,21 +102,19 @@ TEST(pixels_are_the_librarys_for_every_size_and_kind)
     assert_as_the_library((Wish){50, 60, 3, 80, .restart = 2});
 }
 
-TEST(what_has_four_components_is_left_to_the_library)
-{
+TEST(what_has_four_components_is_left_to_the_library) {
     PlainJpeg head;
-    Wish      wish = {9, 9, 4, .quality = 90};
-    Bytes     jpeg = make_jpeg(&wish);
+    Wish wish = {9, 9, 4, .quality = 90};
+    Bytes jpeg = make_jpeg(&wish);
     assert_false(plain_jpeg_open(jpeg.data, jpeg.size, &head));
     free(jpeg.data);
 }
 
-TEST(a_file_that_is_cut_anywhere_or_marked_wrongly_is_left)
-{
+TEST(a_file_that_is_cut_anywhere_or_marked_wrongly_is_left) {
     static unsigned char rgba[4 * BYTES_MAX];
     PlainJpeg head;
-    Wish      wish = {20, 30, 3, .quality = 60};
-    Bytes     jpeg = make_jpeg(&wish);
+    Wish wish = {20, 30, 3, .quality = 60};
+    Bytes jpeg = make_jpeg(&wish);
     assert_true(read_plain(jpeg, &head, rgba));
     for (Bytes cut = jpeg; cut.size > 0;) {
         cut.size--;

@@ -12,27 +12,24 @@ enum { SIDE_MAX = 40, BYTES_MAX = 1 << 15 };
 
 typedef struct Bytes {
     unsigned char data[BYTES_MAX];
-    size_t        size;
+    size_t size;
 } Bytes;
 
 /* What a file is required to be; all 0: a plain picture of one part. */
 typedef struct Wish {
-    int    width, height, colour_type, bits, interlaced;
-    int    filter;        /* of every row; negative: any */
-    size_t part_bytes;    /* of the pixels' parts; 0: one */
-    const char *extra;    /* a part of two bytes before the pixels */
-    int    rows_more;     /* than the head says */
-    bool   wrong_sum, cut; /* of the stream */
+    int width, height, colour_type, bits, interlaced;
+    int filter;          /* of every row; negative: any */
+    size_t part_bytes;   /* of the pixels' parts; 0: one */
+    const char *extra;   /* a part of two bytes before the pixels */
+    int rows_more;       /* than the head says */
+    bool wrong_sum, cut; /* of the stream */
 } Wish;
 
-static void put_u32(Bytes *b, unsigned long v)
-{
-    for (int shift = 24; shift >= 0; shift -= 8)
-        b->data[b->size++] = (unsigned char)(v >> shift);
+static void put_u32(Bytes *b, unsigned long v) {
+    for (int shift = 24; shift >= 0; shift -= 8) b->data[b->size++] = (unsigned char)(v >> shift);
 }
 
-static void put_part(Bytes *b, const char *type, const unsigned char *data, size_t size)
-{
+static void put_part(Bytes *b, const char *type, const unsigned char *data, size_t size) {
     put_u32(b, size);
     size_t start = b->size;
     memcpy(b->data + start, type, 4);
@@ -41,26 +38,23 @@ static void put_part(Bytes *b, const char *type, const unsigned char *data, size
     put_u32(b, crc32(0, b->data + start, (uInt)(4 + size)));
 }
 
-static int channels_of(const Wish *wish)
-{
+static int channels_of(const Wish *wish) {
     return (int[]){1, 0, 3, 0, 2, 0, 4}[wish->colour_type];
 }
 
 /* Any bytes are a picture, whatever the filters. */
-static size_t random_rows(const Wish *wish, uint32_t *dice, unsigned char *rows)
-{
+static size_t random_rows(const Wish *wish, uint32_t *dice, unsigned char *rows) {
     size_t row_bytes = 1 + (size_t)(wish->width * channels_of(wish) * wish->bits / 8);
     size_t size = row_bytes * (size_t)(wish->height + wish->rows_more);
     for (size_t i = 0; i < size; i++) {
         rows[i] = (unsigned char)(hash_u32((*dice)++) >> 24);
-        if (i % row_bytes == 0) rows[i] = (unsigned char)(wish->filter < 0 ? rows[i] % 5
-                                                                           : wish->filter);
+        if (i % row_bytes == 0)
+            rows[i] = (unsigned char)(wish->filter < 0 ? rows[i] % 5 : wish->filter);
     }
     return size;
 }
 
-static void put_pixels(Bytes *b, const Wish *wish, uint32_t *dice)
-{
+static void put_pixels(Bytes *b, const Wish *wish, uint32_t *dice) {
     static unsigned char rows[BYTES_MAX], packed[BYTES_MAX];
     uLongf size = sizeof packed;
     size_t raw = random_rows(wish, dice, rows);
@@ -72,10 +66,9 @@ static void put_pixels(Bytes *b, const Wish *wish, uint32_t *dice)
         put_part(b, "IDAT", packed + at, size - at < most ? size - at : most);
 }
 
-static const Bytes *make_png(const Wish *wish, uint32_t *dice)
-{
+static const Bytes *make_png(const Wish *wish, uint32_t *dice) {
     static Bytes png;
-    Bytes        head = {.size = 0};
+    Bytes head = {.size = 0};
     memcpy(png.data, "\x89PNG\r\n\x1a\n", 8);
     png.size = 8;
     put_u32(&head, (unsigned long)wish->width);
@@ -92,24 +85,21 @@ static const Bytes *make_png(const Wish *wish, uint32_t *dice)
     return &png;
 }
 
-static bool read_plain(const Bytes *png, PlainPng *head, unsigned char *rgba)
-{
+static bool read_plain(const Bytes *png, PlainPng *head, unsigned char *rgba) {
     return plain_png_open(png->data, png->size, head) && plain_png_read(head, rgba);
 }
 
 /* Grey is all three colours, what has no alpha is opaque. */
-static void assert_rgba_of(const unsigned char *pixel, int channels, const unsigned char *rgba)
-{
+static void assert_rgba_of(const unsigned char *pixel, int channels, const unsigned char *rgba) {
     bool is_grey = channels < 3, has_alpha = channels % 2 == 0;
     for (int c = 0; c < 3; c++) assert_int_equal(rgba[c], pixel[is_grey ? 0 : c]);
     assert_int_equal(rgba[3], has_alpha ? pixel[channels - 1] : 255);
 }
 
 /* Both readers' pixels, compared. */
-static void assert_as_the_library(const Bytes *png)
-{
+static void assert_as_the_library(const Bytes *png) {
     static unsigned char rgba[4 * BYTES_MAX], pixels[BYTES_MAX];
-    PlainPng      head;
+    PlainPng head;
     ImageDecoder *decoder;
     assert_true(read_plain(png, &head, rgba));
     assert_done(image_decoder_create("png", "test", png->data, png->size, &decoder, &err));
@@ -123,38 +113,33 @@ static void assert_as_the_library(const Bytes *png)
     image_decoder_destroy(decoder);
 }
 
-TEST(pixels_are_the_librarys_for_every_filter_size_and_kind)
-{
+TEST(pixels_are_the_librarys_for_every_filter_size_and_kind) {
     static const int COLOUR_TYPES[4] = {0, 2, 4, 6};
     uint32_t dice = 0000000;
     for (int kind = 0; kind < 4; kind++)
         for (int filter = -1; filter < 5; filter++)
             for (int side = 1; side <= SIDE_MAX; side += 13) {
-                Wish wish = {side, SIDE_MAX + 1 - side, COLOUR_TYPES[kind], 8,
-                             .filter = filter};
+                Wish wish = {side, SIDE_MAX + 1 - side, COLOUR_TYPES[kind], 8, .filter = filter};
                 assert_as_the_library(make_png(&wish, &dice));
                 wish.part_bytes = 7;
                 assert_as_the_library(make_png(&wish, &dice));
             }
 }
 
-TEST(parts_that_mean_nothing_here_change_nothing)
-{
+TEST(parts_that_mean_nothing_here_change_nothing) {
     uint32_t dice = 1000000;
-    Wish    wish = {9, 9, 2, 8, .filter = -1, .extra = "teSt"};
+    Wish wish = {9, 9, 2, 8, .filter = -1, .extra = "teSt"};
     assert_as_the_library(make_png(&wish, &dice));
 }
 
-static void assert_left(Wish wish)
-{
+static void assert_left(Wish wish) {
     static unsigned char rgba[4 * BYTES_MAX];
     PlainPng head;
     uint32_t dice = 2000000;
     assert_false(read_plain(make_png(&wish, &dice), &head, rgba));
 }
 
-TEST(what_is_unusual_or_damaged_is_left_to_the_library)
-{
+TEST(what_is_unusual_or_damaged_is_left_to_the_library) {
     assert_left((Wish){9, 9, 2, 16, .filter = 0});
     assert_left((Wish){9, 9, 2, 8, .interlaced = 1});
     assert_left((Wish){9, 9, 2, 8, .extra = "tRNS"});
@@ -168,13 +153,12 @@ TEST(what_is_unusual_or_damaged_is_left_to_the_library)
     assert_left((Wish){0, 9, 2, 8, .filter = 0});
 }
 
-TEST(a_file_that_is_cut_anywhere_is_left)
-{
+TEST(a_file_that_is_cut_anywhere_is_left) {
     static unsigned char rgba[4 * BYTES_MAX];
     uint32_t dice = 3000000;
     PlainPng head;
-    Wish     wish = {5, 4, 6, 8, .filter = -1};
-    Bytes    png = *make_png(&wish, &dice);
+    Wish wish = {5, 4, 6, 8, .filter = -1};
+    Bytes png = *make_png(&wish, &dice);
     assert_true(read_plain(&png, &head, rgba));
     while (png.size > 0) {
         png.size--;

@@ -6,15 +6,13 @@
 #include "text/point_rows.h"
 
 /* A file of that text. */
-static const char *file_of(const char *text)
-{
+static const char *file_of(const char *text) {
     const char *path = in_folder("points.txt");
     write_text(path, text);
     return path;
 }
 
-ARENA_TEST(rows_of_any_kind_are_points)
-{
+ARENA_TEST(rows_of_any_kind_are_points) {
     const char *path = file_of("\xEF\xBB\xBFX, Y, Z, NX, NY, NZ\r\n"
                                "1 2 3 0 0 2\r\n"
                                "# a remark\n\n"
@@ -23,7 +21,7 @@ ARENA_TEST(rows_of_any_kind_are_points)
     static const double wanted[][6] = {
         {1, 2, 3, 0, 0, 1}, {1.5, -2, 0.3, 0, -1, 0}, {1, 2, 3, 0.6, 0, 0.8}};
     FacingPoint *list;
-    int          count;
+    int count;
     assert_done(point_rows_read(path, &arena, &list, &count, &err));
     assert_int_equal(count, 3);
     for (int i = 0; i < 3; i++)
@@ -33,18 +31,16 @@ ARENA_TEST(rows_of_any_kind_are_points)
         }
 }
 
-ARENA_TEST(a_header_gives_the_order)
-{
-    const char  *path = file_of("nx ny nz x y z\n0 1 0 7 8 9\n");
+ARENA_TEST(a_header_gives_the_order) {
+    const char *path = file_of("nx ny nz x y z\n0 1 0 7 8 9\n");
     FacingPoint *list;
-    int          count;
+    int count;
     assert_done(point_rows_read(path, &arena, &list, &count, &err));
     assert_near(list[0].place[0], 7, 0);
     assert_near(list[0].normal[1], 1, 0);
 }
 
-ARENA_TEST(what_is_no_point_is_refused_with_its_line)
-{
+ARENA_TEST(what_is_no_point_is_refused_with_its_line) {
     static const struct {
         const char *text, *line, *says;
     } cases[] = {
@@ -69,15 +65,15 @@ ARENA_TEST(what_is_no_point_is_refused_with_its_line)
         {"x y z nx ny nz\n", "", "has no points"},
     };
     for (int i = 0; i < COUNT_OF(cases); i++) {
-        const char  *path = file_of(cases[i].text);
+        const char *path = file_of(cases[i].text);
         FacingPoint *list;
-        int          count;
-        Error        err = {0};
+        int count;
+        Error err = {0};
         assert_false(point_rows_read(path, &arena, &list, &count, &err));
         assert_int_equal(err.code, ERROR_INPUT);
         if (!strstr(err.text, cases[i].says) || strcmp(err.path, cases[i].line) != 0)
             fail_msg("case %d: %s (%s)", i, err.text, err.path);
-        }
+    }
 }
 
 TEST_PROGRAM(make_folder, clear_folder)

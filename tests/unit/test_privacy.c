@@ -10,16 +10,15 @@
 /* ---- the formula ------------------------------------------------------------------------- */
 
 /* V and S of white, black and what is reflected; 1/V is the contrast left of white. */
-TEST(security_has_its_values)
-{
+TEST(security_has_its_values) {
     static const double ROWS[][5] = {{1, 0.01, 0.5, 1.5 / 0.99, 0.18},
                                      {1, 0.01, 30, 31 / 0.99, 1.50},
                                      {10, 0.1, 100, 110 / 9.9, 1.05},
                                      {1, 0, 0, 1, 0}};
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
         const double *r = ROWS[i];
-        double        v = privacy_security(r[0], r[1], r[2]);
-        double        ratio = (r[0] + r[2]) / (r[1] + r[2]);
+        double v = privacy_security(r[0], r[1], r[2]);
+        double ratio = (r[0] + r[2]) / (r[1] + r[2]);
         assert_close(v, r[3], 1e-15);
         assert_near(log10_d(v), r[4], 0.005);
         assert_near(privacy_s_of_contrast(ratio), log10_d(v), 1e-14);
@@ -34,11 +33,10 @@ TEST(security_has_its_values)
     assert_near(0.5 / 9, 0.056, 5e-4);
 }
 
-TEST(security_has_its_ends)
-{
-    assert_true(isinf(privacy_security(1, 1, 2)));   /* no picture */
+TEST(security_has_its_ends) {
+    assert_true(isinf(privacy_security(1, 1, 2))); /* no picture */
     assert_true(isinf(privacy_security(1, 2, 0)));
-    assert_true(isinf(privacy_security(0, 0, 0)));   /* dark altogether */
+    assert_true(isinf(privacy_security(0, 0, 0))); /* dark altogether */
     assert_true(isnan(privacy_security(-1, 0, 0)));
     assert_true(isnan(privacy_security(1, 0, NAN)));
     assert_true(isinf(privacy_s_of_contrast(1)));
@@ -56,8 +54,7 @@ TEST(security_has_its_ends)
 
 /* Of intervals of all three the ends are at corners: least with the most white, the least black
  * and the least reflected. */
-TEST(security_is_monotone_in_each)
-{
+TEST(security_is_monotone_in_each) {
     static const double LEVELS[] = {0.2, 1, 7};
     for (int y = 0; y < 3; y++)
         for (int k = 0; k < 3; k++)
@@ -81,43 +78,50 @@ TEST(security_is_monotone_in_each)
 /* ---- the verdict ------------------------------------------------------------------------- */
 
 /* White of `white` and black of a hundredth of it, of which so much is known. */
-static ReviewCase private_case(double white, double reflected, double doubt)
-{
-    ReviewCase c = {.ambient = AMBIENT_NIGHT, .must_not_be_read = true, .visible_share = 1,
-                    .height_arcmin = 25, .stroke_ratio = 0.15,
-                    .luminance_cd_m2 = {.foreground = white, .background = white / 100,
-                                        .reflected = reflected, .veil = 3}};
+static ReviewCase private_case(double white, double reflected, double doubt) {
+    ReviewCase c = {
+        .ambient = AMBIENT_NIGHT,
+        .must_not_be_read = true,
+        .visible_share = 1,
+        .height_arcmin = 25,
+        .stroke_ratio = 0.15,
+        .luminance_cd_m2 = {
+            .foreground = white, .background = white / 100, .reflected = reflected, .veil = 3}};
     judge_contrasts(&c, (MeanInterval){reflected * (1 - doubt), reflected * (1 + doubt)});
     return c;
 }
 
-static Profile profile_of(const ProfileLimit *limits, int count)
-{
-    return (Profile){.limits = limits, .limit_count = count, .uses_veil = true,
-                     .security = {.name = "visual security", .kind = LIMIT_VISUAL_SECURITY,
-                                  .ambients = {true, true, true, true}, .value = 1,
+static Profile profile_of(const ProfileLimit *limits, int count) {
+    return (Profile){.limits = limits,
+                     .limit_count = count,
+                     .uses_veil = true,
+                     .security = {.name = "visual security",
+                                  .kind = LIMIT_VISUAL_SECURITY,
+                                  .ambients = {true, true, true, true},
+                                  .value = 1,
                                   .source = "assumed"}};
 }
 
-static ProfileLimit limit_of(LimitKind kind, double value)
-{
-    return (ProfileLimit){.name = "one", .kind = kind, .ambients = {true, true, true, true},
-                          .value = value, .source = "a test", .read_in_the_standard = true};
+static ProfileLimit limit_of(LimitKind kind, double value) {
+    return (ProfileLimit){.name = "one",
+                          .kind = kind,
+                          .ambients = {true, true, true, true},
+                          .value = value,
+                          .source = "a test",
+                          .read_in_the_standard = true};
 }
 
-static double security(double white, double black, double reflected)
-{
+static double security(double white, double black, double reflected) {
     return log10_d(privacy_security(white, black, reflected));
 }
 
 /* S with its interval is the formula's of what is emitted and reflected; a veil does not
  * count. The table's three rows: readable, and twice obscured. */
-ARENA_TEST(its_figure_is_the_formula_s)
-{
+ARENA_TEST(its_figure_is_the_formula_s) {
     static const double ROWS[][2] = {{1, 0.5}, {1, 30}, {10, 100}};
     const Profile profile = profile_of(NULL, 0);
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
-        double     white = ROWS[i][0], r = ROWS[i][1];
+        double white = ROWS[i][0], r = ROWS[i][1];
         ReviewCase c = private_case(white, r, 0.01);
         judge_case(&c, &profile, &arena);
         assert_int_equal(c.limit_count, 1);
@@ -137,11 +141,10 @@ ARENA_TEST(its_figure_is_the_formula_s)
 
 /* The panel's own errors are in it, as in the contrast: less than at the worst corner of all
  * three intervals, more than by one of them. */
-ARENA_TEST(its_interval_holds_the_panel_s_errors)
-{
+ARENA_TEST(its_interval_holds_the_panel_s_errors) {
     const Profile profile = profile_of(NULL, 0);
-    double        wide = INTERVAL_SIGMAS * 0.05;
-    ReviewCase    c = private_case(1, 9, 0);
+    double wide = INTERVAL_SIGMAS * 0.05;
+    ReviewCase c = private_case(1, 9, 0);
     c.panel = (CasePanel){.emission_error = 0.05, .reflection_error = 0.05};
     judge_contrasts(&c, (MeanInterval){9, 9});
     judge_case(&c, &profile, &arena);
@@ -157,17 +160,17 @@ ARENA_TEST(its_interval_holds_the_panel_s_errors)
 
 /* What keeps S = 1, 2 % either side, and on it. Less of its own light passes what more of it
  * fails: the reverse of what is to be read. */
-ARENA_TEST(two_per_cent_decide_what_must_not_be_read)
-{
+ARENA_TEST(two_per_cent_decide_what_must_not_be_read) {
     const Profile profile = profile_of(NULL, 0);
     for (int side = -1; side <= 1; side++) {
-        double     s = 1 + 0.02 * side, v = pow(10, s);
-        double     reflected = 0.99 * v - 1; /* (1 + R)/0.99 = V */
+        double s = 1 + 0.02 * side, v = pow(10, s);
+        double reflected = 0.99 * v - 1; /* (1 + R)/0.99 = V */
         ReviewCase c = private_case(1, reflected, 1e-3);
         judge_case(&c, &profile, &arena);
         assert_near(c.limits[0].found, s, 1e-12);
-        assert_int_equal(c.verdict, side < 0 ? VERDICT_FAIL : side > 0 ? VERDICT_PASS
-                                                                       : VERDICT_TOO_CLOSE);
+        assert_int_equal(c.verdict, side < 0   ? VERDICT_FAIL
+                                    : side > 0 ? VERDICT_PASS
+                                               : VERDICT_TOO_CLOSE);
         ReviewCase exact = private_case(1, reflected, 0);
         judge_case(&exact, &profile, &arena);
         if (side) assert_int_equal(exact.verdict, c.verdict);
@@ -176,12 +179,11 @@ ARENA_TEST(two_per_cent_decide_what_must_not_be_read)
 
 /* A contrast that misses a limit of reading is no proof: 2.9 : 1 misses 3 : 1 and can be
  * read. Nor do heights count. What may be read never meets a limit of security. */
-ARENA_TEST(limits_of_reading_prove_nothing)
-{
+ARENA_TEST(limits_of_reading_prove_nothing) {
     const ProfileLimit limits[] = {limit_of(LIMIT_CONTRAST_RATIO, 3),
                                    limit_of(LIMIT_CHARACTER_HEIGHT, 60),
                                    limit_of(LIMIT_VISUAL_SECURITY, 1.5)};
-    Profile    profile = profile_of(limits, 3);
+    Profile profile = profile_of(limits, 3);
     ReviewCase c = private_case(1, 0.5, 0);
     judge_case(&c, &profile, &arena);
     assert_int_equal(c.verdict, VERDICT_FAIL);
@@ -196,11 +198,10 @@ ARENA_TEST(limits_of_reading_prove_nothing)
 }
 
 /* The profile's limit of this light; else the assumed one; the review's own before both. */
-ARENA_TEST(whose_limit_it_is)
-{
-    ProfileLimit  night = limit_of(LIMIT_VISUAL_SECURITY, 1.5);
+ARENA_TEST(whose_limit_it_is) {
+    ProfileLimit night = limit_of(LIMIT_VISUAL_SECURITY, 1.5);
     const Profile none = profile_of(NULL, 0);
-    ReviewCase    c = private_case(1, 20, 0); /* S = 1.33 */
+    ReviewCase c = private_case(1, 20, 0); /* S = 1.33 */
     night.ambients[AMBIENT_DAY] = false;
     Profile profile = profile_of(&night, 1);
     judge_case(&c, &profile, &arena);
@@ -221,10 +222,9 @@ ARENA_TEST(whose_limit_it_is)
 
 /* Hidden altogether it passes, and says by what; of a part that is seen it is judged, however
  * small. A panel that is not usable, and light by things without data, leave it open. */
-ARENA_TEST(what_is_hidden_cannot_be_read)
-{
+ARENA_TEST(what_is_hidden_cannot_be_read) {
     const Profile profile = profile_of(NULL, 0);
-    ReviewCase    c = private_case(1, 0.5, 0);
+    ReviewCase c = private_case(1, 0.5, 0);
     c.visible_share = 0;
     judge_case(&c, &profile, &arena);
     assert_int_equal(c.verdict, VERDICT_PASS);
@@ -251,10 +251,9 @@ ARENA_TEST(what_is_hidden_cannot_be_read)
 
 /* A display that is off shows nothing: S is infinite. One in a lightless room is all there is
  * to see: S is 0. */
-ARENA_TEST(no_picture_and_no_other_light)
-{
+ARENA_TEST(no_picture_and_no_other_light) {
     const Profile profile = profile_of(NULL, 0);
-    ReviewCase    c = private_case(0, 0.5, 0.1);
+    ReviewCase c = private_case(0, 0.5, 0.1);
     judge_case(&c, &profile, &arena);
     assert_true(isinf(c.limits[0].found) && c.verdict == VERDICT_PASS);
     c = private_case(1, 0, 0);
@@ -267,10 +266,9 @@ ARENA_TEST(no_picture_and_no_other_light)
 }
 
 /* More paths decide it, as any other limit. */
-ARENA_TEST(paths_that_decide_it)
-{
+ARENA_TEST(paths_that_decide_it) {
     const Profile profile = profile_of(NULL, 0);
-    ReviewCase    c = private_case(1, 0.99 * pow(10, 1.002) - 1, 0.02);
+    ReviewCase c = private_case(1, 0.99 * pow(10, 1.002) - 1, 0.02);
     c.paths = 1000;
     judge_case(&c, &profile, &arena);
     assert_int_equal(c.verdict, VERDICT_TOO_CLOSE);
@@ -283,10 +281,9 @@ ARENA_TEST(paths_that_decide_it)
     assert_int_equal(c.open_by, OPEN_BY_PANEL);
 }
 
-ARENA_TEST(a_profile_may_limit_it_from_below_alone)
-{
+ARENA_TEST(a_profile_may_limit_it_from_below_alone) {
     const Profile *profile;
-    const char    *path = arena_format(&arena, "%s/house.json", test_folder());
+    const char *path = arena_format(&arena, "%s/house.json", test_folder());
     static const char TEXT_OF[] =
         "{\"title\": \"ours\", \"edition\": \"1\", \"ambient\": {\"night_below_lx\": 5, "
         "\"twilight_below_lx\": 100, \"source\": \"x\", \"read_in_the_standard\": false}, "

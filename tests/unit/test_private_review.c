@@ -26,12 +26,11 @@ static const char request_text[] =
     "'conditions':[{'name':'night','environment':{'type':'constant','luminance':1}},"
     "{'name':'bright','environment':{'type':'constant','luminance':90000}}]}";
 
-static Review run_request(Arena *arena)
-{
-    ReviewRequest  request;
-    ReviewOutcome  outcome;
+static Review run_request(Arena *arena) {
+    ReviewRequest request;
+    ReviewOutcome outcome;
     const Profile *profile;
-    Problems       problems = problems_start(arena);
+    Problems problems = problems_start(arena);
     wall_write_files(request_text, *arena);
     wall_copy(PROJECT_DIR "/assets/panels/hud_pgu.panel", "q.panel", *arena);
     if (!review_request_read(in_folder("r.json"), NULL, arena, &problems, &request, why()) ||
@@ -39,15 +38,17 @@ static Review run_request(Arena *arena)
         fail_msg("%s: %s", why()->path, why()->text);
     assert_true(request.privacy.is_given);
     profile = profile_with_security(profile, request.privacy.security_min, arena);
-    Progress    progress = progress_start(PROGRESS_NONE, "review", "steps", 1);
-    ReviewRun   run = {.request = &request, .profile = profile, .means = {.threads = 2},
-                       .problems = &problems, .progress = &progress};
+    Progress progress = progress_start(PROGRESS_NONE, "review", "steps", 1);
+    ReviewRun run = {.request = &request,
+                     .profile = profile,
+                     .means = {.threads = 2},
+                     .problems = &problems,
+                     .progress = &progress};
     if (!review_run(&run, false, arena, &outcome, why())) fail_msg("%s", why()->text);
     return outcome.review;
 }
 
-static const ReviewCase *case_of(const Review *review, const char *condition, const char *eye)
-{
+static const ReviewCase *case_of(const Review *review, const char *condition, const char *eye) {
     const ReviewCase *c = review_case_named(review, condition, eye, "film");
     assert_non_null(c);
     return c;
@@ -55,11 +56,10 @@ static const ReviewCase *case_of(const Review *review, const char *condition, co
 
 /* By night the driver reads it, in bright light not; S is the formula's of what the case says
  * of its light, and as far from the limit as its margin. */
-static void assert_moments(const Review *review)
-{
+static void assert_moments(const Review *review) {
     static const char *const NAMES[] = {"night", "bright"};
     for (int i = 0; i < 2; i++) {
-        const ReviewCase     *c = case_of(review, NAMES[i], "driver");
+        const ReviewCase *c = case_of(review, NAMES[i], "driver");
         const CaseLuminances *l = &c->luminance_cd_m2;
         assert_true(c->must_not_be_read);
         assert_int_equal(c->limit_count, 1);
@@ -82,11 +82,10 @@ static void assert_moments(const Review *review)
 
 /* Of an eye box every place is kept; the case is that of the one by which it is read best, read
  * more surely. */
-static void assert_places(const Review *review)
-{
+static void assert_places(const Review *review) {
     const ReviewCase *c = case_of(review, "night", "driver");
     const ReviewCase *bright = case_of(review, "bright", "driver");
-    double            most = 0;
+    double most = 0;
     assert_int_equal(c->place_count, 4);
     assert_int_equal(case_of(review, "night", "behind")->place_count, 0);
     for (int i = 0; i < 4; i++) {
@@ -104,8 +103,7 @@ static void assert_places(const Review *review)
 }
 
 /* Only what shows less of it helps. */
-static void assert_remedies(const Review *review)
-{
+static void assert_remedies(const Review *review) {
     const ReviewCase *c = case_of(review, "night", "driver");
     for (int i = 0; i < c->remedy_count; i++) {
         assert_true(c->remedies[i].then.found > c->limits[0].found);
@@ -115,8 +113,7 @@ static void assert_remedies(const Review *review)
 
 /* A variant's margins are of the same figure: dimmer is better for who must not read it, worse
  * for who must. */
-static void assert_variant(const Review *review)
-{
+static void assert_variant(const Review *review) {
     const ReviewVariantFound *dimmer = &review->variants[0];
     double moved[2] = {0, 0};
     for (int i = 0; i < dimmer->difference_count; i++) {
@@ -129,8 +126,7 @@ static void assert_variant(const Review *review)
 
 /* A variant has the display's other panel: it is judged by what that one sends the driver, who
  * reads it better. */
-static void assert_other_panel(const Review *review)
-{
+static void assert_other_panel(const Review *review) {
     const ReviewVariantFound *shared = &review->variants[1];
     const ReviewCase *before = case_of(review, "night", "driver");
     const ReviewCase *after = case_of(shared->review, "night", "driver");
@@ -144,8 +140,7 @@ static void assert_other_panel(const Review *review)
     assert_true(after->limits[0].high < before->limits[0].low);
 }
 
-ARENA_TEST(a_review_of_what_must_not_be_read)
-{
+ARENA_TEST(a_review_of_what_must_not_be_read) {
     Review review = run_request(&arena);
     assert_int_equal(review.case_count, 6);
     assert_false(review.pass);
@@ -166,37 +161,45 @@ enum { SUNS = 5 };
 static const double LIGHT[SUNS] = {40, 3, 900, 3.5, 60}; /* reflected under each, cd/m2 */
 
 /* A symbol of 100 cd/m2 on 1 under those suns. */
-static SunFigures under_suns(bool is_private, Arena *arena)
-{
-    static Display     display = {.name = "screen"};
-    static double      level = 1, lux[SUNS] = {10, 10, 10, 10, 10};
-    const ProfileLimit limit = {.name = "contrast", .kind = LIMIT_CONTRAST_RATIO, .value = 5,
+static SunFigures under_suns(bool is_private, Arena *arena) {
+    static Display display = {.name = "screen"};
+    static double level = 1, lux[SUNS] = {10, 10, 10, 10, 10};
+    const ProfileLimit limit = {.name = "contrast",
+                                .kind = LIMIT_CONTRAST_RATIO,
+                                .value = 5,
                                 .ambients = {true, true, true, true}};
-    const Profile      profile = {.limits = &limit, .limit_count = 1,
-                                  .night_below_lx = 1, .twilight_below_lx = 2,
-                                  .security = {.kind = LIMIT_VISUAL_SECURITY, .value = 0.5}};
-    Scene         scene = {.displays = &display, .display_count = 1};
+    const Profile profile = {.limits = &limit,
+                             .limit_count = 1,
+                             .night_below_lx = 1,
+                             .twilight_below_lx = 2,
+                             .security = {.kind = LIMIT_VISUAL_SECURITY, .value = 0.5}};
+    Scene scene = {.displays = &display, .display_count = 1};
     ReviewRequest request = {.title = ""};
     ReviewCondition condition = {.name = "suns"};
-    Setup         setup = {.scene = &scene, .request = &request, .condition = &condition,
-                           .scene_levels = &level};
-    ReviewRun     run = {.request = &request, .profile = &profile, .means = {.threads = 1}};
-    Sweep         sweep = {.run = &run, .setup = &setup, .suns = {.count = SUNS}};
-    SetupSymbol   symbol = {.display_name = "screen"};
-    SweepMeter    face = {.lux = lux};
-    DistantSun    suns[SUNS]; /* all of them down: the hours' skies are all the light */
-    float         alike[RESPONSE_GROUPS];
-    double        skies[SUNS];
+    Setup setup = {
+        .scene = &scene, .request = &request, .condition = &condition, .scene_levels = &level};
+    ReviewRun run = {.request = &request, .profile = &profile, .means = {.threads = 1}};
+    Sweep sweep = {.run = &run, .setup = &setup, .suns = {.count = SUNS}};
+    SetupSymbol symbol = {.display_name = "screen"};
+    SweepMeter face = {.lux = lux};
+    DistantSun suns[SUNS]; /* all of them down: the hours' skies are all the light */
+    float alike[RESPONSE_GROUPS];
+    double skies[SUNS];
     BrightSamples bright = {0};
-    HourSkies     hours = {.list = NULL};
-    DistantTools  tools = {.setup = &setup, .hours = &hours, .suns = {suns, SUNS}};
+    HourSkies hours = {.list = NULL};
+    DistantTools tools = {.setup = &setup, .hours = &hours, .suns = {suns, SUNS}};
     memcpy(skies, LIGHT, sizeof skies);
     for (int i = 0; i < SUNS; i++) suns[i] = (DistantSun){{0, -5}, 1};
     for (int k = 0; k < RESPONSE_GROUPS; k++) alike[k] = 1;
-    Sight sight = {.symbol = &symbol, .face = &face, .is_private = is_private,
-                   .probe = {.sky = skies, .sky_bright = &bright, .sky_without = alike,
+    Sight sight = {.symbol = &symbol,
+                   .face = &face,
+                   .is_private = is_private,
+                   .probe = {.sky = skies,
+                             .sky_bright = &bright,
+                             .sky_without = alike,
                              .response = {.paths = 1 << 20}},
-                   .seen = {1, 1}, .shown = {.foreground = 100, .background = 1},
+                   .seen = {1, 1},
+                   .shown = {.foreground = 100, .background = 1},
                    .height_arcmin = 20};
     SunFigures figures = sun_figures_start(SUNS, arena);
     sun_figures_judge(&sweep, &sight, &tools, &figures, *arena);
@@ -205,8 +208,7 @@ static SunFigures under_suns(bool is_private, Arena *arena)
 
 /* The worst sun is that under which most is reflected for who must read it, and least for who
  * must not; verdicts of both are each step's own. */
-ARENA_TEST(the_worst_sun_is_that_by_which_it_is_read_best)
-{
+ARENA_TEST(the_worst_sun_is_that_by_which_it_is_read_best) {
     SunFigures open = under_suns(false, &arena), closed = under_suns(true, &arena);
     assert_int_equal(open.worst, 2);
     assert_int_equal(closed.worst, 1);
@@ -216,8 +218,8 @@ ARENA_TEST(the_worst_sun_is_that_by_which_it_is_read_best)
         assert_near(closed.contrast[i], open.contrast[i], 0);
         assert_near(closed.margin[i], s / 0.5 - 1, 1e-6);
         assert_int_equal(closed.verdict[i], s >= 0.5 ? VERDICT_PASS : VERDICT_FAIL);
-        assert_int_equal(open.verdict[i], (100 + LIGHT[i]) / (1 + LIGHT[i]) >= 5
-                                              ? VERDICT_PASS : VERDICT_FAIL);
+        assert_int_equal(open.verdict[i],
+                         (100 + LIGHT[i]) / (1 + LIGHT[i]) >= 5 ? VERDICT_PASS : VERDICT_FAIL);
     }
 }
 

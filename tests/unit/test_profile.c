@@ -6,16 +6,14 @@
 #include "review/profile.h"
 #include "review/profile_table.h"
 
-static const Profile *load(const char *name, Arena *arena)
-{
+static const Profile *load(const char *name, Arena *arena) {
     const Profile *profile = NULL;
     if (!profile_load(name, arena, &profile, why())) fail_msg("%s: %s", name, why()->text);
     return profile;
 }
 
 /* The one limit of that kind in that light that counts; NULL when there is none. */
-static const ProfileLimit *asked(const Profile *profile, LimitKind kind, Ambient ambient)
-{
+static const ProfileLimit *asked(const Profile *profile, LimitKind kind, Ambient ambient) {
     const ProfileLimit *found = NULL;
     for (int i = 0; i < profile->limit_count; i++) {
         const ProfileLimit *limit = &profile->limits[i];
@@ -26,9 +24,8 @@ static const ProfileLimit *asked(const Profile *profile, LimitKind kind, Ambient
     return found;
 }
 
-ARENA_TEST(every_profile_loads_and_says_where_it_was_read)
-{
-    static const char *const NAMES[] = {"as8034", "iso-15008", "iso-9241-7", "j1757-1",
+ARENA_TEST(every_profile_loads_and_says_where_it_was_read) {
+    static const char *const NAMES[] = {"as8034",       "iso-15008",  "iso-9241-7", "j1757-1",
                                         "mil-l-85762a", "nureg-0700", "un-r46"};
     assert_int_equal(profile_count, COUNT_OF(NAMES));
     for (int i = 0; i < profile_count; i++) {
@@ -53,23 +50,21 @@ ARENA_TEST(every_profile_loads_and_says_where_it_was_read)
                         "un-r46");
 }
 
-ARENA_TEST(shipped_limits_are_the_known_ones)
-{
-    const double   car[AMBIENT_COUNT] = {5, 5, 3, 2}, monitor[AMBIENT_COUNT] = {5, 2, 3, 2};
+ARENA_TEST(shipped_limits_are_the_known_ones) {
+    const double car[AMBIENT_COUNT] = {5, 5, 3, 2}, monitor[AMBIENT_COUNT] = {5, 2, 3, 2};
     const Profile *iso = load("iso-15008", &arena), *un = load("un-r46", &arena);
     for (int a = 0; a < AMBIENT_COUNT; a++) {
         assert_near(asked(iso, LIMIT_CONTRAST_RATIO, (Ambient)a)->value, car[a], 0);
         assert_near(asked(un, LIMIT_CONTRAST_RATIO, (Ambient)a)->value, monitor[a], 0);
         assert_near(asked(iso, LIMIT_CHARACTER_HEIGHT, (Ambient)a)->value, 12, 0);
     }
-    assert_near(asked(load("iso-9241-7", &arena), LIMIT_CONTRAST_RATIO, AMBIENT_DAY)->value, 3,
-                0);
-    const Profile      *nureg = load("nureg-0700", &arena);
+    assert_near(asked(load("iso-9241-7", &arena), LIMIT_CONTRAST_RATIO, AMBIENT_DAY)->value, 3, 0);
+    const Profile *nureg = load("nureg-0700", &arena);
     const ProfileLimit *small = asked(nureg, LIMIT_MODULATION, AMBIENT_DAY);
     assert_near(asked(nureg, LIMIT_CONTRAST_RATIO, AMBIENT_DAY)->value, 6, 0);
     assert_true(small->slope.has_slope && small->read_in_the_standard);
-    assert_near(small->value + small->slope.per_arcmin * (small->slope.reference_arcmin - 15),
-                0.65, 1e-12);
+    assert_near(small->value + small->slope.per_arcmin * (small->slope.reference_arcmin - 15), 0.65,
+                1e-12);
     const Profile *mil = load("mil-l-85762a", &arena);
     assert_near(asked(mil, LIMIT_LUMINANCE_CONTRAST, AMBIENT_SUN)->value, 2, 0);
     assert_null(asked(mil, LIMIT_LUMINANCE_CONTRAST, AMBIENT_NIGHT));
@@ -77,8 +72,7 @@ ARENA_TEST(shipped_limits_are_the_known_ones)
     assert_int_equal(load("as8034", &arena)->limit_count, 0);
 }
 
-ARENA_TEST(light_tells_the_ambient)
-{
+ARENA_TEST(light_tells_the_ambient) {
     const Profile *p = load("iso-15008", &arena);
     assert_int_equal(profile_ambient(p, 0, false), AMBIENT_NIGHT);
     assert_int_equal(profile_ambient(p, p->night_below_lx * 0.999, false), AMBIENT_NIGHT);
@@ -91,30 +85,29 @@ ARENA_TEST(light_tells_the_ambient)
 
 /* ---- a house's own ----------------------------------------------------------------------- */
 
-#define AMBIENT "\"ambient\": {\"night_below_lx\": 4, \"twilight_below_lx\": 90, " \
-                "\"source\": \"own\", \"read_in_the_standard\": false}"
+#define AMBIENT \
+    "\"ambient\": {\"night_below_lx\": 4, \"twilight_below_lx\": 90, " \
+    "\"source\": \"own\", \"read_in_the_standard\": false}"
 #define HEAD "\"title\": \"Our cars\", \"edition\": \"7\", " AMBIENT
 #define READ "\"source\": \"rule 7\", \"read_in_the_standard\": true"
 #define LIMIT(more) "{" HEAD ", \"limits\": [{" more "}]}"
 #define CONTRAST "\"kind\": \"contrast_ratio\", \"unit\": \"1\", "
 
-static const char *write_profile(const char *text)
-{
+static const char *write_profile(const char *text) {
     const char *path = in_folder("house.json");
     write_text(path, text);
     return path;
 }
 
-ARENA_TEST(a_house_has_its_own)
-{
+ARENA_TEST(a_house_has_its_own) {
     const Profile *p = load(
         write_profile("{" HEAD ", \"veil\": true, \"threshold_increment_max_pct\": 15, "
                       "\"limits\": ["
                       "{\"ambient\": [\"day\", \"sun\"], " CONTRAST "\"value\": 4, " READ "},"
                       "{\"ambient\": \"any\", \"kind\": \"stroke_ratio\", \"unit\": \"1\", "
                       "\"value\": 0.2, \"bound\": \"most\", \"advice\": true, " READ "}],"
-                      "\"facts\": [{\"name\": \"n\", \"value\": -3, \"unit\": \"lx\", " READ
-                      "}]}"), &arena);
+                      "\"facts\": [{\"name\": \"n\", \"value\": -3, \"unit\": \"lx\", " READ "}]}"),
+        &arena);
     assert_true(p->uses_veil && p->increment_most_pct == 15);
     assert_string_equal(p->title, "Our cars");
     assert_int_equal(p->limit_count, 2);
@@ -147,8 +140,8 @@ static const Wrong WRONG[] = {
     {"{\"title\": 4, \"edition\": \"7\"}", "/title", "is a number, required: a text"},
     {"{\"title\": \"a\", \"edition\": \"7\", \"limits\": []}", "", "key 'ambient' is missing"},
     {"{\"title\": \"a\", \"edition\": \"7\", \"ambient\": {\"night_below_lx\": 9, "
-     "\"twilight_below_lx\": 9, " READ "}, \"limits\": []}", "/ambient/twilight_below_lx",
-     "is 9, required: more than night_below_lx, 9"},
+     "\"twilight_below_lx\": 9, " READ "}, \"limits\": []}",
+     "/ambient/twilight_below_lx", "is 9, required: more than night_below_lx, 9"},
     {LIMIT("\"ambient\": \"day\", " CONTRAST "\"value\": -5, " READ), "/limits/0/value",
      "is -5, required: a number above 0"},
     {LIMIT("\"ambient\": \"day\", " CONTRAST "\"value\": 0, " READ), "/limits/0/value",
@@ -164,10 +157,11 @@ static const Wrong WRONG[] = {
      "required: night, twilight, day, sun or any, or an array of them"},
     {LIMIT(CONTRAST "\"value\": 5, " READ), "/limits/0", "key 'ambient' is missing"},
     {LIMIT("\"ambient\": \"day\", \"kind\": \"contrast_ration\", \"unit\": \"1\", "
-           "\"value\": 5, " READ), "/limits/0/kind", "did you mean contrast_ratio?"},
+           "\"value\": 5, " READ),
+     "/limits/0/kind", "did you mean contrast_ratio?"},
     {LIMIT("\"ambient\": \"day\", \"kind\": \"character_height\", \"unit\": \"deg\", "
-           "\"value\": 5, " READ), "/limits/0/unit",
-     "is 'deg', required: 'arcmin' for character_height"},
+           "\"value\": 5, " READ),
+     "/limits/0/unit", "is 'deg', required: 'arcmin' for character_height"},
     {LIMIT("\"ambient\": \"day\", " CONTRAST "\"value\": 5, \"source\": \"x\""), "/limits/0",
      "key 'read_in_the_standard' is missing"},
     {LIMIT("\"ambient\": \"day\", " CONTRAST "\"value\": 5, \"read_in_the_standard\": true"),
@@ -185,8 +179,8 @@ static const Wrong WRONG[] = {
     {LIMIT("\"ambient\": \"day\", " CONTRAST "\"value\": 5, \"slope\": {\"per_arcmin\": 1, "
            "\"reference_arcmin\": 2, \"heights_arcmin\": [1, 9]}, " READ),
      "/limits/0/slope", "leads to a limit of -2 at 9 arc minutes, required: one above 0"},
-    {LIMIT("\"ambient\": \"day\", \"kind\": \"modulation\", \"unit\": \"1\", \"value\": 30, "
-           READ), "/limits/0/value", "is 30, required: less than 1"},
+    {LIMIT("\"ambient\": \"day\", \"kind\": \"modulation\", \"unit\": \"1\", \"value\": 30, " READ),
+     "/limits/0/value", "is 30, required: less than 1"},
     {LIMIT("\"ambient\": \"day\", " CONTRAST "\"value\": 1e999, " READ), "line 1",
      "not valid JSON"},
     {"", "line 1", "not valid JSON"},
@@ -196,10 +190,9 @@ static const Wrong WRONG[] = {
      "key 'name' is missing"},
 };
 
-ARENA_TEST(wrong_files_are_told_where_they_are_wrong)
-{
+ARENA_TEST(wrong_files_are_told_where_they_are_wrong) {
     for (int i = 0; i < COUNT_OF(WRONG); i++) {
-        const char    *path = write_profile(WRONG[i].text);
+        const char *path = write_profile(WRONG[i].text);
         const Profile *profile = NULL;
         if (profile_load(path, &arena, &profile, why())) fail_msg("taken: %s", WRONG[i].text);
         assert_null(profile);
@@ -208,8 +201,7 @@ ARENA_TEST(wrong_files_are_told_where_they_are_wrong)
     }
 }
 
-ARENA_TEST(what_is_not_there_is_told_with_what_is)
-{
+ARENA_TEST(what_is_not_there_is_told_with_what_is) {
     const Profile *profile = NULL;
     assert_fails_as(profile_load("iso-1500", &arena, &profile, &err), ERROR_INPUT,
                     "there is no profile \"iso-1500\"");

@@ -4,13 +4,11 @@
 
 #include "base/progress.h"
 
-static Progress shown(double total)
-{
+static Progress shown(double total) {
     return progress_start(PROGRESS_JSON, "test", "steps", total);
 }
 
-TEST(a_part_counts_as_its_weight)
-{
+TEST(a_part_counts_as_its_weight) {
     Progress all = shown(10);
     Progress first = progress_part(&all, 4, 8);
     progress_update(&first, 2);
@@ -31,8 +29,7 @@ TEST(a_part_counts_as_its_weight)
 }
 
 /* Who finds more to do than was thought goes on more slowly, not back. */
-TEST(a_part_that_grows_does_not_run_back)
-{
+TEST(a_part_that_grows_does_not_run_back) {
     Progress all = shown(10);
     Progress part = progress_part(&all, 10, 4);
     progress_update(&part, 3);

@@ -6,15 +6,15 @@
 #include "base/sampler.h"
 #include "review/light/reading.h"
 
-#define DIM 0.1    /* of each path; */
-#define RARE 1500  /* one path in so many finds the rest of a mean of 1 */
+#define DIM 0.1   /* of each path; */
+#define RARE 1500 /* one path in so many finds the rest of a mean of 1 */
 #define RUNS 1000
 #define MOST (1 << 16)
 
 /* A run of paths. */
 typedef struct SeedPaths {
     uint32_t seed;
-    int      count;
+    int count;
 } SeedPaths;
 
 #define SEEDS (4 * READING_BATCHES)
@@ -22,31 +22,28 @@ typedef struct SeedPaths {
 /* What the stand-in evaluates and has evaluated. */
 typedef struct StandIn {
     SeedPaths seeds[SEEDS];
-    int       seed_count;
-    uint32_t  told[READING_BATCHES];   /* seeds of the reading's own batches */
-    uint32_t  told_salt, other_salt;   /* that change the light of these, and of all others */
-    bool      is_double;               /* a path was evaluated twice, or left out */
+    int seed_count;
+    uint32_t told[READING_BATCHES]; /* seeds of the reading's own batches */
+    uint32_t told_salt, other_salt; /* that change the light of these, and of all others */
+    bool is_double;                 /* a path was evaluated twice, or left out */
 } StandIn;
 
 static StandIn stand_in;
 
-static bool is_told(uint32_t seed)
-{
+static bool is_told(uint32_t seed) {
     for (int i = 0; i < READING_BATCHES; i++)
         if (stand_in.told[i] == seed) return true;
     return false;
 }
 
-static double light_of(uint32_t seed, int i)
-{
+static double light_of(uint32_t seed, int i) {
     uint32_t salt = is_told(seed) ? stand_in.told_salt : stand_in.other_salt;
     uint32_t bits = hash_combine(hash_u32(seed ^ hash_u32(salt)), (uint32_t)i);
-    bool     is_met = bits < (uint32_t)(4294967296.0 / RARE);
+    bool is_met = bits < (uint32_t)(4294967296.0 / RARE);
     return (double)(float)(DIM + (is_met ? (1 - DIM) * RARE : 0));
 }
 
-static void count_paths(uint32_t seed, int first, int end)
-{
+static void count_paths(uint32_t seed, int first, int end) {
     int at = 0;
     while (at < stand_in.seed_count && stand_in.seeds[at].seed != seed) at++;
     assert_true(at < SEEDS);
@@ -56,8 +53,7 @@ static void count_paths(uint32_t seed, int first, int end)
 }
 
 static void look(const ProbeAim *aim, int first, int end, ProbeLook *out,
-                 PathStatistics *statistics)
-{
+                 PathStatistics *statistics) {
     (void)statistics;
     count_paths(aim->seed, first, end);
     for (int i = first; i < end; i++) {
@@ -66,12 +62,11 @@ static void look(const ProbeAim *aim, int first, int end, ProbeLook *out,
     }
 }
 
-static Reading read_with(uint32_t seed, const ReadingGoal *goal)
-{
-    static const Kernel      kernel = {.look = look};
-    static const Scene       scene;
+static Reading read_with(uint32_t seed, const ReadingGoal *goal) {
+    static const Kernel kernel = {.look = look};
+    static const Scene scene;
     static const PathContext context = {.scene = &scene};
-    ProbeAim     aim = {.context = &context, .seed = seed};
+    ProbeAim aim = {.context = &context, .seed = seed};
     ReadingTools tools = {.kernel = &kernel, .threads = 1};
     stand_in.seed_count = 0;
     stand_in.is_double = false;
@@ -80,8 +75,7 @@ static Reading read_with(uint32_t seed, const ReadingGoal *goal)
     return reading_take(&aim, goal, &tools, *test_memory());
 }
 
-static bool is_above_half(void *user, MeanInterval in, Arena scratch)
-{
+static bool is_above_half(void *user, MeanInterval in, Arena scratch) {
     (void)user, (void)scratch;
     return in.low > 0.5 || in.high < 0.5;
 }
@@ -94,10 +88,9 @@ static const ReadingGoal GOALS[2] = {{.precision = 0.05, .most = MOST},
 
 /* ---- laws that hold exactly -------------------------------------------------------------- */
 
-static void assert_is_mean_of_told(const Reading *reading)
-{
+static void assert_is_mean_of_told(const Reading *reading) {
     double sum = 0;
-    int    batches = 0, others = 0;
+    int batches = 0, others = 0;
     for (int k = 0; k < stand_in.seed_count; k++) {
         const SeedPaths *of = &stand_in.seeds[k];
         others += !is_told(of->seed);
@@ -111,8 +104,7 @@ static void assert_is_mean_of_told(const Reading *reading)
     assert_close(reading->reflected, sum / (double)reading->paths, 1e-12);
 }
 
-TEST(what_is_told_is_the_light_of_paths_that_the_pilot_has_not)
-{
+TEST(what_is_told_is_the_light_of_paths_that_the_pilot_has_not) {
     for (int k = 0; k < 2; k++)
         for (uint32_t seed = 0; seed < 50; seed++) {
             Reading reading = read_with(seed, &GOALS[k]);
@@ -122,8 +114,7 @@ TEST(what_is_told_is_the_light_of_paths_that_the_pilot_has_not)
 }
 
 /* The light of the others does. */
-TEST(light_of_told_paths_does_not_decide_their_number)
-{
+TEST(light_of_told_paths_does_not_decide_their_number) {
     for (int k = 0; k < 2; k++) {
         long least = MOST, most = 0;
         for (uint32_t salt = 0; salt < 50; salt++) {
@@ -141,10 +132,9 @@ TEST(light_of_told_paths_does_not_decide_their_number)
     stand_in.told_salt = stand_in.other_salt = 0;
 }
 
-TEST(a_number_that_is_given_takes_no_pilot)
-{
+TEST(a_number_that_is_given_takes_no_pilot) {
     ReadingGoal goal = {.most = MOST};
-    Reading     reading = read_with(3, &goal);
+    Reading reading = read_with(3, &goal);
     assert_int_equal(reading.paths, MOST);
     assert_int_equal(stand_in.seed_count, READING_BATCHES);
 }
@@ -155,9 +145,8 @@ TEST(a_number_that_is_given_takes_no_pilot)
  * in place of 1,500 these alone were 13 %. Where the paths that decide are reported, the mean
  * is a tenth too small, ten standard errors. */
 
-TEST(readings_of_rare_light_hold_it_and_have_no_bias)
-{
-    int    held = 0;
+TEST(readings_of_rare_light_hold_it_and_have_no_bias) {
+    int held = 0;
     double sum = 0, squares = 0;
     for (uint32_t run = 0; run < RUNS; run++) {
         Reading reading = read_with(run, &GOALS[1]);

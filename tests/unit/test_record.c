@@ -20,27 +20,25 @@ static const char *const EXAMPLES[] = {PROJECT_DIR "/assets/profiles/iso-15008.j
 
 typedef struct Faults {
     const RecordFormat *format;
-    const char *file;     /* what it names lies beside it */
-    json_t     *document; /* the whole, good */
-    const char *path;     /* of the object that the rows are of */
-    json_t     *object;   /* in the document */
-    int         tried;
+    const char *file; /* what it names lies beside it */
+    json_t *document; /* the whole, good */
+    const char *path; /* of the object that the rows are of */
+    json_t *object;   /* in the document */
+    int tried;
 } Faults;
 
 /* Reads what the document is now. */
-static bool reads(const Faults *f, Error *err)
-{
-    Arena    arena = *test_memory();
+static bool reads(const Faults *f, Error *err) {
+    Arena arena = *test_memory();
     Problems problems = problems_start(&arena);
-    JsonView view = {.object = f->document, .file = f->file, .path = "", .arena = &arena,
-                     .problems = &problems};
-    void    *item = arena_alloc(&arena, 1, _Alignof(max_align_t), f->format->size);
+    JsonView view = {
+        .object = f->document, .file = f->file, .path = "", .arena = &arena, .problems = &problems};
+    void *item = arena_alloc(&arena, 1, _Alignof(max_align_t), f->format->size);
     if (f->format->start) f->format->start(item);
     return record_read(&view, f->format, item, err);
 }
 
-static void expect(Faults *f, const char *place, const char *word)
-{
+static void expect(Faults *f, const char *place, const char *word) {
     Error found = {0};
     f->tried++;
     if (reads(f, &found)) fail_msg("%s: taken, \"%s\" expected", place, word);
@@ -49,10 +47,9 @@ static void expect(Faults *f, const char *place, const char *word)
 }
 
 /* With a value in the place of a key's own; then it is as it was. */
-static void try_value(Faults *f, const RecordRow *row, json_t *value, const char *word)
-{
+static void try_value(Faults *f, const RecordRow *row, json_t *value, const char *word) {
     json_t *before = json_incref(json_object_get(f->object, row->key));
-    char    place[256];
+    char place[256];
     snprintf(place, sizeof place, "%s/%s", f->path, row->key);
     json_object_set_new(f->object, row->key, value);
     expect(f, place, word);
@@ -60,10 +57,9 @@ static void try_value(Faults *f, const RecordRow *row, json_t *value, const char
     else json_object_del(f->object, row->key);
 }
 
-static void try_names(Faults *f, const RecordRow *row)
-{
+static void try_names(Faults *f, const RecordRow *row) {
     json_t *value = json_incref(json_object_get(f->object, row->key));
-    char    wrong[128], place[512], word[160];
+    char wrong[128], place[512], word[160];
     snprintf(wrong, sizeof wrong, "%sx", row->key);
     snprintf(place, sizeof place, "%s/%s", f->path, wrong);
     snprintf(word, sizeof word, "the nearest known one is '%s'", row->key);
@@ -76,15 +72,14 @@ static void try_names(Faults *f, const RecordRow *row)
     if (value) json_object_set_new(f->object, row->key, value);
 }
 
-static json_t *of_another_kind(const RecordRow *row)
-{
+static json_t *of_another_kind(const RecordRow *row) {
     bool is_text = row->kind == RECORD_TEXT || row->kind == RECORD_CHOICE ||
                    row->kind == RECORD_WORD || row->kind == RECORD_OWN ||
                    row->kind == RECORD_NOTE || row->kind == RECORD_FILE ||
                    row->kind == RECORD_REFER || row->kind == RECORD_PATH ||
                    (row->kind == RECORD_CONST && row->words);
-    bool takes_number = row->schema && (strstr(row->schema, "number") ||
-                                        strstr(row->schema, "integer"));
+    bool takes_number =
+        row->schema && (strstr(row->schema, "number") || strstr(row->schema, "integer"));
     for (const RecordRow *form = row->forms; form && form->key; form++)
         if (form->kind == RECORD_FLAG) return json_integer(7);
     if (row->kind == RECORD_EITHER) return json_true();
@@ -92,10 +87,9 @@ static json_t *of_another_kind(const RecordRow *row)
     return is_text ? json_integer(7) : json_string("seven");
 }
 
-static void try_ranges(Faults *f, const RecordRow *row)
-{
-    bool is_list = row->kind == RECORD_NUMBERS || row->kind == RECORD_FIGURES ||
-                   row->kind == RECORD_WHOLES;
+static void try_ranges(Faults *f, const RecordRow *row) {
+    bool is_list =
+        row->kind == RECORD_NUMBERS || row->kind == RECORD_FIGURES || row->kind == RECORD_WHOLES;
     if (!is_list && row->kind != RECORD_NUMBER && row->kind != RECORD_INTEGER) return;
     const double outside[] = {row->low - 1, row->high + fmax(1, 1e-6 * row->high)};
     for (int i = 0; i < COUNT_OF(outside); i++) {
@@ -119,10 +113,9 @@ static void try_ranges(Faults *f, const RecordRow *row)
 static void try_rows(Faults *f, const RecordFormat *format);
 
 /* What is in an object at a place. */
-static void try_object(Faults *f, const RecordFormat *format, const char *place, json_t *object)
-{
+static void try_object(Faults *f, const RecordFormat *format, const char *place, json_t *object) {
     Faults within = *f;
-    char   path[256];
+    char path[256];
     snprintf(path, sizeof path, "%s/%s", f->path, place);
     within.object = object;
     within.path = path;
@@ -130,27 +123,27 @@ static void try_object(Faults *f, const RecordFormat *format, const char *place,
     f->tried = within.tried;
 }
 
-static void try_single(Faults *f, const RecordRow *row)
-{
+static void try_single(Faults *f, const RecordRow *row) {
     bool is_own = row->kind == RECORD_OWN || row->read;
     if (row->schema && !strcmp(row->schema, "{}")) return; /* anything will do */
     if (!row->schema || !strstr(row->schema, "null"))
         try_value(f, row, json_null(), is_own ? "" : "is null");
     try_value(f, row, of_another_kind(row),
-              is_own ? "" : row->kind == RECORD_EITHER ? "required: " : "is a");
+              is_own                       ? ""
+              : row->kind == RECORD_EITHER ? "required: "
+                                           : "is a");
     try_ranges(f, row);
 }
 
 /* An item of a list or of a map. */
-static void try_item(Faults *f, const RecordRow *row, const char *name, json_t *item)
-{
+static void try_item(Faults *f, const RecordRow *row, const char *name, json_t *item) {
     char place[256];
     snprintf(place, sizeof place, "%s/%s", row->key, name);
     if (!row->of->value) {
         try_object(f, row->of, place, item);
     } else if (row->kind == RECORD_MAP) {
-        Faults    within = *f;
-        char      path[256];
+        Faults within = *f;
+        char path[256];
         RecordRow value = *row->of->value;
         snprintf(path, sizeof path, "%s/%s", f->path, row->key);
         within.path = path;
@@ -162,31 +155,27 @@ static void try_item(Faults *f, const RecordRow *row, const char *name, json_t *
     }
 }
 
-static bool has_required(const RecordFormat *format, const json_t *object)
-{
+static bool has_required(const RecordFormat *format, const json_t *object) {
     for (const RecordRow *row = format->rows; row->key; row++)
         if (row->flags & RECORD_REQUIRED && !json_object_get(object, row->key)) return false;
     return true;
 }
 
-static void try_inside(Faults *f, const RecordRow *row)
-{
-    json_t     *inside = json_object_get(f->object, row->key), *item;
+static void try_inside(Faults *f, const RecordRow *row) {
+    json_t *inside = json_object_get(f->object, row->key), *item;
     const char *name;
-    char        place[24];
-    size_t      i;
+    char place[24];
+    size_t i;
     if (!inside) return;
     if (row->kind == RECORD_OBJECT) try_object(f, row->of, row->key, inside);
     if (row->kind == RECORD_MAP)
         json_object_foreach(inside, name, item) try_item(f, row, name, item);
-    if (row->kind == RECORD_LIST)
-        json_array_foreach(inside, i, item) {
+    if (row->kind == RECORD_LIST) json_array_foreach(inside, i, item) {
             snprintf(place, sizeof place, "%zu", i);
             try_item(f, row, place, item);
         }
     for (const RecordRow *form = row->forms; form && form->key; form++)
-        if (form->kind == RECORD_OBJECT && json_is_object(inside) &&
-            has_required(form->of, inside))
+        if (form->kind == RECORD_OBJECT && json_is_object(inside) && has_required(form->of, inside))
             try_object(f, form->of, row->key, inside);
 }
 
@@ -194,11 +183,10 @@ enum { REMOVED_MAX = 256 };
 static int removed_tried[REMOVED_MAX]; /* of each row of removed_words */
 
 /* Keys of before: refused with what to do instead. */
-static void try_removed(Faults *f, const RecordFormat *format)
-{
+static void try_removed(Faults *f, const RecordFormat *format) {
     for (int i = 0; removed_words[i].word; i++) {
         const RemovedWord *row = &removed_words[i];
-        char               place[512];
+        char place[512];
         if (!format->name || strcmp(row->where, format->name) != 0) continue;
         snprintf(place, sizeof place, "%s/%s", f->path, row->word);
         json_object_set_new(f->object, row->word, json_null());
@@ -210,14 +198,13 @@ static void try_removed(Faults *f, const RecordFormat *format)
 }
 
 /* Of a format; those of glTF's extensions are tried in test_scene_errors. */
-static bool is_key(const RemovedWord *row)
-{
-    return strncmp(row->where, "PARHELION_", 10) != 0 && row->word[0] != '-' && row->where[0] != '-' && strcmp(row->where, "parhelion") != 0 &&
+static bool is_key(const RemovedWord *row) {
+    return strncmp(row->where, "PARHELION_", 10) != 0 && row->word[0] != '-' &&
+           row->where[0] != '-' && strcmp(row->where, "parhelion") != 0 &&
            strcmp(row->where, "panel") != 0;
 }
 
-static void try_rows(Faults *f, const RecordFormat *format)
-{
+static void try_rows(Faults *f, const RecordFormat *format) {
     if (!format->takes_more) try_removed(f, format);
     for (const RecordRow *row = format->rows; row->key; row++) {
         try_names(f, row);
@@ -226,13 +213,12 @@ static void try_rows(Faults *f, const RecordFormat *format)
     }
 }
 
-TEST(every_fault_of_every_key_is_found_where_it_is)
-{
+TEST(every_fault_of_every_key_is_found_where_it_is) {
     assert_int_equal(format_count, COUNT_OF(EXAMPLES));
     for (int i = 0; i < format_count; i++) {
         json_t *document = json_load_file(EXAMPLES[i], 0, NULL);
-        Error   none = {0};
-        Faults  faults = {format_table[i].format, EXAMPLES[i], document, "", document, 0};
+        Error none = {0};
+        Faults faults = {format_table[i].format, EXAMPLES[i], document, "", document, 0};
         assert_non_null(document);
         if (!reads(&faults, &none)) fail_msg("%s: %s", none.path, none.text);
         try_rows(&faults, faults.format);

@@ -11,8 +11,7 @@
 #include "base/reference.h"
 
 /* folder/a/scenes/s.gltf may name what is below folder/a, but nothing in folder/secret. */
-static int make_tree(void **state)
-{
+static int make_tree(void **state) {
     static const char *const FOLDERS[] = {"a", "a/scenes", "a/beside", "secret"};
     if (make_folder(state)) return -1;
     for (int i = 0; i < 4; i++)
@@ -29,20 +28,17 @@ typedef struct Row {
     const char *relative, *root, *words; /* words NULL: it is taken */
 } Row;
 
-static void check_row(const char *from, const Row *row, bool own_folder, Arena arena)
-{
-    const char          *path = NULL;
+static void check_row(const char *from, const Row *row, bool own_folder, Arena arena) {
+    const char *path = NULL;
     const ReferenceReach reach = {row->root ? in_folder(row->root) : NULL, own_folder};
     bool taken = reference_resolve(in_folder(from), row->relative, reach, &arena, &path, why());
     if (taken != !row->words) fail_msg("%s, '%s': %s", from, row->relative, why()->text);
     if (!taken && !strstr(why()->text, row->words))
         fail_msg("%s, '%s' says: %s", from, row->relative, why()->text);
-    if (taken)
-        assert_string_equal(path, path_beside(in_folder(from), row->relative, &arena));
+    if (taken) assert_string_equal(path, path_beside(in_folder(from), row->relative, &arena));
 }
 
-ARENA_TEST(a_file_leads_to_its_neighbours_only)
-{
+ARENA_TEST(a_file_leads_to_its_neighbours_only) {
     static const Row rows[] = {
         {"../beside/x", NULL, NULL},
         {"near", NULL, NULL},
@@ -62,12 +58,10 @@ ARENA_TEST(a_file_leads_to_its_neighbours_only)
         {"../../secret/x", "a/beside", "leaves the parent"},
         {"out", "secre", "by a symbolic link"}, /* no folder of that name */
     };
-    for (int i = 0; i < COUNT_OF(rows); i++)
-        check_row("a/scenes/s.gltf", &rows[i], false, arena);
+    for (int i = 0; i < COUNT_OF(rows); i++) check_row("a/scenes/s.gltf", &rows[i], false, arena);
 }
 
-ARENA_TEST(somebody_elses_file_leads_to_its_own_folder)
-{
+ARENA_TEST(somebody_elses_file_leads_to_its_own_folder) {
     static const Row rows[] = {
         {"near", NULL, "leaves the folder of the file that names it by a symbolic link;"},
         {"../beside/x", NULL, "leaves the folder of the file that names it;"},
@@ -76,16 +70,14 @@ ARENA_TEST(somebody_elses_file_leads_to_its_own_folder)
         {"s.bin", NULL, NULL},
         {"../scenes/s.bin", NULL, NULL},
     };
-    for (int i = 0; i < COUNT_OF(rows); i++)
-        check_row("a/scenes/s.gltf", &rows[i], true, arena);
+    for (int i = 0; i < COUNT_OF(rows); i++) check_row("a/scenes/s.gltf", &rows[i], true, arena);
 }
 
 /* The home folder, what holds it, and "/" are in nobody's reach but their own files'. */
-ARENA_TEST(home_is_not_reached)
-{
+ARENA_TEST(home_is_not_reached) {
     static const struct {
         const char *home, *from;
-        Row         row;
+        Row row;
     } rows[] = {
         {"a", "a/scenes/s.gltf", {"../beside/x", NULL, "leaves the folder of the file that"}},
         {"a/scenes", "a/scenes/s.gltf", {"../beside/x", NULL, "leaves the files beside the"}},
@@ -110,15 +102,14 @@ ARENA_TEST(home_is_not_reached)
     if (before) setenv("HOME", before, 1);
     else unsetenv("HOME");
     const char *path;
-    assert_false(reference_resolve("/etc/s.gltf", "../bin/sh", (ReferenceReach){0}, &arena,
-                                   &path, why()));
+    assert_false(
+        reference_resolve("/etc/s.gltf", "../bin/sh", (ReferenceReach){0}, &arena, &path, why()));
     assert_error_has(why(), "leaves the folder of the file that names it");
 }
 
 /* A file that is named without a folder stands in the folder where the program was started. */
-ARENA_TEST(the_folder_may_be_unnamed)
-{
-    char        before[4096];
+ARENA_TEST(the_folder_may_be_unnamed) {
+    char before[4096];
     const char *path;
     assert_non_null(getcwd(before, sizeof before));
     assert_int_equal(chdir(in_folder("a/scenes")), 0);
@@ -128,8 +119,7 @@ ARENA_TEST(the_folder_may_be_unnamed)
     assert_int_equal(chdir(before), 0);
 }
 
-TEST(a_root_must_be_a_folder)
-{
+TEST(a_root_must_be_a_folder) {
     assert_done(reference_check_root(NULL, &err));
     assert_done(reference_check_root(in_folder("secret"), &err));
     assert_false(reference_check_root(in_folder("secret/x"), why()));
@@ -139,8 +129,7 @@ TEST(a_root_must_be_a_folder)
     assert_int_equal(why()->code, ERROR_INPUT);
 }
 
-TEST(an_output_is_looked_at_first)
-{
+TEST(an_output_is_looked_at_first) {
     assert_done(file_check_writable(in_folder("new"), &err));
     assert_int_equal(access(in_folder("new"), F_OK), -1); /* nothing is left */
     assert_done(file_check_writable(in_folder("secret/x"), &err));
@@ -159,8 +148,7 @@ TEST(an_output_is_looked_at_first)
 #endif
 
 /* In a process of its own: the size of an arena of 8 GB where only 2 GB may be had. */
-TEST(an_arena_leaves_room)
-{
+TEST(an_arena_leaves_room) {
     if (!LIMITS_WORK) skip();
     pid_t child = fork();
     if (child == 0) {

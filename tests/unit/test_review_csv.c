@@ -8,8 +8,7 @@
 enum { CSV_COLUMNS = 46, CSV_COLUMNS_MOST = 54 };
 
 /* One record of RFC 4180 into cells; what follows it. */
-static const char *read_record(const char *at, const char *cell[CSV_COLUMNS_MOST], int *count)
-{
+static const char *read_record(const char *at, const char *cell[CSV_COLUMNS_MOST], int *count) {
     for (*count = 0;; at++) {
         Text text = {.arena = &arena};
         bool quoted = *at == '"';
@@ -29,24 +28,21 @@ static const char *read_record(const char *at, const char *cell[CSV_COLUMNS_MOST
 }
 
 /* A cell has a name as it may be shown. NULL: "". */
-static void assert_names(const char *cell, const char *name)
-{
+static void assert_names(const char *cell, const char *name) {
     Arena scratch = arena;
     assert_string_equal(cell, arena_printable(&scratch, name ? name : ""));
 }
 
-static double number_of(const char *cell)
-{
-    char  *end = NULL;
+static double number_of(const char *cell) {
+    char *end = NULL;
     double value = strtod(cell, &end);
     assert_true(*end == 0);
     return *cell ? value : NAN;
 }
 
-static void assert_csv_says(const Review *review)
-{
+static void assert_csv_says(const Review *review) {
     const char *path = in_folder("t.csv"), *header[CSV_COLUMNS_MOST], *cell[CSV_COLUMNS_MOST];
-    int         count = 0;
+    int count = 0;
     assert_done(review_csv_write(review, path, &err));
     const char *at = read_record(taken(path), header, &count);
     assert_int_equal(count, CSV_COLUMNS);
@@ -80,10 +76,9 @@ static void assert_csv_says(const Review *review)
     assert_int_equal(*at, 0);
 }
 
-static void assert_gaze_csv_says(const Review *review)
-{
+static void assert_gaze_csv_says(const Review *review) {
     const char *path = in_folder("t.csv"), *cell[CSV_COLUMNS_MOST];
-    int         count = 0, columns = 0;
+    int count = 0, columns = 0;
     assert_done(review_csv_write_gazes(review, path, &err));
     const char *at = read_record(taken(path), cell, &columns);
     assert_string_equal(cell[12], "veil_near_cd_m2");
@@ -101,16 +96,14 @@ static void assert_gaze_csv_says(const Review *review)
     assert_int_equal(*at, 0);
 }
 
-TEST(gazes_are_a_table_too)
-{
+TEST(gazes_are_a_table_too) {
     Review odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
     assert_gaze_csv_says(&odd);
     assert_gaze_csv_says(&plain);
     assert_gaze_csv_says(&none);
 }
 
-TEST(csv_says_the_same)
-{
+TEST(csv_says_the_same) {
     Review odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
     assert_csv_says(&odd);
     assert_csv_says(&plain);
@@ -118,11 +111,10 @@ TEST(csv_says_the_same)
 }
 
 /* Four columns an age, behind all others; nothing of a symbol that is hidden. */
-TEST(csv_has_columns_of_levels)
-{
-    Review      review = fixture_review(&arena);
+TEST(csv_has_columns_of_levels) {
+    Review review = fixture_review(&arena);
     const char *path = in_folder("t.csv"), *cell[CSV_COLUMNS_MOST];
-    int         count = 0;
+    int count = 0;
     fixture_add_levels(&arena, &review);
     assert_done(review_csv_write(&review, path, &err));
     const char *at = read_record(taken(path), cell, &count);
@@ -141,8 +133,7 @@ TEST(csv_has_columns_of_levels)
     assert_int_equal(*at, 0);
 }
 
-TEST(csv_tells_every_false_sun)
-{
+TEST(csv_tells_every_false_sun) {
     Review reviews[] = {fixture_odd_review(&arena), fixture_review(&arena)};
     const char *cell[CSV_COLUMNS_MOST];
     int count = 0;

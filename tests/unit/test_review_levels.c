@@ -7,16 +7,14 @@
 #include "review/output/review_words.h"
 #include "review_page_fixture.h"
 
-static const char *json_of(const Review *review)
-{
+static const char *json_of(const Review *review) {
     const char *path = fresh_name(".json");
     assert_done(review_json_write(review_json(review), path, &err));
     return taken(path);
 }
 
 /* Who has not asked for levels has no key of them, nor has a limit that is nobody's. */
-TEST(levels_are_written_where_they_are)
-{
+TEST(levels_are_written_where_they_are) {
     Review review = fixture_review(&arena);
     assert_null(strstr(json_of(&review), "visibility_levels"));
     assert_null(strstr(json_of(&review), "\"age_years\""));
@@ -27,14 +25,12 @@ TEST(levels_are_written_where_they_are)
 }
 
 /* The least of an interval, and what the figure is of, stand beside it. */
-TEST(levels_are_told)
-{
-    Review            review = fixture_review(&arena);
+TEST(levels_are_told) {
+    Review review = fixture_review(&arena);
     const ReviewCase *c = &review.cases[0];
     assert_string_equal(words_levels(c, &arena), "");
     fixture_add_levels(&arena, &review);
-    assert_string_equal(words_levels(c, &arena),
-                        "visibility level 6.0 at 50 years, 3.00 at 70");
+    assert_string_equal(words_levels(c, &arena), "visibility level 6.0 at 50 years, 3.00 at 70");
     assert_string_equal(words_level(&c->visibilities[1], &arena),
                         "3.00, 95 % sure between 2.75 and 3.25; doubtful: a <doubt>, "
                         "\"quoted\"");
@@ -46,28 +42,46 @@ TEST(levels_are_told)
 }
 
 /* The age stands behind the figure that it is of, not behind the limit. */
-TEST(a_level_that_decides_names_its_age)
-{
-    const LimitVerdict limit = {.name = "visibility level", .kind = "visibility_level",
-                                .unit = "1", .value = 4, .found = 2.9, .low = 2.8, .high = 3,
-                                .margin = -0.275, .verdict = VERDICT_FAIL, .age_years = 70};
-    ReviewCase c = {.limits = &limit, .limit_count = 1, .limit_id = -1,
-                    .verdict = VERDICT_FAIL, .visible_share = 1};
+TEST(a_level_that_decides_names_its_age) {
+    const LimitVerdict limit = {.name = "visibility level",
+                                .kind = "visibility_level",
+                                .unit = "1",
+                                .value = 4,
+                                .found = 2.9,
+                                .low = 2.8,
+                                .high = 3,
+                                .margin = -0.275,
+                                .verdict = VERDICT_FAIL,
+                                .age_years = 70};
+    ReviewCase c = {.limits = &limit,
+                    .limit_count = 1,
+                    .limit_id = -1,
+                    .verdict = VERDICT_FAIL,
+                    .visible_share = 1};
     assert_string_equal(words_reason(&c, &arena),
                         "visibility level 2.90 at 70 years, required >= 4");
     assert_string_equal(words_judged(&c, &arena), "visibility level 2.90 at 70 years");
 }
 
 /* Of a level that nobody publishes the reason says so. */
-TEST(a_level_of_no_age_is_named)
-{
-    const LimitVerdict   limit = {.name = "visibility level", .kind = "visibility_level",
-                                  .value = 4, .found = NAN, .low = NAN, .high = NAN,
-                                  .margin = NAN, .verdict = VERDICT_UNJUDGED};
+TEST(a_level_of_no_age_is_named) {
+    const LimitVerdict limit = {.name = "visibility level",
+                                .kind = "visibility_level",
+                                .value = 4,
+                                .found = NAN,
+                                .low = NAN,
+                                .high = NAN,
+                                .margin = NAN,
+                                .verdict = VERDICT_UNJUDGED};
     const CaseVisibility level = {.age_years = 80, .level = NAN, .doubts = "too old"};
-    ReviewCase c = {.limits = &limit, .limit_count = 1, .limit_id = -1, .visible_share = 1,
-                    .verdict = VERDICT_UNJUDGED, .unjudged = UNJUDGED_FIGURE,
-                    .visibilities = &level, .visibility_count = 1};
+    ReviewCase c = {.limits = &limit,
+                    .limit_count = 1,
+                    .limit_id = -1,
+                    .visible_share = 1,
+                    .verdict = VERDICT_UNJUDGED,
+                    .unjudged = UNJUDGED_FIGURE,
+                    .visibilities = &level,
+                    .visibility_count = 1};
     assert_string_equal(words_reason(&c, &arena),
                         "visibility level could not be found out: too old");
     assert_non_null(strstr(words_to_judge(&c), "an observer of an age"));
@@ -75,8 +89,7 @@ TEST(a_level_of_no_age_is_named)
 
 /* Where contrasts are the same a level that moved beyond both intervals is a change; another
  * glance is another figure. */
-TEST(levels_that_moved_are_a_change)
-{
+TEST(levels_that_moved_are_a_change) {
     Review before = fixture_review(&arena), after = fixture_review(&arena);
     fixture_add_levels(&arena, &before);
     fixture_add_levels(&arena, &after);
@@ -90,8 +103,8 @@ TEST(levels_that_moved_are_a_change)
     assert_int_equal(diff.count[DIFF_BETTER], 1);
     assert_true(diff.cases[0].after == &after.cases[3]);
     json_t *json = review_diff_json(&diff);
-    json_t *levels = json_object_get(json_array_get(json_object_get(json, "cases"), 0),
-                                     "visibility_levels");
+    json_t *levels =
+        json_object_get(json_array_get(json_object_get(json, "cases"), 0), "visibility_levels");
     json_t *old = json_object_get(json_array_get(levels, 1), "level");
     assert_close(json_number_value(json_array_get(old, 0)), 4.5, 1e-12);
     assert_close(json_number_value(json_array_get(old, 1)), 6.5, 1e-12);
@@ -101,9 +114,8 @@ TEST(levels_that_moved_are_a_change)
     assert_int_equal(diff.count[DIFF_BETTER], 0);
 }
 
-TEST(junit_tells_levels)
-{
-    Review      review = fixture_review(&arena);
+TEST(junit_tells_levels) {
+    Review review = fixture_review(&arena);
     const char *path = fresh_name(".xml");
     assert_done(review_junit_write(&review, path, &err));
     assert_null(strstr(taken(path), "visibility level"));

@@ -14,16 +14,15 @@
 /* ---- well formed ------------------------------------------------------------------------ */
 
 typedef struct Tag {
-    char        name[24];
-    bool        is_end, is_empty;
+    char name[24];
+    bool is_end, is_empty;
     const char *after;
 } Tag;
 
 /* Reads a tag at '<': a name, attributes name="value" without '<' in them, or '>' at once. */
-static Tag read_tag(const char *at)
-{
+static Tag read_tag(const char *at) {
     static const char *const EMPTY[] = {"meta", "img", "br"};
-    Tag    tag = {.is_end = at[1] == '/'};
+    Tag tag = {.is_end = at[1] == '/'};
     size_t length = 0;
     at += 1 + tag.is_end;
     for (; isalnum((unsigned char)at[length]); length++) assert_true(length < 23);
@@ -46,10 +45,9 @@ static Tag read_tag(const char *at)
 }
 
 /* Every tag has its end, in order; style and script hold what they like. */
-static void assert_well_formed(const char *page)
-{
+static void assert_well_formed(const char *page) {
     static Tag open[64];
-    int        depth = 0;
+    int depth = 0;
     assert_int_equal(strncmp(page, "<!DOCTYPE html>", 15), 0);
     for (const char *at = strchr(page + 1, '<'); at; at = strchr(at, '<')) {
         Tag tag = read_tag(at);
@@ -70,16 +68,14 @@ static void assert_well_formed(const char *page)
 }
 
 /* The value of an attribute at `at`, behind its quote. */
-static const char *value_at(const char *at)
-{
+static const char *value_at(const char *at) {
     return arena_string(&arena, at, strcspn(at, "\""));
 }
 
 /* Pictures are data, links stay in the page and lead somewhere, ids are unique. */
-static void assert_self_contained(const char *page)
-{
-    static const char *const NEVER[] = {"src=\"http", "href=\"http", "url(", "@import", "<link",
-                                        "<iframe", "<base", "srcset"};
+static void assert_self_contained(const char *page) {
+    static const char *const NEVER[] = {"src=\"http", "href=\"http", "url(",  "@import",
+                                        "<link",      "<iframe",     "<base", "srcset"};
     for (size_t i = 0; i < sizeof NEVER / sizeof *NEVER; i++)
         if (strstr(page, NEVER[i])) fail_msg("there is %s", NEVER[i]);
     for (const char *at = page; (at = strstr(at, " src=\"")); at++)
@@ -92,35 +88,40 @@ static void assert_self_contained(const char *page)
             fail_msg("%s leads nowhere", to);
     }
     for (const char *at = page; (at = strstr(at, " id=\"")); at++)
-        assert_int_equal(count_of(page, arena_format(&arena, " id=\"%s\"", value_at(at + 5))),
-                         1);
+        assert_int_equal(count_of(page, arena_format(&arena, " id=\"%s\"", value_at(at + 5))), 1);
 }
 
 /* ---- pages ------------------------------------------------------------------------------ */
 
-static const char *full_page(const Review *review)
-{
-    static const ReviewFact  FACTS[] = {{WILD_NAME, WILD_NAME}};
+static const char *full_page(const Review *review) {
+    static const ReviewFact FACTS[] = {{WILD_NAME, WILD_NAME}};
     static const char *const COMMANDS[] = {WILD_NAME, "parhelion review x.json -o y"};
-    ReviewMap      map = fixture_map(&arena, &review->sweeps[0]);
-    SunPath        path = fixture_path(&arena, WILD_NAME, 23.4);
+    ReviewMap map = fixture_map(&arena, &review->sweeps[0]);
+    SunPath path = fixture_path(&arena, WILD_NAME, 23.4);
     ReviewCalendar calendar = fixture_calendar(&arena, &review->sweeps[0]);
-    Review         before = fixture_review(&arena);
-    ReviewDiff     diff = review_diff(&before, review, WILD_NAME, "now", &arena);
-    Picture        picture = picture_create(3, 2, &arena);
-    ReviewPicture  shown = {.of = &review->cases[0], .title = WILD_NAME, .caption = WILD_NAME,
-                            .picture = &picture};
+    Review before = fixture_review(&arena);
+    ReviewDiff diff = review_diff(&before, review, WILD_NAME, "now", &arena);
+    Picture picture = picture_create(3, 2, &arena);
+    ReviewPicture shown = {
+        .of = &review->cases[0], .title = WILD_NAME, .caption = WILD_NAME, .picture = &picture};
     map.paths = &path;
     map.path_count = 1;
     calendar.clock = WILD_NAME;
-    return page_of(&(ReviewPage){.review = review, .pictures = &shown, .picture_count = 1,
-                                 .maps = &map, .map_count = 1, .calendars = &calendar,
-                                 .calendar_count = 1, .facts = FACTS, .fact_count = 1,
-                                 .commands = COMMANDS, .command_count = 2, .diff = &diff});
+    return page_of(&(ReviewPage){.review = review,
+                                 .pictures = &shown,
+                                 .picture_count = 1,
+                                 .maps = &map,
+                                 .map_count = 1,
+                                 .calendars = &calendar,
+                                 .calendar_count = 1,
+                                 .facts = FACTS,
+                                 .fact_count = 1,
+                                 .commands = COMMANDS,
+                                 .command_count = 2,
+                                 .diff = &diff});
 }
 
-TEST(a_page_is_well_formed_whatever_the_names_are)
-{
+TEST(a_page_is_well_formed_whatever_the_names_are) {
     static const char *const NOT_NUMBERS[] = {">nan", "\"nan", "nan%", "nan "};
     Review reviews[] = {fixture_odd_review(&arena), fixture_review(&arena)};
     for (int i = 0; i < 2; i++) {
@@ -136,11 +137,10 @@ TEST(a_page_is_well_formed_whatever_the_names_are)
 /* ---- names ------------------------------------------------------------------------------ */
 
 /* Counts every key of a document. */
-static void add_keys(json_t *keys, const json_t *value)
-{
-    size_t      i;
+static void add_keys(json_t *keys, const json_t *value) {
+    size_t i;
     const char *key;
-    json_t     *member;
+    json_t *member;
     json_object_foreach((json_t *)value, key, member) {
         json_object_set_new(keys, key, json_true());
         add_keys(keys, member);
@@ -149,18 +149,16 @@ static void add_keys(json_t *keys, const json_t *value)
 }
 
 /* Every name in a template and its parts: of "a.b" both. */
-static void add_names(json_t *names, const char *template)
-{
+static void add_names(json_t *names, const char *template) {
     int i = 0;
     while (i < page_file_count && strcmp(page_file_table[i].name, template)) i++;
     assert_true(i < page_file_count);
     for (const char *at = page_file_table[i].text; (at = strstr(at, "{{"));) {
         at += strspn(at, "{");
-        bool        is_part = *at == '>';
+        bool is_part = *at == '>';
         const char *name = at + strspn(at, "#^/>");
-        size_t      length = strcspn(name, "|}");
-        if (is_part)
-            add_names(names, arena_format(&arena, "%.*s.html", (int)length, name));
+        size_t length = strcspn(name, "|}");
+        if (is_part) add_names(names, arena_format(&arena, "%.*s.html", (int)length, name));
         for (const char *end = name + length; !is_part && name < end; name++) {
             size_t one = strcspn(name, ".|}");
             if (one) json_object_set_new(names, arena_string(&arena, name, one), json_true());
@@ -170,31 +168,44 @@ static void add_names(json_t *names, const char *template)
 }
 
 /* Of a review that has all there is, at least once. own: the keys of its review.json. */
-static json_t *all_values(json_t *own)
-{
+static json_t *all_values(json_t *own) {
     static const Vec3 RIM[] = {{-0.1f, 0, -1}, {0.1f, 0, -1}, {0.1f, 0.1f, -1}};
-    static const CaseView VIEW = {.right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1},
-                                  .is_perspective = true, .half_width = 1, .half_height = 0.5,
-                                  .width = 200, .height = 100};
+    static const CaseView VIEW = {.right = {1, 0, 0},
+                                  .up = {0, 1, 0},
+                                  .forward = {0, 0, -1},
+                                  .is_perspective = true,
+                                  .half_width = 1,
+                                  .half_height = 0.5,
+                                  .width = 200,
+                                  .height = 100};
     Review before = fixture_review(&arena), *review = ARENA_NEW(&arena, Review, 1);
     *review = fixture_review(&arena);
     fixture_add_levels(&arena, review);
-    ReviewDiff        diff = review_diff(&before, review, "a", "b", &arena);
-    ReviewMap         map = fixture_map(&arena, &review->sweeps[0]);
-    SunPath           path = fixture_path(&arena, "21 June", 23.4);
-    ReviewCalendar    calendar = fixture_calendar(&arena, &review->sweeps[0]);
-    ReviewCase       *worst = (ReviewCase *)(size_t)review_worst(review, arena);
-    const char       *file = fresh_name(".png"), *change = "x";
-    Picture           picture = picture_create(3, 2, &arena);
-    ReviewDifference  d = {.before = worst, .after = worst, .margin = 0.5,
-                           .margin_range = {0.4, 0.6}};
-    ReviewVariantFound variant = {.name = "v", .words = &change, .word_count = 1,
-                                  .review = &before, .differences = &d, .difference_count = 1,
+    ReviewDiff diff = review_diff(&before, review, "a", "b", &arena);
+    ReviewMap map = fixture_map(&arena, &review->sweeps[0]);
+    SunPath path = fixture_path(&arena, "21 June", 23.4);
+    ReviewCalendar calendar = fixture_calendar(&arena, &review->sweeps[0]);
+    ReviewCase *worst = (ReviewCase *)(size_t)review_worst(review, arena);
+    const char *file = fresh_name(".png"), *change = "x";
+    Picture picture = picture_create(3, 2, &arena);
+    ReviewDifference d = {
+        .before = worst, .after = worst, .margin = 0.5, .margin_range = {0.4, 0.6}};
+    ReviewVariantFound variant = {.name = "v",
+                                  .words = &change,
+                                  .word_count = 1,
+                                  .review = &before,
+                                  .differences = &d,
+                                  .difference_count = 1,
                                   .worst = d};
-    ReviewPicture     shown = {.of = worst, .title = "t", .caption = "c", .file = file,
-                               .beside = "b.png", .view = &VIEW, .is_frame = true};
-    ReviewPicture     pair[2] = {shown, {.title = "t", .file = file}};
-    ReviewFact        fact = {"a", "b"};
+    ReviewPicture shown = {.of = worst,
+                           .title = "t",
+                           .caption = "c",
+                           .file = file,
+                           .beside = "b.png",
+                           .view = &VIEW,
+                           .is_frame = true};
+    ReviewPicture pair[2] = {shown, {.title = "t", .file = file}};
+    ReviewFact fact = {"a", "b"};
     map.paths = &path;
     map.path_count = 1;
     worst->view = &VIEW;
@@ -209,11 +220,20 @@ static json_t *all_values(json_t *own)
     review->gazes[2].road = fixture_road(&arena, 30, 1);
     fixture_dimming(review->gazes[2].road);
     assert_done(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
-    json_t *values = review_page_values(
-        &(ReviewPage){.review = review, .pictures = &shown, .picture_count = 1, .pairs = pair,
-                      .maps = &map, .map_count = 1, .calendars = &calendar,
-                      .calendar_count = 1, .facts = &fact, .fact_count = 1, .commands = &change,
-                      .command_count = 1, .diff = &diff}, 0, &arena, why());
+    json_t *values = review_page_values(&(ReviewPage){.review = review,
+                                                      .pictures = &shown,
+                                                      .picture_count = 1,
+                                                      .pairs = pair,
+                                                      .maps = &map,
+                                                      .map_count = 1,
+                                                      .calendars = &calendar,
+                                                      .calendar_count = 1,
+                                                      .facts = &fact,
+                                                      .fact_count = 1,
+                                                      .commands = &change,
+                                                      .command_count = 1,
+                                                      .diff = &diff},
+                                        0, &arena, why());
     json_t *record = review_json(review);
     remove(file);
     add_keys(own, record);
@@ -223,19 +243,18 @@ static json_t *all_values(json_t *own)
 }
 
 /* Every name of a template has a value, and every value beyond review.json's a name. */
-TEST(templates_and_values_know_the_same_names)
-{
+TEST(templates_and_values_know_the_same_names) {
     static const char *const PAGES[] = {"review.html", "summary.html", "cases.html"};
-    json_t     *keys = json_object(), *names = json_object(), *own = json_object(), *unused;
-    json_t     *values = all_values(own);
+    json_t *keys = json_object(), *names = json_object(), *own = json_object(), *unused;
+    json_t *values = all_values(own);
     const char *name;
     for (int i = 0; i < 3; i++) add_names(names, PAGES[i]);
     add_keys(keys, values);
-    json_object_foreach(names, name, unused)
-        if (!json_object_get(keys, name)) fail_msg("no value is called %s", name);
-    json_object_foreach(keys, name, unused)
-        if (!json_object_get(own, name) && !json_object_get(names, name))
-            fail_msg("no template names %s", name);
+    json_object_foreach(names, name, unused) if (!json_object_get(keys, name))
+        fail_msg("no value is called %s", name);
+    json_object_foreach(keys, name,
+                        unused) if (!json_object_get(own, name) && !json_object_get(names, name))
+        fail_msg("no template names %s", name);
     json_decref(keys);
     json_decref(names);
     json_decref(own);
@@ -243,9 +262,8 @@ TEST(templates_and_values_know_the_same_names)
 }
 
 /* Of every age, with its doubt; who asked for none finds no word of it. */
-TEST(a_card_tells_the_levels)
-{
-    Review      review = fixture_review(&arena);
+TEST(a_card_tells_the_levels) {
+    Review review = fixture_review(&arena);
     const char *plain = page_of(&(ReviewPage){.review = &review});
     assert_null(strstr(plain, "isibility level"));
     fixture_add_levels(&arena, &review);
@@ -257,9 +275,8 @@ TEST(a_card_tells_the_levels)
     assert_non_null(strstr(page, "one of its strokes, 2.25 arc minutes wide"));
 }
 
-TEST(a_page_of_nothing_says_so)
-{
-    Review      none = {.pass = true};
+TEST(a_page_of_nothing_says_so) {
+    Review none = {.pass = true};
     const char *page = page_of(&(ReviewPage){.review = &none});
     assert_well_formed(page);
     assert_self_contained(page);
@@ -267,8 +284,7 @@ TEST(a_page_of_nothing_says_so)
     assert_non_null(strstr(page, "No limit applies"));
 }
 
-TEST(a_page_holds_every_case)
-{
+TEST(a_page_holds_every_case) {
     enum { CASES = 200 };
     Review one = fixture_review(&arena), many = one;
     many.cases = ARENA_NEW(&arena, ReviewCase, CASES);
@@ -287,10 +303,9 @@ TEST(a_page_holds_every_case)
 }
 
 /* Every link to a card leads to one that is there, on this page or the other. */
-static int check_links(const char *page, const char *other, const char *name)
-{
+static int check_links(const char *page, const char *other, const char *name) {
     const char *begin = arena_format(&arena, "<a href=\"%s#", name);
-    int         count = 0;
+    int count = 0;
     for (const char *at = page; (at = strstr(at, begin)); count++) {
         at += strlen(begin);
         const char *id = arena_format(&arena, " id=\"%.*s\"", (int)strcspn(at, "\""), at);
@@ -299,16 +314,14 @@ static int check_links(const char *page, const char *other, const char *name)
     return count;
 }
 
-static const char *summary_of(const Review *review, const char *symbol)
-{
+static const char *summary_of(const Review *review, const char *symbol) {
     const char *path = fresh_name(".html");
-    ReviewPage  page = {.review = review};
+    ReviewPage page = {.review = review};
     assert_done(review_page_write_summary(&page, symbol, path, &err));
     return taken(path);
 }
 
-TEST(many_cases_take_two_pages)
-{
+TEST(many_cases_take_two_pages) {
     enum { CASES = 9, HERE = 4 };
     Review review = fixture_review(&arena), both;
     ReviewCase *cases = ARENA_NEW(&arena, ReviewCase, CASES);
@@ -323,13 +336,13 @@ TEST(many_cases_take_two_pages)
     both.is_beside = true;
     const char *page = page_of(&(ReviewPage){.review = &review});
     const char *rest = page_of(&(ReviewPage){.review = &both});
-    int         all = CASES + review.sweep_count, here = 0;
+    int all = CASES + review.sweep_count, here = 0;
     assert_well_formed(page);
     assert_well_formed(rest);
     for (int i = 0; i < all; i++) {
         const ReviewCase *c = i < CASES ? &cases[i] : &review.sweeps[i - CASES].worst;
         const char *id = arena_format(&arena, " id=\"%s\"", review_card_id(&review, c, &arena));
-        int         found = count_of(page, id), beside = count_of(rest, id);
+        int found = count_of(page, id), beside = count_of(rest, id);
         assert_int_equal(found + beside, 1);
         assert_int_equal(found, review_card_is_here(&review, c, arena));
         here += found;
@@ -342,15 +355,15 @@ TEST(many_cases_take_two_pages)
         const char *one = summary_of(&review, cases[i].symbol);
         assert_well_formed(one);
         assert_int_equal(check_links(one, page, "index.html") +
-                             check_links(one, rest, "cases.html"), 2); /* the grid, the list */
+                             check_links(one, rest, "cases.html"),
+                         2); /* the grid, the list */
         assert_non_null(strstr(one, cases[i].symbol));
         assert_null(strstr(one, cases[(i + 1) % CASES].symbol));
     }
 }
 
 /* Behind a table that leads to each. What fails is open, what passes lies in a fold. */
-TEST(sweeps_that_fail_come_first)
-{
+TEST(sweeps_that_fail_come_first) {
     Review review = fixture_review(&arena);
     review.sweeps[0].failed_share = 0;
     review.sweeps[0].worst.verdict = VERDICT_PASS;
@@ -373,23 +386,21 @@ TEST(sweeps_that_fail_come_first)
 
 /* The share of eyes at the worst moment, and that of time of the middle one, each by its name;
  * no share stands without one. */
-TEST(an_eye_box_names_whose_share_it_is)
-{
+TEST(an_eye_box_names_whose_share_it_is) {
     static const struct {
         double eyes, failed, minutes, middle;
         const char *often, *how_often;
-    } BOX[] = {
-        {0.44, 0.012, 30, 1.69, "44 % of eyes",
-         "44 % of eyes at its worst, the middle eye 1.2 % of the time, at its own worst "
-         "1.69 : 1"},
-        {0.44, 0, 0, 3.25, "44 % of eyes",
-         "44 % of eyes at its worst, the middle eye never, at its own worst 3.25 : 1"},
-        {0.44, 0, 0, NAN, "44 % of eyes", /* of an older review */
-         "44 % of eyes at its worst, the middle eye never"},
-        {1, 0.5, NAN, NAN, "100 % of eyes",
-         "100 % of eyes at its worst, the middle eye 50 % of the sun's directions"}};
+    } BOX[] = {{0.44, 0.012, 30, 1.69, "44 % of eyes",
+                "44 % of eyes at its worst, the middle eye 1.2 % of the time, at its own worst "
+                "1.69 : 1"},
+               {0.44, 0, 0, 3.25, "44 % of eyes",
+                "44 % of eyes at its worst, the middle eye never, at its own worst 3.25 : 1"},
+               {0.44, 0, 0, NAN, "44 % of eyes", /* of an older review */
+                "44 % of eyes at its worst, the middle eye never"},
+               {1, 0.5, NAN, NAN, "100 % of eyes",
+                "100 % of eyes at its worst, the middle eye 50 % of the sun's directions"}};
     for (int i = 0; i < 4; i++) {
-        Review       review = fixture_review(&arena);
+        Review review = fixture_review(&arena);
         ReviewSweep *s = &review.sweeps[0];
         s->worst.eye_failed_share = BOX[i].eyes;
         s->failed_share = BOX[i].failed;
@@ -413,27 +424,25 @@ TEST(an_eye_box_names_whose_share_it_is)
 }
 
 /* Top: the answer, the worst symbol, when, why; the limit that nobody read is marked. */
-TEST(the_first_screen_says_it_all)
-{
-    Review            review = fixture_review(&arena);
+TEST(the_first_screen_says_it_all) {
+    Review review = fixture_review(&arena);
     const ReviewCase *worst = review_worst(&review, arena);
-    const char       *page = page_of(&(ReviewPage){.review = &review});
-    const char       *line = strstr(page, "<h1>");
-    Text              text = {.arena = &arena};
+    const char *page = page_of(&(ReviewPage){.review = &review});
+    const char *line = strstr(page, "<h1>");
+    Text text = {.arena = &arena};
     assert_non_null(line);
     text_add_bytes(&text, line, (size_t)(strstr(line, "</section>") - line));
     assert_int_equal(worst->verdict, VERDICT_FAIL);
-    const char *parts[] = {"<b>Fails</b>", worst->symbol, worst->eye, worst->condition,
-                           words_judged(worst, &arena), "62 %", "→ sky",
-                           "✗", "When", "Remedy"};
+    const char *parts[] = {
+        "<b>Fails</b>", worst->symbol, worst->eye, worst->condition, words_judged(worst, &arena),
+        "62 %",         "→ sky",       "✗",        "When",           "Remedy"};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if (!strstr(text.data, parts[i])) fail_msg("no %s in %s", parts[i], text.data);
     assert_int_equal(count_of(page, "not read in the standard"), 3); /* three limits */
 }
 
-TEST(the_worst_gaze_comes_first)
-{
-    Review      review = fixture_review(&arena);
+TEST(the_worst_gaze_comes_first) {
+    Review review = fixture_review(&arena);
     const char *page = page_of(&(ReviewPage){.review = &review});
     const char *worst = strstr(page, "Worst: driver, looking at road");
     assert_non_null(strstr(page, "Looking elsewhere"));
@@ -447,9 +456,8 @@ TEST(the_worst_gaze_comes_first)
     assert_null(strstr(page_of(&(ReviewPage){.review = &review}), "Looking elsewhere"));
 }
 
-TEST(what_changed_is_on_the_page)
-{
-    Review     before = fixture_review(&arena), after = fixture_review(&arena);
+TEST(what_changed_is_on_the_page) {
+    Review before = fixture_review(&arena), after = fixture_review(&arena);
     LimitVerdict limits[3];
     for (int i = 0; i < 3; i++) limits[i] = after.cases[3].limits[i];
     after.cases[3].contrast_ratio = 77.5;
@@ -458,7 +466,7 @@ TEST(what_changed_is_on_the_page)
     after.cases[3].limits = limits;
     after.gazes[0].mirrored = 123;
     after.gazes[0].contrast_range = (MeanInterval){0, 0.1};
-    ReviewDiff  diff = review_diff(&before, &after, "old", "new", &arena);
+    ReviewDiff diff = review_diff(&before, &after, "old", "new", &arena);
     const char *page = page_of(&(ReviewPage){.review = &after, .diff = &diff});
     assert_non_null(strstr(page, "→ 77.5 : 1"));
     assert_non_null(strstr(page, "310 → 123"));
@@ -466,8 +474,7 @@ TEST(what_changed_is_on_the_page)
     assert_int_equal(count_of(page, "more contrast"), 1);
 }
 
-TEST(a_page_that_cannot_be_written_is_an_error)
-{
+TEST(a_page_that_cannot_be_written_is_an_error) {
     Review none = {0};
     assert_false(review_page_write(&(ReviewPage){.review = &none}, "/nowhere/at/all", why()));
     assert_int_equal(why()->code, ERROR_OUTPUT);

@@ -11,10 +11,11 @@
 #include "vision/privacy.h"
 
 /* As the plausible review has it, but that the driver must not read it; judged afresh. */
-static void forbid(ReviewCase *c, double reflected, double doubt)
-{
-    Profile profile = {.security = {.name = "visual security", .kind = LIMIT_VISUAL_SECURITY,
-                                    .ambients = {true, true, true, true}, .value = 1,
+static void forbid(ReviewCase *c, double reflected, double doubt) {
+    Profile profile = {.security = {.name = "visual security",
+                                    .kind = LIMIT_VISUAL_SECURITY,
+                                    .ambients = {true, true, true, true},
+                                    .value = 1,
                                     .source = "assumed"}};
     c->must_not_be_read = true;
     c->remedy_count = 0;
@@ -26,8 +27,7 @@ static void forbid(ReviewCase *c, double reflected, double doubt)
 }
 
 /* The first fails, the second passes, the third is too close, and one is hidden. */
-static Review private_review(void)
-{
+static Review private_review(void) {
     Review review = fixture_review(&arena);
     double white = 0;
     for (int i = 0; i < 3; i++) {
@@ -41,8 +41,7 @@ static Review private_review(void)
     return review;
 }
 
-TEST(its_words_say_what_is_forbidden)
-{
+TEST(its_words_say_what_is_forbidden) {
     static const char *const BEGIN[] = {
         "must not be read, but can be: visual security 0.17",
         "must not be read, and surely cannot be: visual security 1.49",
@@ -50,12 +49,11 @@ TEST(its_words_say_what_is_forbidden)
         "must not be read, and surely cannot be: nothing of it is seen: wheel <rim> (leather) "
         "hides 75 %"};
     static const int PLACES[] = {0, 1, 2, 20};
-    static const Verdict VERDICTS[] = {VERDICT_FAIL, VERDICT_PASS, VERDICT_TOO_CLOSE,
-                                       VERDICT_PASS};
+    static const Verdict VERDICTS[] = {VERDICT_FAIL, VERDICT_PASS, VERDICT_TOO_CLOSE, VERDICT_PASS};
     Review review = private_review();
     for (int i = 0; i < COUNT_OF(PLACES); i++) {
         const ReviewCase *c = &review.cases[PLACES[i]];
-        const char       *reason = words_reason(c, &arena);
+        const char *reason = words_reason(c, &arena);
         assert_int_equal(c->verdict, VERDICTS[i]);
         if (strncmp(reason, BEGIN[i], strlen(BEGIN[i])) != 0) fail_msg("%s", reason);
         assert_int_equal(strstr(reason, "; contrast ") != NULL, i < 3);
@@ -64,17 +62,15 @@ TEST(its_words_say_what_is_forbidden)
     assert_string_equal(words_judged(&review.cases[20], &arena), "hidden");
 }
 
-static json_t *member(const json_t *object, const char *key)
-{
+static json_t *member(const json_t *object, const char *key) {
     json_t *found = json_object_get(object, key);
     if (!found) fail_msg("there is no %s", key);
     return found;
 }
 
 /* V and S with their intervals, of the luminances beside them; nobody else has the key. */
-TEST(json_has_its_figures_and_is_read_back)
-{
-    Review  review = private_review(), again;
+TEST(json_has_its_figures_and_is_read_back) {
+    Review review = private_review(), again;
     json_t *root = review_json(&review), *cases = member(root, "cases");
     for (int i = 0; i < review.case_count; i++) {
         const ReviewCase *c = &review.cases[i];
@@ -120,19 +116,17 @@ TEST(json_has_its_figures_and_is_read_back)
     json_decref(root);
 }
 
-static int columns_of(const char *csv)
-{
+static int columns_of(const char *csv) {
     int count = 1;
     for (const char *at = csv; *at && *at != '\n'; at++) count += *at == ',';
     return count;
 }
 
 /* Its columns stand behind all others, and are there for a review that has any. */
-TEST(csv_has_columns_of_its_own)
-{
+TEST(csv_has_columns_of_its_own) {
     static const char HEAD[] = "lit_share,must_not_be_read,kept_by,visual_security,security_s,"
                                "security_s_low,security_s_high,limit_by_pane\r\n";
-    Review      plain = fixture_review(&arena), review = private_review();
+    Review plain = fixture_review(&arena), review = private_review();
     const char *path = in_folder("t.csv");
     assert_done(review_csv_write(&plain, path, &err));
     const char *without = taken(path);
@@ -149,9 +143,8 @@ TEST(csv_has_columns_of_its_own)
     assert_non_null(strstr(end + 2, ",,,,,,,\r\n")); /* what may be read */
 }
 
-TEST(junit_and_page_say_it)
-{
-    Review      review = private_review();
+TEST(junit_and_page_say_it) {
+    Review review = private_review();
     const char *path = in_folder("t.xml");
     assert_done(review_junit_write(&review, path, &err));
     const char *xml = taken(path);
@@ -170,8 +163,7 @@ TEST(junit_and_page_say_it)
 }
 
 /* More contrast is worse: the reverse of what is to be read. */
-TEST(a_difference_counts_the_other_way)
-{
+TEST(a_difference_counts_the_other_way) {
     Review before = private_review(), after = private_review();
     for (int i = 0; i < 2; i++) {
         after.cases[i].contrast_low *= i ? 0.5 : 2;
@@ -187,10 +179,9 @@ TEST(a_difference_counts_the_other_way)
 
 /* Of an eye box those places count from which it cannot be read; what is told is the share that
  * can. */
-TEST(places_that_can_read_it)
-{
-    Review  review = private_review();
-    int     count;
+TEST(places_that_can_read_it) {
+    Review review = private_review();
+    int count;
     json_t *root, *places;
     review.cases[0].eye_failed_share = 0.75;
     root = review_json(&review);
@@ -206,9 +197,8 @@ TEST(places_that_can_read_it)
 }
 
 /* From where it can be read: in the document and back, and drawn, a plan for each height. */
-TEST(places_are_kept_and_drawn)
-{
-    Review          review = private_review(), again;
+TEST(places_are_kept_and_drawn) {
+    Review review = private_review(), again;
     const CasePlace places[] = {{{0.1, 1.2, -0.3}, VERDICT_FAIL, 1, 3, 2.9, 3.1},
                                 {{0.2, 1.2, -0.3}, VERDICT_PASS, 1, 1.02, 1.01, 1.03},
                                 {{0.1, 1.1, -0.3}, VERDICT_TOO_CLOSE, 1, 1.1, 1.05, 1.15},
@@ -238,16 +228,19 @@ TEST(places_are_kept_and_drawn)
 /* ---- in glass ---------------------------------------------------------------------------- */
 
 /* The first case, which passes itself, with two images: that in the side window can be read. */
-static Review mirrored_review(void)
-{
-    Review     review = private_review();
+static Review mirrored_review(void) {
+    Review review = private_review();
     CaseImage *images = ARENA_NEW(&arena, CaseImage, 2);
     for (int i = 0; i < 2; i++) {
         images[i] = (CaseImage){.pane = i ? "side <glass>" : "windscreen (glass)",
-                                .eye_m = {0.1, 1.2, -0.3}, .shown_share = i ? 0.5 : 1,
-                                .height_arcmin = 12, .sent_foreground = 10,
-                                .sent_background = 0.1, .reflectance = i ? 0.1 : 1e-3,
-                                .against = 1, .against_range = {0.9, 1.1}};
+                                .eye_m = {0.1, 1.2, -0.3},
+                                .shown_share = i ? 0.5 : 1,
+                                .height_arcmin = 12,
+                                .sent_foreground = 10,
+                                .sent_background = 0.1,
+                                .reflectance = i ? 0.1 : 1e-3,
+                                .against = 1,
+                                .against_range = {0.9, 1.1}};
         images[i].reflectance_range.low = 0.9 * images[i].reflectance;
         images[i].reflectance_range.high = 1.1 * images[i].reflectance;
         case_image_set_contrast(&images[i], 0.01);
@@ -264,12 +257,11 @@ static const char IN_PANE[] = "must not be read, but can be: visual security 0.3
                               "right";
 
 /* What is said of a case is its worst image's, by the same figures everywhere. */
-TEST(a_case_that_glass_lets_read_says_by_which_pane)
-{
-    Review              review = mirrored_review();
-    const ReviewCase   *c = &review.cases[1];
+TEST(a_case_that_glass_lets_read_says_by_which_pane) {
+    Review review = mirrored_review();
+    const ReviewCase *c = &review.cases[1];
     const LimitVerdict *limit = case_worst_limit(c);
-    const char         *reason = words_reason(c, &arena);
+    const char *reason = words_reason(c, &arena);
     assert_int_equal(c->verdict, VERDICT_FAIL);
     assert_int_equal(c->limits[0].verdict, VERDICT_PASS);
     assert_string_equal(limit->by_pane, "side <glass>");
@@ -284,18 +276,16 @@ TEST(a_case_that_glass_lets_read_says_by_which_pane)
     assert_non_null(strstr(page, "12.0 arc minutes high, 50 % shown"));
 }
 
-TEST(json_has_its_images_and_reads_them_back)
-{
-    Review      review = mirrored_review(), again;
+TEST(json_has_its_images_and_reads_them_back) {
+    Review review = mirrored_review(), again;
     const char *path = fresh_name(".json");
-    json_t     *root = review_json(&review), *cases = member(root, "cases");
-    json_t     *of = member(json_array_get(cases, 1), "must_not_be_read");
-    json_t     *list = member(of, "images");
-    assert_null(json_object_get(member(json_array_get(cases, 0), "must_not_be_read"),
-                                "images"));
+    json_t *root = review_json(&review), *cases = member(root, "cases");
+    json_t *of = member(json_array_get(cases, 1), "must_not_be_read");
+    json_t *list = member(of, "images");
+    assert_null(json_object_get(member(json_array_get(cases, 0), "must_not_be_read"), "images"));
     for (int i = 0; i < 2; i++) {
         const CaseImage *image = &review.cases[1].images[i];
-        json_t          *one = json_array_get(list, (size_t)i);
+        json_t *one = json_array_get(list, (size_t)i);
         double s = log10_d(privacy_security(image->foreground, image->background, 1));
         assert_close(json_real_value(member(one, "s")), s, 1e-9);
         double low = json_real_value(json_array_get(member(one, "s_interval"), 0));
@@ -315,9 +305,8 @@ TEST(json_has_its_images_and_reads_them_back)
 }
 
 /* An image that is brighter in one review is worse there, whatever the symbol itself is. */
-TEST(a_difference_counts_images)
-{
-    Review     before = mirrored_review(), after = mirrored_review();
+TEST(a_difference_counts_images) {
+    Review before = mirrored_review(), after = mirrored_review();
     CaseImage *images = ARENA_NEW(&arena, CaseImage, 2);
     memcpy(images, after.cases[1].images, 2 * sizeof *images);
     images[0].contrast_low *= 2;

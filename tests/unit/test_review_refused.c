@@ -3,8 +3,7 @@
  * found, what was required. */
 #include "review_fixture.h"
 
-static int start(void **state)
-{
+static int start(void **state) {
     if (make_folder(state)) return -1;
     review_files();
     write_text(in_folder("empty.epw"), "");
@@ -16,25 +15,22 @@ typedef struct Wrong {
     const char *from, *to, *place, *words;
 } Wrong;
 
-static void check_all(const Wrong *wrong, int count, Arena arena)
-{
+static void check_all(const Wrong *wrong, int count, Arena arena) {
     for (int i = 0; i < count; i++) {
-        Arena         scratch = arena;
+        Arena scratch = arena;
         ReviewRequest r;
-        const Wrong  *w = &wrong[i];
+        const Wrong *w = &wrong[i];
         char *text = review_changed(review_good, w->from, w->to, &scratch);
         if (review_read(text, &scratch, &r, why())) fail_msg("%s was taken", w->to);
         assert_told(ERROR_INPUT, w->place, w->words);
     }
 }
 
-#define CHECK_ALL(wrong)                                                                       \
-    check_all(wrong, (int)(sizeof(wrong) / sizeof *(wrong)), test_arena(state))
+#define CHECK_ALL(wrong) check_all(wrong, (int)(sizeof(wrong) / sizeof *(wrong)), test_arena(state))
 
 /* ---- keys -------------------------------------------------------------------------------- */
 
-TEST(unknown_keys_are_refused_with_the_nearest_known_one)
-{
+TEST(unknown_keys_are_refused_with_the_nearest_known_one) {
     static const Wrong wrong[] = {
         {"'profile'", "'profil'", "/profil", "the nearest known one is 'profile'"},
         {"'camera':1", "'kamera':1", "/eyes/second/kamera", "'camera'"},
@@ -49,16 +45,14 @@ TEST(unknown_keys_are_refused_with_the_nearest_known_one)
         {"'azimuth_deg':[", "'azimut_deg':[", "/conditions/2/sweep/sun/azimut_deg",
          "'azimuth_deg'"},
         {"'sky':'sky'", "'skies':'sky'", "/conditions/2/sweep/skies", "'sky'"},
-        {"'step_minutes'", "'step_minute'", "/conditions/3/sweep/step_minute",
-         "'step_minutes'"},
+        {"'step_minutes'", "'step_minute'", "/conditions/3/sweep/step_minute", "'step_minutes'"},
         {"'turbidity'", "'turbidty'", "/conditions/3/environment/turbidty",
          "nearest known one is 'turbidity'"},
     };
     CHECK_ALL(wrong);
 }
 
-TEST(what_must_be_there_is_asked_for)
-{
+TEST(what_must_be_there_is_asked_for) {
     static const Wrong wrong[] = {
         {"'scene':['a.gltf','b%20c.gltf'],", "", "", "key 'scene' is missing"},
         {"'profile':'iso-15008',", "", "", "key 'profile' is missing"},
@@ -79,11 +73,11 @@ TEST(what_must_be_there_is_asked_for)
 
 /* ---- values ------------------------------------------------------------------------------ */
 
-TEST(eyes_are_checked)
-{
+TEST(eyes_are_checked) {
     static const Wrong wrong[] = {
-        {"'camera':1", "'camera':1.5", "/eyes/second/camera", "is 1.5, required: a whole "
-        "number"},
+        {"'camera':1", "'camera':1.5", "/eyes/second/camera",
+         "is 1.5, required: a whole "
+         "number"},
         {"'camera':1", "'camera':-1", "/eyes/second/camera", "required: a number from 0"},
         {"'camera':1", "'camera':null", "/eyes/second/camera",
          "is null, required: a camera's name or its index"},
@@ -92,8 +86,7 @@ TEST(eyes_are_checked)
         {"'camera':1", "'camera':1,'position_m':[0,0,0]", "/eyes/second",
          "is said in several ways, required: one of 'camera'"},
         {"'camera':1", "", "/eyes/second", "is nowhere, required: one of 'camera'"},
-        {"'camera':1", "'camera':1,'grid':[1,1,1]", "/eyes/second",
-         "is a box without a centre"},
+        {"'camera':1", "'camera':1,'grid':[1,1,1]", "/eyes/second", "is a box without a centre"},
         {"'position_m':[-1,2,3]", "'position_m':[-1,2]", "/eyes/tall/position_m",
          "has 2 values, required: 3"},
         {"'position_m':[-1,2,3]", "'position_m':[-1,2,'x']", "/eyes/tall/position_m",
@@ -111,8 +104,8 @@ TEST(eyes_are_checked)
          "is a box's, not an ellipse's"},
         {"'grid':[2,3,1]", "'tilt_deg':5", "/eyes/box/tilt_deg",
          "is an ellipse's: 'ellipse_m' is missing"},
-        {"'half_size_m':[0.1,0.2,0],'grid':[2,3,1]", "'ellipse_m':[1,-1,1]",
-         "/eyes/box/ellipse_m", "is -1, required:"},
+        {"'half_size_m':[0.1,0.2,0],'grid':[2,3,1]", "'ellipse_m':[1,-1,1]", "/eyes/box/ellipse_m",
+         "is -1, required:"},
         {"'half_size_m':[0.1,0.2,0],'grid':[2,3,1]", "'ellipse_m':[1,1,1],'tilt_deg':99",
          "/eyes/box/tilt_deg", "is 99, required: a number from -90 to 90"},
         {"'forward':[0,0,-2]", "'forward':[0,2,0]", "/forward", "is vertical, required:"},
@@ -121,8 +114,9 @@ TEST(eyes_are_checked)
         {"'age_years':60", "'age_years':200", "/observer/age_years",
          "is 200, required: a number from 10 to 100"},
         {"'at':'symbols'", "'at':'symbol'", "/gaze/0/at", "is 'symbol', required: 'symbols'"},
-        {"'at':'symbols'", "'at':'symbols','direction':[0,0,1]", "/gaze/0", "has both, "
-        "required:"},
+        {"'at':'symbols'", "'at':'symbols','direction':[0,0,1]", "/gaze/0",
+         "has both, "
+         "required:"},
         {"'at':'symbols'", "'name':'x'", "/gaze/0", "has neither, required: one of 'at'"},
         {"'tall','driver'", "'tal','driver'", "/gaze/1/eyes/0",
          "is 'tal', required: a name of 'eyes': did you mean tall?"},
@@ -132,8 +126,7 @@ TEST(eyes_are_checked)
     CHECK_ALL(wrong);
 }
 
-TEST(symbols_are_checked)
-{
+TEST(symbols_are_checked) {
     static const Wrong wrong[] = {
         {"[0.1,0.2,0.3,0.4]", "[0.3,0.2,0.1,0.4]", "/symbols/speed/uv",
          "is [0.3, 0.2, 0.1, 0.4], required: [left, top, right, bottom]"},
@@ -155,8 +148,7 @@ TEST(symbols_are_checked)
     CHECK_ALL(wrong);
 }
 
-TEST(files_are_checked)
-{
+TEST(files_are_checked) {
     static const Wrong wrong[] = {
         {"'a.gltf','b", "'none.gltf','b", "/scene/0",
          "none.gltf', which cannot be read; required: a file"},
@@ -173,27 +165,24 @@ TEST(files_are_checked)
     CHECK_ALL(wrong);
 }
 
-TEST(levels_are_checked)
-{
+TEST(levels_are_checked) {
     static const Wrong wrong[] = {
         {"'*':0.04", "'*':-1", "/levels/night/*", "is -1, required: a level from 0 to 1"},
         {"'*':0.04", "'*':25", "/levels/night/*", "is 25, required: a level from 0 to 1"},
-        {"[10000,1]", "[10000,1.5]", "/levels/auto/table_lx/2/1",
-         "required: a level from 0 to 1"},
+        {"[10000,1]", "[10000,1.5]", "/levels/auto/table_lx/2/1", "required: a level from 0 to 1"},
         {"'*':0.04", "'*':'dim'", "/levels/night/*", "is a text, required: a number"},
         {"{'*':0.04,'cluster':0.1}", "{}", "/levels/night", "has 0 members, required: 1"},
-        {"{'*':0.04,'cluster':0.1}", "0.04", "/levels/night", "is a number, required: an "
-        "object"},
+        {"{'*':0.04,'cluster':0.1}", "0.04", "/levels/night",
+         "is a number, required: an "
+         "object"},
         {"[0,3,4]", "[0,0,0]", "/levels/auto/sensor/normal", "is the zero vector"},
         {"[100,0.1]", "[0,0.1]", "/levels/auto/table_lx/1",
          "is at 0 lx behind 0 lx, required: more lx"},
         {"[100,0.1]", "[100,0.01]", "/levels/auto/table_lx/1",
          "falls from level 0.02 to 0.01, required: one that does not fall"},
-        {"[100,0.1]", "[100]", "/levels/auto/table_lx/1",
-         "has 1 values, required: 2"},
+        {"[100,0.1]", "[100]", "/levels/auto/table_lx/1", "has 1 values, required: 2"},
         {"[100,0.1]", "[100,'x']", "/levels/auto/table_lx/1", "required: only numbers"},
-        {"[100,0.1]", "7", "/levels/auto/table_lx/1",
-         "is a number, required: an array of numbers"},
+        {"[100,0.1]", "7", "/levels/auto/table_lx/1", "is a number, required: an array of numbers"},
         {"[10000,1]", "[1e9,1]", "/levels/auto/table_lx/2",
          "is 1e+09, required: a number from 0 to 1e+07"},
         {"[[0,0.02],[100,0.1],[10000,1]]", "[]", "/levels/auto/table_lx", "has 0 values"},
@@ -201,8 +190,7 @@ TEST(levels_are_checked)
     CHECK_ALL(wrong);
 }
 
-TEST(the_rest_is_checked)
-{
+TEST(the_rest_is_checked) {
     static const Wrong wrong[] = {
         {"'profile':'iso-15008'", "'profile':''", "/profile",
          "is an empty text, required: some words"},
@@ -223,8 +211,7 @@ TEST(the_rest_is_checked)
 
 /* ---- conditions -------------------------------------------------------------------------- */
 
-TEST(conditions_are_checked)
-{
+TEST(conditions_are_checked) {
     static const Wrong wrong[] = {
         {"'name':'night'", "'name':'noon'", "/conditions/1/name",
          "is 'noon' as that of condition 0, required: another name"},
@@ -236,8 +223,9 @@ TEST(conditions_are_checked)
          "is 'somebody', but the file has no 'with'"},
         {"{'text':'dark-on-light'}", "{'txt':'dark-on-light'}", "/conditions/1/polarity/txt",
          "unknown symbol; did you mean text?"},
-        {"{'text':'dark-on-light'}", "'dark'", "/conditions/1/polarity", "is 'dark', "
-        "required:"},
+        {"{'text':'dark-on-light'}", "'dark'", "/conditions/1/polarity",
+         "is 'dark', "
+         "required:"},
         {"'contents':{'cluster':'p.png'}", "'contents':{'cluster':'q.png'}",
          "/conditions/0/contents/cluster", "cannot be read"},
         {"'weather':'clear'", "'weather':'rain'", "/conditions/3/sweep/weather",
@@ -248,8 +236,7 @@ TEST(conditions_are_checked)
     CHECK_ALL(wrong);
 }
 
-TEST(environments_are_checked_as_in_a_scene)
-{
+TEST(environments_are_checked_as_in_a_scene) {
     static const Wrong wrong[] = {
         {"'type':'sky','when'", "'type':'mist','when'", "/conditions/0/environment/type",
          "\"mist\", one of constant|hdri|cie|perez|sky is required"},
@@ -266,14 +253,13 @@ TEST(environments_are_checked_as_in_a_scene)
          "stands in 'environment' as well, required: once"},
         {"'heading_deg':30}", "'forward':[0,0,1]}", "/conditions/0/environment/forward",
          "stands in a condition, required: at the top of the file"},
-        {"'turbidity':4", "'turbidity':4,'heading_deg':7",
-         "/conditions/3/environment/heading_deg", "headings of its own, required: none"},
+        {"'turbidity':4", "'turbidity':4,'heading_deg':7", "/conditions/3/environment/heading_deg",
+         "headings of its own, required: none"},
     };
     CHECK_ALL(wrong);
 }
 
-TEST(sweeps_are_checked)
-{
+TEST(sweeps_are_checked) {
     static const Wrong wrong[] = {
         {"[0,360,90]", "[0,360]", "/conditions/2/sweep/sun/azimuth_deg",
          "has 2 values, required: 3"},
@@ -297,8 +283,9 @@ TEST(sweeps_are_checked)
         {"'sky':'sky'", "'year':2026", "/conditions/2/sweep",
          "has both, required: one of 'sun' and 'year'"},
         {"'year':2026,", "", "/conditions/3/sweep", "has neither, required: one of"},
-        {"'year':2026", "'year':2026.5", "/conditions/3/sweep/year", "required: a whole "
-        "number"},
+        {"'year':2026", "'year':2026.5", "/conditions/3/sweep/year",
+         "required: a whole "
+         "number"},
         {"'year':2026", "'year':26", "/conditions/3/sweep/year", "is 26, required:"},
         {"'where':[48,11]", "'where':[480,11]", "/conditions/3/sweep/where", "is no place"},
         {"'where':[48,11]", "'where':[48]", "/conditions/3/sweep/where",
@@ -319,11 +306,10 @@ TEST(sweeps_are_checked)
 
 /* ---- weather ----------------------------------------------------------------------------- */
 
-TEST(a_weather_file_is_there)
-{
+TEST(a_weather_file_is_there) {
     static const Wrong wrong[] = {
-        {"'weather':'clear','night'", "'weather':'none.epw','night'",
-         "/conditions/3/sweep/weather", "none.epw', which cannot be read"},
+        {"'weather':'clear','night'", "'weather':'none.epw','night'", "/conditions/3/sweep/weather",
+         "none.epw', which cannot be read"},
         {"'weather':'clear','night'", "'weather':'empty.epw','night'", "",
          "is empty, required: an EPW weather file"},
     };
@@ -331,10 +317,9 @@ TEST(a_weather_file_is_there)
 }
 
 /* The station's place serves where none is said; air and ground come from one source. */
-ARENA_TEST(a_weather_year_brings_its_place)
-{
+ARENA_TEST(a_weather_year_brings_its_place) {
     ReviewRequest r;
-    const char   *shared = SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw";
+    const char *shared = SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw";
     if (access(shared, R_OK)) {
         print_message("skipped: no shared data\n");
         skip();
@@ -342,15 +327,16 @@ ARENA_TEST(a_weather_year_brings_its_place)
     FileBytes bytes = read_bytes(shared, &arena);
     write_bytes(in_folder("year.epw"), bytes.data, bytes.size);
     char *text = review_changed(review_good, "'where':[48,11],", "", &arena);
-    text = review_changed(text, "\"weather\":\"clear\",\"night\"",
-                          "'weather':'year.epw','night'", &arena);
+    text = review_changed(text, "\"weather\":\"clear\",\"night\"", "'weather':'year.epw','night'",
+                          &arena);
     assert_fails_as(review_read(text, &arena, &r, &err), ERROR_INPUT,
                     "stands beside a weather file, required: one of them");
     assert_string_equal(why()->path, "/conditions/3/environment");
     text = review_changed(text,
                           "\"environment\":{\"type\":\"sky\",\"turbidity\":4,"
                           "\"sun\":{\"azimuth_deg\":0,\"elevation_deg\":9,"
-                          "\"illuminance_lx\":1}},", "", &arena);
+                          "\"illuminance_lx\":1}},",
+                          "", &arena);
     assert_done(review_read(text, &arena, &r, &err));
     assert_int_equal(r.weather_count, 1);
     assert_int_equal(r.conditions[3].weather_id, 0);
@@ -361,23 +347,22 @@ ARENA_TEST(a_weather_year_brings_its_place)
 
 /* ---- the file as a whole ----------------------------------------------------------------- */
 
-TEST(what_is_no_document_is_refused)
-{
+TEST(what_is_no_document_is_refused) {
     static const struct {
         const char *text, *words;
-    } wrong[] = {{"", "not valid JSON"}, {"[]", "is an array, required: an object"},
-                 {"{} x", "not valid JSON"}, {"{}", "key 'scene' is missing"}};
+    } wrong[] = {{"", "not valid JSON"},
+                 {"[]", "is an array, required: an object"},
+                 {"{} x", "not valid JSON"},
+                 {"{}", "key 'scene' is missing"}};
     for (int i = 0; i < 4; i++) {
-        Arena         arena = test_arena(state);
+        Arena arena = test_arena(state);
         ReviewRequest r;
-        assert_fails_as(review_read(wrong[i].text, &arena, &r, &err), ERROR_INPUT,
-                        wrong[i].words);
+        assert_fails_as(review_read(wrong[i].text, &arena, &r, &err), ERROR_INPUT, wrong[i].words);
     }
-    Arena         arena = test_arena(state);
+    Arena arena = test_arena(state);
     ReviewRequest r;
-    Problems      problems = problems_start(&arena);
-    assert_false(review_request_read(in_folder("none.json"), NULL, &arena, &problems, &r,
-                                     why()));
+    Problems problems = problems_start(&arena);
+    assert_false(review_request_read(in_folder("none.json"), NULL, &arena, &problems, &r, why()));
     assert_text_has(why()->file, "none.json");
 }
 

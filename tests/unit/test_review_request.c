@@ -4,25 +4,21 @@
 
 #include "base/units.h"
 
-static int start(void **state)
-{
+static int start(void **state) {
     if (make_folder(state)) return -1;
     review_files();
     return 0;
 }
 
-static ReviewRequest good(Arena *arena)
-{
+static ReviewRequest good(Arena *arena) {
     ReviewRequest request = {0};
-    assert_done(review_read(review_changed(review_good, NULL, NULL, arena), arena, &request,
-                            &err));
+    assert_done(review_read(review_changed(review_good, NULL, NULL, arena), arena, &request, &err));
     return request;
 }
 
 /* ---- what arrives ------------------------------------------------------------------------ */
 
-ARENA_TEST(eyes_and_where_they_look_arrive)
-{
+ARENA_TEST(eyes_and_where_they_look_arrive) {
     ReviewRequest r = good(&arena);
     assert_string_equal(r.title, "All of it");
     assert_int_equal(r.scene_count, 2);
@@ -41,8 +37,7 @@ ARENA_TEST(eyes_and_where_they_look_arrive)
     assert_false(r.gazes[1].for_eye[1] || r.gazes[1].for_eye[3]);
 }
 
-ARENA_TEST(symbols_levels_and_the_rest_arrive)
-{
+ARENA_TEST(symbols_levels_and_the_rest_arrive) {
     ReviewRequest r = good(&arena);
     assert_int_equal(r.symbol_count, 3);
     assert_string_equal(r.symbols[0].content, in_folder("p.png"));
@@ -64,8 +59,7 @@ ARENA_TEST(symbols_levels_and_the_rest_arrive)
     assert_string_equal(r.inputs[0].path, r.file);
 }
 
-ARENA_TEST(conditions_arrive)
-{
+ARENA_TEST(conditions_arrive) {
     ReviewRequest r = good(&arena);
     const ReviewCondition *noon = &r.conditions[0], *night = &r.conditions[1];
     assert_int_equal(r.condition_count, 4);
@@ -76,8 +70,7 @@ ARENA_TEST(conditions_arrive)
     assert_close((double)noon->environment.heading, radians_from_degrees(30), 1e-6);
     assert_true(noon->environment.forward.z == -1);
     assert_true(noon->level_id == 1 && noon->with_id == 0 && noon->content_count == 1);
-    for (int i = 0; i < 3; i++)
-        assert_int_equal(noon->polarity[i], POLARITY_DARK_ON_LIGHT);
+    for (int i = 0; i < 3; i++) assert_int_equal(noon->polarity[i], POLARITY_DARK_ON_LIGHT);
     assert_true(!night->has_environment && night->light_count == 1);
     assert_true(night->has_heading && night->heading_deg == -20 && night->with_id == NO_ID);
     assert_int_equal(night->polarity[0], POLARITY_LIGHT_ON_DARK); /* the symbol's own */
@@ -86,19 +79,18 @@ ARENA_TEST(conditions_arrive)
 }
 
 /* A deck of clouds is there, its synthetic billows are not. */
-ARENA_TEST(a_clouds_relief_is_nothing_to_judge_by)
-{
+ARENA_TEST(a_clouds_relief_is_nothing_to_judge_by) {
     ReviewRequest r = {0};
-    char         *text = review_changed(review_good, "'heading_deg':30}",
-                                        "'heading_deg':30,'ground':'cloud','cloud_top_m':200,"
-                                        "'cloud_relief_m':500}", &arena);
+    char *text = review_changed(review_good, "'heading_deg':30}",
+                                "'heading_deg':30,'ground':'cloud','cloud_top_m':200,"
+                                "'cloud_relief_m':500}",
+                                &arena);
     assert_done(review_read(text, &arena, &r, &err));
     assert_int_equal(r.conditions[0].environment.daylight.floor, FLOOR_CLOUD);
     assert_true(r.conditions[0].environment.daylight.cloud_relief_m == 0);
 }
 
-ARENA_TEST(sweeps_arrive)
-{
+ARENA_TEST(sweeps_arrive) {
     ReviewRequest r = good(&arena);
     const ReviewCondition *suns = &r.conditions[2], *year = &r.conditions[3];
     assert_int_equal(year->weather_id, NO_ID);
@@ -114,10 +106,9 @@ ARENA_TEST(sweeps_arrive)
     assert_true(year->has_environment && year->environment.daylight.turbidity == 4);
 }
 
-ARENA_TEST(what_is_not_said_has_defaults)
-{
+ARENA_TEST(what_is_not_said_has_defaults) {
     ReviewRequest r;
-    char         *text = review_changed(
+    char *text = review_changed(
         "{'scene':['a.gltf'],'eyes':{'e':{'camera':0}},'profile':'p',"
         "'symbols':{'s':{'display':'d','uv':[0,0,1,1]}},'conditions':[{'name':'n'}]}",
         NULL, NULL, &arena);
@@ -138,12 +129,13 @@ ARENA_TEST(what_is_not_said_has_defaults)
 /* ---- a box of eyes ----------------------------------------------------------------------- */
 
 /* Its points are symmetric about the centre, reach the faces, and are all different. */
-TEST(an_eye_box_is_a_grid_with_both_ends)
-{
-    ReviewEye eye = {.kind = EYE_BOX, .position_m = {1, 2, 3}, .half_size_m = {0.1, 0.2, 0.3},
+TEST(an_eye_box_is_a_grid_with_both_ends) {
+    ReviewEye eye = {.kind = EYE_BOX,
+                     .position_m = {1, 2, 3},
+                     .half_size_m = {0.1, 0.2, 0.3},
                      .grid = {3, 1, 2}};
     double sum[3] = {0}, low[3] = {9, 9, 9}, high[3] = {-9, -9, -9};
-    int    count = review_eye_count(&eye);
+    int count = review_eye_count(&eye);
     assert_int_equal(count, 6);
     for (int i = 0; i < count; i++) {
         double point[3], other[3];
@@ -166,11 +158,10 @@ TEST(an_eye_box_is_a_grid_with_both_ends)
 }
 
 /* Its points lie on an ellipsoid about its middle, whose front is down by the tilt. */
-ARENA_TEST(an_ellipse_of_eyes_has_its_axes)
-{
+ARENA_TEST(an_ellipse_of_eyes_has_its_axes) {
     ReviewRequest r;
-    char         *text = review_changed(review_good, "'half_size_m':[0.1,0.2,0],'grid':[2,3,1]",
-                                        "'ellipse_m':[0.4,0.2,0.1],'tilt_deg':30", &arena);
+    char *text = review_changed(review_good, "'half_size_m':[0.1,0.2,0],'grid':[2,3,1]",
+                                "'ellipse_m':[0.4,0.2,0.1],'tilt_deg':30", &arena);
     assert_done(review_read(text, &arena, &r, &err));
     const ReviewEye *eye = &r.eyes[3];
     double c = sqrt(0.75), s = 0.5, middle[3], sum[3] = {0};
@@ -192,14 +183,13 @@ ARENA_TEST(an_ellipse_of_eyes_has_its_axes)
 
 /* ---- any bytes --------------------------------------------------------------------------- */
 
-ARENA_TEST(every_prefix_is_refused_in_one_line)
-{
-    char  *text = review_changed(review_good, NULL, NULL, &arena);
+ARENA_TEST(every_prefix_is_refused_in_one_line) {
+    char *text = review_changed(review_good, NULL, NULL, &arena);
     size_t length = strlen(text);
     for (size_t n = 0; n < length; n++) {
         ReviewRequest r;
-        Arena         scratch = arena;
-        char         *part = arena_string(&scratch, text, n);
+        Arena scratch = arena;
+        char *part = arena_string(&scratch, text, n);
         assert_false(review_read(part, &scratch, &r, why()));
         assert_int_equal(why()->code, ERROR_INPUT);
         assert_true(why()->text[0] && !strchr(why()->text, '\n'));
@@ -207,17 +197,16 @@ ARENA_TEST(every_prefix_is_refused_in_one_line)
     }
 }
 
-ARENA_TEST(damaged_bytes_do_no_harm)
-{
+ARENA_TEST(damaged_bytes_do_no_harm) {
     static const char damage[] = " 9\"{}[],:-e\\\xff\x01";
-    char    *text = review_changed(review_good, NULL, NULL, &arena);
-    size_t   length = strlen(text);
+    char *text = review_changed(review_good, NULL, NULL, &arena);
+    size_t length = strlen(text);
     unsigned random = 7;
-    int      refused = 0;
+    int refused = 0;
     for (size_t n = 0; n < length; n++) {
         ReviewRequest r;
-        Arena         scratch = arena;
-        char         *part = arena_string(&scratch, text, length);
+        Arena scratch = arena;
+        char *part = arena_string(&scratch, text, length);
         random = random * 1664525u + 1013904223u;
         part[n] = damage[(random >> 16) % (sizeof damage - 1)];
         if (review_read(part, &scratch, &r, why())) continue;
@@ -231,12 +220,11 @@ ARENA_TEST(damaged_bytes_do_no_harm)
 
 /* As a process of its own: running out is an exit, as in the program, or an error that says so
  * of the file. */
-static int status_with(size_t bytes, const char *file)
-{
+static int status_with(size_t bytes, const char *file) {
     pid_t child = fork();
     if (child == 0) {
         ReviewRequest r;
-        Arena         arena = arena_reserve((size_t)1 << 22);
+        Arena arena = arena_reserve((size_t)1 << 22);
         if (arena.end > arena.next + bytes) arena.end = arena.next + bytes;
         arena.on_full = leave_when_full;
         Problems problems = problems_start(&arena);
@@ -246,10 +234,9 @@ static int status_with(size_t bytes, const char *file)
     return status_of(child);
 }
 
-ARENA_TEST(running_out_of_memory_is_a_clean_end)
-{
+ARENA_TEST(running_out_of_memory_is_a_clean_end) {
     const char *file = in_folder("t.review.json");
-    int         full = 0, status = FULL_STATUS;
+    int full = 0, status = FULL_STATUS;
     write_text(file, review_changed(review_good, NULL, NULL, &arena));
     for (size_t bytes = 64; status == FULL_STATUS && bytes < (size_t)1 << 22;
          bytes += bytes / 16 + 8) {

@@ -10,8 +10,7 @@
 
 static const Profile profile = {.increment_most_pct = 15};
 
-static GazeRoad *judged(double old_pct, double half, double unusable, double without_data)
-{
+static GazeRoad *judged(double old_pct, double half, double unusable, double without_data) {
     GazeRoad *road = fixture_road(&arena, old_pct, half);
     road->without_data_share = without_data;
     judge_road(road, &profile, unusable);
@@ -20,13 +19,15 @@ static GazeRoad *judged(double old_pct, double half, double unusable, double wit
 
 /* ---- verdicts ---------------------------------------------------------------------------- */
 
-TEST(an_increment_is_judged_by_its_whole_interval)
-{
+TEST(an_increment_is_judged_by_its_whole_interval) {
     static const struct {
-        double  pct, half;
+        double pct, half;
         Verdict verdict;
-    } rows[] = {{14, 0.9, VERDICT_PASS}, {14, 1.1, VERDICT_TOO_CLOSE},
-                {15.5, 1, VERDICT_TOO_CLOSE}, {16.1, 1, VERDICT_FAIL}, {15, 0, VERDICT_PASS}};
+    } rows[] = {{14, 0.9, VERDICT_PASS},
+                {14, 1.1, VERDICT_TOO_CLOSE},
+                {15.5, 1, VERDICT_TOO_CLOSE},
+                {16.1, 1, VERDICT_FAIL},
+                {15, 0, VERDICT_PASS}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         GazeRoad *road = judged(rows[i].pct, rows[i].half, 0, 0);
         assert_true(road->has_limit);
@@ -39,8 +40,7 @@ TEST(an_increment_is_judged_by_its_whole_interval)
     }
 }
 
-TEST(what_nobody_measured_is_not_judged)
-{
+TEST(what_nobody_measured_is_not_judged) {
     assert_int_equal(judged(2, 0.1, 0, 0.11)->verdict, VERDICT_UNJUDGED);
     assert_int_equal(judged(2, 0.1, 0, 0.11)->unjudged, UNJUDGED_DATA);
     assert_int_equal(judged(2, 0.1, 0.11, 0)->unjudged, UNJUDGED_PANEL);
@@ -48,10 +48,9 @@ TEST(what_nobody_measured_is_not_judged)
     assert_int_equal(judged((double)NAN, 0.1, 0, 0)->unjudged, UNJUDGED_FIGURE);
 }
 
-TEST(without_a_limit_nothing_counts)
-{
+TEST(without_a_limit_nothing_counts) {
     const Profile none = {.increment_most_pct = NAN};
-    GazeFinding   gaze = {.road = fixture_road(&arena, 40, 1)};
+    GazeFinding gaze = {.road = fixture_road(&arena, 40, 1)};
     judge_road(gaze.road, &none, 0);
     assert_false(gaze_counts(&gaze));
     assert_null(gaze_worst_age(&gaze));
@@ -64,18 +63,16 @@ TEST(without_a_limit_nothing_counts)
 }
 
 /* The fixture's review, in which the third gaze is at a road by night. */
-static Review review_with(GazeRoad *road)
-{
+static Review review_with(GazeRoad *road) {
     Review review = fixture_review(&arena);
     review.gazes[2].road = road;
     return review;
 }
 
-TEST(a_gaze_counts_as_a_case_does)
-{
-    Review       before = fixture_review(&arena);
+TEST(a_gaze_counts_as_a_case_does) {
+    Review before = fixture_review(&arena);
     ReviewCounts counts = review_count(&before);
-    Review       review = review_with(judged(30, 1, 0, 0));
+    Review review = review_with(judged(30, 1, 0, 0));
     ReviewCounts more = review_count(&review);
     assert_int_equal(more.total, counts.total + 1);
     assert_int_equal(more.of[VERDICT_FAIL], counts.of[VERDICT_FAIL] + 1);
@@ -96,10 +93,9 @@ TEST(a_gaze_counts_as_a_case_does)
 
 /* ---- what is written --------------------------------------------------------------------- */
 
-TEST(a_road_is_read_as_it_was_written)
-{
+TEST(a_road_is_read_as_it_was_written) {
     GazeRoad *road = judged(30, 1, 0, 0.05);
-    Review    again, review = review_with(road);
+    Review again, review = review_with(road);
     const char *path = fresh_name(".json");
     fixture_dimming(road);
     assert_done(review_json_write(review_json(&review), path, &err));
@@ -125,24 +121,22 @@ TEST(a_road_is_read_as_it_was_written)
 }
 
 static const char *written(bool (*write)(const Review *, const char *, Error *),
-                           const Review *review)
-{
+                           const Review *review) {
     const char *path = fresh_name(".txt");
     assert_done(write(review, path, &err));
     return taken(path);
 }
 
-TEST(tables_have_columns_of_roads_where_there_is_one)
-{
-    GazeRoad   *road = judged(30, 1, 0, 0);
-    Review      review = review_with(road), before = fixture_review(&arena);
+TEST(tables_have_columns_of_roads_where_there_is_one) {
+    GazeRoad *road = judged(30, 1, 0, 0);
+    Review review = review_with(road), before = fixture_review(&arena);
     const char *old = written(review_csv_write_gazes, &before);
     const char *with = written(review_csv_write_gazes, &review);
-    size_t      head = strcspn(old, "\r");
+    size_t head = strcspn(old, "\r");
     assert_null(strstr(old, "road_cd_m2"));
     assert_memory_equal(old, with, head);
-    assert_true(strncmp(with + head, ",road_cd_m2,road_mesopic_cd_m2,threshold_increment_pct,",
-                        54) == 0);
+    assert_true(
+        strncmp(with + head, ",road_cd_m2,road_mesopic_cd_m2,threshold_increment_pct,", 54) == 0);
     assert_non_null(strstr(with, ",0.3,0.325,30,29,31,15,fail,70,27,"));
     assert_non_null(strstr(with, ",wide screen,0.8\r\n"));
     fixture_dimming(road);
@@ -152,12 +146,11 @@ TEST(tables_have_columns_of_roads_where_there_is_one)
     assert_non_null(strstr(dimming, ",driver,road,*,70,0.4,0.5,0.06,"));
 }
 
-TEST(a_test_of_ci_is_made_of_each_road_that_counts)
-{
-    Review      before = fixture_review(&arena), review = review_with(judged(30, 1, 0, 0));
+TEST(a_test_of_ci_is_made_of_each_road_that_counts) {
+    Review before = fixture_review(&arena), review = review_with(judged(30, 1, 0, 0));
     const char *old = written(review_junit_write, &before);
     const char *with = written(review_junit_write, &review);
-    int         tests = review_count(&before).total;
+    int tests = review_count(&before).total;
     assert_non_null(strstr(old, arena_format(&arena, "tests=\"%d\"", tests)));
     assert_non_null(strstr(with, arena_format(&arena, "tests=\"%d\"", tests + 1)));
     assert_non_null(strstr(with, "<failure type=\"fail\" message=\"Fails: threshold increment "
@@ -168,13 +161,12 @@ TEST(a_test_of_ci_is_made_of_each_road_that_counts)
     assert_int_equal(cases, tests + 1);
 }
 
-TEST(the_page_says_who_makes_it_and_what_keeps_it)
-{
+TEST(the_page_says_who_makes_it_and_what_keeps_it) {
     GazeRoad *road = judged(30, 1, 0, 0);
-    Review    review = review_with(road), before = fixture_review(&arena);
+    Review review = review_with(road), before = fixture_review(&arena);
     fixture_dimming(road);
     review_decide(&review);
-    ReviewPage  page = {.review = &review}, old = {.review = &before};
+    ReviewPage page = {.review = &review}, old = {.review = &before};
     const char *text = page_of(&page);
     assert_null(strstr(page_of(&old), "The road after dark"));
     assert_non_null(strstr(text, "displays make 90 % of it, wide screen 80 %, all straight"));
@@ -185,14 +177,16 @@ TEST(the_page_says_who_makes_it_and_what_keeps_it)
     assert_non_null(strstr(text, "<svg class=\"dimming\""));
 }
 
-TEST(a_road_that_is_left_out_says_so)
-{
+TEST(a_road_that_is_left_out_says_so) {
     GazeRoad *road = ARENA_NEW(&arena, GazeRoad, 1);
-    *road = (GazeRoad){.luminance_cd_m2 = 0.3, .s_p = NAN, .mesopic_cd_m2 = NAN,
-                       .left_out = ROAD_BY_DAY, .without_data_share = NAN,
+    *road = (GazeRoad){.luminance_cd_m2 = 0.3,
+                       .s_p = NAN,
+                       .mesopic_cd_m2 = NAN,
+                       .left_out = ROAD_BY_DAY,
+                       .without_data_share = NAN,
                        .verdict = VERDICT_UNJUDGED};
-    Review      review = review_with(road);
-    ReviewPage  page = {.review = &review};
+    Review review = review_with(road);
+    ReviewPage page = {.review = &review};
     const char *text = page_of(&page);
     assert_non_null(strstr(text, "not evaluated: the sun is above the horizon"));
     const char *table = written(review_csv_write_gazes, &review);
@@ -201,14 +195,12 @@ TEST(a_road_that_is_left_out_says_so)
 }
 
 /* What an interval says and what its verdict says is one thing. */
-TEST(words_say_the_ways_of_light)
-{
-    GazeFinding gaze = {.condition = "night", .eye = "driver", .gaze = "road",
-                        .road = judged(30, 1, 0, 0)};
+TEST(words_say_the_ways_of_light) {
+    GazeFinding gaze = {
+        .condition = "night", .eye = "driver", .gaze = "road", .road = judged(30, 1, 0, 0)};
     RoadDisplay *first = &gaze.road->ages[1].displays[0];
     *first = gaze.road->ages[1].displays[1];
-    assert_non_null(strstr(road_words(&gaze, &arena),
-                           "cluster 10 %, 60 % by windscreen (glass)"));
+    assert_non_null(strstr(road_words(&gaze, &arena), "cluster 10 %, 60 % by windscreen (glass)"));
     first->mirrored_share = 0.1;
     first->scattered_share = 0.7;
     assert_non_null(strstr(road_words(&gaze, &arena), "70 % by surfaces that it lights"));
@@ -216,11 +208,10 @@ TEST(words_say_the_ways_of_light)
 }
 
 /* The deciding age of the variant beside the review's of that age. */
-TEST(a_variants_road_stands_beside_the_reviews)
-{
-    Review      before = review_with(judged(30, 1, 0, 0));
-    Review      after = review_with(judged(9, 1, 0, 0));
-    RoadChange  change;
+TEST(a_variants_road_stands_beside_the_reviews) {
+    Review before = review_with(judged(30, 1, 0, 0));
+    Review after = review_with(judged(9, 1, 0, 0));
+    RoadChange change;
     GazeFinding only = after.gazes[2];
     after.gazes = &only; /* a variant's has roads alone */
     after.gaze_count = 1;

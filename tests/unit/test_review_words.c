@@ -4,8 +4,7 @@
 #include "review/output/review_words.h"
 #include "review_page_fixture.h"
 
-TEST(figures_are_said_in_words)
-{
+TEST(figures_are_said_in_words) {
     LimitVerdict ratio = {.kind = "contrast_ratio", .unit = "1", .value = 2};
     LimitVerdict height = {.kind = "character_height", .unit = "arcmin", .value = 12};
     assert_string_equal(words_figure(NAN, &arena), "–");
@@ -27,9 +26,8 @@ TEST(figures_are_said_in_words)
     assert_string_equal(words_required(&height, &arena), "<= 12 arc min (advice)");
 }
 
-TEST(what_is_not_visible_says_what_hides_it)
-{
-    Review            review = fixture_review(&arena);
+TEST(what_is_not_visible_says_what_hides_it) {
+    Review review = fixture_review(&arena);
     const ReviewCase *hidden = &review.cases[20];
     assert_string_equal(words_reason(hidden, &arena),
                         "nothing of it is seen: wheel <rim> (leather) hides 75 %, "
@@ -41,11 +39,10 @@ TEST(what_is_not_visible_says_what_hides_it)
 
 /* One sentence for each of what it rests on; shares are the greatest of its cases, and of a
  * part of it those of that part. */
-TEST(what_it_rests_on_is_one_line)
-{
+TEST(what_it_rests_on_is_one_line) {
     Review review = fixture_review(&arena);
-    review.cases[0].panel = (CasePanel){"usable with care", "coarse: steps of 5 degrees", true,
-                                        false, 0.02, 0.04, NULL};
+    review.cases[0].panel = (CasePanel){
+        "usable with care", "coarse: steps of 5 degrees", true, false, 0.02, 0.04, NULL};
     review.cases[3].guessed_share = 0.25;
     review.cases[5].guessed_share = 0.625;
     assert_string_equal(
@@ -57,8 +54,8 @@ TEST(what_it_rests_on_is_one_line)
         "model itself has somebody; limits as quoted, 1 of 5 read in the standard");
     review.cases[0].panel.assumed = "spectra of the primaries assumed: bands";
     for (int i = 0; i < review.case_count; i++)
-        review.cases[i].extrapolated_share = words_same(review.cases[i].display, "centre")
-                                                 ? 0.004 : 0.001 * i;
+        review.cases[i].extrapolated_share =
+            words_same(review.cases[i].display, "centre") ? 0.004 : 0.001 * i;
     assert_non_null(strstr(review_rests_words(&review, &arena),
                            "4.0 % of what it reflects, spectra of the primaries assumed: bands"
                            ", up to 2.3 % of the light that it reflects by directions that "
@@ -75,17 +72,15 @@ TEST(what_it_rests_on_is_one_line)
     assert_string_equal(review_rests_words(&older, &arena), "");
 }
 
-TEST(no_guess_no_proposal_no_quote_is_told_where_there_is_none)
-{
-    ReviewRest rests[] = {
-        {REST_PANEL, REST_NOT_STATED, "a", NULL, 1, 1},
-        {REST_PANEL, REST_NOT_STATED, "b", NULL, 1, 1},
-        {REST_MATERIAL, REST_WITHOUT_DATA, "grey", "perfectly white", 1, 1},
-        {REST_EYE, REST_GIVEN, "driver", NULL, 1, 1},
-        {REST_EYE, REST_PROPOSED, "co-driver", "before the seat", 1, 1},
-        {REST_OCCUPANT, REST_NOBODY, NULL, NULL, 1, 3},
-        {REST_OCCUPANT, REST_PRESENT, "in white", NULL, 2, 3},
-        {REST_LIMITS, REST_READ, "house", NULL, 4, 4}};
+TEST(no_guess_no_proposal_no_quote_is_told_where_there_is_none) {
+    ReviewRest rests[] = {{REST_PANEL, REST_NOT_STATED, "a", NULL, 1, 1},
+                          {REST_PANEL, REST_NOT_STATED, "b", NULL, 1, 1},
+                          {REST_MATERIAL, REST_WITHOUT_DATA, "grey", "perfectly white", 1, 1},
+                          {REST_EYE, REST_GIVEN, "driver", NULL, 1, 1},
+                          {REST_EYE, REST_PROPOSED, "co-driver", "before the seat", 1, 1},
+                          {REST_OCCUPANT, REST_NOBODY, NULL, NULL, 1, 3},
+                          {REST_OCCUPANT, REST_PRESENT, "in white", NULL, 2, 3},
+                          {REST_LIMITS, REST_READ, "house", NULL, 4, 4}};
     Review review = {.rests_on = rests, .rests_on_count = 8};
     assert_string_equal(
         review_rests_words(&review, &arena),
@@ -95,8 +90,7 @@ TEST(no_guess_no_proposal_no_quote_is_told_where_there_is_none)
         "in the standard");
 }
 
-TEST(an_empty_seat_is_named_with_its_share)
-{
+TEST(an_empty_seat_is_named_with_its_share) {
     ReviewCase c = {.eye = "driver", .empty_seat = "Lehne (Stoff)", .empty_seat_share = 0.96};
     assert_non_null(strstr(words_empty_seat(&c, &arena),
                            "nobody sits in the driver's seat: its back, Lehne (Stoff), causes "
@@ -106,42 +100,41 @@ TEST(an_empty_seat_is_named_with_its_share)
 }
 
 /* No more digits than the interval allows, and four at most. */
-TEST(digits_follow_the_interval)
-{
+TEST(digits_follow_the_interval) {
     assert_string_equal(words_within(417.486, 380, 455, &arena), "420");
     assert_string_equal(words_interval(380.2, 455.1, &arena), "380 to 460");
     assert_string_equal(words_within(94.5257, 94.52, 94.53, &arena), "94.53");
     assert_string_equal(words_within(2.951, 2.931, 2.971, &arena), "2.951");
     assert_string_equal(words_within(12.345, NAN, NAN, &arena), words_figure(12.345, &arena));
-    LimitVerdict limit = {.kind = "luminance", .unit = "cd/m2", .found = 417.486, .low = 380,
-                          .high = 455};
+    LimitVerdict limit = {
+        .kind = "luminance", .unit = "cd/m2", .found = 417.486, .low = 380, .high = 455};
     assert_string_equal(words_found(&limit, &arena), "420 cd/m²");
 }
 
-static const char *fact(const ReviewFacts *facts, const char *name)
-{
+static const char *fact(const ReviewFacts *facts, const char *name) {
     for (int i = 0; i < facts->count; i++)
         if (!strcmp(facts->list[i].name, name)) return facts->list[i].value;
     return "";
 }
 
 /* For each reason: what, why, and what to do; a figure that decides nothing is not reported. */
-TEST(what_cannot_be_judged_says_what_would_have_it_judged)
-{
-    static const struct { Unjudged why; const char *reason, *mend; } ROWS[] = {
-        {UNJUDGED_HIDDEN, "nothing of it is seen", "\"visible\": \"optional\""},
-        {UNJUDGED_PANEL, "not usable: 63 % of the samples", "measured anew"},
-        {UNJUDGED_DATA, "without optical data", "by `equip`"},
-        {UNJUDGED_LIMIT, "no limit", "a profile"},
-        {UNJUDGED_FIGURE, "could not be found out", "background"}};
+TEST(what_cannot_be_judged_says_what_would_have_it_judged) {
+    static const struct {
+        Unjudged why;
+        const char *reason, *mend;
+    } ROWS[] = {{UNJUDGED_HIDDEN, "nothing of it is seen", "\"visible\": \"optional\""},
+                {UNJUDGED_PANEL, "not usable: 63 % of the samples", "measured anew"},
+                {UNJUDGED_DATA, "without optical data", "by `equip`"},
+                {UNJUDGED_LIMIT, "no limit", "a profile"},
+                {UNJUDGED_FIGURE, "could not be found out", "background"}};
     for (size_t i = 0; i < sizeof ROWS / sizeof *ROWS; i++) {
-        Review      review = fixture_review(&arena);
+        Review review = fixture_review(&arena);
         ReviewCase *c = &review.cases[0];
         c->verdict = VERDICT_UNJUDGED;
         c->unjudged = ROWS[i].why;
         c->visible_share = ROWS[i].why != UNJUDGED_HIDDEN;
-        c->panel = (CasePanel){.verdict = "not usable", .reason = "63 % of the samples",
-                               .is_unusable = true};
+        c->panel = (CasePanel){
+            .verdict = "not usable", .reason = "63 % of the samples", .is_unusable = true};
         ReviewFacts facts = review_facts_of(&review, c, NULL, &arena);
         assert_non_null(strstr(fact(&facts, "Not judged"), words_case(c, &arena)));
         assert_non_null(strstr(fact(&facts, "Why"), ROWS[i].reason));
@@ -154,9 +147,8 @@ TEST(what_cannot_be_judged_says_what_would_have_it_judged)
 
 /* A polariser may take the display's light and leave the reflections: then that is why. 100 and
  * 5 cd/m2 over 40 are 3.11 : 1. */
-TEST(sunglasses_are_named_with_what_they_take)
-{
-    Review      review = fixture_review(&arena);
+TEST(sunglasses_are_named_with_what_they_take) {
+    Review review = fixture_review(&arena);
     ReviewCase *c = &review.cases[0];
     c->glasses = "grey sunglasses of 20 %";
     ReviewFacts facts = review_facts_of(&review, c, NULL, &arena);
@@ -173,11 +165,13 @@ TEST(sunglasses_are_named_with_what_they_take)
 
 /* Columns of a telephone that do not hold the longest word stand below each other; each cell
  * has its eye's name for that. */
-TEST(long_names_are_stacked_on_a_telephone)
-{
-    static const struct { const char *eye, *condition; bool is_stacked; } ROWS[] = {
-        {"driver", "noon", false}, {"Kraftfahrzeugfuehrers", "noon", true},
-        {"driver", "Nachtfahrtbeleuchtung", true}};
+TEST(long_names_are_stacked_on_a_telephone) {
+    static const struct {
+        const char *eye, *condition;
+        bool is_stacked;
+    } ROWS[] = {{"driver", "noon", false},
+                {"Kraftfahrzeugfuehrers", "noon", true},
+                {"driver", "Nachtfahrtbeleuchtung", true}};
     for (int i = 0; i < 3; i++) {
         Review review = fixture_review(&arena);
         review.sweep_count = 0;
@@ -187,29 +181,29 @@ TEST(long_names_are_stacked_on_a_telephone)
             review.cases[k].condition = ROWS[i].condition;
         }
         const char *page = page_of(&(ReviewPage){.review = &review});
-        assert_int_equal(strstr(page, "<div class=\"grid stacked\">") != NULL,
-                         ROWS[i].is_stacked);
+        assert_int_equal(strstr(page, "<div class=\"grid stacked\">") != NULL, ROWS[i].is_stacked);
         assert_non_null(strstr(page, arena_format(&arena, "<i>%s</i>", ROWS[i].eye)));
     }
 }
 
-TEST(the_sun_is_named_by_its_direction)
-{
-    static const struct { double azimuth; const char *world, *vehicle; } SUNS[] = {
-        {0, "north", "ahead"}, {359, "north", "ahead"},
-        {-46, "north-west", "ahead on the left"},
-        {135, "south-east", "behind on the right"}, {180, "south", "behind"}};
+TEST(the_sun_is_named_by_its_direction) {
+    static const struct {
+        double azimuth;
+        const char *world, *vehicle;
+    } SUNS[] = {{0, "north", "ahead"},
+                {359, "north", "ahead"},
+                {-46, "north-west", "ahead on the left"},
+                {135, "south-east", "behind on the right"},
+                {180, "south", "behind"}};
     for (int i = 0; i < 5; i++) {
-        ReviewCase c = {.has_sun = true, .sun_azimuth_deg = SUNS[i].azimuth,
-                        .sun_elevation_deg = 30};
+        ReviewCase c = {
+            .has_sun = true, .sun_azimuth_deg = SUNS[i].azimuth, .sun_elevation_deg = 30};
         assert_non_null(strstr(words_sun(&c, words_directions(false), &arena), SUNS[i].world));
         assert_non_null(strstr(words_sun(&c, words_directions(true), &arena), SUNS[i].vehicle));
     }
     ReviewCase nobody_knows = {.has_sun = true, .sun_azimuth_deg = 90, .sun_elevation_deg = 30};
-    assert_string_equal(words_sun(&nobody_knows, NULL, &arena),
-                        "sun 30.0° high, azimuth 90.0°");
-    assert_string_equal(words_sun(&(ReviewCase){0}, NULL, &arena),
-                        "no sun above the horizon");
+    assert_string_equal(words_sun(&nobody_knows, NULL, &arena), "sun 30.0° high, azimuth 90.0°");
+    assert_string_equal(words_sun(&(ReviewCase){0}, NULL, &arena), "no sun above the horizon");
 }
 
 TEST_PROGRAM(page_begin, clear_folder)

@@ -12,17 +12,16 @@
 #define LIMIT 15.0
 #define ROAD 0.3
 
-static const double       AGES[] = {25, 70};
-static const ReviewRoad   road = {.luminance_cd_m2 = ROAD, .s_p = 1.4, .ages = AGES,
-                                  .age_count = COUNT_OF(AGES)};
+static const double AGES[] = {25, 70};
+static const ReviewRoad road = {
+    .luminance_cd_m2 = ROAD, .s_p = 1.4, .ages = AGES, .age_count = COUNT_OF(AGES)};
 static const ReviewRequest request = {.forward = {0, 0, -1}, .observer = {50, 0.5}};
-static const Profile      profile = {.increment_most_pct = LIMIT};
+static const Profile profile = {.increment_most_pct = LIMIT};
 
 /* The first display at 0.5, the second at 0.25, a third that is dark. */
-static World three_displays(void)
-{
+static World three_displays(void) {
     static const char *const NAMES[] = {"wide", "cluster", "dark"};
-    static const float       LEVELS[] = {0.5f, 0.25f, 0};
+    static const float LEVELS[] = {0.5f, 0.25f, 0};
     World world = world_start();
     for (int i = 0; i < 3; i++) {
         Display *display = world_display(&world);
@@ -34,8 +33,7 @@ static World three_displays(void)
 
 /* The veils that make these increments; each known within a share. */
 static RoadReading reading_of(double wide, double cluster, double rest, double doubt,
-                              Arena *arena)
-{
+                              Arena *arena) {
     RoadReading reading = road_reading_start(COUNT_OF(AGES), 3, arena);
     for (int a = 0; a < COUNT_OF(AGES); a++) {
         double veils[] = {wide, cluster, 0, wide + cluster + rest};
@@ -46,16 +44,15 @@ static RoadReading reading_of(double wide, double cluster, double rest, double d
                 double w = wide * (1 + a), c = cluster * (1 + a), r = rest * (1 + a);
                 half = road_veil_of_increment(doubt * sqrt(w * w + c * c + r * r), ROAD);
             }
-            reading.found[a * 4 + d] = (RoadFound){mean, mean - half, mean + half,
-                                                   d == 3 ? 0.9 * mean : (double)NAN};
+            reading.found[a * 4 + d] =
+                (RoadFound){mean, mean - half, mean + half, d == 3 ? 0.9 * mean : (double)NAN};
         }
     }
     for (int d = 0; d < 2; d++) reading.shares[d].way[ROAD_STRAIGHT] = 1;
     return reading;
 }
 
-static GazeRoad *road_with(World *world, const RoadReading *reading)
-{
+static GazeRoad *road_with(World *world, const RoadReading *reading) {
     Setup setup = {.request = &request, .scene = world->scene};
     return road_of(&setup, &road, reading, &profile, &world->arena);
 }
@@ -63,11 +60,10 @@ static GazeRoad *road_with(World *world, const RoadReading *reading)
 /* ---- levels ------------------------------------------------------------------------------ */
 
 /* A review at the level, all else as it stands, is on the limit. */
-TEST(the_level_that_is_named_is_on_the_limit)
-{
+TEST(the_level_that_is_named_is_on_the_limit) {
     SCOPED_WORLD world = three_displays();
     RoadReading before = reading_of(20, 2, 3, 0, &world.arena);
-    GazeRoad   *found = road_with(&world, &before);
+    GazeRoad *found = road_with(&world, &before);
     assert_int_equal(found->verdict, VERDICT_FAIL);
     assert_int_equal(found->age_count, 2);
     assert_close(found->ages[0].increment_pct, 25, 1e-12);
@@ -78,8 +74,7 @@ TEST(the_level_that_is_named_is_on_the_limit)
     assert_string_equal(wide->display, "wide");
     assert_close(wide->share, 0.8, 1e-12);
     assert_close(wide->level_most, 0.5 * (LIMIT - 5) / 20, 1e-12);
-    RoadReading after =
-        reading_of(20 * wide->level_most / 0.5, 2, 3, 0, &world.arena);
+    RoadReading after = reading_of(20 * wide->level_most / 0.5, 2, 3, 0, &world.arena);
     assert_close(road_with(&world, &after)->ages[0].increment_pct, LIMIT, 1e-12);
     /* the older eye has 6 of the rest and 4 of the cluster */
     assert_close(found->ages[1].displays[0].level_most, 0.5 * (LIMIT - 10) / 40, 1e-12);
@@ -88,11 +83,10 @@ TEST(the_level_that_is_named_is_on_the_limit)
 }
 
 /* A review there finds an interval that ends on the limit. */
-TEST(a_level_is_known_as_well_as_the_veil_is)
-{
+TEST(a_level_is_known_as_well_as_the_veil_is) {
     SCOPED_WORLD world = three_displays();
     PanelStated stated = panel_stated(world.panel, &world.arena);
-    double      doubt = 1.959964 * stated.emission_error;
+    double doubt = 1.959964 * stated.emission_error;
     RoadReading before = reading_of(20, 0, 3, 0.04, &world.arena);
     const RoadDisplay *wide = &road_with(&world, &before)->ages[0].displays[0];
     double ends[] = {wide->level_most_range.low, wide->level_most_range.high};
@@ -101,8 +95,8 @@ TEST(a_level_is_known_as_well_as_the_veil_is)
         double own = 20 * ends[i] / 0.5, sign = i ? -1 : 1;
         double half = sqrt(own * own * (0.04 * 0.04 + doubt * doubt) + 9 * 0.04 * 0.04);
         assert_close(own + 3 + sign * half, LIMIT, 2e-3);
-        RoadReading  after = reading_of(own, 0, 3, 0.04, &world.arena);
-        GazeRoad    *there = road_with(&world, &after);
+        RoadReading after = reading_of(own, 0, 3, 0.04, &world.arena);
+        GazeRoad *there = road_with(&world, &after);
         MeanInterval range = there->ages[0].increment_range;
         assert_close(i ? range.low : range.high, LIMIT, 2e-3);
     }
@@ -110,14 +104,12 @@ TEST(a_level_is_known_as_well_as_the_veil_is)
 
 /* ---- the table --------------------------------------------------------------------------- */
 
-static GazeFinding gaze_with(GazeRoad *found)
-{
+static GazeFinding gaze_with(GazeRoad *found) {
     return (GazeFinding){.condition = "night", .eye = "driver", .gaze = "road", .road = found};
 }
 
 static const RoadDimming *row_of(const GazeRoad *of, const char *display, double age,
-                                 double cd_m2)
-{
+                                 double cd_m2) {
     for (int i = 0; i < of->dimming_count; i++) {
         const RoadDimming *row = &of->dimming[i];
         bool is_it = display ? row->display && !strcmp(row->display, display) : !row->display;
@@ -127,8 +119,7 @@ static const RoadDimming *row_of(const GazeRoad *of, const char *display, double
     return NULL;
 }
 
-TEST(the_table_holds_the_levels_of_every_road)
-{
+TEST(the_table_holds_the_levels_of_every_road) {
     SCOPED_WORLD world = three_displays();
     RoadReading before = reading_of(20, 2, 3, 0.01, &world.arena);
     GazeFinding gaze = gaze_with(road_with(&world, &before));
@@ -153,11 +144,14 @@ TEST(the_table_holds_the_levels_of_every_road)
     assert_true(row_of(of, "wide", 70, 2)->level_most < row_of(of, "wide", 25, 2)->level_most);
 }
 
-TEST(the_request_s_own_road_is_one_of_the_table)
-{
+TEST(the_request_s_own_road_is_one_of_the_table) {
     static const double list[] = {0.1, 1};
-    const ReviewRoad    other = {.luminance_cd_m2 = ROAD, .s_p = NAN, .ages = AGES,
-                                 .age_count = 2, .dimming = list, .dimming_count = 2};
+    const ReviewRoad other = {.luminance_cd_m2 = ROAD,
+                              .s_p = NAN,
+                              .ages = AGES,
+                              .age_count = 2,
+                              .dimming = list,
+                              .dimming_count = 2};
     SCOPED_WORLD world = three_displays();
     RoadReading before = reading_of(20, 2, 3, 0, &world.arena);
     GazeFinding gaze = gaze_with(road_with(&world, &before));
@@ -167,15 +161,14 @@ TEST(the_request_s_own_road_is_one_of_the_table)
 }
 
 /* A symbol of so much contrast at level 0.5, the rest of what is reflected so much. */
-static ReviewCase case_of(double other, const LimitVerdict *limit)
-{
+static ReviewCase case_of(double other, const LimitVerdict *limit) {
     ReviewCase c = review_case_unknown();
     c.condition = "night";
     c.eye = "driver";
     c.symbol = "speed";
     c.display = "wide";
-    c.luminance_cd_m2 = (CaseLuminances){.foreground = 10, .background = 0.01,
-                                         .reflected = other, .veil = 0};
+    c.luminance_cd_m2 =
+        (CaseLuminances){.foreground = 10, .background = 0.01, .reflected = other, .veil = 0};
     c.own_reflected = 0;
     c.level = 0.5;
     c.height_arcmin = 20;
@@ -188,21 +181,27 @@ static ReviewCase case_of(double other, const LimitVerdict *limit)
     return c;
 }
 
-TEST(the_window_lies_between_too_bright_and_too_dark)
-{
-    static const ProfileLimit five = {.name = "five", .kind = LIMIT_CONTRAST_RATIO,
-                                      .ambients = {true, true, true, true}, .value = 5};
+TEST(the_window_lies_between_too_bright_and_too_dark) {
+    static const ProfileLimit five = {.name = "five",
+                                      .kind = LIMIT_CONTRAST_RATIO,
+                                      .ambients = {true, true, true, true},
+                                      .value = 5};
     const Profile limits = {.increment_most_pct = LIMIT, .limits = &five, .limit_count = 1};
-    const LimitVerdict limit = {.name = "five", .kind = "contrast_ratio", .unit = "1",
-                                .value = 5, .found = 50, .low = 49, .high = 51,
+    const LimitVerdict limit = {.name = "five",
+                                .kind = "contrast_ratio",
+                                .unit = "1",
+                                .value = 5,
+                                .found = 50,
+                                .low = 49,
+                                .high = 51,
                                 .verdict = VERDICT_PASS};
     static const struct {
-        double     other; /* reflected, cd/m2 */
+        double other; /* reflected, cd/m2 */
         RoadWindow window;
     } rows[] = {{0.1, ROAD_WINDOW_OPEN}, {5, ROAD_WINDOW_EMPTY}};
     for (int i = 0; i < COUNT_OF(rows); i++) {
         SCOPED_WORLD world = three_displays();
-        ReviewCase  c = case_of(rows[i].other, &limit);
+        ReviewCase c = case_of(rows[i].other, &limit);
         RoadReading before = reading_of(20, 2, 3, 0.01, &world.arena);
         GazeFinding gaze = gaze_with(road_with(&world, &before));
         road_dim(&road, &limits, &c, 1, &gaze, &world.arena);
@@ -218,13 +217,12 @@ TEST(the_window_lies_between_too_bright_and_too_dark)
     }
 }
 
-TEST(a_display_without_a_limit_has_no_table)
-{
+TEST(a_display_without_a_limit_has_no_table) {
     const Profile none = {.increment_most_pct = NAN};
     SCOPED_WORLD world = three_displays();
-    Setup        setup = {.request = &request, .scene = world.scene};
-    RoadReading  before = reading_of(20, 2, 3, 0, &world.arena);
-    GazeFinding  gaze = gaze_with(road_of(&setup, &road, &before, &none, &world.arena));
+    Setup setup = {.request = &request, .scene = world.scene};
+    RoadReading before = reading_of(20, 2, 3, 0, &world.arena);
+    GazeFinding gaze = gaze_with(road_of(&setup, &road, &before, &none, &world.arena));
     road_dim(&road, &none, NULL, 0, &gaze, &world.arena);
     assert_int_equal(gaze.road->dimming_count, 0);
     assert_true(isnan(gaze.road->ages[0].displays[0].level_most));

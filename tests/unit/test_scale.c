@@ -15,12 +15,11 @@ typedef struct Ribbon {
 } Ribbon;
 
 /* A band of `squares`, with normals; its file. */
-static const char *ribbon_file(uint32_t squares)
-{
-    uint32_t  vertices = 2 * (squares + 1), corners = 6 * squares;
-    size_t    head = sizeof(Ribbon) * vertices, size = head + 4 * (size_t)corners;
-    char     *bytes = ARENA_NEW(&maker.arena, char, size);
-    Ribbon   *vertex = (Ribbon *)(void *)bytes;
+static const char *ribbon_file(uint32_t squares) {
+    uint32_t vertices = 2 * (squares + 1), corners = 6 * squares;
+    size_t head = sizeof(Ribbon) * vertices, size = head + 4 * (size_t)corners;
+    char *bytes = ARENA_NEW(&maker.arena, char, size);
+    Ribbon *vertex = (Ribbon *)(void *)bytes;
     uint32_t *index = (uint32_t *)(void *)(bytes + head);
     for (uint32_t i = 0; i < vertices; i++)
         vertex[i] = (Ribbon){{(float)(i / 2), (float)(i % 2), 0}, {0, 0, 1}};
@@ -43,8 +42,7 @@ static const char *ribbon_file(uint32_t squares)
 }
 
 /* Bytes that the scene of such a band keeps. */
-static double kept_bytes(uint32_t squares)
-{
+static double kept_bytes(uint32_t squares) {
     const char *path = ribbon_file(squares);
     const char *before = maker.arena.next;
     Found found = maker_survey_file(path);
@@ -56,8 +54,7 @@ static double kept_bytes(uint32_t squares)
 
 /* A triangle has three indices and its part, a vertex its place and its normal: nothing else
  * that grows with them stays, so one array that is kept twice would show. */
-TEST_WITH(a_scene_keeps_no_array_twice, maker_reset, NULL)
-{
+TEST_WITH(a_scene_keeps_no_array_twice, maker_reset, NULL) {
     double few = kept_bytes(1000), many = kept_bytes(21000);
     double triangles = 40000, vertices = 40000;
     assert_true(fabs(many - few - 16 * triangles - 24 * vertices) < 512);
@@ -66,12 +63,11 @@ TEST_WITH(a_scene_keeps_no_array_twice, maker_reset, NULL)
 /* ---- numbers ----------------------------------------------------------------------------- */
 
 /* A square whose indices have this type, beside or among its normals. */
-static Scene *square(int index_type, bool is_interleaved)
-{
+static Scene *square(int index_type, bool is_interleaved) {
     static const float PLACE[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, -0.0f}, {0, 1, 0.3f}};
     static const uint8_t CORNER[6] = {0, 1, 2, 0, 2, 3};
     unsigned char bytes[4 * 24 + 6 * 4] = {0};
-    int    width = index_type == 5121 ? 1 : index_type == 5123 ? 2 : 4;
+    int width = index_type == 5121 ? 1 : index_type == 5123 ? 2 : 4;
     size_t step = is_interleaved ? 24 : 12, normals = is_interleaved ? 12 : 48;
     const float up[3] = {0, 0, 1};
     for (size_t i = 0; i < 4; i++) {
@@ -83,17 +79,18 @@ static Scene *square(int index_type, bool is_interleaved)
     const char *members = arena_format(
         &maker.arena,
         "'bufferViews':[{'buffer':0,'byteLength':%d%s},{'buffer':0,'byteOffset':%zu,"
-        "'byteLength':%d%s},{'buffer':0,'byteOffset':96,'byteLength':%d}],'accessors':["
-        FLOATS(0, 4, "VEC3") "," FLOATS(1, 4, "VEC3") ",{'bufferView':2,'componentType':%d,"
-        "'type':'SCALAR','count':6}],'meshes':[{'primitives':[{'attributes':{'POSITION':0,"
-        "'NORMAL':1},'indices':2}]}],'nodes':[{'mesh':0}],'scenes':[{'nodes':[0]}]",
+        "'byteLength':%d%s},{'buffer':0,'byteOffset':96,'byteLength':%d}],'accessors':[" FLOATS(
+            0, 4,
+            "VEC3") "," FLOATS(1, 4,
+                               "VEC3") ",{'bufferView':2,'componentType':%d,"
+                                       "'type':'SCALAR','count':6}],'meshes':[{'primitives':[{'attributes':{'POSITION':0,"
+                                       "'NORMAL':1},'indices':2}]}],'nodes':[{'mesh':0}],'scenes':[{'nodes':[0]}]",
         is_interleaved ? 96 : 48, stride, normals, is_interleaved ? 84 : 48, stride, 6 * width,
         index_type);
     return maker_load(bytes, sizeof bytes, members);
 }
 
-TEST_WITH(numbers_are_the_same_however_they_are_stored, maker_reset, NULL)
-{
+TEST_WITH(numbers_are_the_same_however_they_are_stored, maker_reset, NULL) {
     const Scene *first = square(5125, false);
     assert_int_equal(first->triangle_count, 2);
     assert_true(first->positions[3].z == 0.3f);
@@ -102,8 +99,7 @@ TEST_WITH(numbers_are_the_same_however_they_are_stored, maker_reset, NULL)
             const Scene *scene = square(type, way == 1);
             assert_int_equal(scene->vertex_count, 4);
             assert_memory_equal(scene->positions, first->positions, 4 * sizeof(Vec3));
-            assert_memory_equal(scene->parts[0].normals, first->parts[0].normals,
-                                4 * sizeof(Vec3));
+            assert_memory_equal(scene->parts[0].normals, first->parts[0].normals, 4 * sizeof(Vec3));
             assert_memory_equal(scene->triangles, first->triangles, 2 * sizeof(Triangle));
         }
 }
@@ -112,22 +108,20 @@ TEST_WITH(numbers_are_the_same_however_they_are_stored, maker_reset, NULL)
 
 typedef struct BytesTold {
     size_t last, size;
-    int    count;
+    int count;
 } BytesTold;
 
-static void note(void *user, size_t done, size_t size)
-{
+static void note(void *user, size_t done, size_t size) {
     BytesTold *told = user;
     assert_true(done > told->last && done <= size);
     *told = (BytesTold){done, size, told->count + 1};
 }
 
-TEST_WITH(reading_a_long_file_is_told_of, maker_reset, NULL)
-{
+TEST_WITH(reading_a_long_file_is_told_of, maker_reset, NULL) {
     FileBytes bytes;
-    BytesTold      told = {0};
-    size_t    size = ((size_t)20 << 20) + 5;
-    char     *content = ARENA_NEW(&maker.arena, char, size);
+    BytesTold told = {0};
+    size_t size = ((size_t)20 << 20) + 5;
+    char *content = ARENA_NEW(&maker.arena, char, size);
     content[size - 1] = 'x';
     FilePieces how = {.max_bytes = size, .on_bytes = note, .user = &told};
     const char *path = maker_file(content, size, ".glb");
@@ -143,15 +137,14 @@ TEST_WITH(reading_a_long_file_is_told_of, maker_reset, NULL)
 
 enum { PARTS = 40 };
 
-static LightSelection selection_of(const Scene *scene, int threads, Arena *arena)
-{
-    Bvh    *bvh;
+static LightSelection selection_of(const Scene *scene, int threads, Arena *arena) {
+    Bvh *bvh;
     Lights *lights;
     assert_done(bvh_create(scene, threads, NULL, &bvh, &err));
     assert_done(lights_build(scene, arena, &lights, &err));
     assert_int_equal(bvh_threads(bvh), threads);
     const SunlitTools tools = {scene, bvh, lights};
-    const SunlitMap  none = {.nodes = NULL};
+    const SunlitMap none = {.nodes = NULL};
     LightSelection selection = light_selection_build(&tools, &none, arena);
     bvh_destroy(bvh);
     return selection;
@@ -159,8 +152,7 @@ static LightSelection selection_of(const Scene *scene, int threads, Arena *arena
 
 /* Shelves above one another, in the light of a sky and of the lamp among them: each part has
  * other shares of the two. */
-TEST(light_selection_is_the_same_for_any_number_of_threads)
-{
+TEST(light_selection_is_the_same_for_any_number_of_threads) {
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
     Scene *scene = builder_scene(&arena);
     scene->environment.kind = ENVIRONMENT_CONSTANT;

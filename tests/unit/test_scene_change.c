@@ -11,47 +11,45 @@ static const struct {
 } BYTES = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0, 0, 0, 1, 1, 0, 0}, {0, 1, 1, 1, 0, 0}};
 
 /* Triangle 0: "face", 1: "glass" below it, 2: "rim", 3: "desk", which faces up. */
-#define MEMBERS                                                                                \
-    "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"                 \
-    "'byteLength':36},{'buffer':0,'byteOffset':72,'byteLength':24}],"                          \
-    "'accessors':[{'bufferView':0,'componentType':5126,'count':3,"                             \
-    "'type':'VEC3','min':[0,0,0],'max':[1,1,0]},{'bufferView':1,'componentType':5126,"         \
-    "'count':3,'type':'VEC3','min':[0,0,0],'max':[1,0,1]},"                                    \
-    "{'bufferView':2,'componentType':5126,'count':3,'type':'VEC2'}],"                          \
-    "'materials':[{'name':'screen','pbrMetallicRoughness':{'roughnessFactor':0.3,"             \
-    "'metallicFactor':0},'extensions':{'PARHELION_coating':{'stack':'mgf2'}}},"                \
-    "{'name':'lying'},{'name':'both'}],'extensionsUsed':['PARHELION_coating'],"                \
-    "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':2},'material':0}]},"    \
-    "{'primitives':[{'attributes':{'POSITION':1,'TEXCOORD_0':2},'material':1}]},"             \
-    "{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':2},'material':2}]}],"             \
-    "'scene':0,'scenes':[{'nodes':[0,2,3,4,5,6,7,8]}],'nodes':["                               \
-    "{'name':'face','mesh':0,'children':[1]},{'name':'glass','mesh':0},"                       \
-    "{'name':'rim','mesh':0},{'name':'desk','mesh':1},{'name':'twin'},{'name':'twin'},"        \
-    "{'name':'empty'},{'name':'front','mesh':2},"                                             \
+#define MEMBERS \
+    "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36," \
+    "'byteLength':36},{'buffer':0,'byteOffset':72,'byteLength':24}]," \
+    "'accessors':[{'bufferView':0,'componentType':5126,'count':3," \
+    "'type':'VEC3','min':[0,0,0],'max':[1,1,0]},{'bufferView':1,'componentType':5126," \
+    "'count':3,'type':'VEC3','min':[0,0,0],'max':[1,0,1]}," \
+    "{'bufferView':2,'componentType':5126,'count':3,'type':'VEC2'}]," \
+    "'materials':[{'name':'screen','pbrMetallicRoughness':{'roughnessFactor':0.3," \
+    "'metallicFactor':0},'extensions':{'PARHELION_coating':{'stack':'mgf2'}}}," \
+    "{'name':'lying'},{'name':'both'}],'extensionsUsed':['PARHELION_coating']," \
+    "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':2},'material':0}]}," \
+    "{'primitives':[{'attributes':{'POSITION':1,'TEXCOORD_0':2},'material':1}]}," \
+    "{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':2},'material':2}]}]," \
+    "'scene':0,'scenes':[{'nodes':[0,2,3,4,5,6,7,8]}],'nodes':[" \
+    "{'name':'face','mesh':0,'children':[1]},{'name':'glass','mesh':0}," \
+    "{'name':'rim','mesh':0},{'name':'desk','mesh':1},{'name':'twin'},{'name':'twin'}," \
+    "{'name':'empty'},{'name':'front','mesh':2}," \
     "{'name':'rear','mesh':2,'scale':[1,1,-1]}]"
 
 /* Only then are there displays. */
-static bool has_hood(const SceneChange *changes, int count)
-{
+static bool has_hood(const SceneChange *changes, int count) {
     return count > 0 && changes[0].kind == CHANGE_HOOD;
 }
 
-static Found survey(const SceneChange *changes, int count)
-{
-    const char   *path = maker_gltf(&BYTES, sizeof BYTES, MEMBERS);
-    const char   *panel = PROJECT_DIR "/assets/panels/ips_cluster.panel";
+static Found survey(const SceneChange *changes, int count) {
+    const char *path = maker_gltf(&BYTES, sizeof BYTES, MEMBERS);
+    const char *panel = PROJECT_DIR "/assets/panels/ips_cluster.panel";
     SceneOverride panels[3] = {
         {"screen", panel, NULL}, {"lying", panel, NULL}, {"both", panel, NULL}};
-    return maker_survey(&(SceneOptions){.paths = &path, .path_count = 1, .panels = panels,
-                                        .panel_count = has_hood(changes, count)
-                                                           ? 2 + !strcmp(changes->name, "both")
-                                                           : 0,
-                                        .changes = changes,
-                                        .change_count = count});
+    return maker_survey(&(SceneOptions){
+        .paths = &path,
+        .path_count = 1,
+        .panels = panels,
+        .panel_count = has_hood(changes, count) ? 2 + !strcmp(changes->name, "both") : 0,
+        .changes = changes,
+        .change_count = count});
 }
 
-static const Scene *load(SceneChange change)
-{
+static const Scene *load(SceneChange change) {
     SceneChange *kept = ARENA_NEW(&maker.arena, SceneChange, 1);
     *kept = change;
     kept->file = "r.json", kept->place = "/variants/v";
@@ -61,8 +59,7 @@ static const Scene *load(SceneChange change)
     return found.scene;
 }
 
-static void assert_refused(SceneChange change, const char *text)
-{
+static void assert_refused(SceneChange change, const char *text) {
     change.file = "r.json", change.place = "/variants/v", change.ahead[2] = -1;
     Found found = survey(&change, 1);
     const Problem *problem = maker_find(&found, "/variants/v", text);
@@ -72,8 +69,7 @@ static void assert_refused(SceneChange change, const char *text)
     scene_close(found.scene);
 }
 
-static Vec3 corner_of(const Scene *scene, const char *node, int corner)
-{
+static Vec3 corner_of(const Scene *scene, const char *node, int corner) {
     for (int i = 0; i < scene->part_count; i++)
         if (!strcmp(scene->parts[i].node_name, node))
             return scene_corner(scene, scene->parts[i].first_triangle, corner);
@@ -82,8 +78,7 @@ static Vec3 corner_of(const Scene *scene, const char *node, int corner)
 }
 
 static void assert_at(const Scene *scene, const char *node, int corner, double x, double y,
-                      double z)
-{
+                      double z) {
     Vec3 p = corner_of(scene, node, corner);
     assert_near(p.x, x, 2e-6);
     assert_near(p.y, y, 2e-6);
@@ -92,16 +87,14 @@ static void assert_at(const Scene *scene, const char *node, int corner, double x
 
 /* ---- nodes ------------------------------------------------------------------------------- */
 
-static SceneChange turn(float tilt, float about_up, float roll)
-{
-    return (SceneChange){.kind = CHANGE_NODES, .name = "face", .tilt = tilt, .turn = about_up,
-                         .roll = roll};
+static SceneChange turn(float tilt, float about_up, float roll) {
+    return (SceneChange){
+        .kind = CHANGE_NODES, .name = "face", .tilt = tilt, .turn = about_up, .roll = roll};
 }
 
 #define ANGLE 0.3f
 
-TEST(a_tilt_turns_the_face_up_about_its_middle)
-{
+TEST(a_tilt_turns_the_face_up_about_its_middle) {
     const Scene *scene = load(turn(ANGLE, 0, 0));
     double c = cos((double)ANGLE), s = sin((double)ANGLE);
     assert_at(scene, "face", 0, 0, 0.5 - 0.5 * c, 0.5 * s);
@@ -110,8 +103,7 @@ TEST(a_tilt_turns_the_face_up_about_its_middle)
     scene_close((Scene *)scene);
 }
 
-TEST(a_turn_goes_to_the_right_of_who_faces_it_and_a_roll_clockwise)
-{
+TEST(a_turn_goes_to_the_right_of_who_faces_it_and_a_roll_clockwise) {
     double c = cos((double)ANGLE), s = sin((double)ANGLE);
     const Scene *turned = load(turn(0, ANGLE, 0)), *rolled = load(turn(0, 0, ANGLE));
     assert_at(turned, "face", 1, 0.5 + 0.5 * c, 0, -0.5 * s); /* its right edge goes back */
@@ -122,10 +114,9 @@ TEST(a_turn_goes_to_the_right_of_who_faces_it_and_a_roll_clockwise)
 }
 
 /* Lengths stay, and the middle goes where it is moved. */
-TEST(turns_are_rigid)
-{
+TEST(turns_are_rigid) {
     for (int i = 0; i < 20; i++) {
-        Arena       begun = maker.arena;
+        Arena begun = maker.arena;
         SceneChange change = turn(0.1f * (float)i, 0.7f - 0.13f * (float)i, 0.05f * (float)i);
         change.move_m[0] = 0.4f, change.move_m[1] = -0.2f, change.move_m[2] = 0.1f * (float)i;
         const Scene *scene = load(change);
@@ -143,8 +134,7 @@ TEST(turns_are_rigid)
     }
 }
 
-TEST(what_hangs_below_and_what_is_named_moves_along)
-{
+TEST(what_hangs_below_and_what_is_named_moves_along) {
     static const char *const WITH[] = {"rim"};
     SceneChange change = turn(ANGLE, 0.1f, 0);
     change.with = WITH, change.with_count = 1;
@@ -159,8 +149,7 @@ TEST(what_hangs_below_and_what_is_named_moves_along)
 }
 
 /* Of a surface that faces up the axes are the vehicle's. */
-TEST(a_desk_is_tilted_as_the_vehicle_stands)
-{
+TEST(a_desk_is_tilted_as_the_vehicle_stands) {
     SceneChange change = turn(ANGLE, 0, 0);
     change.name = "desk";
     const Scene *scene = load(change);
@@ -170,8 +159,7 @@ TEST(a_desk_is_tilted_as_the_vehicle_stands)
     scene_close((Scene *)scene);
 }
 
-TEST(nodes_that_are_not_there_or_not_alone_are_refused)
-{
+TEST(nodes_that_are_not_there_or_not_alone_are_refused) {
     static const char *const WITH[] = {"rimm"};
     SceneChange change = turn(ANGLE, 0, 0);
     change.name = "fase";
@@ -186,14 +174,12 @@ TEST(nodes_that_are_not_there_or_not_alone_are_refused)
 
 /* ---- hinges, and a mirrored scene -------------------------------------------------------- */
 
-static SceneChange swing(float x, float y, float z, float angle)
-{
-    return (SceneChange){.kind = CHANGE_NODES, .name = "face",
-                         .hinge = {.axis = {x, y, z}, .angle = angle}};
+static SceneChange swing(float x, float y, float z, float angle) {
+    return (SceneChange){
+        .kind = CHANGE_NODES, .name = "face", .hinge = {.axis = {x, y, z}, .angle = angle}};
 }
 
-TEST(a_door_swings_about_its_hinge)
-{
+TEST(a_door_swings_about_its_hinge) {
     double c = cos((double)ANGLE), s = sin((double)ANGLE);
     SceneChange change = swing(0, 1, 0, ANGLE);
     change.hinge.through_m[0] = 2, change.hinge.through_m[1] = 7;
@@ -213,19 +199,17 @@ TEST(a_door_swings_about_its_hinge)
     scene_close((Scene *)own);
 }
 
-TEST(what_has_no_surface_may_swing)
-{
+TEST(what_has_no_surface_may_swing) {
     SceneChange change = swing(1, 0, 0, ANGLE);
     change.name = "empty";
     scene_close((Scene *)load(change));
 }
 
 /* The vehicle points along -Z, so that its plane is one of x. */
-TEST(a_mirrored_scene_is_mirrored_at_its_middle)
-{
-    SceneChange  mirror = {.kind = CHANGE_MIRROR, .name = "", .middle_m = 0.25f};
+TEST(a_mirrored_scene_is_mirrored_at_its_middle) {
+    SceneChange mirror = {.kind = CHANGE_MIRROR, .name = "", .middle_m = 0.25f};
     const Scene *scene = load(mirror);
-    double       x = -scene->origin[0]; /* of the world's, in the scene */
+    double x = -scene->origin[0]; /* of the world's, in the scene */
     assert_at(scene, "face", 0, x + 0.5, 0, 0);
     assert_at(scene, "face", 2, x - 0.5, 0, 0); /* its corners change places: the front stays */
     assert_at(scene, "face", 1, x + 0.5, 1, 0);
@@ -238,16 +222,14 @@ TEST(a_mirrored_scene_is_mirrored_at_its_middle)
 
 /* ---- materials --------------------------------------------------------------------------- */
 
-static SceneChange patch(const char *text)
-{
+static SceneChange patch(const char *text) {
     char *json = arena_format(&maker.arena, "%s", text);
     for (char *c = json; *c; c++)
         if (*c == '\'') *c = '"';
     return (SceneChange){.kind = CHANGE_MATERIAL, .name = "screen", .patch = json};
 }
 
-TEST(a_patch_merges_and_leaves_what_it_does_not_say)
-{
+TEST(a_patch_merges_and_leaves_what_it_does_not_say) {
     const Scene *scene = load(patch("{'pbrMetallicRoughness':{'roughnessFactor':0.5}}"));
     assert_near(scene->materials[0].roughness, 0.5, 1e-7);
     assert_near(scene->materials[0].metallic, 0, 1e-7);
@@ -255,8 +237,7 @@ TEST(a_patch_merges_and_leaves_what_it_does_not_say)
     scene_close((Scene *)scene);
 }
 
-TEST(null_takes_away_and_new_extensions_are_used)
-{
+TEST(null_takes_away_and_new_extensions_are_used) {
     const Scene *bare = load(patch("{'extensions':{'PARHELION_coating':null}}"));
     assert_null(bare->materials[0].coating);
     scene_close((Scene *)bare);
@@ -270,8 +251,7 @@ TEST(null_takes_away_and_new_extensions_are_used)
 }
 
 /* What is merged is checked as the file's own. */
-TEST(a_patch_that_is_wrong_is_refused_at_its_place)
-{
+TEST(a_patch_that_is_wrong_is_refused_at_its_place) {
     static const struct {
         const char *patch, *place, *text;
     } WRONG[] = {
@@ -285,7 +265,7 @@ TEST(a_patch_that_is_wrong_is_refused_at_its_place)
         {"{'doubleSided':'yes'}", "/materials/0/doubleSided", "is \"yes\""}};
     for (int i = 0; i < COUNT_OF(WRONG); i++) {
         SceneChange change = patch(WRONG[i].patch);
-        Found       found = survey(&change, 1);
+        Found found = survey(&change, 1);
         if (!maker_find(&found, WRONG[i].place, WRONG[i].text))
             fail_msg("nothing at %s says \"%s\"", WRONG[i].place, WRONG[i].text);
         scene_close(found.scene);
@@ -302,12 +282,11 @@ TEST(a_patch_that_is_wrong_is_refused_at_its_place)
 #define GAP 0.002
 #define DEPTH 0.05
 
-static double volume_of(const Scene *scene, const Part *part)
-{
+static double volume_of(const Scene *scene, const Part *part) {
     double sum = 0;
     for (uint32_t t = 0; t < part->triangle_count; t++) {
         uint32_t at = part->first_triangle + t;
-        Vec3     cross = vec3_cross(scene_corner(scene, at, 1), scene_corner(scene, at, 2));
+        Vec3 cross = vec3_cross(scene_corner(scene, at, 1), scene_corner(scene, at, 2));
         sum += (double)vec3_dot(scene_corner(scene, at, 0), cross) / 6;
     }
     return sum;
@@ -315,13 +294,12 @@ static double volume_of(const Scene *scene, const Part *part)
 
 /* A closed body whose triangles face outside has its volume: of a plate, and of two cheeks that
  * narrow to the plate's thickness. */
-TEST(a_hood_is_a_plate_and_two_cheeks)
-{
-    SceneChange  change = {.kind = CHANGE_HOOD, .name = "screen", .depth_m = DEPTH};
+TEST(a_hood_is_a_plate_and_two_cheeks) {
+    SceneChange change = {.kind = CHANGE_HOOD, .name = "screen", .depth_m = DEPTH};
     const Scene *scene = load(change);
     double plate = (1 + 2 * (GAP + THICK)) * THICK * DEPTH;
     double cheek = (1 + GAP) * THICK * 0.5 * (DEPTH + THICK), wanted[3] = {plate, cheek, cheek};
-    int    count = 0;
+    int count = 0;
     for (int i = 0; i < scene->part_count; i++) {
         const Part *part = &scene->parts[i];
         if (strcmp(part->node_name, "hood") != 0) continue;
@@ -342,8 +320,7 @@ TEST(a_hood_is_a_plate_and_two_cheeks)
     scene_close((Scene *)scene);
 }
 
-TEST(a_hood_needs_an_upper_edge)
-{
+TEST(a_hood_needs_an_upper_edge) {
     assert_refused((SceneChange){.kind = CHANGE_HOOD, .name = "lying", .depth_m = DEPTH},
                    "lies flat");
     assert_refused((SceneChange){.kind = CHANGE_HOOD, .name = "both", .depth_m = DEPTH},

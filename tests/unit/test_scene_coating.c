@@ -5,8 +5,8 @@
 #include "gltf_maker.h"
 
 #define COATING_PLACE "/materials/0/extensions/PARHELION_coating"
-#define COATED(body)                                                                           \
-    "'extensionsUsed':['PARHELION_coating'],'materials':[{'pbrMetallicRoughness':"            \
+#define COATED(body) \
+    "'extensionsUsed':['PARHELION_coating'],'materials':[{'pbrMetallicRoughness':" \
     "{'metallicFactor':0},'extensions':{'PARHELION_coating':{" body "}}}]"
 
 static const FaultCase FAULTS[] = {
@@ -21,8 +21,7 @@ static const FaultCase FAULTS[] = {
     {COATED("'stack':'mgf2','ouside':1"), COATING_PLACE "/ouside",
      "nearest known one is 'outside'"},
     {COATED("'layers':{}"), COATING_PLACE "/layers", "is an object, an array is required"},
-    {COATED("'layers':[{'n':1.38}]"), COATING_PLACE "/layers/0",
-     "\"thickness_nm\" is missing"},
+    {COATED("'layers':[{'n':1.38}]"), COATING_PLACE "/layers/0", "\"thickness_nm\" is missing"},
     {COATED("'layers':[{'thickness_nm':100}]"), COATING_PLACE "/layers/0", "\"n\" is missing"},
     {COATED("'layers':[{'n':-1.38,'thickness_nm':100}]"), COATING_PLACE "/layers/0/n",
      "is -1.38, a number from 0 to 100"},
@@ -58,22 +57,19 @@ static const FaultCase FAULTS[] = {
      "/materials/0/extensions/PARHELION_spectrum/conductor", "No such file"},
 };
 
-TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL)
-{
+TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL) {
     maker_expect_faults(FAULTS, COUNT_OF(FAULTS), NULL, 0);
 }
 
-static const Material *coated(const char *body)
-{
-    return &maker_load(NULL, 0,
-        maker_format(COATED("%s"), body))->materials[0];
+static const Material *coated(const char *body) {
+    return &maker_load(NULL, 0, maker_format(COATED("%s"), body))->materials[0];
 }
 
-TEST_WITH(layers_are_read_from_outside_inwards, maker_reset, NULL)
-{
+TEST_WITH(layers_are_read_from_outside_inwards, maker_reset, NULL) {
     const LayerStack *stack =
         coated("'layers':[{'n':1.38,'thickness_nm':100},{'n':2,'k':0.5,'thickness_nm':20}],"
-               "'outside':1.33,'faces':'back'")->coating;
+               "'outside':1.33,'faces':'back'")
+            ->coating;
     assert_int_equal(stack->count, 2);
     assert_int_equal(stack->faces, COATED_BACK);
     assert_near(stack->outside, 1.33, 0);
@@ -84,8 +80,7 @@ TEST_WITH(layers_are_read_from_outside_inwards, maker_reset, NULL)
     assert_int_equal(coated("'layers':[]")->coating->count, 0);
 }
 
-TEST_WITH(the_programs_own_stacks_are_whole, maker_reset, NULL)
-{
+TEST_WITH(the_programs_own_stacks_are_whole, maker_reset, NULL) {
     const LayerStack *silver = coated("'stack':'ir_windscreen'")->coating;
     assert_int_equal(silver->count, 3);
     assert_int_equal(silver->faces, COATED_BOTH);

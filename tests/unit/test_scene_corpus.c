@@ -18,8 +18,7 @@ typedef struct Walk {
     void *data;
 } Walk;
 
-static void walk_folder(const char *folder, const Walk *walk)
-{
+static void walk_folder(const char *folder, const Walk *walk) {
     struct dirent **entries;
     int count = scandir(folder, &entries, NULL, alphasort);
     for (int i = 0; i < count; i++) {
@@ -30,16 +29,13 @@ static void walk_folder(const char *folder, const Walk *walk)
         bool is_dot = entries[i]->d_name[0] == '.';
         free(entries[i]);
         if (is_dot || stat(path, &info) != 0) continue;
-        if (S_ISDIR(info.st_mode))
-            walk_folder(path, walk);
-        else if (!strcmp(ending, ".gltf") || !strcmp(ending, ".glb"))
-            walk->visit(path, walk->data);
+        if (S_ISDIR(info.st_mode)) walk_folder(path, walk);
+        else if (!strcmp(ending, ".gltf") || !strcmp(ending, ".glb")) walk->visit(path, walk->data);
     }
     if (count >= 0) free(entries);
 }
 
-static void need_corpus(void)
-{
+static void need_corpus(void) {
     if (file_exists(CORPUS)) return;
     print_message("skipped: no shared data at %s\n", CORPUS);
     skip();
@@ -52,8 +48,7 @@ typedef struct Verdict {
     uint32_t triangles;
 } Verdict;
 
-static Verdict verdict_of(const char *path)
-{
+static Verdict verdict_of(const char *path) {
     Verdict verdict = {0};
     Scene *scene;
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)4 << 30);
@@ -76,8 +71,7 @@ typedef struct Tally {
 } Tally;
 
 /* Errors of a report; and of those how many README.md of src/scene/check says do not matter. */
-static int errors_of(const json_t *document, const char *codes, int *no_matter)
-{
+static int errors_of(const json_t *document, const char *codes, int *no_matter) {
     const json_t *messages = json_object_get(json_object_get(document, "issues"), "messages");
     const json_t *message;
     size_t i;
@@ -95,14 +89,12 @@ static int errors_of(const json_t *document, const char *codes, int *no_matter)
 }
 
 /* Beside each model of the validator lies its report. */
-static void visit_reported(const char *path, void *data)
-{
+static void visit_reported(const char *path, void *data) {
     Tally *tally = data;
     char report[1100];
     snprintf(report, sizeof report, "%s.report.json", path);
     json_auto_t *document = json_load_file(report, 0, NULL);
-    assert_true(json_is_array(
-        json_object_get(json_object_get(document, "issues"), "messages")));
+    assert_true(json_is_array(json_object_get(json_object_get(document, "issues"), "messages")));
     int no_matter, errors = errors_of(document, tally->codes, &no_matter);
     bool is_whole = errors == 0;
     Verdict verdict = verdict_of(path);
@@ -114,19 +106,17 @@ static void visit_reported(const char *path, void *data)
     tally->warned += !is_whole && !verdict.errors && verdict.warnings;
     tally->exceptions += !is_right;
     if (!is_right)
-        print_message("%s: %s %s\n", path,
-                      is_whole ? "whole but refused:" : "faulty but silent", verdict.message);
+        print_message("%s: %s %s\n", path, is_whole ? "whole but refused:" : "faulty but silent",
+                      verdict.message);
 }
 
-TEST(the_validator_s_verdicts_are_ours)
-{
+TEST(the_validator_s_verdicts_are_ours) {
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 20);
     Tally tally = {.codes = read_text(PROJECT_DIR "/src/scene/check/README.md", &arena)};
     need_corpus();
     walk_folder(CORPUS "/validator-corpus", &(Walk){visit_reported, &tally});
-    print_message(
-        "validator corpus: %d whole models load, %d faulty: %d refused, %d warned of\n",
-        tally.whole, tally.faulty, tally.refused, tally.warned);
+    print_message("validator corpus: %d whole models load, %d faulty: %d refused, %d warned of\n",
+                  tally.whole, tally.faulty, tally.refused, tally.warned);
     assert_true(tally.whole > 0 && tally.faulty > 0);
     assert_int_equal(tally.exceptions, 0);
 }
@@ -145,15 +135,13 @@ static const struct {
     {"/BoundsChecking/invalid-primitive-indices.gltf", "is 1, but there is 1 in accessors"},
 };
 
-static const char *wanted_refusal(const char *path)
-{
+static const char *wanted_refusal(const char *path) {
     for (size_t i = 0; i < sizeof REFUSED / sizeof *REFUSED; i++)
         if (strstr(path, REFUSED[i].name)) return REFUSED[i].text;
     return NULL;
 }
 
-static void visit_other(const char *path, void *data)
-{
+static void visit_other(const char *path, void *data) {
     Tally *tally = data;
     const char *wanted = wanted_refusal(path);
     Verdict verdict = verdict_of(path);
@@ -164,8 +152,7 @@ static void visit_other(const char *path, void *data)
     if (!is_right) print_message("%s: %s\n", path, verdict.message);
 }
 
-TEST(other_importers_models_load_or_are_refused_by_name)
-{
+TEST(other_importers_models_load_or_are_refused_by_name) {
     static const char *const FOLDERS[] = {"tinygltf", "assimp", "3dc", "compressed"};
     Tally tally = {0};
     need_corpus();
@@ -174,14 +161,13 @@ TEST(other_importers_models_load_or_are_refused_by_name)
         snprintf(folder, sizeof folder, CORPUS "/%s", FOLDERS[i]);
         walk_folder(folder, &(Walk){visit_other, &tally});
     }
-    print_message("other models: %d load, %d are refused for the reason they should\n",
-                  tally.whole, tally.refused);
+    print_message("other models: %d load, %d are refused for the reason they should\n", tally.whole,
+                  tally.refused);
     assert_int_equal(tally.refused, sizeof REFUSED / sizeof *REFUSED);
     assert_int_equal(tally.exceptions, 0);
 }
 
-TEST(the_vehicles_load_whole)
-{
+TEST(the_vehicles_load_whole) {
     need_corpus();
     Verdict cessna = verdict_of(CORPUS "/cockpit/c172p_cockpit.glb");
     assert_int_equal(cessna.errors + cessna.warnings, 0);

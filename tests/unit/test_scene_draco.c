@@ -19,22 +19,19 @@ typedef struct Sheet {
     const char *more, *nodes; /* accessors; of the document */
 } Sheet;
 
-static Sheet sheet_of(const unsigned char *bytes, size_t size)
-{
+static Sheet sheet_of(const unsigned char *bytes, size_t size) {
     return (Sheet){bytes, size, VERTICES, 3 * TRIANGLES, IDS, "", ",'indices':4", "", ""};
 }
 
-static const Sheet WHOLE = {SEQUENTIAL, sizeof SEQUENTIAL, VERTICES, 3 * TRIANGLES, IDS, "",
-                            ",'indices':4", "", ""};
+static const Sheet WHOLE = {
+    SEQUENTIAL, sizeof SEQUENTIAL, VERTICES, 3 * TRIANGLES, IDS, "", ",'indices':4", "", ""};
 
-static const char *nodes_of(const Sheet *sheet)
-{
+static const char *nodes_of(const Sheet *sheet) {
     bool has_own = strstr(sheet->nodes, "'nodes'") != NULL;
     return maker_format("%s%s", has_own ? "" : ",'nodes':[{'mesh':0}]", sheet->nodes);
 }
 
-static const char *write_sheet(const Sheet *sheet)
-{
+static const char *write_sheet(const Sheet *sheet) {
     return maker_gltf(
         sheet->bytes, sheet->size,
         arena_format(
@@ -52,20 +49,18 @@ static const char *write_sheet(const Sheet *sheet)
             "'extensionsUsed':['KHR_draco_mesh_compression'],"
             "'extensionsRequired':['KHR_draco_mesh_compression']",
             sheet->size, sheet->vertices, sheet->vertices, sheet->vertices, sheet->vertices,
-            sheet->corners, sheet->more, sheet->indices, sheet->mode,
-            sheet->ids, nodes_of(sheet)));
+            sheet->corners, sheet->more, sheet->indices, sheet->mode, sheet->ids, nodes_of(sheet)));
 }
 
 /* ---- what is packed is unpacked ---------------------------------------------------------- */
 
 /* Which vertex of the sheet this is; all it has is held against what was packed. */
-static int place_of(const Scene *scene, uint32_t vertex)
-{
+static int place_of(const Scene *scene, uint32_t vertex) {
     const Part *part = &scene->parts[0];
     Vec3 p = scene->positions[vertex];
-    int  column = (int)lroundf(4 * p.x), row = (int)lroundf(4 * p.y);
+    int column = (int)lroundf(4 * p.x), row = (int)lroundf(4 * p.y);
     float x = 0.25f * (float)column, y = 0.25f * (float)row;
-    Vec3  n = vec3_normalize(vec3(-x, 0.25f, 1));
+    Vec3 n = vec3_normalize(vec3(-x, 0.25f, 1));
     const float step = ldexpf(1, -14);
     assert_near(p.x, x, step);
     assert_near(p.y, y, step);
@@ -74,14 +69,12 @@ static int place_of(const Scene *scene, uint32_t vertex)
     assert_near(part->uv[0][vertex].x, x, ldexpf(1, -12));
     assert_near(part->uv[0][vertex].y, 1 - y, ldexpf(1, -12));
     const int color[4] = {10 * column, 20 * row, 200, 255 - (SIDE * row + column)};
-    for (int c = 0; c < 4; c++)
-        assert_int_equal(part->colors[vertex].linear[c], 257 * color[c]);
+    for (int c = 0; c < 4; c++) assert_int_equal(part->colors[vertex].linear[c], 257 * color[c]);
     return SIDE * row + column;
 }
 
 /* Triangles of the sheet by their first place in its order: each must be there once. */
-static void mark_triangle(const int at[3], int seen[TRIANGLES])
-{
+static void mark_triangle(const int at[3], int seen[TRIANGLES]) {
     int least = at[0] < at[1] ? (at[0] < at[2] ? 0 : 2) : at[1] < at[2] ? 1 : 2;
     int a = at[least], b = at[(least + 1) % 3], c = at[(least + 2) % 3];
     int is_upper = b == a + SIDE; /* a + 1, a + 1 + SIDE, a + SIDE begins with a + 1 */
@@ -91,8 +84,7 @@ static void mark_triangle(const int at[3], int seen[TRIANGLES])
     seen[2 * (cell / SIDE * (SIDE - 1) + cell % SIDE) + is_upper]++;
 }
 
-static void assert_whole(const char *path)
-{
+static void assert_whole(const char *path) {
     Found found = maker_survey_file(path);
     maker_expect_whole(&found);
     const Scene *scene = found.scene;
@@ -106,24 +98,21 @@ static void assert_whole(const char *path)
     for (int t = 0; t < TRIANGLES; t++) assert_int_equal(seen[t], 1);
 }
 
-TEST_WITH(packed_meshes_are_what_was_packed, maker_reset, NULL)
-{
+TEST_WITH(packed_meshes_are_what_was_packed, maker_reset, NULL) {
     Sheet other = sheet_of(EDGEBREAKER, sizeof EDGEBREAKER);
     assert_whole(write_sheet(&WHOLE));
     assert_whole(write_sheet(&other));
 }
 
 /* A strip's corners are triangles when they are unpacked. */
-TEST_WITH(packed_strips_are_triangles, maker_reset, NULL)
-{
+TEST_WITH(packed_strips_are_triangles, maker_reset, NULL) {
     Sheet strip = sheet_of(EDGEBREAKER, sizeof EDGEBREAKER);
     strip.mode = ",'mode':5";
     strip.corners = 46;
     assert_whole(write_sheet(&strip));
 }
 
-static bool tells(const char *path, const char *text)
-{
+static bool tells(const char *path, const char *text) {
     Found found = maker_survey_file(path);
     for (int i = 0; i < found.problems.count; i++)
         if (found.problems.list[i].severity == SEVERITY_ERROR &&
@@ -134,14 +123,12 @@ static bool tells(const char *path, const char *text)
     return false;
 }
 
-static void assert_told(const Sheet *sheet, const char *text)
-{
+static void assert_told(const Sheet *sheet, const char *text) {
     if (!tells(write_sheet(sheet), text)) fail_msg("not told: %s", text);
 }
 
 /* Exporters write the counts from before the packing: the packed mesh is whole. */
-TEST_WITH(other_counts_are_told_and_the_packed_mesh_is_shown, maker_reset, NULL)
-{
+TEST_WITH(other_counts_are_told_and_the_packed_mesh_is_shown, maker_reset, NULL) {
     static const int POINTS[] = {1, 22, 24, 26, 100, 1 << 22};
     static const int CORNERS[] = {3, 93, 99, 300};
     for (int i = 0; i < 10; i++) {
@@ -160,8 +147,7 @@ TEST_WITH(other_counts_are_told_and_the_packed_mesh_is_shown, maker_reset, NULL)
 }
 
 /* What is not packed keeps the accessors' counts, and must fit. */
-TEST_WITH(what_is_read_beside_a_packed_mesh_has_its_count, maker_reset, NULL)
-{
+TEST_WITH(what_is_read_beside_a_packed_mesh_has_its_count, maker_reset, NULL) {
     Sheet s = WHOLE;
     s.vertices = 24, s.ids = "'POSITION':0,'NORMAL':1,'TEXCOORD_0':2";
     assert_told(&s, "COLOR_0 has 24 elements, the packed mesh has 25 vertices");
@@ -183,8 +169,7 @@ TEST_WITH(what_is_read_beside_a_packed_mesh_has_its_count, maker_reset, NULL)
 }
 
 /* The packed bytes are few: what they claim to hold is not believed. */
-TEST_WITH(few_bytes_do_not_take_gigabytes, maker_reset, NULL)
-{
+TEST_WITH(few_bytes_do_not_take_gigabytes, maker_reset, NULL) {
     unsigned char changed[sizeof EDGEBREAKER + 8];
     /* vertices 12,000, triangles 40 million, as variable lengths of seven bits */
     static const unsigned char CLAIM[] = {0xe0, 0x5d, 0x80, 0xb4, 0x89, 0x13};
@@ -199,8 +184,7 @@ TEST_WITH(few_bytes_do_not_take_gigabytes, maker_reset, NULL)
 
 /* ---- what is wrong ----------------------------------------------------------------------- */
 
-TEST_WITH(members_that_do_not_fit_are_told, maker_reset, NULL)
-{
+TEST_WITH(members_that_do_not_fit_are_told, maker_reset, NULL) {
     Sheet s = WHOLE;
     s.ids = "'POSITION':7";
     assert_told(&s, "the packed mesh has no attribute 7");
@@ -220,8 +204,7 @@ TEST_WITH(members_that_do_not_fit_are_told, maker_reset, NULL)
 
 /* One byte of the packed ones is another; how much they hold is stated before it is
  * unpacked. */
-TEST_WITH(headers_are_refused_before_anything_is_unpacked, maker_reset, NULL)
-{
+TEST_WITH(headers_are_refused_before_anything_is_unpacked, maker_reset, NULL) {
     static const struct {
         int at, value;
         const char *text;
@@ -237,8 +220,7 @@ TEST_WITH(headers_are_refused_before_anything_is_unpacked, maker_reset, NULL)
     }
 }
 
-static bool is_refused(const unsigned char *bytes, size_t size)
-{
+static bool is_refused(const unsigned char *bytes, size_t size) {
     Arena begun = maker.arena;
     maker.file_count = 0;
     Sheet sheet = sheet_of(bytes, size);
@@ -247,8 +229,7 @@ static bool is_refused(const unsigned char *bytes, size_t size)
     return found.problems.error_count > 0;
 }
 
-TEST_WITH(cut_meshes_are_refused_and_changed_ones_too_or_read, maker_reset, NULL)
-{
+TEST_WITH(cut_meshes_are_refused_and_changed_ones_too_or_read, maker_reset, NULL) {
     uint32_t chance = 99;
     for (size_t size = 1; size < sizeof EDGEBREAKER; size += 3)
         if (!is_refused(EDGEBREAKER, size)) fail_msg("%zu bytes are enough", size);

@@ -13,43 +13,45 @@ static const struct {
 } BYTES = {{0, 0, 0, 1, 0, 0, 0, 1, 0},
            {1000, 0, 0, 1001, 0, 0, 1000, 1, 0},
            {1000.25f, 0, 0, 2000.5f, 0, 0},
-           0, {1000.25f, 0, 0}};
+           0,
+           {1000.25f, 0, 0}};
 
-#define HEAD                                                                                   \
-    "'bufferViews':[" VIEW0(36) "," VIEW(36, 36) "," VIEW(72, 24) "," VIEW(96, 4) ","          \
-    VIEW(100, 12) "],'accessors':[" FLOATS(0, 3, "VEC3") "," FLOATS(1, 3, "VEC3") ","          \
-    FLOATS(2, 2, "VEC3") "," FLOATS(3, 1, "SCALAR") "," FLOATS(4, 1, "VEC3") "],"              \
-    "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]},"                                \
-    "{'primitives':[{'attributes':{'POSITION':1}}]}],"
-#define INSTANCED                                                                              \
-    ",'extensions':{'EXT_mesh_gpu_instancing':{'attributes':{'TRANSLATION':2}}}}]"             \
+#define HEAD \
+    "'bufferViews':[" VIEW0(36) "," VIEW(36, 36) "," VIEW(72, 24) "," VIEW(96, 4) "," VIEW(100, 12) "],'accessors':[" FLOATS( \
+        0, 3, \
+        "VEC3") "," FLOATS(1, 3, \
+                           "VEC3") "," FLOATS(2, 2, \
+                                              "VEC3") "," FLOATS(3, 1, \
+                                                                 "SCALAR") "," FLOATS(4, 1, \
+                                                                                      "VEC3") "]," \
+                                                                                              "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}," \
+                                                                                              "{'primitives':[{'attributes':{'POSITION':1}}]}],"
+#define INSTANCED \
+    ",'extensions':{'EXT_mesh_gpu_instancing':{'attributes':{'TRANSLATION':2}}}}]" \
     ",'extensionsUsed':['EXT_mesh_gpu_instancing']"
-#define UPRIGHT_ROOT "'scenes':[{'nodes':[0]}],'nodes':[{'children':[1],'rotation':"           \
+#define UPRIGHT_ROOT \
+    "'scenes':[{'nodes':[0]}],'nodes':[{'children':[1],'rotation':" \
     "[-0.70710678118654757,0,0,0.70710678118654757]},"
 
-static Found survey(const char *members)
-{
+static Found survey(const char *members) {
     const char *all = maker_format(HEAD "%s", members);
     return maker_survey_file(maker_gltf(&BYTES, sizeof BYTES, all));
 }
 
-static const Scene *load(const char *members)
-{
+static const Scene *load(const char *members) {
     Found found = survey(members);
     maker_expect_whole(&found);
     return found.scene;
 }
 
-static void assert_world(const Scene *scene, Vec3 p, const double wanted[3])
-{
+static void assert_world(const Scene *scene, Vec3 p, const double wanted[3]) {
     double at[3];
     world_from_scene(scene->origin, p, at);
     for (int k = 0; k < 3; k++) assert_near(at[k], wanted[k], 2e-7);
     assert_true(vec3_length(p) < 3);
 }
 
-static void assert_origin(const Scene *scene, double x, double y, double z)
-{
+static void assert_origin(const Scene *scene, double x, double y, double z) {
     assert_near(scene->origin[0], x, 0);
     assert_near(scene->origin[1], y, 0);
     assert_near(scene->origin[2], z, 0);
@@ -57,8 +59,7 @@ static void assert_origin(const Scene *scene, double x, double y, double z)
 
 /* ---- what puts it there ------------------------------------------------------------------ */
 
-TEST(decimals_survive_whatever_puts_a_node_far_away)
-{
+TEST(decimals_survive_whatever_puts_a_node_far_away) {
     static const char *const WAYS[] = {
         "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,'translation':[1000.3,-2000.7,40.1]}]",
         "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,'matrix':[1,0,0,0,0,1,0,0,0,0,1,0,"
@@ -77,16 +78,14 @@ TEST(decimals_survive_whatever_puts_a_node_far_away)
 }
 
 /* As files with +Z up are turned: (x, y, z) goes to (x, z, -y). */
-TEST(a_turned_root_turns_the_distance_exactly)
-{
+TEST(a_turned_root_turns_the_distance_exactly) {
     const Scene *scene = load(UPRIGHT_ROOT "{'mesh':0,'translation':[1000.3,-2000.7,40.1]}]");
     assert_origin(scene, 1001, 40, 2000);
     assert_world(scene, scene_corner(scene, 0, 0), (double[]){1000.3, 40.1, 2000.7});
     assert_world(scene, scene_corner(scene, 0, 2), (double[]){1000.3, 40.1, 1999.7});
 }
 
-TEST(instances_and_their_node_add_up_exactly)
-{
+TEST(instances_and_their_node_add_up_exactly) {
     const Scene *scene = load("'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,"
                               "'translation':[1000.3,0,0]" INSTANCED);
     assert_int_equal(scene->part_count, 2);
@@ -98,13 +97,12 @@ TEST(instances_and_their_node_add_up_exactly)
     assert_near(at[0], 3000.8, 4e-5);
 }
 
-TEST(an_animation_that_moves_it_there_counts)
-{
-    const char *path = maker_gltf(
-        &BYTES, sizeof BYTES,
-        HEAD "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}],'animations':[{'samplers':["
-        "{'input':3,'output':4}],'channels':[{'sampler':0,'target':{'node':0,"
-        "'path':'translation'}}]}]");
+TEST(an_animation_that_moves_it_there_counts) {
+    const char *path =
+        maker_gltf(&BYTES, sizeof BYTES,
+                   HEAD "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}],'animations':[{'samplers':["
+                        "{'input':3,'output':4}],'channels':[{'sampler':0,'target':{'node':0,"
+                        "'path':'translation'}}]}]");
     SceneOptions options = {.paths = &path, .path_count = 1, .state = {.has_time = true}};
     Found found = maker_survey(&options);
     maker_expect_whole(&found);
@@ -114,21 +112,19 @@ TEST(an_animation_that_moves_it_there_counts)
 
 /* ---- the rule ---------------------------------------------------------------------------- */
 
-static const Scene *load_at(double x)
-{
+static const Scene *load_at(double x) {
     return load(maker_format("'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,"
-                             "'translation':[%.17g,0,0]}]", x));
+                             "'translation':[%.17g,0,0]}]",
+                             x));
 }
 
-TEST(near_scenes_keep_the_worlds_origin)
-{
+TEST(near_scenes_keep_the_worlds_origin) {
     double most = ORIGIN_IN_SIZES * sqrt(0.5); /* from the middle of the triangle's box */
     assert_origin(load_at(most - 0.6), 0, 0, 0);
     assert_true(load_at(most)->origin[0] > 0);
 }
 
-TEST(a_tiny_scene_counts_in_parts_of_a_metre)
-{
+TEST(a_tiny_scene_counts_in_parts_of_a_metre) {
     const Scene *scene = load("'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,'scale':"
                               "[0.0001,0.0001,0.0001],'translation':[0.3,0,0]}]");
     assert_true(fabs(scene->origin[0] - 0.3) < 0.004);
@@ -136,25 +132,26 @@ TEST(a_tiny_scene_counts_in_parts_of_a_metre)
 }
 
 /* The middle of all boxes together would be near the world's origin. */
-TEST(a_wide_ground_does_not_hide_the_distance)
-{
-    const Scene *scene = load(
-        "'scenes':[{'nodes':[0,1,2,3]}],'nodes':[{'mesh':0,'scale':[4000,4000,4000],"
-        "'translation':[-2000,-2000,0]},{'mesh':0,'translation':[1000,0,0]},"
-        "{'mesh':0,'translation':[1002,0,0]},{'mesh':0,'translation':[1001,0,3]}]");
+TEST(a_wide_ground_does_not_hide_the_distance) {
+    const Scene *scene =
+        load("'scenes':[{'nodes':[0,1,2,3]}],'nodes':[{'mesh':0,'scale':[4000,4000,4000],"
+             "'translation':[-2000,-2000,0]},{'mesh':0,'translation':[1000,0,0]},"
+             "{'mesh':0,'translation':[1002,0,0]},{'mesh':0,'translation':[1001,0,3]}]");
     assert_near(scene->origin[0], 1001, 1);
 }
 
-TEST(all_files_count_from_the_first_that_shows_something)
-{
+TEST(all_files_count_from_the_first_that_shows_something) {
     const char *paths[] = {
-        maker_gltf(NULL, 0, "'scenes':[{'nodes':[0]}],'nodes':[{'camera':0,"
+        maker_gltf(NULL, 0,
+                   "'scenes':[{'nodes':[0]}],'nodes':[{'camera':0,"
                    "'translation':[1000.3,1,2]}],'cameras':[{'type':'perspective',"
                    "'perspective':{'yfov':1,'znear':0.1}}]"),
-        maker_gltf(&BYTES, sizeof BYTES, HEAD "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,"
-                   "'translation':[1000,0,0]}]"),
-        maker_gltf(&BYTES, sizeof BYTES, HEAD "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,"
-                   "'translation':[999.9,1,0]}]")};
+        maker_gltf(&BYTES, sizeof BYTES,
+                   HEAD "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,"
+                        "'translation':[1000,0,0]}]"),
+        maker_gltf(&BYTES, sizeof BYTES,
+                   HEAD "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,"
+                        "'translation':[999.9,1,0]}]")};
     Found found = maker_survey(&(SceneOptions){.paths = paths, .path_count = 3});
     maker_expect_whole(&found);
     assert_origin(found.scene, 1001, 1, 0);
@@ -163,8 +160,7 @@ TEST(all_files_count_from_the_first_that_shows_something)
     assert_world(found.scene, scene_corner(found.scene, 1, 0), (double[]){999.9, 1, 0});
 }
 
-TEST(vertices_that_are_far_in_their_file_are_taken_near_and_said_to_be_coarse)
-{
+TEST(vertices_that_are_far_in_their_file_are_taken_near_and_said_to_be_coarse) {
     Found found = survey("'scenes':[{'nodes':[0]}],'nodes':[{'mesh':1}]");
     assert_origin(found.scene, 1001, 1, 0);
     assert_world(found.scene, scene_corner(found.scene, 0, 1), (double[]){1001, 0, 0});

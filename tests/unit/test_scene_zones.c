@@ -15,8 +15,7 @@
 enum { WIDE = 240, HIGH = 80 };
 
 static size_t add_chunk(unsigned char *to, const char *kind, const unsigned char *data,
-                        size_t size)
-{
+                        size_t size) {
     uint32_t crc = (uint32_t)crc32(0, (const unsigned char *)kind, 4);
     if (size) crc = (uint32_t)crc32(crc, data, (uInt)size);
     for (int i = 0; i < 4; i++) to[i] = (unsigned char)(size >> (24 - 8 * i));
@@ -27,8 +26,7 @@ static size_t add_chunk(unsigned char *to, const char *kind, const unsigned char
 }
 
 /* A PNG of 8 bits, grey: black with a white rectangle left of its middle. */
-static void write_patch(const char *path)
-{
+static void write_patch(const char *path) {
     static const unsigned char head[13] = {0, 0, 0, WIDE, 0, 0, 0, HIGH, 8, 0, 0, 0, 0};
     static unsigned char rows[HIGH * (WIDE + 1)], packed[HIGH * (WIDE + 1) + 1000], png[30000];
     uLongf size = sizeof packed;
@@ -44,38 +42,32 @@ static void write_patch(const char *path)
 }
 
 /* What a display's content shows at a place of the wall's quad, whose uv are its places. */
-static void texture_at(const void *user, const float place[2], float codes[3])
-{
+static void texture_at(const void *user, const float place[2], float codes[3]) {
     texture_codes(user, place[0], place[1], codes);
 }
 
 static const Backlight *content_backlight(const Panel *panel, const Texture *texture,
-                                          Arena *arena)
-{
+                                          Arena *arena) {
     const DimmingZones *zones = panel_zones(panel);
-    ShownPicture picture = {texture->image.width, texture->image.height, texture_at,
-                            texture};
-    LevelShares  levels;
-    double      *drive = ARENA_NEW(arena, double, zones->count[0] * zones->count[1]);
+    ShownPicture picture = {texture->image.width, texture->image.height, texture_at, texture};
+    LevelShares levels;
+    double *drive = ARENA_NEW(arena, double, zones->count[0] * zones->count[1]);
     panel_level_shares(panel, &levels);
     backlight_drives(zones, &levels, &picture, drive);
     return backlight_make(zones, &levels, drive, arena);
 }
 
-static bool is_black(const Texture *texture, const float place[2])
-{
+static bool is_black(const Texture *texture, const float place[2]) {
     float codes[3];
     texture_codes(texture, place[0], place[1], codes);
     return codes[0] + codes[1] + codes[2] == 0;
 }
 
 /* A place where the content is black, and the backlight is the most or least of such. */
-static void black_place(const Texture *texture, const Backlight *light, int sign, float at[2])
-{
+static void black_place(const Texture *texture, const Backlight *light, int sign, float at[2]) {
     double best = -INFINITY;
     for (int i = 0; i < 120 * 40; i++) {
-        const float place[2] = {((float)(i % 120) + 0.5f) / 120,
-                                ((float)(i / 120) + 0.5f) / 40};
+        const float place[2] = {((float)(i % 120) + 0.5f) / 120, ((float)(i / 120) + 0.5f) / 40};
         double value = sign * (double)backlight_at(light, place);
         if (!is_black(texture, place) || value <= best) continue;
         best = value;
@@ -85,27 +77,25 @@ static void black_place(const Texture *texture, const Backlight *light, int sign
 }
 
 /* By paths from the wall's eye, cd/m2, and what the panel's black emits towards it. */
-static double seen_black(const World *world, const float place[2], double *full)
-{
+static double seen_black(const World *world, const float place[2], double *full) {
     static const float BLACK[3] = {0, 0, 0};
-    float     xyz[3];
-    Vec3      eye = vec3(0.05f, 0.02f, 0.7f);
-    Vec3      at = vec3(0.3f * (place[0] - 0.5f), 0.1f * (0.5f - place[1]), 0);
+    float xyz[3];
+    Vec3 eye = vec3(0.05f, 0.02f, 0.7f);
+    Vec3 at = vec3(0.3f * (place[0] - 0.5f), 0.1f * (0.5f - place[1]), 0);
     WorldLook look = {eye, vec3_sub(at, eye), 1e-5f, 3, 16};
-    panel_emission_xyz(world->scene->displays[0].panel, vec3_normalize(vec3_sub(eye, at)),
-                       BLACK, xyz);
+    panel_emission_xyz(world->scene->displays[0].panel, vec3_normalize(vec3_sub(eye, at)), BLACK,
+                       xyz);
     *full = (double)xyz[1];
     return world_luminance(world, &look).mean;
 }
 
-TEST(a_loaded_scene_shows_the_halo_of_its_content)
-{
-    World        world = {.arena = arena_reserve((size_t)4 << 30)};
-    Problems     problems = problems_start(&world.arena);
-    const char  *path = in_folder("a.gltf");
+TEST(a_loaded_scene_shows_the_halo_of_its_content) {
+    World world = {.arena = arena_reserve((size_t)4 << 30)};
+    Problems problems = problems_start(&world.arena);
+    const char *path = in_folder("a.gltf");
     SceneOverride content = {.material = "cluster", .value = in_folder("c.png")};
-    SceneOptions options = {.paths = &path, .path_count = 1, .contents = &content,
-                            .content_count = 1};
+    SceneOptions options = {
+        .paths = &path, .path_count = 1, .contents = &content, .content_count = 1};
     wall_write_files("{}", world.arena);
     wall_copy(PROJECT_DIR "/assets/panels/zoned_centre.panel", "p.panel", world.arena);
     write_patch(in_folder("c.png"));
@@ -118,7 +108,7 @@ TEST(a_loaded_scene_shows_the_halo_of_its_content)
     world_ready(&world, 2);
     double found[2];
     for (int k = 0; k < 2; k++) {
-        float  at[2];
+        float at[2];
         double full;
         black_place(texture, expected, k ? 1 : -1, at);
         found[k] = seen_black(&world, at, &full);

@@ -11,14 +11,14 @@
 
 static Arena arena;
 static const EnergyTable *glass, *diamond, *perfect, *nothing;
-static const CoatTable   *lacquer;
+static const CoatTable *lacquer;
 static Wavelengths wavelengths;
 
-static MetallicRoughness *add_model(const char *name, float metallic, float alpha,
-                                    bool lossless)
-{
+static MetallicRoughness *add_model(const char *name, float metallic, float alpha, bool lossless) {
     Model *model = &models[model_count++];
-    *model = (Model){.name = name, .bsdf.kind = BSDF_METALLIC_ROUGHNESS, .lossless = lossless,
+    *model = (Model){.name = name,
+                     .bsdf.kind = BSDF_METALLIC_ROUGHNESS,
+                     .lossless = lossless,
                      .width = alpha < SMOOTH_ALPHA ? 1 : alpha};
     MetallicRoughness *m = &model->bsdf.metallic_roughness;
     *m = metallic_roughness_default(glass);
@@ -29,8 +29,7 @@ static MetallicRoughness *add_model(const char *name, float metallic, float alph
     return m;
 }
 
-static void add_plastics(void)
-{
+static void add_plastics(void) {
     add_model("white plastic, alpha 1", 0, 1, true);
     add_model("white plastic, alpha 0.3", 0, 0.3f, true);
     add_model("white plastic, alpha 0.05", 0, 0.05f, true);
@@ -47,8 +46,7 @@ static void add_plastics(void)
     m->base_color = ramp(0.9f, 0.1f);
 }
 
-static void add_metals(void)
-{
+static void add_metals(void) {
     add_model("white metal, alpha 1", 1, 1, true);
     add_model("white metal, alpha 0.5", 1, 0.5f, true);
     add_model("white metal, alpha 0.1", 1, 0.1f, true);
@@ -60,8 +58,7 @@ static void add_metals(void)
     add_model("half metal", 0.5f, 0.2f, true);
 }
 
-static void add_panes(void)
-{
+static void add_panes(void) {
     add_model("smooth clear sheet", 0, 0, true)->transmission = 1;
     add_model("smooth half clear sheet", 0, 0, true)->transmission = 0.5f;
     add_model("frosted sheet", 0, 0.3f, true)->transmission = 1;
@@ -78,8 +75,7 @@ static void add_panes(void)
 
 /* White in all: what does not go back goes across. */
 static MetallicRoughness *add_translucent(const char *name, float alpha, float across,
-                                          bool lossless)
-{
+                                          bool lossless) {
     MetallicRoughness *m = add_model(name, 0, alpha, lossless);
     m->across = across;
     m->across_color[0] = m->across_color[1] = m->across_color[2] = 1;
@@ -87,8 +83,7 @@ static MetallicRoughness *add_translucent(const char *name, float alpha, float a
     return m;
 }
 
-static void add_translucents(void)
-{
+static void add_translucents(void) {
     add_translucent("white paper", 1, 0.4f, true)->specular = 0;
     add_translucent("opal plastic, alpha 0.3", 0.3f, 0.5f, true);
     add_translucent("smooth opal plastic", 0, 1, true);
@@ -108,8 +103,7 @@ static void add_translucents(void)
     m->across_color[1] = 0.5f;
 }
 
-static void add_lacquers(void)
-{
+static void add_lacquers(void) {
     MetallicRoughness *m = add_model("piano lacquer", 0, 0.5f, false);
     m->base_color = ramp(0.01f, 0.03f);
     m->clearcoat = 1;
@@ -141,17 +135,15 @@ static void add_lacquers(void)
 
 static SurfaceCoating mirror_metal, silver_metal, plastic, frosted;
 
-static MetallicRoughness *add_coated(const char *name, float metallic, float alpha,
-                                     bool lossless, const SurfaceCoating *coating)
-{
+static MetallicRoughness *add_coated(const char *name, float metallic, float alpha, bool lossless,
+                                     const SurfaceCoating *coating) {
     MetallicRoughness *m = add_model(name, metallic, alpha, lossless);
     m->coating = coating;
     m->wavelengths = &wavelengths;
     return m;
 }
 
-static void add_coated_surfaces(void)
-{
+static void add_coated_surfaces(void) {
     const LayerStack *four = stack_four(&arena);
     const OpticalConstants *ideal = constants_of(0, 4, &arena);
     const OpticalConstants *real = constants_of(0.06, 3.6, &arena);
@@ -178,8 +170,7 @@ static void add_coated_surfaces(void)
 }
 
 #include "khr_models.h"
-static int make_models(void **state)
-{
+static int make_models(void **state) {
     make_arena(state);
     arena = test_arena(state);
     glass = energy_table_build(1.5f, &arena);
@@ -202,8 +193,7 @@ static int make_models(void **state)
 }
 
 /* Roughness just above and just below the threshold must look alike. */
-TEST(a_narrow_lobe_sends_what_a_mirror_sends)
-{
+TEST(a_narrow_lobe_sends_what_a_mirror_sends) {
     for (int metallic = 0; metallic < 2; metallic++)
         for (int i = 0; i < 4; i++) {
             Model mirror = {.bsdf.kind = BSDF_METALLIC_ROUGHNESS}, narrow;
@@ -220,13 +210,12 @@ TEST(a_narrow_lobe_sends_what_a_mirror_sends)
 
 /* ---- measured displays --------------------------------------------------------------- */
 
-static void mirror_is_where_it_belongs(const Model *model, Vec3 wo)
-{
+static void mirror_is_where_it_belongs(const Model *model, Vec3 wo) {
     int mirrors = 0;
     for (uint32_t i = 0; i < 500; i++) {
-        Sampler    sampler = sampler_start(3, 4, 5, i);
+        Sampler sampler = sampler_start(3, 4, 5, i);
         BsdfSample s;
-        float      u[3];
+        float u[3];
         draw(&sampler, u);
         if (!bsdf_sample(&model->bsdf, wo, u, &s) || !s.is_delta) continue;
         assert_near(vec3_length(vec3_sub(s.wi, vec3(-wo.x, -wo.y, wo.z))), 0, 1e-6);
@@ -237,29 +226,24 @@ static void mirror_is_where_it_belongs(const Model *model, Vec3 wo)
 }
 
 /* Of GGX facets that spread a mirror to so wide a lobe. */
-static float alpha_of(float width_deg)
-{
+static float alpha_of(float width_deg) {
     return (float)(tan((double)(width_deg * PI_F / 720)) / sqrt(sqrt(2.0) - 1));
 }
 
-static void finish_is_reciprocal(const Model *model, Vec3 wo)
-{
+static void finish_is_reciprocal(const Model *model, Vec3 wo) {
     Model only = *model; /* haze is so only as far as it was measured */
     float pdf;
-    Vec3  wi = vec3_normalize(vec3(0.1f - wo.x, 0.05f - wo.y, wo.z));
+    Vec3 wi = vec3_normalize(vec3(0.1f - wo.x, 0.05f - wo.y, wo.z));
     only.bsdf.display.matte = 0;
-    Spectrum there =
-        bsdf_eval(&model->bsdf, wo, wi, &pdf) - bsdf_eval(&only.bsdf, wo, wi, &pdf);
-    Spectrum back =
-        bsdf_eval(&model->bsdf, wi, wo, &pdf) - bsdf_eval(&only.bsdf, wi, wo, &pdf);
+    Spectrum there = bsdf_eval(&model->bsdf, wo, wi, &pdf) - bsdf_eval(&only.bsdf, wo, wi, &pdf);
+    Spectrum back = bsdf_eval(&model->bsdf, wi, wo, &pdf) - bsdf_eval(&only.bsdf, wi, wo, &pdf);
     for (int i = 0; i < SPECTRUM_LANES; i++)
         assert_near(there[i], back[i], 1e-3f * there[i] + 1e-6f);
 }
 
 /* A matte finish spreads the mirror: up to 60 degrees as much comes back as before, and never
  * more. */
-static void finish_keeps_energy(Model model)
-{
+static void finish_keeps_energy(Model model) {
     static const struct {
         float width_deg, matte, doubt;
     } FINISH[] = {{2, 0.6f, 0.01f}, {8, 1, 0.01f}, {20, 0.6f, 0.045f}};
@@ -273,26 +257,26 @@ static void finish_keeps_energy(Model model)
             finish_is_reciprocal(&model, eye(k));
             Spectrum matte = furnace(&model, eye(k), 8192);
             for (int i = 0; i < SPECTRUM_LANES; i++) {
-                if (eye(k).z >= 0.499f)
-                    assert_near(matte[i], clear[i], FINISH[w].doubt * clear[i]);
+                if (eye(k).z >= 0.499f) assert_near(matte[i], clear[i], FINISH[w].doubt * clear[i]);
                 assert_true(matte[i] <= 1.01f * clear[i]);
             }
         }
 }
 
-TEST(shipped_displays_obey_the_same_laws)
-{
+TEST(shipped_displays_obey_the_same_laws) {
     static const char *const names[] = {"ips_cluster", "oled_centre"};
-    int         found = 0;
+    int found = 0;
     for (int i = 0; i < 2; i++) {
-        char   path[1024];
+        char path[1024];
         Panel *panel;
         snprintf(path, sizeof path, "%s/assets/panels/%s.panel", PROJECT_DIR, names[i]);
         FILE *file = fopen(path, "rb");
         if (!file) continue;
         fclose(file);
         assert_done(panel_open(path, &arena, &panel, &err));
-        Model model = {.name = names[i], .width = 0.05f, .bsdf.kind = BSDF_DISPLAY,
+        Model model = {.name = names[i],
+                       .width = 0.05f,
+                       .bsdf.kind = BSDF_DISPLAY,
                        .bsdf.display.panel = panel};
         panel_lanes(panel, &wavelengths, &model.bsdf.display.lanes);
         for (int k = 0; k < EYE_COUNT; k++) {
@@ -302,8 +286,7 @@ TEST(shipped_displays_obey_the_same_laws)
             albedo_is_near(&model, eye(k));
         }
         finish_keeps_energy(model);
-        model.bsdf.display.cover =
-            coating_of_cover(stack_silver(&arena), 1.5, &arena)->front;
+        model.bsdf.display.cover = coating_of_cover(stack_silver(&arena), 1.5, &arena)->front;
         model.bsdf.display.wavelengths = &wavelengths;
         for (int k = 0; k < EYE_COUNT; k++) {
             sample_agrees(&model, eye(k));

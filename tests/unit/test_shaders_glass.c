@@ -10,51 +10,61 @@
 #include "shaders/facets/microfacet.h"
 #include "spectrum/dispersion.h"
 
-static Arena       arena;
+static Arena arena;
 static Wavelengths wavelengths;
 
-static void add_dielectric(const char *name, float ior, float alpha)
-{
+static void add_dielectric(const char *name, float ior, float alpha) {
     float width = alpha < SMOOTH_ALPHA ? 1 : 0.5f * alpha * fabsf(ior - 1) + 1e-4f;
-    models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_DIELECTRIC,
-                                    .bsdf.dielectric = {.tint = spectrum_all(1), .ior = ior,
-                                                        .alpha = alpha},
-                                    .lossless = true, .both_sides = true, .width = width};
+    models[model_count++] =
+        (Model){.name = name,
+                .bsdf.kind = BSDF_DIELECTRIC,
+                .bsdf.dielectric = {.tint = spectrum_all(1), .ior = ior, .alpha = alpha},
+                .lossless = true,
+                .both_sides = true,
+                .width = width};
     if (alpha >= SMOOTH_ALPHA)
         models[model_count - 1].bsdf.dielectric.energy =
             solid_energy_build(ior, alpha, alpha, false, &arena);
 }
 
 /* Of single facets alone, which lose light. */
-static void add_bare_facets(const char *name, float ior, float alpha)
-{
+static void add_bare_facets(const char *name, float ior, float alpha) {
     add_dielectric(name, ior, alpha);
     models[model_count - 1].bsdf.dielectric.energy = NULL;
     models[model_count - 1].lossless = false;
 }
 
-static GlazedWindow *add_glazing(const char *name, float through, float haze, float width)
-{
+static GlazedWindow *add_glazing(const char *name, float through, float haze, float width) {
     Glazing *pane = ARENA_NEW(&arena, Glazing, 1);
     *pane = (Glazing){.layers = {{0.0021f, 1.52f}, {0.00076f, 1.485f}, {0.0021f, 1.6f}},
-                      .layer_count = 3, .absorbing_ior = 1.52f, .wedge_ior = 1.485f,
-                      .haze_share = haze, .haze_width = width};
+                      .layer_count = 3,
+                      .absorbing_ior = 1.52f,
+                      .wedge_ior = 1.485f,
+                      .haze_share = haze,
+                      .haze_width = width};
     Model *model = &models[model_count++];
-    *model = (Model){.name = name, .bsdf.kind = BSDF_GLAZED_WINDOW, .both_sides = true,
-                     .lossless = through >= 1 && haze <= 0, .width = haze > 0 ? width : 1};
+    *model = (Model){.name = name,
+                     .bsdf.kind = BSDF_GLAZED_WINDOW,
+                     .both_sides = true,
+                     .lossless = through >= 1 && haze <= 0,
+                     .width = haze > 0 ? width : 1};
     model->bsdf.glazed_window =
         (GlazedWindow){.pane = pane, .absorbance = spectrum_all(-logf(through))};
     return &model->bsdf.glazed_window;
 }
 
-static void add_glass(void)
-{
-    models[model_count++] = (Model){.name = "windscreen", .bsdf.kind = BSDF_THIN_WINDOW,
-        .bsdf.thin_window = {.tint = ramp(0.6f, 0.9f), .ior = 1.52f}, .both_sides = true,
-        .width = 1};
-    models[model_count++] = (Model){.name = "clear window", .bsdf.kind = BSDF_THIN_WINDOW,
-        .bsdf.thin_window = {.tint = spectrum_all(1), .ior = 1.52f}, .both_sides = true,
-        .lossless = true, .width = 1};
+static void add_glass(void) {
+    models[model_count++] = (Model){.name = "windscreen",
+                                    .bsdf.kind = BSDF_THIN_WINDOW,
+                                    .bsdf.thin_window = {.tint = ramp(0.6f, 0.9f), .ior = 1.52f},
+                                    .both_sides = true,
+                                    .width = 1};
+    models[model_count++] = (Model){.name = "clear window",
+                                    .bsdf.kind = BSDF_THIN_WINDOW,
+                                    .bsdf.thin_window = {.tint = spectrum_all(1), .ior = 1.52f},
+                                    .both_sides = true,
+                                    .lossless = true,
+                                    .width = 1};
     add_glazing("laminated", 0.8f, 0, 0)->front_is_up = true;
     add_glazing("clear laminated", 1, 0, 0);
     add_glazing("dirty", 0.9f, 0.3f, 0.4f);
@@ -75,32 +85,33 @@ static void add_glass(void)
 }
 
 static void add_coated_solid(const char *name, float alpha, bool lossless,
-                             const CoatingTables *tables)
-{
+                             const CoatingTables *tables) {
     add_dielectric(name, 1.52f, alpha);
     Model *model = &models[model_count - 1];
     model->lossless = lossless;
     if (alpha > 0)
-        model->bsdf.dielectric.energy =
-            solid_energy_build(1.52f, alpha, alpha, true, &arena);
+        model->bsdf.dielectric.energy = solid_energy_build(1.52f, alpha, alpha, true, &arena);
     model->bsdf.dielectric.coating = tables;
     model->bsdf.dielectric.wavelengths = &wavelengths;
 }
 
-static ThinWindow *add_coated_window(const char *name, bool lossless, const PaneCoating *sheet)
-{
-    models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_THIN_WINDOW,
-        .bsdf.thin_window = {.tint = spectrum_all(1), .ior = 1.52f, .coating = sheet,
-                             .wavelengths = &wavelengths},
-        .both_sides = true, .lossless = lossless, .width = 1};
+static ThinWindow *add_coated_window(const char *name, bool lossless, const PaneCoating *sheet) {
+    models[model_count++] = (Model){.name = name,
+                                    .bsdf.kind = BSDF_THIN_WINDOW,
+                                    .bsdf.thin_window = {.tint = spectrum_all(1),
+                                                         .ior = 1.52f,
+                                                         .coating = sheet,
+                                                         .wavelengths = &wavelengths},
+                                    .both_sides = true,
+                                    .lossless = lossless,
+                                    .width = 1};
     return &models[model_count - 1].bsdf.thin_window;
 }
 
-static void add_coated_pane(const char *name, const LayerStack *outside,
-                            const LayerStack *inside, float haze)
-{
+static void add_coated_pane(const char *name, const LayerStack *outside, const LayerStack *inside,
+                            float haze) {
     GlazedWindow *window = add_glazing(name, 1, haze, 0.4f);
-    Glazing       pane = *window->pane;
+    Glazing pane = *window->pane;
     pane.coating[0] = outside;
     pane.coating[1] = inside;
     models[model_count - 1].lossless = !inside && haze <= 0;
@@ -108,8 +119,7 @@ static void add_coated_pane(const char *name, const LayerStack *outside,
     window->wavelengths = &wavelengths;
 }
 
-static void add_coated_glass(void)
-{
+static void add_coated_glass(void) {
     const LayerStack *four = stack_four(&arena), *silver = stack_silver(&arena);
     const LayerStack *mirror = stack_of(1, (ThinMedium[]){{0, 100, 2000}}, &arena);
     const PaneCoating *sheet = coating_of_sheet(four, 1.52, &arena);
@@ -126,8 +136,7 @@ static void add_coated_glass(void)
 }
 
 /* strength: 1 is glTF's strongest dispersion, of heavy flint; 2 twice that. */
-static void add_dispersive(const char *name, float alpha, double strength)
-{
+static void add_dispersive(const char *name, float alpha, double strength) {
     Curve *index = ARENA_NEW(&arena, Curve, 1);
     for (int i = 0; i < CURVE_COUNT; i++)
         index->value[i] = (float)dispersion_index(1.6, strength, CURVE_FIRST_NM + i);
@@ -140,8 +149,7 @@ static void add_dispersive(const char *name, float alpha, double strength)
     d->energy_most = solid_energy_build(index->value[0], alpha, alpha, false, &arena);
 }
 
-static Dielectric *add_filmed(const char *name, float ior, float alpha)
-{
+static Dielectric *add_filmed(const char *name, float ior, float alpha) {
     add_dielectric(name, ior, alpha);
     Dielectric *d = &models[model_count - 1].bsdf.dielectric;
     d->film = (ThinFilm){.share = 1, .ior = 1.8f, .thickness_nm = 350};
@@ -150,8 +158,7 @@ static Dielectric *add_filmed(const char *name, float ior, float alpha)
     return d;
 }
 
-static void add_films(void)
-{
+static void add_films(void) {
     add_filmed("smooth filmed glass", 1.5f, 0);
     add_filmed("smooth filmed water", 1.33f, 0)->film.ior = 2.4f;
     add_filmed("nearly smooth filmed glass", 1.5f, 0.02f)->film.thickness_nm = 120;
@@ -169,11 +176,10 @@ static void add_films(void)
 }
 
 /* The last model, as bare or not as it is. */
-static Dielectric *brush(const char *name, float along)
-{
-    Model      *model = &models[model_count - 1];
+static Dielectric *brush(const char *name, float along) {
+    Model *model = &models[model_count - 1];
     Dielectric *d = &model->bsdf.dielectric;
-    bool        has_facets = d->film.share > 0 || d->coating;
+    bool has_facets = d->film.share > 0 || d->coating;
     d->energy = brushed_energy(d->energy->ior, along, d->alpha, has_facets, &arena);
     if (d->index)
         d->energy_most = brushed_energy(d->energy_most->ior, along, d->alpha, false, &arena);
@@ -183,8 +189,7 @@ static Dielectric *brush(const char *name, float along)
     return d;
 }
 
-static void add_brushed_solids(void)
-{
+static void add_brushed_solids(void) {
     add_dielectric("", 1.5f, 0.1f);
     brush("brushed glass", 0.5f);
     add_dielectric("", 1.5f, 0.6f);
@@ -206,8 +211,7 @@ static void add_brushed_solids(void)
     brush("brushed flint", 0.4f);
 }
 
-static int make_models(void **state)
-{
+static int make_models(void **state) {
     make_arena(state);
     arena = test_arena(state);
     wavelengths_sample(0.3f, &wavelengths);

@@ -5,18 +5,16 @@
 #include "base/sampler.h"
 #include "compare/statistic/sign_flip.h"
 
-static double unit(uint32_t *state)
-{
+static double unit(uint32_t *state) {
     *state = hash_u32(*state + 0x9e3779b9u);
     return ((double)*state + 0.5) * 0x1p-32;
 }
 
 /* Every one of the 2^12 signs of a sum: as many of them as p says, or fewer, reach as far. */
-TEST(the_tail_of_random_signs_is_never_heavier_than_stated)
-{
+TEST(the_tail_of_random_signs_is_never_heavier_than_stated) {
     enum { TERMS = 12, SIGNS = 1 << TERMS };
     static double quotient[SIGNS], p[SIGNS];
-    uint32_t      random = 5;
+    uint32_t random = 5;
     const NoiseLaw law = {.is_same = true};
     for (int shape = 0; shape < 12; shape++) {
         double size[TERMS], squares = 0;
@@ -42,12 +40,11 @@ TEST(the_tail_of_random_signs_is_never_heavier_than_stated)
     }
 }
 
-TEST(the_square_of_random_signs_has_the_stated_variance)
-{
+TEST(the_square_of_random_signs_has_the_stated_variance) {
     static const double SIZE[4] = {1, 2, 2, 5};
-    double              fourth = 0;
-    const NoiseLaw      law = {.is_same = true};
-    SignFlipSum         sum = {0};
+    double fourth = 0;
+    const NoiseLaw law = {.is_same = true};
+    SignFlipSum sum = {0};
     for (int signs = 0; signs < 16; signs++) {
         sum = (SignFlipSum){0};
         for (int i = 0; i < 4; i++) {
@@ -59,8 +56,7 @@ TEST(the_square_of_random_signs_has_the_stated_variance)
     assert_close(sign_flip_square_variance(&sum), fourth - 1, 1e-9);
 }
 
-TEST(tails_have_their_closed_forms)
-{
+TEST(tails_have_their_closed_forms) {
     assert_close(2 * normal_tail(1.959964), 0.05, 1e-6);
     assert_close(normal_tail(6), 9.865876e-10, 1e-6);
     /* chi square of 2 is exponential: exp(-x / 2); of 100, the table's 5 % and 0.1 % */

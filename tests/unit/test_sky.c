@@ -10,10 +10,9 @@
 
 /* ---- position --------------------------------------------------------------------------- */
 
-TEST(the_published_example_holds_at_every_step)
-{
-    SkyTime     time = moment("2003-10-17T12:30:30-07:00");
-    SkyPlace    place = {39.742476, -105.1786, 1830.14};
+TEST(the_published_example_holds_at_every_step) {
+    SkyTime time = moment("2003-10-17T12:30:30-07:00");
+    SkyPlace place = {39.742476, -105.1786, 1830.14};
     SunPosition p = sun_position(sky_julian_day(&time), 67, &place);
     const double steps[][3] = {
         /* ours, the report's, half a unit of its last digit */
@@ -56,8 +55,7 @@ TEST(the_published_example_holds_at_every_step)
         assert_near(steps[i][0], steps[i][1], steps[i][2] * 1.02);
 }
 
-TEST(other_places_and_seasons_agree_with_spa)
-{
+TEST(other_places_and_seasons_agree_with_spa) {
     const struct {
         const char *when;
         double latitude, zenith, apparent, azimuth;
@@ -67,10 +65,10 @@ TEST(other_places_and_seasons_agree_with_spa)
                 {"2020-10-17T12:30Z", -45, 39.893464, 39.879401, 326.234467},
                 {"2020-10-17T05:50Z", 45, 88.892268, 88.541525, 104.539898}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        SkyTime     time = moment(rows[i].when);
-        SkyPlace    place = {rows[i].latitude, 10, 0};
+        SkyTime time = moment(rows[i].when);
+        SkyPlace place = {rows[i].latitude, 10, 0};
         SunPosition p = sun_position(sky_julian_day(&time), 67, &place);
-        double      lift = sun_refraction_deg(p.elevation_deg, 1013.25, 12);
+        double lift = sun_refraction_deg(p.elevation_deg, 1013.25, 12);
         assert_near(90 - p.elevation_deg, rows[i].zenith, 6e-7);
         assert_near(90 - p.elevation_deg - lift, rows[i].apparent, 6e-7);
         assert_near(p.azimuth_deg, rows[i].azimuth, 6e-7);
@@ -79,8 +77,7 @@ TEST(other_places_and_seasons_agree_with_spa)
 
 /* PSA's algorithm with its coefficients of 2020 (Blanco, Milidonis and Bonanos 2020): unit
  * vector east, north, up. */
-static void psa_vector(const SkyTime *t, const SkyPlace *place, double out[3])
-{
+static void psa_vector(const SkyTime *t, const SkyPlace *place, double out[3]) {
     double n = sky_julian_day(t) - 2451545.0;
     double hours = t->hour - t->zone_h + (t->minute + t->second / 60) / 60;
     double om = 2.267127827 - 9.300339267e-4 * n, l = 4.895036035 + 1.720279602e-2 * n;
@@ -98,18 +95,20 @@ static void psa_vector(const SkyTime *t, const SkyPlace *place, double out[3])
     out[0] = sin(z) * sin(az), out[1] = sin(z) * cos(az), out[2] = cos(z);
 }
 
-TEST(an_independent_algorithm_agrees_at_10000_times_and_places)
-{
+TEST(an_independent_algorithm_agrees_at_10000_times_and_places) {
     double most = 0;
     for (int i = 0; i < 10000; i++) {
-        SkyTime  t = {2020 + (int)(random_unit() * 30), 1 + (int)(random_unit() * 12),
-                      1 + (int)(random_unit() * 28), (int)(random_unit() * 24),
-                      (int)(random_unit() * 60), 0, 0};
+        SkyTime t = {2020 + (int)(random_unit() * 30),
+                     1 + (int)(random_unit() * 12),
+                     1 + (int)(random_unit() * 28),
+                     (int)(random_unit() * 24),
+                     (int)(random_unit() * 60),
+                     0,
+                     0};
         SkyPlace place = {asin(2 * random_unit() - 1) * 180 / PI, 360 * random_unit() - 180, 0};
-        double   day = sky_julian_day(&t), other[3];
+        double day = sky_julian_day(&t), other[3];
         SunPosition p = sun_position(day, sky_delta_t_s(day), &place);
-        double e = radians_from_degrees(p.elevation_deg),
-               a = radians_from_degrees(p.azimuth_deg);
+        double e = radians_from_degrees(p.elevation_deg), a = radians_from_degrees(p.azimuth_deg);
         psa_vector(&t, &place, other);
         double dx = cos(e) * sin(a) - other[0], dy = cos(e) * cos(a) - other[1];
         double dz = sin(e) - other[2];
@@ -119,10 +118,9 @@ TEST(an_independent_algorithm_agrees_at_10000_times_and_places)
     assert_in(most, 1e-4, 0.01);
 }
 
-TEST(the_date_line_and_the_poles_are_no_seams)
-{
-    SkyTime  time = moment("2024-02-29T23:59:59.5+14:00");
-    double   day = sky_julian_day(&time);
+TEST(the_date_line_and_the_poles_are_no_seams) {
+    SkyTime time = moment("2024-02-29T23:59:59.5+14:00");
+    double day = sky_julian_day(&time);
     SkyPlace west = {20, -180, 0}, east = {20, 180, 0};
     SunPosition a = sun_position(day, 69, &west), b = sun_position(day, 69, &east);
     assert_near(a.elevation_deg, b.elevation_deg, 1e-9);
@@ -134,8 +132,7 @@ TEST(the_date_line_and_the_poles_are_no_seams)
     }
 }
 
-TEST(refraction_is_smooth_below_the_horizon_too)
-{
+TEST(refraction_is_smooth_below_the_horizon_too) {
     double before = sun_refraction_deg(-8, 1013.25, 15);
     assert_near(sun_refraction_deg(0, 1010, 10), 1.02 / 60 / tan(10.3 / 5.11 * PI / 180), 1e-6);
     for (double e = -8; e < 90; e += 0.01) {
@@ -145,8 +142,7 @@ TEST(refraction_is_smooth_below_the_horizon_too)
     }
 }
 
-TEST(a_moment_needs_its_zone_and_real_dates)
-{
+TEST(a_moment_needs_its_zone_and_real_dates) {
     static const char *const wrong[] = {"",
                                         "2026-06-21",
                                         "2026-06-21T08:30",
@@ -168,8 +164,7 @@ TEST(a_moment_needs_its_zone_and_real_dates)
     assert_near(sky_julian_day(&a), sky_julian_day(&b), 1e-9);
 }
 
-TEST(the_horizon_dips_and_the_air_thins_with_altitude)
-{
+TEST(the_horizon_dips_and_the_air_thins_with_altitude) {
     double pressure, celsius;
     standard_atmosphere(10668, &pressure, &celsius);
     assert_near(pressure, 238.42, 0.02);
@@ -182,13 +177,12 @@ TEST(the_horizon_dips_and_the_air_thins_with_altitude)
 
 /* ---- spectra ----------------------------------------------------------------------------- */
 
-TEST(spectrl2_is_the_published_program)
-{
+TEST(spectrl2_is_the_published_program) {
     const Air air = {1013, 1.42, 0.344, 0.1, 1.14, 0.2};
-    double    b = 2 * PI * 74 / 365, most = 0, nm, diffuse, direct, outside;
-    double    factor = 1.00011 + 0.034221 * cos(b) + 0.00128 * sin(b) + 0.000719 * cos(2 * b) +
+    double b = 2 * PI * 74 / 365, most = 0, nm, diffuse, direct, outside;
+    double factor = 1.00011 + 0.034221 * cos(b) + 0.00128 * sin(b) + 0.000719 * cos(2 * b) +
                     0.000077 * sin(2 * b);
-    Spectrl2  s = spectrl2(&air, 47.912086486816406, factor);
+    Spectrl2 s = spectrl2(&air, 47.912086486816406, factor);
     assert_near(air_mass(47.912086486816406), 1.4899535986910446, 1e-12);
     assert_near(spectrl2_read(s.direct, 550), 1.38386, 5e-6);
     assert_near(spectrl2_read(s.diffuse, 400), 0.27464, 5e-6);
@@ -198,11 +192,11 @@ TEST(spectrl2_is_the_published_program)
         return;
     }
     char line[400];
-    int  row, rows = 0;
+    int row, rows = 0;
     assert_non_null(fgets(line, sizeof line, file));
     for (; fgets(line, sizeof line, file); rows++) {
-        assert_int_equal(sscanf(line, "%d,%lf,%lf,%lf,%lf", &row, &nm, &diffuse, &direct,
-                                &outside), 5);
+        assert_int_equal(sscanf(line, "%d,%lf,%lf,%lf,%lf", &row, &nm, &diffuse, &direct, &outside),
+                         5);
         assert_near(spectrl2_nm(rows), 1000 * nm, 1e-3); /* micrometres there */
         most = fmax(most, fabs(s.diffuse[rows] - diffuse / 1000));
         most = fmax(most, fabs(s.direct[rows] - direct / 1000));
@@ -214,19 +208,16 @@ TEST(spectrl2_is_the_published_program)
     assert_in(most, 1e-12, 1e-6);
 }
 
-static double illuminance(const double *rows)
-{
+static double illuminance(const double *rows) {
     double sum = 0;
     for (int i = 0; i < SPECTRAL_COUNT; i++)
-        sum +=
-            683.002 * (double)spectral_table[i].y * spectrl2_read(rows, SPECTRAL_FIRST_NM + i);
+        sum += 683.002 * (double)spectral_table[i].y * spectrl2_read(rows, SPECTRAL_FIRST_NM + i);
     return sum;
 }
 
-TEST(the_direct_beam_is_that_of_astm_g173_within_2_percent)
-{
+TEST(the_direct_beam_is_that_of_astm_g173_within_2_percent) {
     const Air air = {1013.25, 1.4164, 0.3438, 0.084, 1.14, 0.2};
-    Spectrl2  s = spectrl2(&air, 48.2, 1);
+    Spectrl2 s = spectrl2(&air, 48.2, 1);
     printf("direct normal: %.1f W/m2 and %.0f lx (G173: 900.1 and 97143)\n",
            spectrl2_total(s.direct), illuminance(s.direct));
     assert_close(spectrl2_total(s.direct), 900.14, 0.02);
@@ -234,15 +225,13 @@ TEST(the_direct_beam_is_that_of_astm_g173_within_2_percent)
 }
 
 /* Radiance over the disc's mean at mu = sqrt(1 - (sin gamma / sin r)^2). */
-static double sun_limb_value(const double coefficient[6], double mu)
-{
+static double sun_limb_value(const double coefficient[6], double mu) {
     double value = 0;
     for (int k = 5; k >= 0; k--) value = value * mu + coefficient[k];
     return fmax(0, value);
 }
 
-TEST(limb_darkening_keeps_the_irradiance)
-{
+TEST(limb_darkening_keeps_the_irradiance) {
     for (int nm = 300; nm <= 900; nm += 13) {
         double c[6], flux = 0, weight = 0;
         sun_limb(nm, c);
@@ -259,33 +248,31 @@ TEST(limb_darkening_keeps_the_irradiance)
 
 /* ---- shapes ------------------------------------------------------------------------------ */
 
-TEST(the_cie_skies_have_their_known_illuminance_over_zenith_luminance)
-{
+TEST(the_cie_skies_have_their_known_illuminance_over_zenith_luminance) {
     static const double known[16] = {2.44954, 2.08602, 2.76999, 2.31542, 3.14159, 2.58416,
                                      2.42123, 2.32838, 3.45932, 3.17026, 2.98906, 3.19057,
                                      3.02586, 3.21696, 3.01586, 2.44346};
     for (int type = 1; type <= 16; type++) {
         SkyShape shape = sky_shape_cie(type);
-        double   zenith = sky_shape_value(&shape, 1, PI / 6);
+        double zenith = sky_shape_value(&shape, 1, PI / 6);
         assert_close(sky_shape_integral(&shape, PI / 6, 600) / zenith, known[type - 1], 5e-4);
     }
 }
 
-TEST(perez_makes_the_known_skies)
-{
-    static const double in[4][4] = {{45, 100, 800, 172}, {60, 150, 400, 80}, {45, 250, 0, 80},
-                                    {60, 300, 50, 80}};
+TEST(perez_makes_the_known_skies) {
+    static const double in[4][4] = {
+        {45, 100, 800, 172}, {60, 150, 400, 80}, {45, 250, 0, 80}, {60, 300, 50, 80}};
     static const double known[4][11] = {{1.411923, 0.106762, 6.317959, 8, -0.951719, -0.150927,
                                          19.394149, -5.435566, 1.240755, 0.343562, 1.852569},
                                         {1.992764, 0.216951, 2.214625, 5, -0.987590, -0.468529,
                                          12.972326, -3.267055, 0.039785, 0.547479, 3.426400},
-                                        {1.411923, 0.256192, 1, 1, 0.792204, -0.465025,
-                                         1.233846, -0.788518, -0.008786, 2.485732, 6.872419},
+                                        {1.411923, 0.256192, 1, 1, 0.792204, -0.465025, 1.233846,
+                                         -0.788518, -0.008786, 2.485732, 6.872419},
                                         {1.992764, 0.433902, 1.075914, 2, -0.916954, -1.448707,
                                          9.902142, -2.835673, 0.043045, 1.191873, 5.464208}};
     for (int i = 0; i < 4; i++) {
         PerezInput input = {radians_from_degrees(in[i][0]), in[i][2], in[i][1], (int)in[i][3]};
-        SkyShape   s;
+        SkyShape s;
         PerezState p;
         assert_done(sky_shape_perez(&input, &s, &p, &err));
         const double ours[11] = {p.air_mass,
@@ -304,8 +291,7 @@ TEST(perez_makes_the_known_skies)
     }
 }
 
-TEST(the_quick_form_of_a_shape_is_the_same)
-{
+TEST(the_quick_form_of_a_shape_is_the_same) {
     for (int type = 1; type <= 16; type++) {
         SkyShape shape = sky_shape_cie(type);
         for (float c = 0.01f; c <= 1; c += 0.07f)
@@ -315,10 +301,9 @@ TEST(the_quick_form_of_a_shape_is_the_same)
     }
 }
 
-TEST(irradiances_without_a_sky_are_refused)
-{
+TEST(irradiances_without_a_sky_are_refused) {
     PerezInput input = {0.5, 100, 0, 80};
-    SkyShape   shape;
+    SkyShape shape;
     assert_fails_as(sky_shape_perez(&input, &shape, NULL, &err), ERROR_INPUT, "above 0");
 }
 
@@ -332,11 +317,10 @@ static const char weather_text[] =
     "1995,6,21,13,60,x,21.1,11.8,79,100100,0,1415,288,500,9999,9999,0,0,0,0,180,3,5,5,20,"
     "77777,9,999999999,23,0.12\r\n";
 
-ARENA_TEST(a_weather_file_tells_place_and_hours)
-{
+ARENA_TEST(a_weather_file_tells_place_and_hours) {
     const char *name = in_folder("weather.epw");
     write_text(name, weather_text);
-    Weather     w;
+    Weather w;
     assert_done(weather_read(name, &arena, &w, &err));
     unlink(name);
     assert_string_equal(w.city, "Testville");
@@ -350,11 +334,10 @@ ARENA_TEST(a_weather_file_tells_place_and_hours)
     assert_false(w.hour[1].has_light || w.has_comment_offset);
 }
 
-ARENA_TEST(every_prefix_of_a_weather_file_is_read_or_refused_by_line)
-{
+ARENA_TEST(every_prefix_of_a_weather_file_is_read_or_refused_by_line) {
     for (size_t n = 0; n < sizeof weather_text - 1; n++) {
-        char    text[sizeof weather_text];
-        Arena   scratch = arena;
+        char text[sizeof weather_text];
+        Arena scratch = arena;
         Weather w;
         memcpy(text, weather_text, n);
         text[n] = 0;
@@ -366,16 +349,15 @@ ARENA_TEST(every_prefix_of_a_weather_file_is_read_or_refused_by_line)
     }
 }
 
-ARENA_TEST(a_real_year_has_8760_hours)
-{
+ARENA_TEST(a_real_year_has_8760_hours) {
     Weather w;
-    double  direct = 0;
+    double direct = 0;
     if (access(SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw", R_OK)) {
         print_message("skipped: no shared data\n");
         skip();
     }
-    assert_done(weather_read(SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw", &arena, &w,
-                             &err));
+    assert_done(
+        weather_read(SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw", &arena, &w, &err));
     assert_int_equal(w.count, 8760);
     for (int i = 0; i < w.count; i++) direct += w.hour[i].direct_normal_w_m2;
     assert_in(direct / 1000, 500, 1500); /* kWh m^-2 of a northern year */

@@ -10,26 +10,23 @@
 
 #define OFFSETS 20000
 
-static Spectrum curve_of_d65(const Wavelengths *w)
-{
+static Spectrum curve_of_d65(const Wavelengths *w) {
     return w->d65;
 }
 
 /* Mean estimate of XYZ over many offsets. */
-static void estimate_xyz(Spectrum (*radiance)(const Wavelengths *), double xyz[3])
-{
+static void estimate_xyz(Spectrum (*radiance)(const Wavelengths *), double xyz[3]) {
     xyz[0] = xyz[1] = xyz[2] = 0;
     for (int i = 0; i < OFFSETS; i++) {
         Wavelengths w;
-        float       one[3] = {0, 0, 0};
+        float one[3] = {0, 0, 0};
         wavelengths_sample(((float)i + 0.5f) / OFFSETS, &w);
         spectrum_add_xyz(&w, radiance(&w), one);
         for (int c = 0; c < 3; c++) xyz[c] += (double)one[c] / OFFSETS;
     }
 }
 
-TEST(equal_energy_has_its_luminance)
-{
+TEST(equal_energy_has_its_luminance) {
     float one[SPECTRAL_COUNT];
     for (int i = 0; i < SPECTRAL_COUNT; i++) one[i] = 1;
     assert_close(luminance_cd_m2(one, SPECTRAL_COUNT, 360, 1), 683.002 * 106.8569, 1e-6);
@@ -39,9 +36,8 @@ TEST(equal_energy_has_its_luminance)
     assert_close(luminance_cd_m2(three, 6, 554.5, 0.2), 683.002, 2e-4);
 }
 
-TEST(equal_energy_is_white_of_e)
-{
-    float  one[SPECTRAL_COUNT];
+TEST(equal_energy_is_white_of_e) {
+    float one[SPECTRAL_COUNT];
     double xyz[3];
     for (int i = 0; i < SPECTRAL_COUNT; i++) one[i] = 1;
     xyz_from_radiance(one, SPECTRAL_COUNT, 360, 1, xyz);
@@ -49,8 +45,7 @@ TEST(equal_energy_is_white_of_e)
     assert_close(xyz[2], 683.002 * 106.89225128, 4e-6);
 }
 
-TEST(nothing_is_seen_outside_360_to_830)
-{
+TEST(nothing_is_seen_outside_360_to_830) {
     float one[200];
     for (int i = 0; i < 200; i++) one[i] = 1;
     assert_near(luminance_cd_m2(one, 200, 150, 1), 0, 0);
@@ -58,8 +53,7 @@ TEST(nothing_is_seen_outside_360_to_830)
     assert_near(luminance_cd_m2(one, 1, 555, 1), 0, 0); /* a single point has no width */
 }
 
-TEST(a_black_body_radiates_sigma_t4)
-{
+TEST(a_black_body_radiates_sigma_t4) {
     for (double kelvin = 1000; kelvin < 12000; kelvin *= 1.7) {
         double sum = 0; /* in ln(lambda): 10 nm to 1 mm */
         for (int i = 0; i < 20000; i++) {
@@ -70,16 +64,13 @@ TEST(a_black_body_radiates_sigma_t4)
     }
 }
 
-TEST(illuminant_a_is_a_black_body_of_2856_kelvin)
-{
+TEST(illuminant_a_is_a_black_body_of_2856_kelvin) {
     double ratio = (double)spectral_row(560).illuminant_a / black_body_radiance(560, 2855.5);
     for (int nm = 380; nm <= 780; nm += 40)
-        assert_close(spectral_row(nm).illuminant_a, ratio * black_body_radiance(nm, 2855.5),
-                     2e-4);
+        assert_close(spectral_row(nm).illuminant_a, ratio * black_body_radiance(nm, 2855.5), 2e-4);
 }
 
-TEST(d65_has_its_chromaticity)
-{
+TEST(d65_has_its_chromaticity) {
     float d65[SPECTRAL_COUNT], xyz[3], xy[2];
     double sum[3];
     for (int i = 0; i < SPECTRAL_COUNT; i++) d65[i] = spectral_table[i].d65;
@@ -94,15 +85,13 @@ TEST(d65_has_its_chromaticity)
 }
 
 /* What wavelengths_sample draws from, nm^-1. */
-static float wavelengths_pdf(float nm)
-{
+static float wavelengths_pdf(float nm) {
     if (!(nm >= SPECTRAL_FIRST_NM && nm < SPECTRAL_LAST_NM)) return 0;
     int cell = (int)nm - SPECTRAL_FIRST_NM;
     return (wavelength_steps[cell + 1] - wavelength_steps[cell]) * 0x1p-24f;
 }
 
-TEST(wavelengths_cover_the_range_once)
-{
+TEST(wavelengths_cover_the_range_once) {
     double integral = 0;
     for (int i = 0; i < 47000; i++)
         integral += (double)wavelengths_pdf(360.005f + 0.01f * (float)i) * 0.01;
@@ -118,8 +107,7 @@ TEST(wavelengths_cover_the_range_once)
     }
 }
 
-TEST(wavelengths_follow_their_density)
-{
+TEST(wavelengths_follow_their_density) {
     double histogram[47] = {0}, expected[47] = {0};
     for (int i = 0; i < OFFSETS; i++) {
         Wavelengths w;
@@ -128,14 +116,12 @@ TEST(wavelengths_follow_their_density)
     }
     for (int nm = 360; nm < 830; nm++)
         expected[(nm - 360) / 10] += (double)wavelengths_pdf((float)nm + 0.5f);
-    for (int b = 0; b < 47; b++)
-        assert_near(histogram[b] / (OFFSETS * 16.0), expected[b], 2e-4);
+    for (int b = 0; b < 47; b++) assert_near(histogram[b] / (OFFSETS * 16.0), expected[b], 2e-4);
 }
 
 static float spike_nm, spike_width_nm;
 
-static Spectrum spike(const Wavelengths *w)
-{
+static Spectrum spike(const Wavelengths *w) {
     Spectrum s = spectrum_all(0);
     for (int k = 0; k < SPECTRUM_LANES; k++) {
         float t = 1 - fabsf(w->nm[k] - spike_nm) / spike_width_nm;
@@ -144,8 +130,7 @@ static Spectrum spike(const Wavelengths *w)
     return s;
 }
 
-TEST(spiky_spectra_are_integrated_without_bias)
-{
+TEST(spiky_spectra_are_integrated_without_bias) {
     spike_width_nm = 2;
     for (spike_nm = 380; spike_nm < 720; spike_nm += 17.3f) {
         double xyz[3], sum[3] = {0, 0, 0};
@@ -158,13 +143,11 @@ TEST(spiky_spectra_are_integrated_without_bias)
             sum[1] += t * (double)row.y * 683.002e-3;
             sum[2] += t * (double)row.z * 683.002e-3;
         }
-        for (int c = 0; c < 3; c++)
-            assert_near(xyz[c], sum[c], 1e-2 * (sum[1] + sum[c]) + 1e-3);
+        for (int c = 0; c < 3; c++) assert_near(xyz[c], sum[c], 1e-2 * (sum[1] + sum[c]) + 1e-3);
     }
 }
 
-TEST(one_offset_already_sees_the_luminance_of_daylight)
-{
+TEST(one_offset_already_sees_the_luminance_of_daylight) {
     double squares = 0, xyz[3];
     estimate_xyz(curve_of_d65, xyz);
     assert_close(xyz[0], d65_white_xyz[0], 2e-5);
@@ -172,7 +155,7 @@ TEST(one_offset_already_sees_the_luminance_of_daylight)
     assert_close(xyz[2], d65_white_xyz[2], 2e-5);
     for (int i = 0; i < 1000; i++) {
         Wavelengths w;
-        float       one[3] = {0, 0, 0};
+        float one[3] = {0, 0, 0};
         wavelengths_sample((float)i / 1000, &w);
         spectrum_add_xyz(&w, w.d65, one);
         squares += ((double)one[1] - 1) * ((double)one[1] - 1) / 1000;
@@ -180,8 +163,7 @@ TEST(one_offset_already_sees_the_luminance_of_daylight)
     assert_true(sqrt(squares) < 0.02);
 }
 
-TEST(rgb_reflectances_sum_to_one_and_stay_within_it)
-{
+TEST(rgb_reflectances_sum_to_one_and_stay_within_it) {
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
         const SpectralRow *row = &spectral_table[i];
         assert_near((double)row->red + (double)row->green + (double)row->blue, 1, 2e-7);
@@ -192,17 +174,15 @@ TEST(rgb_reflectances_sum_to_one_and_stay_within_it)
 
 static float wanted_rgb[3];
 
-static Spectrum emission_of_wanted(const Wavelengths *w)
-{
+static Spectrum emission_of_wanted(const Wavelengths *w) {
     return spectrum_from_rgb_emission(w, wanted_rgb);
 }
 
-TEST(rgb_survives_the_way_through_spectra)
-{
+TEST(rgb_survives_the_way_through_spectra) {
     srand(7);
     for (int i = 0; i < 24; i++) {
         double xyz[3];
-        float  back[3], seen[3];
+        float back[3], seen[3];
         for (int c = 0; c < 3; c++)
             wanted_rgb[c] = i < 8 ? (float)(i >> c & 1) : (float)rand() / (float)RAND_MAX;
         estimate_xyz(emission_of_wanted, xyz);
@@ -213,8 +193,7 @@ TEST(rgb_survives_the_way_through_spectra)
     }
 }
 
-TEST(rec709_primaries_are_where_the_standard_has_them)
-{
+TEST(rec709_primaries_are_where_the_standard_has_them) {
     const float xy[3][2] = {{0.64f, 0.33f}, {0.30f, 0.60f}, {0.15f, 0.06f}};
     for (int p = 0; p < 3; p++) {
         float rgb[3] = {p == 0, p == 1, p == 2}, xyz[3], seen[2], back[3];
@@ -232,19 +211,17 @@ TEST(rec709_primaries_are_where_the_standard_has_them)
     assert_near(luminance_from_rgb((float[]){0, 1, 0}), 0.7152, 2e-4);
 }
 
-TEST(black_has_the_chromaticity_of_d65)
-{
+TEST(black_has_the_chromaticity_of_d65) {
     float xy[2];
     xy_from_xyz((float[]){0, 0, 0}, xy);
     assert_near(xy[0], 0.312727, 1e-5);
 }
 
-TEST(the_observer_is_the_published_table)
-{
+TEST(the_observer_is_the_published_table) {
     FILE *file = fopen(SHARED_DATA_DIR "/spectra/cie1931_2deg_cmf_1nm.csv", "r");
     if (!file) skip();
     char line[256];
-    int  rows = 0;
+    int rows = 0;
     while (fgets(line, sizeof line, file)) {
         double v[4];
         if (sscanf(line, "%lf,%lf,%lf,%lf", v, v + 1, v + 2, v + 3) != 4) continue;
@@ -258,8 +235,7 @@ TEST(the_observer_is_the_published_table)
     assert_int_equal(rows, SPECTRAL_COUNT);
 }
 
-TEST(a_curve_passes_through_its_points_and_holds_its_ends)
-{
+TEST(a_curve_passes_through_its_points_and_holds_its_ends) {
     double nm[4] = {400, 500.5, 600, 700}, value[4] = {0.1, 0.5, 0.2, 0.9};
     static Curve curve;
     curve_from_points(nm, value, 4, &curve);
@@ -273,7 +249,7 @@ TEST(a_curve_passes_through_its_points_and_holds_its_ends)
         wavelengths_sample((float)i / 50, &w);
         Spectrum looked_up = curve_lookup(&curve, &w);
         for (int k = 0; k < SPECTRUM_LANES; k++) {
-            int   cell = (int)w.nm[k] - 360;
+            int cell = (int)w.nm[k] - 360;
             float t = w.nm[k] - (float)(cell + 360);
             float next = cell + 1 < CURVE_COUNT ? curve.value[cell + 1] : 0;
             assert_near(looked_up[k], curve.value[cell] * (1 - t) + next * t, 1e-5);
@@ -281,19 +257,17 @@ TEST(a_curve_passes_through_its_points_and_holds_its_ends)
     }
 }
 
-static bool curve_read(const char *path, Curve *out, Error *err)
-{
+static bool curve_read(const char *path, Curve *out, Error *err) {
     FileBytes bytes;
     ENDS_BY(arena_release) Arena arena = arena_reserve(1 << 20);
-    bool      ok = file_read(path, 1 << 16, &arena, &bytes, err) &&
+    bool ok = file_read(path, 1 << 16, &arena, &bytes, err) &&
               curve_parse((const char *)bytes.data, path, CURVE_NUMBERS, out, NULL, err);
     return ok;
 }
 
-TEST(a_curve_file_may_have_comments_and_a_header)
-{
+TEST(a_curve_file_may_have_comments_and_a_header) {
     static Curve curve;
-    const char  *path = in_folder("curve.csv");
+    const char *path = in_folder("curve.csv");
     write_text(path, "\xef\xbb\xbf# glass\nnm,transmittance\n\n400,0.5\r\n500 ; 0.75\n"
                      "700\t0.25");
     assert_done(curve_read(path, &curve, &err));
@@ -303,15 +277,14 @@ TEST(a_curve_file_may_have_comments_and_a_header)
     assert_close(curve.value[CURVE_COUNT - 1], 0.25, 1e-6);
 }
 
-TEST(a_bad_curve_file_is_refused_with_its_line)
-{
+TEST(a_bad_curve_file_is_refused_with_its_line) {
     const struct {
         const char *text, *message;
     } cases[] = {
         {"", "no rows of nm,value"},
         {"nm,value\n", "no rows of nm,value"},
         {"nm,value\n400,1\n400,2\n", "line 3: wavelength 400 nm after 400 nm: required: "
-        "rising"},
+                                     "rising"},
         {"nm,value\nfour,1\n", "line 2: found \"four,1\", required: two numbers: nm,value"},
         {"400,1\n500\n", "line 2: found \"500\", required: two numbers"},
         {"400,1,\n500,1\n", "line 1: found \"400,1,\", required: two numbers"},
@@ -325,8 +298,8 @@ TEST(a_bad_curve_file_is_refused_with_its_line)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         static Curve curve;
-        char         line[2048];
-        const char  *path = in_folder("curve.csv");
+        char line[2048];
+        const char *path = in_folder("curve.csv");
         write_text(path, cases[i].text);
         assert_false(curve_read(path, &curve, why()));
         remove(path);
@@ -339,11 +312,10 @@ TEST(a_bad_curve_file_is_refused_with_its_line)
                     "cannot be opened: No such file");
 }
 
-TEST(a_value_out_of_range_is_refused_with_its_line)
-{
+TEST(a_value_out_of_range_is_refused_with_its_line) {
     static Curve curve;
-    char         line[2048];
-    const char  *text = "nm,value\n400,0.5\n500,1.25\n600,-0.1\n700,0\n";
+    char line[2048];
+    const char *text = "nm,value\n400,0.5\n500,1.25\n600,-0.1\n700,0\n";
     static const char *const MESSAGES[] = {
         [CURVE_AMOUNTS] = "x.csv: line 4: holds -0.1; 0 or more is required",
         [CURVE_SHARES] = "x.csv: line 3: holds 1.25; 0 to 1 is required"};
@@ -356,12 +328,10 @@ TEST(a_value_out_of_range_is_refused_with_its_line)
     assert_done(curve_parse("400,0\n700,1\n", "x.csv", CURVE_SHARES, &curve, NULL, &err));
 }
 
-TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
-{
+TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line) {
     static Curve n, k;
-    assert_done(
-        curve_parse_index("nm,n,k\n400,0.5,2\n500 1 4\n700,1,4\n", "metal.csv", &n, &k, NULL,
-                          &err));
+    assert_done(curve_parse_index("nm,n,k\n400,0.5,2\n500 1 4\n700,1,4\n", "metal.csv", &n, &k,
+                                  NULL, &err));
     assert_close(n.value[450 - 360], 0.75, 1e-6);
     assert_close(k.value[450 - 360], 3, 1e-6);
     assert_close(k.value[CURVE_COUNT - 1], 4, 1e-6);
@@ -387,18 +357,16 @@ TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
     }
 }
 
-TEST(lane_operations_agree_with_loops)
-{
+TEST(lane_operations_agree_with_loops) {
     Spectrum a, b;
-    float    sum = 0, most = -1e9f;
+    float sum = 0, most = -1e9f;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         a[i] = (float)((i * 7) % 16) - 5.5f;
         b[i] = (float)((i * 5) % 16) - 4.25f;
         sum += a[i];
         most = a[i] > most ? a[i] : most;
     }
-    Spectrum high = spectrum_max(a, b), low = spectrum_min(a, b),
-             held = spectrum_clamp(a, -1, 2);
+    Spectrum high = spectrum_max(a, b), low = spectrum_min(a, b), held = spectrum_clamp(a, -1, 2);
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         assert_true(high[i] == (a[i] > b[i] ? a[i] : b[i]));
         assert_true(low[i] == (a[i] > b[i] ? b[i] : a[i]));
@@ -422,8 +390,7 @@ TEST(lane_operations_agree_with_loops)
 }
 
 /* D65 lies at 6500 K times 1.4388 / 1.4380 (CIE 15); the table has it from 1 nm data. */
-TEST(daylight_of_6504_kelvin_is_d65)
-{
+TEST(daylight_of_6504_kelvin_is_d65) {
     Curve curve;
     cct_curve(6500 * 1.4388 / 1.4380, &curve);
     for (int nm = 360; nm <= 830; nm += 10)
@@ -431,12 +398,13 @@ TEST(daylight_of_6504_kelvin_is_d65)
 }
 
 /* x and y of CIE 15's D50, D55, D75, and of illuminant A below 4000 K. */
-TEST(a_colour_temperature_has_the_chromaticity_of_its_illuminant)
-{
-    static const double white[][3] = {{2855.5, 0.44758, 0.40745}, {5002.8, 0.34567, 0.35850},
-                                      {5503.1, 0.33242, 0.34743}, {7504.2, 0.29902, 0.31485}};
+TEST(a_colour_temperature_has_the_chromaticity_of_its_illuminant) {
+    static const double white[][3] = {{2855.5, 0.44758, 0.40745},
+                                      {5002.8, 0.34567, 0.35850},
+                                      {5503.1, 0.33242, 0.34743},
+                                      {7504.2, 0.29902, 0.31485}};
     for (int i = 0; i < 4; i++) {
-        Curve  curve;
+        Curve curve;
         double xyz[3];
         cct_curve(white[i][0], &curve);
         xyz_from_radiance(curve.value, CURVE_COUNT, CURVE_FIRST_NM, 1, xyz);

@@ -8,18 +8,17 @@
 /* ---- level ------------------------------------------------------------------------------- */
 
 typedef struct Alarms {
-    int    count;
-    double squares; /* mean square of the frame's shift in its standard errors */
+    int count;
+    double squares;                    /* mean square of the frame's shift in its standard errors */
     double regions, blocks, histogram; /* shares of p below 0.2 */
 } Alarms;
 
-static Alarms count_alarms(Maker *reference, Maker *test)
-{
+static Alarms count_alarms(Maker *reference, Maker *test) {
     ENDS_BY(arena_release) Arena arena = arena_reserve(1 << 26);
     Alarms out = {0};
     for (uint32_t k = 0; k < PAIRS; k++) {
         StatisticResult r = judge_pair(reference, test, k, arena);
-        double          z = r.regions[0].shift / r.regions[0].shift_sigma;
+        double z = r.regions[0].shift / r.regions[0].shift_sigma;
         out.count += r.verdict == STATISTIC_DIFFERENT;
         out.squares += z * z / PAIRS;
         out.regions += (r.p_regions < 0.2) / (double)PAIRS;
@@ -29,12 +28,11 @@ static Alarms count_alarms(Maker *reference, Maker *test)
     return out;
 }
 
-TEST(noise_of_any_kind_keeps_the_level)
-{
+TEST(noise_of_any_kind_keeps_the_level) {
     static const int SAMPLES[] = {1, 2, 8};
     for (Noise noise = NOISE_GAUSSIAN; noise <= NOISE_FIREFLIES; noise++)
         for (int s = 0; s < 3; s++) {
-            Maker  maker = plain_maker(noise, SAMPLES[s], 0), other = maker;
+            Maker maker = plain_maker(noise, SAMPLES[s], 0), other = maker;
             Alarms alarms = count_alarms(&maker, &other);
             if (alarms.count > FALSE_ALARMS)
                 fail_msg("noise %d, %d samples: %d false alarms of %d", (int)noise, SAMPLES[s],
@@ -42,14 +40,13 @@ TEST(noise_of_any_kind_keeps_the_level)
             /* 4 standard errors of 100: sqrt(0.2 * 0.8 / 100) = 0.04 */
             assert_true(alarms.regions < 0.36 && alarms.blocks < 0.36);
             assert_true(alarms.histogram < 0.36);
-            if (noise != NOISE_FIREFLIES) /* hardly any: a coin or two */
+            if (noise != NOISE_FIREFLIES)             /* hardly any: a coin or two */
                 assert_near(alarms.squares, 1, 0.57); /* 4 sqrt(2 / 100) */
         }
 }
 
 /* A reference of few samples saw hardly a firefly; or it is the test that did not. */
-TEST(different_sample_counts_keep_the_level)
-{
+TEST(different_sample_counts_keep_the_level) {
     for (Noise noise = NOISE_GAUSSIAN; noise <= NOISE_FIREFLIES; noise++)
         for (int swap = 0; swap < 2; swap++) {
             Maker few = plain_maker(noise, 2, 0), many = plain_maker(noise, 20, 0);
@@ -60,8 +57,7 @@ TEST(different_sample_counts_keep_the_level)
 }
 
 /* A program that finds light better makes less noise of the same mean. */
-TEST(less_noise_of_the_same_mean_is_no_change)
-{
+TEST(less_noise_of_the_same_mean_is_no_change) {
     Maker before = plain_maker(NOISE_EXPONENTIAL, 8, 0);
     Maker after = plain_maker(NOISE_GAUSSIAN, 8, 0);
     assert_in_range(count_alarms(&before, &after).count, 0, FALSE_ALARMS);
@@ -69,8 +65,7 @@ TEST(less_noise_of_the_same_mean_is_no_change)
     assert_in_range(count_alarms(&after, &before).count, 0, FALSE_ALARMS);
 }
 
-static float *channel(FrameImage *frame, const char *layer, char letter)
-{
+static float *channel(FrameImage *frame, const char *layer, char letter) {
     char name[64];
     snprintf(name, sizeof name, "%s%c", layer, letter);
     for (int i = 0; i < frame->channel_count; i++)
@@ -79,16 +74,14 @@ static float *channel(FrameImage *frame, const char *layer, char letter)
     return NULL;
 }
 
-static void of_one_seed(FrameImage *frame, Arena *arena)
-{
+static void of_one_seed(FrameImage *frame, Arena *arena) {
     frame_set_string(frame, "parhelion:seed", "5", arena);
     frame_set_string(frame, "parhelion:samples", "0:64", arena);
 }
 
-ARENA_TEST(one_glint_in_one_frame_is_noise)
-{
+ARENA_TEST(one_glint_in_one_frame_is_noise) {
     Maker maker = plain_maker(NOISE_GAUSSIAN, 32, 0), other = maker;
-    int   hit = 14 * WIDTH + 14, alarms = 0;
+    int hit = 14 * WIDTH + 14, alarms = 0;
     for (uint32_t k = 0; k < 20; k++) {
         Arena scratch = arena;
         maker.seed = 2 * k;
@@ -107,16 +100,15 @@ ARENA_TEST(one_glint_in_one_frame_is_noise)
 
 /* ---- pixels without noise, rounding, equality -------------------------------------------- */
 
-ARENA_TEST(frames_without_noise_differ_by_a_single_pixel)
-{
+ARENA_TEST(frames_without_noise_differ_by_a_single_pixel) {
     Maker maker = plain_maker(NOISE_GAUSSIAN, 64, 3);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
     for (int side = 0; side < 2; side++)
         for (int i = 0; i < a.channel_count; i++) {
             const FrameImage *frame = side ? &b : &a;
-            float            *values = frame->channels[i].values;
-            const char       *name = frame->channels[i].name;
-            bool              is_light = strlen(name) == 1;
+            float *values = frame->channels[i].values;
+            const char *name = frame->channels[i].name;
+            bool is_light = strlen(name) == 1;
             for (int p = 0; p < PIXELS && (is_light || !strncmp(name, "variance", 8)); p++)
                 values[p] = is_light ? 3 : 0;
         }
@@ -129,13 +121,11 @@ ARENA_TEST(frames_without_noise_differ_by_a_single_pixel)
     assert_int_equal(r.differing, 1);
 }
 
-ARENA_TEST(rounding_is_no_change)
-{
+ARENA_TEST(rounding_is_no_change) {
     Maker maker = plain_maker(NOISE_QUIET, 64, 3);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
     for (int c = 0; c < 3; c++)
-        for (int i = 0; i < PIXELS; i++)
-            channel(&b, "", "RGB"[c])[i] *= 1 + 4e-6f;
+        for (int i = 0; i < PIXELS; i++) channel(&b, "", "RGB"[c])[i] *= 1 + 4e-6f;
     assert_int_equal(judge(&a, &b, NULL, &arena).verdict, STATISTIC_SAME);
     of_one_seed(&a, &arena);
     of_one_seed(&b, &arena);
@@ -147,11 +137,10 @@ ARENA_TEST(rounding_is_no_change)
 
 /* Frames of one seed: a few paths that went elsewhere are noise, one part in a thousand of all
  * light is not. */
-ARENA_TEST(frames_that_share_their_noise_are_compared_pixel_by_pixel)
-{
+ARENA_TEST(frames_that_share_their_noise_are_compared_pixel_by_pixel) {
     Maker maker = plain_maker(NOISE_EXPONENTIAL, 64, 3);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
-    float     *green = channel(&b, "", 'G');
+    float *green = channel(&b, "", 'G');
     of_one_seed(&a, &arena);
     of_one_seed(&b, &arena);
     for (int i = 300; i < PIXELS; i += 100) green[i] *= i / 100 % 2 ? 1.03f : 0.96f;
@@ -166,8 +155,7 @@ ARENA_TEST(frames_that_share_their_noise_are_compared_pixel_by_pixel)
 
 /* ---- masks, gaps, words ------------------------------------------------------------------ */
 
-ARENA_TEST(what_the_mask_leaves_out_does_not_count)
-{
+ARENA_TEST(what_the_mask_leaves_out_does_not_count) {
     Maker maker = plain_maker(NOISE_GAUSSIAN, 16, 3);
     Maker other = plain_maker(NOISE_GAUSSIAN, 16, 4);
     unsigned char mask[PIXELS];
@@ -191,8 +179,7 @@ ARENA_TEST(what_the_mask_leaves_out_does_not_count)
 }
 
 /* A crop: the data window lies inside the display window, which the mask covers. */
-ARENA_TEST(crops_have_their_place_in_the_frame)
-{
+ARENA_TEST(crops_have_their_place_in_the_frame) {
     Maker maker = plain_maker(NOISE_GAUSSIAN, 64, 3);
     Maker other = plain_maker(NOISE_GAUSSIAN, 64, 4);
     brighten_block(&other, 16, 0, 3);
@@ -209,8 +196,7 @@ ARENA_TEST(crops_have_their_place_in_the_frame)
     assert_int_equal(r.pixels, PIXELS - 64);
 }
 
-ARENA_TEST(either_layer_of_noise_is_enough)
-{
+ARENA_TEST(either_layer_of_noise_is_enough) {
     static const char *const LEFT_OUT[] = {"variance", "halves", "samples.N"};
     for (int k = 0; k < 3; k++)
         for (int change = 0; change < 2; change++) {
@@ -226,8 +212,7 @@ ARENA_TEST(either_layer_of_noise_is_enough)
         }
 }
 
-ARENA_TEST(notes_say_what_would_help)
-{
+ARENA_TEST(notes_say_what_would_help) {
     Maker few = plain_maker(NOISE_GAUSSIAN, 4, 0), many = plain_maker(NOISE_GAUSSIAN, 16, 1);
     FrameImage a = make_frame(&few, &arena), b = make_frame(&many, &arena);
     assert_string_equal(judge(&a, &b, NULL, &arena).note, "");
@@ -240,10 +225,9 @@ ARENA_TEST(notes_say_what_would_help)
 }
 
 static void assert_refused(const FrameImage *a, const FrameImage *b, const char *file,
-                           const char *text)
-{
+                           const char *text) {
     StatisticOptions options = {.reference_name = "a.exr", .test_name = "b.exr"};
-    StatisticResult  result;
+    StatisticResult result;
     ENDS_BY(arena_release) Arena arena = arena_reserve(1 << 26);
     assert_false(statistic_compare(a, b, &options, &arena, &result, why()));
     assert_int_equal(why()->code, ERROR_INPUT);
@@ -251,12 +235,11 @@ static void assert_refused(const FrameImage *a, const FrameImage *b, const char 
     assert_string_equal(why()->text, text);
 }
 
-#define TELLS_NOTHING                                                                          \
-    "has neither layer variance nor halves, which tell its noise; "                            \
+#define TELLS_NOTHING \
+    "has neither layer variance nor halves, which tell its noise; " \
     "render it with --layers variance,halves,samples"
 
-ARENA_TEST(frames_that_do_not_tell_their_noise_are_refused)
-{
+ARENA_TEST(frames_that_do_not_tell_their_noise_are_refused) {
     Maker maker = plain_maker(NOISE_GAUSSIAN, 4, 0);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
     without(&b, "variance");

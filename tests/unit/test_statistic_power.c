@@ -4,11 +4,10 @@
 
 /* Gaussian pixels of relative sigma s = 0.5 / 4 in both frames: the best estimate of a change
  * in proportion has the standard error s sqrt(2 / n). */
-ARENA_TEST(a_change_in_proportion_is_measured_as_well_as_can_be)
-{
-    Maker  maker = plain_maker(NOISE_GAUSSIAN, 16, 0), other = maker;
+ARENA_TEST(a_change_in_proportion_is_measured_as_well_as_can_be) {
+    Maker maker = plain_maker(NOISE_GAUSSIAN, 16, 0), other = maker;
     double sigma = 0.5 / sqrt(16) * sqrt(2.0 / (PIXELS - 36)), mean = 0, stated = 0;
-    int    found = 0;
+    int found = 0;
     for (int i = 0; i < PIXELS; i++) other.light[i] *= 1 + 6.2 * sigma;
     for (uint32_t k = 0; k < 100; k++) {
         StatisticResult r = judge_pair(&maker, &other, k, arena);
@@ -23,9 +22,8 @@ ARENA_TEST(a_change_in_proportion_is_measured_as_well_as_can_be)
 }
 
 /* Weighing by the pixel's own variance makes bright pixels count less; the estimate knows. */
-ARENA_TEST(a_change_is_estimated_without_bias_in_skewed_noise)
-{
-    Maker  maker = plain_maker(NOISE_EXPONENTIAL, 16, 0), other = maker;
+ARENA_TEST(a_change_is_estimated_without_bias_in_skewed_noise) {
+    Maker maker = plain_maker(NOISE_EXPONENTIAL, 16, 0), other = maker;
     double mean = 0, squares = 0, stated = 0;
     for (int i = 0; i < PIXELS; i++) other.light[i] *= 1.05;
     for (uint32_t k = 0; k < 100; k++) {
@@ -38,8 +36,7 @@ ARENA_TEST(a_change_is_estimated_without_bias_in_skewed_noise)
     assert_close(sqrt(squares), stated, 0.28); /* 4 / sqrt(2 * 100) */
 }
 
-ARENA_TEST(a_display_is_named_with_how_much_it_moved)
-{
+ARENA_TEST(a_display_is_named_with_how_much_it_moved) {
     Maker maker = plain_maker(NOISE_GAUSSIAN, 64, 7);
     Maker other = plain_maker(NOISE_GAUSSIAN, 64, 8);
     for (int i = 0; i < PIXELS; i++) other.light[i] *= i % WIDTH < 24 ? 1.05 : 1;
@@ -51,8 +48,7 @@ ARENA_TEST(a_display_is_named_with_how_much_it_moved)
     assert_text_has(r.reason, "display 'cluster': ");
 }
 
-ARENA_TEST(a_block_is_named_with_its_place)
-{
+ARENA_TEST(a_block_is_named_with_its_place) {
     Maker maker = plain_maker(NOISE_EXPONENTIAL, 64, 3);
     Maker other = plain_maker(NOISE_EXPONENTIAL, 64, 4);
     brighten_block(&other, 16, 8, 1.5);
@@ -67,12 +63,11 @@ ARENA_TEST(a_block_is_named_with_its_place)
 
 /* Blocks that got brighter and darker by 1.4 of their standard errors, in turn: none of them
  * is beyond its limit, no mean moved. */
-ARENA_TEST(small_changes_everywhere_are_seen_together)
-{
+ARENA_TEST(small_changes_everywhere_are_seen_together) {
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 16};
-    int   found = 0, by_histogram = 0;
+    int found = 0, by_histogram = 0;
     for (int i = 0; i < PIXELS; i++) maker.light[i] = 10;
-    Maker  other = maker;
+    Maker other = maker;
     double error = 0.5 / 4 * sqrt(2.0) / 8;
     for (int i = 0; i < PIXELS; i++)
         other.light[i] *= 1 + 2 * error * ((i / 8 + i / WIDTH / 8) % 2 ? 1 : -1);

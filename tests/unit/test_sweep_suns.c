@@ -6,21 +6,22 @@
 #include "review/light/distant_probe.h"
 #include "review/suns/sweep_suns.h"
 
-static SweepSuns suns_of(ReviewCondition condition, Arena *arena)
-{
+static SweepSuns suns_of(ReviewCondition condition, Arena *arena) {
     condition.weather_id = condition.level_id = condition.with_id = NO_ID;
     return sweep_suns(&condition, 2, arena);
 }
 
 /* Every hour of a year is counted once a heading, when the sun is up: half of the year and what
  * refraction and the altitude of the pole add. */
-TEST(a_year_has_its_hours_of_sun_for_every_heading)
-{
+TEST(a_year_has_its_hours_of_sun_for_every_heading) {
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
     double headings[] = {0, 90, 200};
-    SweepSuns suns = suns_of((ReviewCondition){.kind = CONDITION_YEAR_SWEEP, .year = 2026,
-                                               .where = {48.14, 11.58, 520}, .step_minutes = 60,
-                                               .headings_deg = headings, .heading_count = 3},
+    SweepSuns suns = suns_of((ReviewCondition){.kind = CONDITION_YEAR_SWEEP,
+                                               .year = 2026,
+                                               .where = {48.14, 11.58, 520},
+                                               .step_minutes = 60,
+                                               .headings_deg = headings,
+                                               .heading_count = 3},
                              &arena);
     double minutes = 0, highest = 0;
     assert_int_equal(suns.count % 3, 0);
@@ -38,11 +39,12 @@ TEST(a_year_has_its_hours_of_sun_for_every_heading)
     assert_true(fabs(highest - (90 - 48.14 + 23.44)) < 1.0);
 }
 
-TEST(a_grid_of_suns_is_the_vehicles)
-{
+TEST(a_grid_of_suns_is_the_vehicles) {
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 24);
-    ReviewCondition condition = {.kind = CONDITION_SUN_SWEEP, .azimuth_deg = {0, 350, 10, 36},
-                                 .elevation_deg = {5, 45, 20, 3}, .has_heading = true,
+    ReviewCondition condition = {.kind = CONDITION_SUN_SWEEP,
+                                 .azimuth_deg = {0, 350, 10, 36},
+                                 .elevation_deg = {5, 45, 20, 3},
+                                 .has_heading = true,
                                  .heading_deg = 90};
     SweepSuns suns = suns_of(condition, &arena);
     assert_int_equal(suns.count, 36 * 3);
@@ -55,29 +57,35 @@ TEST(a_grid_of_suns_is_the_vehicles)
 }
 
 /* Closer about one of them, as far as its neighbours and a tenth of a degree apart. */
-TEST(suns_about_one_are_a_tenth_of_a_degree_apart)
-{
+TEST(suns_about_one_are_a_tenth_of_a_degree_apart) {
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
     double heading = 90;
-    ReviewCondition year = {.kind = CONDITION_YEAR_SWEEP, .year = 2026, .weather_id = NO_ID,
-                            .where = {48.14, 11.58, 520}, .step_minutes = 60,
-                            .headings_deg = &heading, .heading_count = 1};
-    ReviewCondition grid = {.kind = CONDITION_SUN_SWEEP, .azimuth_deg = {0, 350, 10, 36},
-                            .elevation_deg = {5, 45, 20, 3}, .has_heading = true,
-                            .heading_deg = 90, .weather_id = NO_ID};
+    ReviewCondition year = {.kind = CONDITION_YEAR_SWEEP,
+                            .year = 2026,
+                            .weather_id = NO_ID,
+                            .where = {48.14, 11.58, 520},
+                            .step_minutes = 60,
+                            .headings_deg = &heading,
+                            .heading_count = 1};
+    ReviewCondition grid = {.kind = CONDITION_SUN_SWEEP,
+                            .azimuth_deg = {0, 350, 10, 36},
+                            .elevation_deg = {5, 45, 20, 3},
+                            .has_heading = true,
+                            .heading_deg = 90,
+                            .weather_id = NO_ID};
     SweepSuns suns = suns_of(year, &arena);
-    int       at = 2000; /* high up: neighbours are up too */
+    int at = 2000; /* high up: neighbours are up too */
     while (suns.list[at].elevation_deg < 50) at++;
-    SweepSun  one = suns.list[at];
+    SweepSun one = suns.list[at];
     SweepSuns about = sweep_suns_about(&year, &one, 0, &arena);
-    int       middle = about.count / 2;
+    int middle = about.count / 2;
     assert_near(about.list[middle].azimuth_deg, one.azimuth_deg, 1e-9);
     assert_near(about.list[0].azimuth_deg, suns.list[at - 1].azimuth_deg, 1e-6);
     assert_near(about.list[about.count - 1].azimuth_deg, suns.list[at + 1].azimuth_deg, 1e-6);
     for (int i = 1; i < about.count; i++) {
         const SweepSun *a = &about.list[i - 1], *b = &about.list[i];
-        double east = (b->compass_deg - a->compass_deg) *
-                      cos(radians_from_degrees(a->elevation_deg));
+        double east =
+            (b->compass_deg - a->compass_deg) * cos(radians_from_degrees(a->elevation_deg));
         assert_true(hypot(east, b->elevation_deg - a->elevation_deg) < 0.11);
     }
     assert_non_null(strstr(sweep_suns_when(&year, &suns, &about.list[0], &arena), ":30 UTC"));
@@ -101,8 +109,7 @@ TEST(suns_about_one_are_a_tenth_of_a_degree_apart)
 }
 
 /* Each is found with its own reading, and no other is, however many there are. */
-TEST(kept_readings_are_found_by_their_suns)
-{
+TEST(kept_readings_are_found_by_their_suns) {
     enum { MANY = 5000 };
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
     SunReadings of[2] = {sun_readings_start(&arena), sun_readings_start(&arena)};
@@ -124,14 +131,17 @@ TEST(kept_readings_are_found_by_their_suns)
 
 /* Every step carries its own date's light: 1 / R^2 by the earth's orbit, nearest on 3 January,
  * an eccentricity of 0.0167; and so do suns about it and later ones. */
-TEST(suns_are_as_bright_as_the_earth_is_near)
-{
-    ReviewCondition year = {.kind = CONDITION_YEAR_SWEEP, .year = 2026, .where = {48, 11, 0},
-                            .step_minutes = 120, .heading_count = 2, .weather_id = NO_ID,
+TEST(suns_are_as_bright_as_the_earth_is_near) {
+    ReviewCondition year = {.kind = CONDITION_YEAR_SWEEP,
+                            .year = 2026,
+                            .where = {48, 11, 0},
+                            .step_minutes = 120,
+                            .heading_count = 2,
+                            .weather_id = NO_ID,
                             .headings_deg = (double[]){0, 90}};
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
     SweepSuns suns = sweep_suns(&year, 2, &arena);
-    double    most = 0, least = 2;
+    double most = 0, least = 2;
     for (int i = 0; i < suns.count; i++) {
         const SweepSun *sun = &suns.list[i];
         double day = (sun->step + 0.5) * 120 / 1440;
@@ -146,11 +156,11 @@ TEST(suns_are_as_bright_as_the_earth_is_near)
     SweepSuns about = sweep_suns_about(&year, &suns.list[5], 0, &arena);
     for (int i = 0; i < about.count; i++)
         assert_close(about.list[i].light, suns.list[5].light, 1e-4);
-    SweepSun  later = suns.list[5];
+    SweepSun later = suns.list[5];
     later.later_minutes = 30;
     later.light = 0;
-    assert_close(sweep_suns_later(&year, &later, 1, &arena).distant[0].light,
-                 suns.list[5].light, 1e-4);
+    assert_close(sweep_suns_later(&year, &later, 1, &arena).distant[0].light, suns.list[5].light,
+                 1e-4);
 }
 
 TEST_PROGRAM(NULL, NULL)

@@ -11,20 +11,21 @@ enum { POINTS = 4096 };
 /* ---- displays ---------------------------------------------------------------------------- */
 
 /* Starts a part that wears a new display of the easel's panel. */
-static void wear_display(World *world, const Easel *easel)
-{
+static void wear_display(World *world, const Easel *easel) {
     Material material = builder_material(0);
     material.display_id = world->scene->display_count;
     material.is_emitter = true;
     int id = builder_part(world->scene, material);
     world->scene->displays[world->scene->display_count++] =
-        (Display){.name = "display", .panel = easel->panel, .material_id = id, .level = 1,
+        (Display){.name = "display",
+                  .panel = easel->panel,
+                  .material_id = id,
+                  .level = 1,
                   .content = builder_no_texture()};
 }
 
 /* Another part of the last material. */
-static void same_material(World *world)
-{
+static void same_material(World *world) {
     Scene *scene = world->scene;
     builder_part(scene, scene->materials[scene->material_count - 1]);
     scene->material_count--;
@@ -32,23 +33,20 @@ static void same_material(World *world)
 }
 
 /* The first display, of these parts. */
-static SymbolSurface surface_of(World *world, const int *parts, int count, const double uv[4])
-{
+static SymbolSurface surface_of(World *world, const int *parts, int count, const double uv[4]) {
     ReviewDisplay display = {0, parts, count};
-    SymbolPlace   place = {world->scene, &display, {uv[0], uv[1], uv[2], uv[3]}, POINTS};
+    SymbolPlace place = {world->scene, &display, {uv[0], uv[1], uv[2], uv[3]}, POINTS};
     SymbolSurface surface;
     assert_done(symbol_surface_build(&place, &world->arena, &surface, &err));
     return surface;
 }
 
-static SymbolSurface first_part(World *world, const double uv[4])
-{
+static SymbolSurface first_part(World *world, const double uv[4]) {
     return surface_of(world, (const int[]){0}, 1, uv);
 }
 
 /* A display of 0.4 x 0.2 m in the plane z = 0 that faces +z. */
-static World flat_world(const Easel *easel)
-{
+static World flat_world(const Easel *easel) {
     World world = world_start();
     wear_display(&world, easel);
     builder_quad(world.scene, vec3(0, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.1f, 0));
@@ -59,12 +57,11 @@ static const double ALL[4] = {0, 0, 1, 1};
 
 /* ---- where it is ------------------------------------------------------------------------- */
 
-EASEL_TEST(points_lie_where_the_content_is_shown)
-{
+EASEL_TEST(points_lie_where_the_content_is_shown) {
     ENDS_BY(world_end) World world = flat_world(easel);
     const double uv[4] = {0.25, 0.5, 0.5, 1};
     SymbolSurface surface = first_part(&world, uv);
-    int    in_quarter = 0;
+    int in_quarter = 0;
     assert_close(surface.area_m2, 0.1 * 0.1, 1e-5);
     for (int i = 0; i < surface.point_count; i++) {
         const SymbolPoint *p = &surface.points[i];
@@ -77,15 +74,14 @@ EASEL_TEST(points_lie_where_the_content_is_shown)
 }
 
 /* Every cell of 64 x 64 is the patch of one point, which lies in it. */
-EASEL_TEST(patches_make_up_the_rectangle)
-{
+EASEL_TEST(patches_make_up_the_rectangle) {
     ENDS_BY(world_end) World world = flat_world(easel);
     const double uv[4] = {0.25, 0.5, 0.5, 1};
     SymbolSurface surface = first_part(&world, uv);
-    char          seen[POINTS] = {0};
+    char seen[POINTS] = {0};
     for (int i = 0; i < surface.point_count; i++) {
         SymbolPatch patch = symbol_patch(&surface, i);
-        Vec3        off = vec3_sub(surface.points[i].position, patch.middle);
+        Vec3 off = vec3_sub(surface.points[i].position, patch.middle);
         assert_near(patch.along.x, 0.1 / 64, 1e-7);
         assert_near(patch.down.y, -0.1 / 64, 1e-7);
         assert_near(patch.along.y, 0, 1e-7);
@@ -99,28 +95,26 @@ EASEL_TEST(patches_make_up_the_rectangle)
 }
 
 /* The texture's transform: the content's right half alone, upside down. */
-EASEL_TEST(a_texture_transform_moves_the_symbol)
-{
+EASEL_TEST(a_texture_transform_moves_the_symbol) {
     ENDS_BY(world_end) World world = flat_world(easel);
     TextureSlot *slot = &world.scene->displays[0].content;
-    const float  half_turned[6] = {0.5f, 0, 0.5f, 0, -1, 1};
+    const float half_turned[6] = {0.5f, 0, 0.5f, 0, -1, 1};
     memcpy(slot->uv_from_uv, half_turned, sizeof half_turned);
     const double uv[4] = {0.5, 0, 0.75, 0.5};
     SymbolSurface surface = first_part(&world, uv);
-    SymbolPoint   point;
+    SymbolPoint point;
     assert_true(symbol_surface_at(&surface, (double[2]){0.5, 0}, &point));
     assert_near(point.position.x, -0.2, 1e-6);
     assert_near(point.position.y, -0.1, 1e-6);
     assert_close(surface.area_m2, 0.2 * 0.1, 1e-5);
 }
 
-EASEL_TEST(a_symbol_outside_its_display_is_refused)
-{
+EASEL_TEST(a_symbol_outside_its_display_is_refused) {
     ENDS_BY(world_end) World world = flat_world(easel);
-    int   parts[1] = {0};
+    int parts[1] = {0};
     world.scene->displays[0].content.uv_from_uv[0] = 0.5f; /* shows the left half alone */
     ReviewDisplay display = {0, parts, 1};
-    SymbolPlace   place = {world.scene, &display, {0.3, 0.2, 0.6, 0.4}, POINTS};
+    SymbolPlace place = {world.scene, &display, {0.3, 0.2, 0.6, 0.4}, POINTS};
     SymbolSurface surface;
     assert_false(symbol_surface_build(&place, &world.arena, &surface, why()));
     assert_string_equal(why()->text, "the symbol lies outside its display, no part of which "
@@ -130,8 +124,7 @@ EASEL_TEST(a_symbol_outside_its_display_is_refused)
 }
 
 /* Its corners are on the display; between its halves there is nothing. */
-EASEL_TEST(a_gap_in_the_display_is_refused)
-{
+EASEL_TEST(a_gap_in_the_display_is_refused) {
     ENDS_BY(world_end) World world = world_start();
     wear_display(&world, easel);
     const float x[4] = {-0.2f, -0.01f, 0.01f, 0.2f};
@@ -143,9 +136,9 @@ EASEL_TEST(a_gap_in_the_display_is_refused)
         builder_triangle(world.scene, i, i + 2, i + 3);
         builder_triangle(world.scene, i, i + 3, i + 1);
     }
-    int           parts[1] = {0};
+    int parts[1] = {0};
     ReviewDisplay display = {0, parts, 1};
-    SymbolPlace   place = {world.scene, &display, {0.1, 0.1, 0.9, 0.9}, POINTS};
+    SymbolPlace place = {world.scene, &display, {0.1, 0.1, 0.9, 0.9}, POINTS};
     SymbolSurface surface;
     assert_fails_as(symbol_surface_build(&place, &world.arena, &surface, &err), ERROR_INPUT,
                     "the symbol lies outside its display");
@@ -154,8 +147,7 @@ EASEL_TEST(a_gap_in_the_display_is_refused)
 }
 
 /* Two nodes wear one material: each has the symbol in its own place. */
-EASEL_TEST(the_parts_that_are_given_are_asked)
-{
+EASEL_TEST(the_parts_that_are_given_are_asked) {
     ENDS_BY(world_end) World world = flat_world(easel);
     same_material(&world);
     builder_quad(world.scene, vec3(1, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.1f, 0));
@@ -170,8 +162,7 @@ EASEL_TEST(the_parts_that_are_given_are_asked)
 
 /* The display leans back by the angle: of its height h top and bottom lie at +-h/2 (0, cos,
  * -sin). From (0, 0, d) they stand atan((h/2 cos) / (d +- h/2 sin)) above and below. */
-EASEL_TEST(arc_minutes_at_five_slants_are_the_closed_form)
-{
+EASEL_TEST(arc_minutes_at_five_slants_are_the_closed_form) {
     const double slants[] = {0, 20, 40, 60, 80}, distance = 0.75, h = 0.2;
     for (int i = 0; i < 5; i++) {
         ENDS_BY(world_end) World world = world_start();
@@ -180,11 +171,11 @@ EASEL_TEST(arc_minutes_at_five_slants_are_the_closed_form)
         builder_quad(world.scene, vec3(0, 0, 0), vec3(0.2f, 0, 0),
                      vec3(0, (float)(h / 2 * c), (float)(-h / 2 * s)));
         SymbolSurface surface = first_part(&world, ALL);
-        const double  boxes[2][4] = {{0.499, 0.4, 0.501, 0.6}, {0.499, 0, 0.501, 1}};
+        const double boxes[2][4] = {{0.499, 0.4, 0.501, 0.6}, {0.499, 0, 0.501, 1}};
         for (int k = 0; k < 2; k++) {
             double half = h / 2 * (boxes[k][3] - boxes[k][1]);
-            double expected = atan2(half * c, distance + half * s) +
-                              atan2(half * c, distance - half * s);
+            double expected =
+                atan2(half * c, distance + half * s) + atan2(half * c, distance - half * s);
             double found = symbol_height_arcmin(&surface, boxes[k], vec3(0, 0, 0.75f));
             assert_close(found, 60 * degrees_from_radians(expected), 5e-4);
         }
@@ -192,15 +183,14 @@ EASEL_TEST(arc_minutes_at_five_slants_are_the_closed_form)
 }
 
 /* Strips of a cylinder about the x axis, hollow towards it, over an arc. */
-static void builder_arc(Scene *scene, double radius, double arc, int strips)
-{
+static void builder_arc(Scene *scene, double radius, double arc, int strips) {
     for (int i = 0; i <= strips; i++) {
         double t = arc * ((double)i / strips - 0.5); /* top first */
         for (int k = 0; k < 2; k++)
-            builder_vertex(scene, vec3(k ? 0.01f : -0.01f, (float)(-radius * sin(t)),
-                                       (float)(-radius * cos(t))),
-                           vec3(0, (float)sin(t), (float)cos(t)), (float)k,
-                           (float)i / (float)strips);
+            builder_vertex(
+                scene,
+                vec3(k ? 0.01f : -0.01f, (float)(-radius * sin(t)), (float)(-radius * cos(t))),
+                vec3(0, (float)sin(t), (float)cos(t)), (float)k, (float)i / (float)strips);
     }
     for (uint32_t i = 0; i < (uint32_t)strips; i++) {
         builder_triangle(scene, 2 * i, 2 * i + 2, 2 * i + 3);
@@ -209,14 +199,13 @@ static void builder_arc(Scene *scene, double radius, double arc, int strips)
 }
 
 /* From the axis of a cylinder the height is the arc itself. */
-EASEL_TEST(a_curved_display_has_the_angle_of_its_arc)
-{
+EASEL_TEST(a_curved_display_has_the_angle_of_its_arc) {
     ENDS_BY(world_end) World world = world_start();
     double arc = radians_from_degrees(50);
     wear_display(&world, easel);
     builder_arc(world.scene, 0.8, arc, 200);
     SymbolSurface surface = first_part(&world, ALL);
-    const double  box[4] = {0.1, 0.2, 0.9, 0.7};
+    const double box[4] = {0.1, 0.2, 0.9, 0.7};
     double found = symbol_height_arcmin(&surface, box, vec3(0, 0, 0));
     assert_close(found, 60 * degrees_from_radians(0.5 * arc), 5e-4);
     assert_close(surface.area_m2, 0.02 * 0.8 * arc, 1e-3);
@@ -228,23 +217,19 @@ EASEL_TEST(a_curved_display_has_the_angle_of_its_arc)
 static const Vec3 EYE = {0.05f, 0.1f, 1};
 
 /* A plate of half width 0.5 halfway to the eye that ends on the look at the display's x. */
-static void add_plate(World *world, Material material, double display_x)
-{
+static void add_plate(World *world, Material material, double display_x) {
     float edge = (float)((display_x + (double)EYE.x) / 2);
     builder_part(world->scene, material);
-    builder_quad(world->scene, vec3(edge - 0.5f, 0, 0.5f), vec3(0.5f, 0, 0),
-                 vec3(0, 0.5f, 0));
+    builder_quad(world->scene, vec3(edge - 0.5f, 0, 0.5f), vec3(0.5f, 0, 0), vec3(0, 0.5f, 0));
 }
 
-static SymbolVisibility seen_from(World *world, Vec3 eye, bool *is_visible)
-{
+static SymbolVisibility seen_from(World *world, Vec3 eye, bool *is_visible) {
     SymbolSurface surface = first_part(world, ALL);
     world_ready(world, 1);
     return symbol_visibility(&surface, &world->context, eye, is_visible);
 }
 
-EASEL_TEST(nothing_hides_a_free_display_and_from_behind_none_is_seen)
-{
+EASEL_TEST(nothing_hides_a_free_display_and_from_behind_none_is_seen) {
     World world = flat_world(easel);
     SymbolVisibility front = seen_from(&world, EYE, NULL);
     assert_true(front.visible_share == 1 && front.transmittance == 1);
@@ -253,22 +238,21 @@ EASEL_TEST(nothing_hides_a_free_display_and_from_behind_none_is_seen)
     SymbolVisibility behind = seen_from(&world, vec3(0.05f, 0.1f, -1), NULL);
     assert_true(behind.visible_share == 0 && isnan(behind.transmittance));
     SymbolSurface surface = first_part(&world, ALL);
-    SymbolHiding  hiding = symbol_hiding(&surface, &world.context, vec3(0.05f, 0.1f, -1),
-                                         &world.arena);
+    SymbolHiding hiding =
+        symbol_hiding(&surface, &world.context, vec3(0.05f, 0.1f, -1), &world.arena);
     assert_near(hiding.turned_away, 1, 1e-6);
     world_end(&world);
 }
 
 /* Shares of the width that the plate covers. */
-EASEL_TEST(a_plate_hides_the_share_that_it_covers)
-{
+EASEL_TEST(a_plate_hides_the_share_that_it_covers) {
     const double shares[] = {0.5, 0.25, 0.9};
     for (int i = 0; i < 3; i++) {
         ENDS_BY(world_end) World world = flat_world(easel);
         bool *is_visible = ARENA_NEW(&world.arena, bool, POINTS);
         add_plate(&world, builder_material(0.5f), 0.4 * shares[i] - 0.2);
         SymbolVisibility seen = seen_from(&world, EYE, is_visible);
-        SymbolSurface    surface = first_part(&world, ALL);
+        SymbolSurface surface = first_part(&world, ALL);
         assert_near(seen.visible_share, 1 - shares[i], 2e-3);
         assert_true(seen.transmittance == 1);
         SymbolHiding hiding = symbol_hiding(&surface, &world.context, EYE, &world.arena);
@@ -282,11 +266,10 @@ EASEL_TEST(a_plate_hides_the_share_that_it_covers)
 }
 
 /* An edge goes through the middle of a column of patches: they are points, all others whole. */
-EASEL_TEST(a_patch_that_is_covered_in_part_is_a_point)
-{
+EASEL_TEST(a_patch_that_is_covered_in_part_is_a_point) {
     ENDS_BY(world_end) World world = flat_world(easel);
     bool *is_visible = ARENA_NEW(&world.arena, bool, POINTS);
-    int   whole = 0, points = 0;
+    int whole = 0, points = 0;
     add_plate(&world, builder_material(0.5f), 0.4 * 20.5 / 64 - 0.2);
     seen_from(&world, EYE, is_visible);
     SymbolSurface surface = first_part(&world, ALL);
@@ -303,8 +286,7 @@ EASEL_TEST(a_patch_that_is_covered_in_part_is_a_point)
 }
 
 /* 0.05 mm over the display, 1 m from the eye. */
-EASEL_TEST(a_bezel_that_lies_on_the_display_hides_it)
-{
+EASEL_TEST(a_bezel_that_lies_on_the_display_hides_it) {
     ENDS_BY(world_end) World world = flat_world(easel);
     builder_part(world.scene, builder_material(0.5f));
     builder_quad(world.scene, vec3(-0.15f, 0, 5e-5f), vec3(0.05f, 0, 0), vec3(0, 0.2f, 0));
@@ -312,8 +294,7 @@ EASEL_TEST(a_bezel_that_lies_on_the_display_hides_it)
 }
 
 /* Points that stand for unlike areas: the content's left half is four times as large. */
-EASEL_TEST(a_share_is_one_of_area)
-{
+EASEL_TEST(a_share_is_one_of_area) {
     ENDS_BY(world_end) World world = world_start();
     wear_display(&world, easel);
     const float x[3] = {-0.4f, 0, 0.1f};
@@ -332,8 +313,7 @@ EASEL_TEST(a_share_is_one_of_area)
 
 /* What a tint of 1/2 lets pass of a pane without faces, where the way through it is the longer
  * the more slanting the look: the mean of 1/2^(1 / cos) over the display. */
-static double half_tint(void)
-{
+static double half_tint(void) {
     double sum = 0;
     for (int i = 0; i < 400; i++) {
         double x = 0.4 * ((i % 20 + 0.5) / 20 - 0.5) - (double)EYE.x;
@@ -344,13 +324,12 @@ static double half_tint(void)
 }
 
 /* Of an index of 1.5 each face reflects 4 %, seen nearly upright: (1 - R) / (1 + R) passes. */
-EASEL_TEST(a_window_hides_nothing_and_says_what_it_takes)
-{
+EASEL_TEST(a_window_hides_nothing_and_says_what_it_takes) {
     const struct {
-        float  ior, grey;
+        float ior, grey;
         double share, passes;
-    } panes[] = {{1, 1, 1, 1}, {1.5f, 1, 1, 0.96 / 1.04},
-                 {1, 0.5f, 1, half_tint()}, {1, 0.001f, 0, 0}};
+    } panes[] = {
+        {1, 1, 1, 1}, {1.5f, 1, 1, 0.96 / 1.04}, {1, 0.5f, 1, half_tint()}, {1, 0.001f, 0, 0}};
     for (int i = 0; i < 4; i++) {
         ENDS_BY(world_end) World world = flat_world(easel);
         Material pane = builder_pane(panes[i].ior);
@@ -363,8 +342,7 @@ EASEL_TEST(a_window_hides_nothing_and_says_what_it_takes)
 }
 
 /* A sheet with holes: alpha below its cutoff. */
-EASEL_TEST(a_hole_hides_nothing)
-{
+EASEL_TEST(a_hole_hides_nothing) {
     for (int k = 0; k < 2; k++) {
         ENDS_BY(world_end) World world = flat_world(easel);
         Material sheet = builder_material(0.5f);
@@ -379,24 +357,22 @@ EASEL_TEST(a_hole_hides_nothing)
 /* ---- how bright -------------------------------------------------------------------------- */
 
 /* White where x < 30, black elsewhere: says the classes whatever is shown. */
-static SymbolSplit split_halves(Easel *easel, const Image *content)
-{
+static SymbolSplit split_halves(Easel *easel, const Image *content) {
     uint8_t *pixels = ARENA_NEW(&easel->arena, uint8_t, 4 * 60 * 30);
     for (int i = 0; i < 60 * 30; i++) {
         memset(pixels + 4 * i, i % 60 < 30 ? 255 : 0, 3);
         pixels[4 * i + 3] = 255;
     }
-    Image          mask = {60, 30, IMAGE_RGBA8, pixels};
-    SymbolQuestion question = {.panel = easel->panel, .content = content, .mask = &mask,
-                               .uv = {0, 0, 1, 1}};
-    SymbolSplit    split;
+    Image mask = {60, 30, IMAGE_RGBA8, pixels};
+    SymbolQuestion question = {
+        .panel = easel->panel, .content = content, .mask = &mask, .uv = {0, 0, 1, 1}};
+    SymbolSplit split;
     assert_done(symbol_split(&question, &easel->arena, &split, &err));
     return split;
 }
 
 /* Codes that are the same everywhere, or alternate with black. */
-static Image plain(Easel *easel, const uint8_t rgb[3], bool alternates)
-{
+static Image plain(Easel *easel, const uint8_t rgb[3], bool alternates) {
     uint8_t *pixels = ARENA_NEW(&easel->arena, uint8_t, 4 * 60 * 30);
     for (int i = 0; i < 60 * 30; i++)
         for (int k = 0; k < 4; k++)
@@ -405,41 +381,38 @@ static Image plain(Easel *easel, const uint8_t rgb[3], bool alternates)
 }
 
 /* From so far away that all pixels are seen along one direction. */
-EASEL_TEST(one_colour_has_the_panels_own_light)
-{
+EASEL_TEST(one_colour_has_the_panels_own_light) {
     const uint8_t rgb[3] = {250, 120, 30};
-    const float   codes[3] = {250, 120, 30};
-    Image       content = plain(easel, rgb, false);
+    const float codes[3] = {250, 120, 30};
+    Image content = plain(easel, rgb, false);
     SymbolSplit split = split_halves(easel, &content);
     ENDS_BY(world_end) World world = flat_world(easel);
     SymbolSurface surface = first_part(&world, ALL);
     for (int i = 0; i < 5; i++) {
         double t = radians_from_degrees(14 * i), p = radians_from_degrees(70 * i);
-        Vec3   towards = vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)),
-                              (float)cos(t));
-        float  xyz[3];
+        Vec3 towards = vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
+        float xyz[3];
         panel_emission_xyz(easel->panel, towards, codes, xyz);
-        SymbolLook     look = {&surface, &split, vec3_scale(towards, 300), 1 + i % 3};
+        SymbolLook look = {&surface, &split, vec3_scale(towards, 300), 1 + i % 3};
         SymbolEmission seen = symbol_emission(&look, 0.3);
         for (int k = 0; k < 3; k++) {
             assert_close(seen.foreground_xyz[k], 0.3 * (double)xyz[k], 1e-3);
             assert_close(seen.background_xyz[k], 0.3 * (double)xyz[k], 1e-3);
         }
     }
-    SymbolLook     back = {&surface, &split, vec3(0, 0, -1), 1};
+    SymbolLook back = {&surface, &split, vec3(0, 0, -1), 1};
     SymbolEmission behind = symbol_emission(&back, 1);
     assert_true(isnan(behind.foreground_xyz[1]));
 }
 
 /* Half of the pixels white, half black: half of white's light, not the light of half a code. */
-EASEL_TEST(light_is_averaged_and_not_codes)
-{
+EASEL_TEST(light_is_averaged_and_not_codes) {
     const uint8_t white[3] = {255, 255, 255};
-    Image       content = plain(easel, white, true);
+    Image content = plain(easel, white, true);
     SymbolSplit split = split_halves(easel, &content);
     ENDS_BY(world_end) World world = flat_world(easel);
-    SymbolSurface  surface = first_part(&world, ALL);
-    SymbolLook     look = {&surface, &split, vec3(0, 0, 500), 2};
+    SymbolSurface surface = first_part(&world, ALL);
+    SymbolLook look = {&surface, &split, vec3(0, 0, 500), 2};
     SymbolEmission seen = symbol_emission(&look, 1);
     double half = 0.5 * (easel_luminance(easel, 255) + easel_luminance(easel, 0));
     assert_close(seen.foreground_xyz[1], half, 1e-3);
@@ -447,15 +420,14 @@ EASEL_TEST(light_is_averaged_and_not_codes)
 }
 
 /* Classes keep their places: left white, right black. */
-EASEL_TEST(each_class_has_its_own_light)
-{
-    Boxes  left = {1, {{0, 0, 30, 30}}};
+EASEL_TEST(each_class_has_its_own_light) {
+    Boxes left = {1, {{0, 0, 30, 30}}};
     const double ink_ground[2] = {1, 0.3};
-    Image       content = easel_draw(easel, 60, 30, ink_ground, boxes_coverage, &left);
+    Image content = easel_draw(easel, 60, 30, ink_ground, boxes_coverage, &left);
     SymbolSplit split = split_halves(easel, &content);
     ENDS_BY(world_end) World world = flat_world(easel);
-    SymbolSurface  surface = first_part(&world, ALL);
-    SymbolLook     look = {&surface, &split, vec3(0, 0, 500), 2};
+    SymbolSurface surface = first_part(&world, ALL);
+    SymbolLook look = {&surface, &split, vec3(0, 0, 500), 2};
     SymbolEmission seen = symbol_emission(&look, 1);
     assert_close(seen.foreground_xyz[1], split.foreground_cd_m2, 1e-3);
     assert_close(seen.background_xyz[1], split.background_cd_m2, 1e-3);
@@ -463,10 +435,9 @@ EASEL_TEST(each_class_has_its_own_light)
 }
 
 /* A mirrored node: u grows to the left, the front stays where the light is. */
-EASEL_TEST(a_mirrored_display_is_seen_from_its_front)
-{
+EASEL_TEST(a_mirrored_display_is_seen_from_its_front) {
     const uint8_t rgb[3] = {200, 200, 200};
-    const float   codes[3] = {200, 200, 200};
+    const float codes[3] = {200, 200, 200};
     ENDS_BY(world_end) World world = world_start();
     wear_display(&world, easel);
     const float corner[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}; /* from (u, v) = (0, 0) */
@@ -476,16 +447,16 @@ EASEL_TEST(a_mirrored_display_is_seen_from_its_front)
     builder_triangle(world.scene, 0, 1, 2);
     builder_triangle(world.scene, 0, 2, 3);
     SymbolSurface surface = first_part(&world, ALL);
-    SymbolPoint   point;
+    SymbolPoint point;
     assert_true(symbol_surface_at(&surface, (double[2]){0.1, 0.2}, &point));
     assert_near(point.position.x, 0.16, 1e-6);
     assert_near(point.position.y, 0.06, 1e-6);
     assert_near(point.ng.z, 1, 1e-6);
-    Image       content = plain(easel, rgb, false);
+    Image content = plain(easel, rgb, false);
     SymbolSplit split = split_halves(easel, &content);
-    float       xyz[3]; /* in the display's own frame the eye stands at the other side */
+    float xyz[3]; /* in the display's own frame the eye stands at the other side */
     panel_emission_xyz(easel->panel, vec3(-0.6f, 0, 0.8f), codes, xyz);
-    SymbolLook     look = {&surface, &split, vec3(180, 0, 240), 2};
+    SymbolLook look = {&surface, &split, vec3(180, 0, 240), 2};
     SymbolEmission seen = symbol_emission(&look, 1);
     assert_close(seen.foreground_xyz[1], xyz[1], 1e-3);
     world_ready(&world, 1);

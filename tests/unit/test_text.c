@@ -8,8 +8,7 @@
 #include "text/nearest_word.h"
 #include "text/text.h"
 
-ARENA_TEST(a_text_grows_where_it_stands)
-{
+ARENA_TEST(a_text_grows_where_it_stands) {
     Text text = {.arena = &arena};
     text_format(&text, "%d", 1);
     const char *place = text.data;
@@ -19,8 +18,7 @@ ARENA_TEST(a_text_grows_where_it_stands)
     assert_string_equal(text.data + 99992, "123456789");
 }
 
-ARENA_TEST(a_text_moves_when_something_lies_behind_it)
-{
+ARENA_TEST(a_text_moves_when_something_lies_behind_it) {
     Text a = {.arena = &arena}, b = {.arena = &arena};
     char line[3001];
     memset(line, 'x', 3000);
@@ -37,9 +35,8 @@ ARENA_TEST(a_text_moves_when_something_lies_behind_it)
     assert_int_equal(strspn(b.data, "x"), b.size);
 }
 
-ARENA_TEST(a_text_becomes_a_file)
-{
-    Text      text = {.arena = &arena};
+ARENA_TEST(a_text_becomes_a_file) {
+    Text text = {.arena = &arena};
     FileBytes bytes;
     const char *path = in_folder("text");
     assert_done(text_write(&text, path, &err));
@@ -53,8 +50,7 @@ ARENA_TEST(a_text_becomes_a_file)
     assert_false(text_write(&text, "/nowhere/at/all", why()));
 }
 
-ARENA_TEST(texts_are_escaped)
-{
+ARENA_TEST(texts_are_escaped) {
     Text text = {.arena = &arena};
     escape_markup(&text, "a<b>&\"c'");
     escape_markup(&text, NULL);
@@ -64,14 +60,13 @@ ARENA_TEST(texts_are_escaped)
     assert_string_equal(text.data, "é\\u0009\\u0001\\u007F\\xFF\\uFFFF.");
 }
 
-TEST(characters_make_the_round_trip)
-{
+TEST(characters_make_the_round_trip) {
     static const unsigned CODES[] = {0,      0x41,   0x7f,   0x80,    0x7ff,   0x800,
                                      0xd7ff, 0xe000, 0xffff, 0x10000, 0x10ffff};
     for (size_t i = 0; i < sizeof CODES / sizeof *CODES; i++) {
-        char     bytes[UTF8_BYTES_MAX];
+        char bytes[UTF8_BYTES_MAX];
         unsigned code = 1;
-        int      length = utf8_encode(CODES[i], bytes);
+        int length = utf8_encode(CODES[i], bytes);
         assert_int_equal(utf8_decode(bytes, (size_t)length, &code), length);
         assert_int_equal(code, CODES[i]);
         assert_int_equal(utf8_decode(bytes, (size_t)length - 1, &code), 0);
@@ -79,19 +74,17 @@ TEST(characters_make_the_round_trip)
     }
 }
 
-TEST(any_text_becomes_json)
-{
+TEST(any_text_becomes_json) {
     json_auto_t *good = json_text("é"), *bad = json_text("a\xc3\xa9\xff");
     assert_string_equal(json_string_value(good), "é");
     assert_string_equal(json_string_value(bad), "aé\\xFF");
 }
 
 /* What jansson leaves as it is (RFC 8259 requires C0 alone) is escaped, and read as it was. */
-ARENA_TEST(a_document_gives_a_terminal_no_commands)
-{
+ARENA_TEST(a_document_gives_a_terminal_no_commands) {
     static const char NAME[] = "\x1b[2K\x7f\xc2\x9b\xe2\x80\xae\xe2\x80\xa8\\ \"é";
     json_auto_t *document = json_pack("{s:s, s:i}", NAME, NAME, "b", 1);
-    Text         text = {.arena = &arena};
+    Text text = {.arena = &arena};
     assert_true(json_dump_text(&text, document, JSON_INDENT(1)));
     assert_string_equal(text.data,
                         "{\n \"\\u001B[2K\\u007F\\u009B\\u202E\\u2028\\\\ \\\"é\": "
@@ -102,14 +95,13 @@ ARENA_TEST(a_document_gives_a_terminal_no_commands)
 }
 
 /* RFC 4648, section 10. */
-ARENA_TEST(base64_makes_the_round_trip)
-{
+ARENA_TEST(base64_makes_the_round_trip) {
     static const char *const DIGITS[] = {"",         "Zg==",     "Zm8=",    "Zm9v",
                                          "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
     for (size_t i = 0; i < 7; i++) {
-        Text          text = {.arena = &arena};
+        Text text = {.arena = &arena};
         unsigned char bytes[8];
-        size_t        size;
+        size_t size;
         base64_encode(&text, "foobar", i);
         assert_string_equal(text.data, DIGITS[i]);
         assert_done(base64_decode(text.data, text.size, bytes, &size, &err));
@@ -118,8 +110,7 @@ ARENA_TEST(base64_makes_the_round_trip)
     }
 }
 
-TEST(the_nearest_word_is_found)
-{
+TEST(the_nearest_word_is_found) {
     static const char *const words[] = {"wavelengths", "incidence_deg", "files"};
     assert_string_equal(nearest_word("file", words, 3), "files");
     assert_string_equal(nearest_word("incidence", words, 3), "incidence_deg");
@@ -130,8 +121,7 @@ TEST(the_nearest_word_is_found)
     assert_null(nearest_word_within(word, words, 3, 150));
 }
 
-TEST(the_word_that_is_meant_is_near_or_there_is_none)
-{
+TEST(the_word_that_is_meant_is_near_or_there_is_none) {
     static const char *const words[] = {"render", "develop", "panel", "check", "measure"};
     assert_string_equal(nearest_word_meant("rendr", words, 5), "render");
     assert_string_equal(nearest_word_meant("mesure", words, 5), "measure");
@@ -140,8 +130,7 @@ TEST(the_word_that_is_meant_is_near_or_there_is_none)
     assert_null(nearest_word_meant("", words, 5));
 }
 
-TEST(advice_names_the_near_one_and_as_many_as_fit)
-{
+TEST(advice_names_the_near_one_and_as_many_as_fit) {
     static const char *const words[] = {"cluster", "leather black", "a,b", "", "centre"};
     char text[400];
     assert_string_equal(nearest_word_advice("clster", words, 5, text, 400),
@@ -150,12 +139,12 @@ TEST(advice_names_the_near_one_and_as_many_as_fit)
     assert_string_equal(nearest_word_advice("zebra", words, 1, text, 400), "there are cluster");
     assert_string_equal(nearest_word_advice("zebra", words, 0, text, 400), "there are none");
     for (int size = 64; size <= 400; size++) { /* never too long, and none is forgotten */
-        static const char *const many[] = {"one", "two two", "three", "four", "five", "six",
-                                           "seven", "eight", "nine", "ten", "eleven", "twelve"};
+        static const char *const many[] = {"one",   "two two", "three", "four", "five",   "six",
+                                           "seven", "eight",   "nine",  "ten",  "eleven", "twelve"};
         memset(text, 'x', sizeof text);
         nearest_word_advice("ten ", many, 12, text, size);
         const char *more = strstr(text, " and "), *list = strstr(text, "here are");
-        int         listed = 1, left = more ? atoi(more + 5) : 0;
+        int listed = 1, left = more ? atoi(more + 5) : 0;
         assert_non_null(list);
         for (const char *at = list; *at && at != more; at++) listed += *at == ',';
         assert_true((int)strlen(text) < size && listed + left == 12);

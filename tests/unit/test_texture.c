@@ -7,19 +7,16 @@
 
 #include "image/texture.h"
 
-static double srgb_decoded(double c)
-{
+static double srgb_decoded(double c) {
     return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
 }
 
 static Texture texture_of(const void *pixels, ImageFormat format, int width, int height,
-                          TextureWrap wrap)
-{
+                          TextureWrap wrap) {
     return (Texture){{width, height, format, pixels}, wrap, wrap, false};
 }
 
-TEST(colours_are_decoded_from_srgb)
-{
+TEST(colours_are_decoded_from_srgb) {
     float rgba[4];
     for (int code = 0; code < 256; code++) {
         uint8_t p8[4] = {(uint8_t)code, (uint8_t)code, (uint8_t)code, (uint8_t)code};
@@ -36,38 +33,35 @@ TEST(colours_are_decoded_from_srgb)
     }
 }
 
-TEST(codes_come_back_exactly)
-{
+TEST(codes_come_back_exactly) {
     float rgb[3];
     for (int code = 0; code < 256; code++) {
-        uint8_t  p8[4] = {(uint8_t)code, 0, 255, 255};
+        uint8_t p8[4] = {(uint8_t)code, 0, 255, 255};
         uint16_t p16[4] = {(uint16_t)(code * 257), 0, 65535, 65535};
-        Texture  t = texture_of(p8, IMAGE_RGBA8, 1, 1, WRAP_CLAMP);
+        Texture t = texture_of(p8, IMAGE_RGBA8, 1, 1, WRAP_CLAMP);
         texture_codes(&t, 0.5f, 0.5f, rgb);
         assert_true(rgb[0] == (float)code && rgb[1] == 0 && rgb[2] == 255);
         t = texture_of(p16, IMAGE_RGBA16, 1, 1, WRAP_CLAMP);
         texture_codes(&t, 0.5f, 0.5f, rgb);
         assert_true(rgb[0] == (float)code && rgb[2] == 255);
     }
-    float   p32[4] = {0.5f, NAN, 7, 1};
+    float p32[4] = {0.5f, NAN, 7, 1};
     Texture t = texture_of(p32, IMAGE_RGBA32F, 1, 1, WRAP_CLAMP);
     texture_codes(&t, 0.5f, 0.5f, rgb);
     assert_true(rgb[0] == 127.5f && rgb[1] == 0 && rgb[2] == 255);
 }
 
 /* A row of four texels 0, 10, 20, 40 (times 1 in every channel). */
-static float row_at(TextureWrap wrap, bool nearest, float u)
-{
+static float row_at(TextureWrap wrap, bool nearest, float u) {
     static const float ROW[16] = {0, 0, 0, 0, 10, 10, 10, 10, 20, 20, 20, 20, 40, 40, 40, 40};
     Texture t = texture_of(ROW, IMAGE_RGBA32F, 4, 1, wrap);
-    float   rgba[4];
+    float rgba[4];
     t.nearest = nearest;
     texture_data(&t, u, 0.5f, rgba);
     return rgba[0];
 }
 
-TEST(between_texels_the_value_is_linear)
-{
+TEST(between_texels_the_value_is_linear) {
     for (int wrap = WRAP_REPEAT; wrap <= WRAP_MIRROR; wrap++) {
         assert_near(row_at((TextureWrap)wrap, false, 0.125f), 0, 1e-5); /* a texel's centre */
         assert_near(row_at((TextureWrap)wrap, false, 0.375f), 10, 1e-5);
@@ -85,8 +79,7 @@ TEST(between_texels_the_value_is_linear)
     }
 }
 
-TEST(over_the_edge_the_wrap_mode_decides)
-{
+TEST(over_the_edge_the_wrap_mode_decides) {
     assert_near(row_at(WRAP_REPEAT, false, 0), 20, 1e-4); /* half of 40 and half of 0 */
     assert_near(row_at(WRAP_CLAMP, false, 0), 0, 1e-5);
     assert_near(row_at(WRAP_MIRROR, false, 0), 0, 1e-5);
@@ -103,16 +96,16 @@ TEST(over_the_edge_the_wrap_mode_decides)
     assert_true(row_at(WRAP_CLAMP, true, 1) == 40 && row_at(WRAP_MIRROR, true, 1) == 40);
 }
 
-TEST(no_coordinate_leaves_the_texture)
-{
-    static const float WILD[] = {NAN, INFINITY, -INFINITY, 1e38f, -1e38f, 1e-45f, -1e-45f,
-                                 4194304, -4194304, 2147483648.0f, 0.99999994f, -5.9e-8f};
+TEST(no_coordinate_leaves_the_texture) {
+    static const float WILD[] = {NAN,      INFINITY,      -INFINITY,   1e38f,
+                                 -1e38f,   1e-45f,        -1e-45f,     4194304,
+                                 -4194304, 2147483648.0f, 0.99999994f, -5.9e-8f};
     uint8_t *pixels = malloc(3 * 5 * 4);
     memset(pixels, 77, 3 * 5 * 4);
     for (int wrap = WRAP_REPEAT; wrap <= WRAP_MIRROR; wrap++) {
         for (int i = 0; i < 12 * 12 * 2; i++) {
             Texture t = texture_of(pixels, IMAGE_RGBA8, 3, 5, (TextureWrap)wrap);
-            float   rgba[4], rgb[3];
+            float rgba[4], rgb[3];
             t.nearest = i & 1;
             texture_data(&t, WILD[i / 2 % 12], WILD[i / 24], rgba);
             assert_near(rgba[0], 77 / 255.0, 1e-6);

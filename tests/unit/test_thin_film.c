@@ -11,18 +11,16 @@
 static const double COSINES[] = {1, 0.9, 0.7, 0.5, 0.34202014332566873, 0.1, 0.01};
 #define COSINE_COUNT ((int)(sizeof COSINES / sizeof *COSINES))
 
-static ThinMedia media_of(double nm, int count, const ThinMedium *medium)
-{
+static ThinMedia media_of(double nm, int count, const ThinMedium *medium) {
     ThinMedia media = {.nm = nm, .count = count};
     memcpy(media.medium, medium, (size_t)count * sizeof *medium);
     return media;
 }
 
-TEST(a_quarter_wave_of_1_38_on_glass_reflects_1_26_percent)
-{
-    ThinMedia media = media_of(
-        550, 3, (ThinMedium[]){{1, 0, 0}, {1.38, 0, 550 / (4 * 1.38)}, {1.52, 0, 0}});
-    double    wanted = pow((1.52 - 1.38 * 1.38) / (1.52 + 1.38 * 1.38), 2);
+TEST(a_quarter_wave_of_1_38_on_glass_reflects_1_26_percent) {
+    ThinMedia media =
+        media_of(550, 3, (ThinMedium[]){{1, 0, 0}, {1.38, 0, 550 / (4 * 1.38)}, {1.52, 0, 0}});
+    double wanted = pow((1.52 - 1.38 * 1.38) / (1.52 + 1.38 * 1.38), 2);
     ThinShares at = thin_film_at(&media, 1);
     assert_near(wanted, 0.01260, 5e-6);
     assert_near(at.reflect_s, wanted, 1e-14);
@@ -30,12 +28,11 @@ TEST(a_quarter_wave_of_1_38_on_glass_reflects_1_26_percent)
 }
 
 /* Born and Wolf, 1.5.2. */
-TEST(no_layer_on_glass_is_fresnel)
-{
+TEST(no_layer_on_glass_is_fresnel) {
     static const double indices[] = {1.0001, 1.33, 1.52, 2.4, 0.6579, 0.4};
     for (int i = 0; i < 6; i++)
         for (int c = 0; c < COSINE_COUNT; c++) {
-            double    n = indices[i], cosine = COSINES[c];
+            double n = indices[i], cosine = COSINES[c];
             ThinMedia media = media_of(500, 2, (ThinMedium[]){{1, 0, 0}, {n, 0, 0}});
             ThinShares at = thin_film_at(&media, cosine);
             double sine2 = (1 - cosine * cosine) / (n * n);
@@ -50,8 +47,7 @@ TEST(no_layer_on_glass_is_fresnel)
             double p = (n * cosine - behind) / (n * cosine + behind);
             assert_near(at.reflect_s, s * s, 1e-12);
             assert_near(at.reflect_p, p * p, 1e-12);
-            assert_near((at.reflect_s + at.reflect_p) / 2, fresnel_unpolarised_d(cosine, n),
-                        1e-12);
+            assert_near((at.reflect_s + at.reflect_p) / 2, fresnel_unpolarised_d(cosine, n), 1e-12);
             assert_near(at.through_s, 1 - s * s, 1e-12);
             assert_near(at.through_p, 1 - p * p, 1e-12);
         }
@@ -59,13 +55,12 @@ TEST(no_layer_on_glass_is_fresnel)
 
 /* Real form of Fresnel's equations of a conductor (Born and Wolf, 14.2): with
  * a^2 + b^2 = |q^2 - sin^2| and a^2 - b^2 = n^2 - k^2 - sin^2. */
-TEST(no_layer_on_metal_is_fresnel)
-{
+TEST(no_layer_on_metal_is_fresnel) {
     static const double metals[][2] = {{0.06, 3.6}, {0.96, 6.7}, {3.1, 3.3}, {1.5, 0.01}};
     for (int i = 0; i < 4; i++)
         for (int c = 0; c < COSINE_COUNT; c++) {
             double n = metals[i][0], k = metals[i][1], x = COSINES[c], y2 = 1 - x * x;
-            ThinMedia  media = media_of(600, 2, (ThinMedium[]){{1, 0, 0}, {n, k, 0}});
+            ThinMedia media = media_of(600, 2, (ThinMedium[]){{1, 0, 0}, {n, k, 0}});
             ThinShares at = thin_film_at(&media, x);
             double real = n * n - k * k - y2, all = hypot(real, 2 * n * k);
             double a = sqrt((all + real) / 2);
@@ -79,15 +74,13 @@ TEST(no_layer_on_metal_is_fresnel)
 }
 
 /* At its own angle a half wave is as if it were not there. */
-TEST(a_half_wave_is_absent)
-{
+TEST(a_half_wave_is_absent) {
     for (int c = 0; c < COSINE_COUNT; c++)
         for (int m = 1; m <= 3; m++) {
             double inside = sqrt(2.1 * 2.1 - 1 + COSINES[c] * COSINES[c]);
             ThinMedia bare = media_of(450, 2, (ThinMedium[]){{1, 0, 0}, {1.6, 0.2, 0}});
-            ThinMedia film = media_of(450, 3, (ThinMedium[]){{1, 0, 0},
-                                                             {2.1, 0, m * 450 / (2 * inside)},
-                                                             {1.6, 0.2, 0}});
+            ThinMedia film = media_of(
+                450, 3, (ThinMedium[]){{1, 0, 0}, {2.1, 0, m * 450 / (2 * inside)}, {1.6, 0.2, 0}});
             ThinShares a = thin_film_at(&bare, COSINES[c]), b = thin_film_at(&film, COSINES[c]);
             assert_near(a.reflect_s, b.reflect_s, 1e-12);
             assert_near(a.reflect_p, b.reflect_p, 1e-12);
@@ -99,8 +92,7 @@ TEST(a_half_wave_is_absent)
 /* Airy's sum for one film: r = (r1 + r2 e^(2i b)) / (1 + r1 r2 e^(2i b)), each r by Fresnel's
  * equations in their angles. */
 static double airy(double nm, double cosine, double film, double thickness_nm, double body,
-                   bool is_p)
-{
+                   bool is_p) {
     double n[3] = {1, film, body}, x[3], r[2];
     for (int i = 0; i < 3; i++) x[i] = sqrt(1 - (1 - cosine * cosine) / (n[i] * n[i]));
     for (int i = 0; i < 2; i++)
@@ -111,15 +103,14 @@ static double airy(double nm, double cosine, double film, double thickness_nm, d
     return up / (1 + r[0] * r[0] * r[1] * r[1] + 2 * r[0] * r[1] * cos2);
 }
 
-TEST(one_film_is_airys_sum_at_three_wavelengths)
-{
+TEST(one_film_is_airys_sum_at_three_wavelengths) {
     static const double wavelengths_nm[] = {450, 550, 650};
     for (int w = 0; w < 3; w++)
         for (int c = 0; c < COSINE_COUNT; c++)
             for (int k = 1; k < 8; k++) {
-                double    d = 90.0 * k, nm = wavelengths_nm[w], film = k & 1 ? 1.38 : 2.3;
-                ThinMedia media = media_of(nm, 3, (ThinMedium[]){{1, 0, 0}, {film, 0, d},
-                                                                 {1.52, 0, 0}});
+                double d = 90.0 * k, nm = wavelengths_nm[w], film = k & 1 ? 1.38 : 2.3;
+                ThinMedia media =
+                    media_of(nm, 3, (ThinMedium[]){{1, 0, 0}, {film, 0, d}, {1.52, 0, 0}});
                 ThinShares at = thin_film_at(&media, COSINES[c]);
                 assert_near(at.reflect_s, airy(nm, COSINES[c], film, d, 1.52, false), 1e-12);
                 assert_near(at.reflect_p, airy(nm, COSINES[c], film, d, 1.52, true), 1e-12);
@@ -129,8 +120,7 @@ TEST(one_film_is_airys_sum_at_three_wavelengths)
 /* N pairs of quarter waves H L on a body: R = ((n0 - Y) / (n0 + Y))^2 with the admittance
  * Y = nB (H / L)^(2N) seen from L's front, here outermost H: Macleod, "Thin-Film Optical
  * Filters", quarter-wave stacks. */
-TEST(a_quarter_wave_mirror_of_2n_layers_follows_its_formula)
-{
+TEST(a_quarter_wave_mirror_of_2n_layers_follows_its_formula) {
     for (int pairs = 0; pairs <= 10; pairs++) {
         ThinMedia media = {.nm = 600, .count = 2 * pairs + 2};
         media.medium[0] = (ThinMedium){1, 0, 0};
@@ -147,8 +137,7 @@ TEST(a_quarter_wave_mirror_of_2n_layers_follows_its_formula)
 }
 
 /* Any stack of some seed; is_lossless: without k. */
-static ThinMedia some_stack(int seed, bool is_lossless)
-{
+static ThinMedia some_stack(int seed, bool is_lossless) {
     ThinMedia media = {.nm = 400 + 37 * seed % 400, .count = 3 + seed % 7};
     for (int i = 0; i < media.count; i++) {
         double n = 0.2 + fmod(1.7 * i + 0.61 * seed, 2.5);
@@ -160,11 +149,10 @@ static ThinMedia some_stack(int seed, bool is_lossless)
     return media;
 }
 
-TEST(no_light_is_made_and_without_absorption_none_is_lost)
-{
+TEST(no_light_is_made_and_without_absorption_none_is_lost) {
     for (int seed = 0; seed < 200; seed++)
         for (int c = 0; c < COSINE_COUNT; c++) {
-            ThinMedia  clear = some_stack(seed, true), dark = some_stack(seed, false);
+            ThinMedia clear = some_stack(seed, true), dark = some_stack(seed, false);
             ThinShares a = thin_film_at(&clear, COSINES[c]);
             ThinShares b = thin_film_at(&dark, COSINES[c]);
             assert_near(a.reflect_s + a.through_s, 1, 1e-12);
@@ -176,8 +164,7 @@ TEST(no_light_is_made_and_without_absorption_none_is_lost)
         }
 }
 
-TEST(turned_round_a_stack_lets_the_same_through)
-{
+TEST(turned_round_a_stack_lets_the_same_through) {
     int asked = 0, lossy = 0;
     for (int seed = 0; seed < 200; seed += 2)
         for (int c = 0; c < COSINE_COUNT; c++) {
@@ -197,12 +184,11 @@ TEST(turned_round_a_stack_lets_the_same_through)
 }
 
 /* However thick a layer is. */
-TEST(a_thick_metal_layer_is_the_metal)
-{
+TEST(a_thick_metal_layer_is_the_metal) {
     for (int c = 0; c < COSINE_COUNT; c++) {
         ThinMedia bare = media_of(550, 2, (ThinMedium[]){{1, 0, 0}, {0.06, 3.6, 0}});
-        ThinMedia film = media_of(
-            550, 3, (ThinMedium[]){{1, 0, 0}, {0.06, 3.6, 1e7}, {1.52, 0, 0}});
+        ThinMedia film =
+            media_of(550, 3, (ThinMedium[]){{1, 0, 0}, {0.06, 3.6, 1e7}, {1.52, 0, 0}});
         ThinShares a = thin_film_at(&bare, COSINES[c]), b = thin_film_at(&film, COSINES[c]);
         assert_near(a.reflect_s, b.reflect_s, 1e-13);
         assert_near(a.reflect_p, b.reflect_p, 1e-13);

@@ -7,22 +7,19 @@
 
 #define AT_LEISURE ((double)INFINITY)
 
-static VisibilityTarget target_at(double cd_m2)
-{
-    return (VisibilityTarget){.size_arcmin = 10, .adapted_cd_m2 = cd_m2, .age_years = 25,
-                              .glance_s = AT_LEISURE};
+static VisibilityTarget target_at(double cd_m2) {
+    return (VisibilityTarget){
+        .size_arcmin = 10, .adapted_cd_m2 = cd_m2, .age_years = 25, .glance_s = AT_LEISURE};
 }
 
 /* Half of the last digit of four. */
-static void assert_four_digits(double value, double want)
-{
+static void assert_four_digits(double value, double want) {
     double unit = pow(10, floor(log10(want)) - 3);
     assert_near(value, want, 0.5 * unit);
 }
 
 /* 10 arc minutes, 25 years: lighter, darker, and lighter in a glance of 0.2 s. */
-TEST(thresholds_have_their_values)
-{
+TEST(thresholds_have_their_values) {
     static const double ROWS[][4] = {{0.1, 0.01440, 0.007607, 0.02463},
                                      {1, 0.05024, 0.02964, 0.08152},
                                      {10, 0.2625, 0.1835, 0.4092},
@@ -42,8 +39,7 @@ TEST(thresholds_have_their_values)
 }
 
 /* The same to all digits that were printed where they are more. */
-TEST(thresholds_have_further_digits)
-{
+TEST(thresholds_have_further_digits) {
     VisibilityTarget ten = target_at(10), hundred = target_at(100), kilo = target_at(1000);
     assert_near(visibility_threshold(&ten), 0.26251, 5e-6);
     assert_near(visibility_threshold(&hundred), 1.90363, 5e-6);
@@ -55,8 +51,7 @@ TEST(thresholds_have_further_digits)
 }
 
 /* The dimmest of the three pieces, and the dimmer constant of the polarity factor. */
-TEST(dim_pieces_have_their_values)
-{
+TEST(dim_pieces_have_their_values) {
     VisibilityTarget dim = target_at(0.001), mid = target_at(0.05);
     double small = pow(10, 0.028 - 3 * 0.173);
     double large = pow(10, -0.891 - 3 * 0.5275 + 9 * 0.0227);
@@ -70,8 +65,7 @@ TEST(dim_pieces_have_their_values)
 }
 
 /* VL is linear in the difference, and 1 at the threshold. */
-TEST(level_counts_thresholds)
-{
+TEST(level_counts_thresholds) {
     for (int i = 0; i < 12; i++) {
         VisibilityTarget t = {3 + 11 * i, pow(10, 0.5 * i - 3), 24 + 4 * i, 0.1 + 0.2 * i,
                               i % 2 == 1};
@@ -82,11 +76,10 @@ TEST(level_counts_thresholds)
 }
 
 /* Larger, younger, longer, darker than its background: never harder to see. */
-TEST(factors_go_the_right_way)
-{
+TEST(factors_go_the_right_way) {
     for (double cd_m2 = 1e-4; cd_m2 < 2e4; cd_m2 *= 3) {
         VisibilityTarget t = target_at(cd_m2), large = t, old = t, short_look = t, dark = t;
-        double           threshold = visibility_threshold(&t);
+        double threshold = visibility_threshold(&t);
         large.size_arcmin = 20;
         old.age_years = 60;
         short_look.glance_s = 1.9;
@@ -100,8 +93,7 @@ TEST(factors_go_the_right_way)
 }
 
 /* Published as it stands, though nobody sees better the day that he turns 64. */
-TEST(age_factor_jumps_at_64)
-{
+TEST(age_factor_jumps_at_64) {
     assert_near(visibility_age_factor(64 - 1e-9), 1.9275, 1e-6);
     assert_near(visibility_age_factor(64), 1.900851, 1e-6);
     assert_near(visibility_age_factor(23), 0.997407, 1e-6);
@@ -112,8 +104,7 @@ TEST(age_factor_jumps_at_64)
 }
 
 /* A glance of 2 s is as good as any longer one: TF does not run out to 1 by itself. */
-TEST(glances_count_below_two_seconds)
-{
+TEST(glances_count_below_two_seconds) {
     double just_below = visibility_glance_factor(10, 1, 2 - 1e-9);
     assert_true(visibility_glance_factor(10, 1, 2) == 1);
     assert_true(visibility_glance_factor(10, 1, AT_LEISURE) == 1);
@@ -125,8 +116,7 @@ TEST(glances_count_below_two_seconds)
 }
 
 /* The pieces meet within 2 %, those of the polarity factor at 0.1 cd/m2 exactly. */
-TEST(pieces_meet)
-{
+TEST(pieces_meet) {
     static const double ENDS[] = {0.00418, 0.6};
     for (int i = 0; i < COUNT_OF(ENDS); i++) {
         VisibilityTarget below = target_at(ENDS[i] * (1 - 1e-9)), above = below;
@@ -137,8 +127,7 @@ TEST(pieces_meet)
                  visibility_polarity_factor(10, 0.1), 1e-9);
 }
 
-TEST(nothing_has_a_threshold_without_light_or_size)
-{
+TEST(nothing_has_a_threshold_without_light_or_size) {
     VisibilityTarget t = target_at(0);
     assert_true(isnan(visibility_threshold(&t)));
     t = target_at(NAN);
@@ -154,13 +143,11 @@ TEST(nothing_has_a_threshold_without_light_or_size)
     assert_true(isnan(visibility_level(&t, 1)));
 }
 
-static unsigned doubt(VisibilityDoubt which)
-{
+static unsigned doubt(VisibilityDoubt which) {
     return 1u << which;
 }
 
-TEST(doubts_are_told)
-{
+TEST(doubts_are_told) {
     VisibilityTarget t = target_at(1);
     assert_int_equal(visibility_doubts(&t), 0);
     t.age_years = 22;
@@ -175,8 +162,8 @@ TEST(doubts_are_told)
     t = target_at(0.004);
     assert_int_equal(visibility_doubts(&t), doubt(VISIBILITY_DOUBT_LUMINANCE));
     t.is_darker = true;
-    assert_int_equal(visibility_doubts(&t), doubt(VISIBILITY_DOUBT_LUMINANCE) |
-                                                doubt(VISIBILITY_DOUBT_DARKER));
+    assert_int_equal(visibility_doubts(&t),
+                     doubt(VISIBILITY_DOUBT_LUMINANCE) | doubt(VISIBILITY_DOUBT_DARKER));
     assert_true(visibility_polarity_factor(10, 0.004) == 1);
     assert_true(visibility_polarity_factor(10, 0.0041) < 1);
     t = target_at(201);

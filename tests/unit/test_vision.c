@@ -12,11 +12,10 @@
 
 /* ---- point spread ------------------------------------------------------------------------ */
 
-TEST(eye_spread_has_its_values)
-{
-    static const double ROWS[][2] = {{0.1, 11685}, {0.5, 135.95}, {1, 19.267}, {2, 2.9451},
-                                     {5, 0.29524}, {10, 0.061606}, {30, 0.0077692},
-                                     {60, 0.0032553}, {90, 0.0024829}};
+TEST(eye_spread_has_its_values) {
+    static const double ROWS[][2] = {{0.1, 11685},    {0.5, 135.95},   {1, 19.267},
+                                     {2, 2.9451},     {5, 0.29524},    {10, 0.061606},
+                                     {30, 0.0077692}, {60, 0.0032553}, {90, 0.0024829}};
     for (int i = 0; i < COUNT_OF(ROWS); i++)
         assert_close(eye_spread_at(ROWS[i][0], (HumanEye){25, 0.5}), ROWS[i][1], 4e-5);
     assert_true(isnan(eye_spread_at(-0.1, (HumanEye){25, 0.5})));
@@ -24,8 +23,7 @@ TEST(eye_spread_has_its_values)
 }
 
 /* Over rings whose ends rise by 1 %, by the midpoint. */
-static double ring_integral(HumanEye eye)
-{
+static double ring_integral(HumanEye eye) {
     double sum = 0, inner = 0;
     for (double outer = 1e-5; inner < 90; outer *= 1.01) {
         double end = outer < 90 ? outer : 90;
@@ -37,12 +35,11 @@ static double ring_integral(HumanEye eye)
 }
 
 /* The published constants: what their sum has above one is not divided away. */
-TEST(eye_spread_has_the_published_integral)
-{
+TEST(eye_spread_has_the_published_integral) {
     static const struct {
         HumanEye eye;
-        double   integral;
-    } ROWS[] = {{{24, 0}, 1.0049}, {{24, 0.5}, 1.0316}, {{24, 1}, 1.0583}, {{25, 0.5}, 1.0317},
+        double integral;
+    } ROWS[] = {{{24, 0}, 1.0049},   {{24, 0.5}, 1.0316}, {{24, 1}, 1.0583},  {{25, 0.5}, 1.0317},
                 {{60, 0.5}, 1.0502}, {{70, 0.5}, 1.0664}, {{75, 1.2}, 1.1688}};
     for (int i = 0; i < COUNT_OF(ROWS); i++)
         assert_near(ring_integral(ROWS[i].eye), ROWS[i].integral, 2e-4);
@@ -50,27 +47,24 @@ TEST(eye_spread_has_the_published_integral)
 
 /* CIE 146:2002, the general equation as it is commonly quoted (J. J. Vos, Clin. Exp. Optom. 86
  * (2003) 363), 0.1 to 100 degrees. */
-static double disability_glare(double angle_deg, HumanEye eye)
-{
+static double disability_glare(double angle_deg, HumanEye eye) {
     double t = angle_deg, p = eye.pigment, age = 1 + pow(eye.age_years / 62.5, 4);
     return 10 / (t * t * t) + (5 / (t * t) + 0.1 * p / t) * age + 0.0025 * p;
 }
 
 /* Two fits of the same measurements. */
-TEST(glare_and_spread_agree)
-{
+TEST(glare_and_spread_agree) {
     for (double age = 20; age <= 80; age += 15) {
         for (double angle = 1; angle <= 90; angle *= 1.2) {
             HumanEye eye = {age, 0.5};
-            double   bound = angle < 2 ? 0.30 : 0.20;
+            double bound = angle < 2 ? 0.30 : 0.20;
             assert_close(eye_spread_at(angle, eye), disability_glare(angle, eye), bound);
         }
     }
 }
 
 /* Beside the core, which scattering takes light from. */
-TEST(older_and_lighter_eyes_scatter_more)
-{
+TEST(older_and_lighter_eyes_scatter_more) {
     for (double angle = 0.5; angle <= 90; angle *= 1.3) {
         assert_true(eye_spread_at(angle, (HumanEye){70, 0.5}) >
                     eye_spread_at(angle, (HumanEye){30, 0.5}));
@@ -81,15 +75,13 @@ TEST(older_and_lighter_eyes_scatter_more)
 
 /* ---- position index ---------------------------------------------------------------------- */
 
-TEST(position_index_has_its_values)
-{
+TEST(position_index_has_its_values) {
     static const double SIGMAS[] = {10, 20, 30, 50}, TAUS[] = {0, 45, 90};
     static const double VALUES[3][4] = {{1.4345, 2.1460, 3.3481, 9.2442},
                                         {1.2655, 1.6905, 2.3833, 5.5706},
                                         {1.0898, 1.2386, 1.4681, 2.3396}};
     for (int i = 0; i < 12; i++)
-        assert_near(position_index_above(TAUS[i / 4], SIGMAS[i % 4]), VALUES[i / 4][i % 4],
-                    5.1e-5);
+        assert_near(position_index_above(TAUS[i / 4], SIGMAS[i % 4]), VALUES[i / 4][i % 4], 5.1e-5);
     assert_close(position_index_below(degrees_from_radians(atan(0.5))), 1.4, 1e-12);
     assert_close(position_index_below(degrees_from_radians(atan(1.0))), 2.2, 1e-12);
     assert_close(position_index_below(degrees_from_radians(atan(5.0))), 4.6, 1e-12);
@@ -99,10 +91,9 @@ TEST(position_index_has_its_values)
 }
 
 /* The two formulas do not meet: neither is bent to. */
-TEST(position_index_jumps_at_the_horizontal)
-{
-    static const double ROWS[][3] = {{10, 1.0898, 1.1411}, {20, 1.2386, 1.2912},
-                                     {30, 1.4681, 1.4619}, {50, 2.3396, 2.4301}};
+TEST(position_index_jumps_at_the_horizontal) {
+    static const double ROWS[][3] = {
+        {10, 1.0898, 1.1411}, {20, 1.2386, 1.2912}, {30, 1.4681, 1.4619}, {50, 2.3396, 2.4301}};
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
         double sigma = radians_from_degrees(ROWS[i][0]), s = sin(sigma), c = cos(sigma);
         assert_close(position_index(s, 0, c), ROWS[i][1], 4e-5);
@@ -115,8 +106,7 @@ TEST(position_index_jumps_at_the_horizontal)
     assert_near(after, 1.72, 1e-5);
 }
 
-TEST(position_index_of_a_direction)
-{
+TEST(position_index_of_a_direction) {
     double s = radians_from_degrees(20);
     assert_close(position_index(0, sin(s), cos(s)), 2.1460, 3e-5);
     assert_close(position_index(0, 7 * sin(s), 7 * cos(s)), 2.1460, 3e-5);
@@ -131,8 +121,7 @@ TEST(position_index_of_a_direction)
 
 /* ---- discomfort -------------------------------------------------------------------------- */
 
-TEST(ugr_has_its_value)
-{
+TEST(ugr_has_its_value) {
     const GlareSource one = {5000, 0.01, 1.5}, two[] = {one, one};
     assert_close(discomfort_ugr(40, &one, 1), 22.7331, 3e-6);
     assert_close(discomfort_ugr(40, two, 2), 22.7331 + 8 * log10(2), 3e-6);
@@ -141,8 +130,7 @@ TEST(ugr_has_its_value)
     assert_true(isnan(discomfort_ugr(40, &(GlareSource){5000, 0.01, 0.5}, 1)));
 }
 
-TEST(dgp_has_its_values)
-{
+TEST(dgp_has_its_values) {
     const GlareSource source = {1e5, 0.001, 1.5};
     assert_close(discomfort_dgp(3000, NULL, 0), 0.335100, 2e-6);
     assert_close(discomfort_dgp(3000, &source, 1), 0.370051, 2e-6);
@@ -154,8 +142,7 @@ TEST(dgp_has_its_values)
 }
 
 /* Hopkinson's formula as evalglare has it, worked by hand: 1.5^2 = 2.25. */
-TEST(dgi_has_its_value)
-{
+TEST(dgi_has_its_value) {
     const GlareSource one = {5000, 0.01, 1.5}, two[] = {one, one};
     double term = 0.478 * pow(5000, 1.6) * pow(0.01 / 2.25, 0.8) / (40 + 0.07 * 0.1 * 5000);
     assert_close(discomfort_dgi(40, &one, 1), 10 * log10(term), 1e-12);
@@ -165,10 +152,9 @@ TEST(dgi_has_its_value)
     assert_true(isfinite(discomfort_dgi(0, &one, 1)));
 }
 
-TEST(figures_say_why_one_is_none)
-{
+TEST(figures_say_why_one_is_none) {
     const GlareSettings set = GLARE_SETTINGS_DEFAULT;
-    const GlareSource   one = {5000, 0.01, 1.5};
+    const GlareSource one = {5000, 0.01, 1.5};
     GlareFigures all = discomfort_figures(&set, &(GlareView){&one, 1, 45, 40 * PI});
     GlareFigures sources = discomfort_figures(&set, &(GlareView){&one, 1, 45, 0});
     GlareFigures even = discomfort_figures(&set, &(GlareView){NULL, 0, 0, 200});
@@ -187,25 +173,22 @@ TEST(figures_say_why_one_is_none)
     assert_non_null(discomfort_none_words(sources.none));
 }
 
-TEST(figures_heed_their_settings)
-{
-    GlareSettings     set = GLARE_SETTINGS_DEFAULT;
+TEST(figures_heed_their_settings) {
+    GlareSettings set = GLARE_SETTINGS_DEFAULT;
     const GlareSource one = {5000, 0.01, 1.5};
-    const GlareView   view = {&one, 1, 45, 155};
+    const GlareView view = {&one, 1, 45, 155};
     double with = discomfort_figures(&set, &view).dgp;
     assert_near(glare_threshold(&set, 300), 2000, 0);
     set.low_light = false;
     set.task_factor = 5;
-    assert_close(discomfort_figures(&set, &view).dgp * discomfort_dgp_low_light(200), with,
-                 1e-12);
+    assert_close(discomfort_figures(&set, &view).dgp * discomfort_dgp_low_light(200), with, 1e-12);
     assert_near(glare_threshold(&set, 300), 1500, 0);
 }
 
 /* Pieces of one luminance are their source: nothing but the index changes over it. */
-TEST(a_source_is_the_sum_of_its_pieces)
-{
+TEST(a_source_is_the_sum_of_its_pieces) {
     GlareSum sum = {0}, one = {0};
-    double   s = radians_from_degrees(20), t = radians_from_degrees(40);
+    double s = radians_from_degrees(20), t = radians_from_degrees(40);
     glare_sum_add(&sum, 300, 0.01, 0, sin(s), cos(s));
     glare_sum_add(&sum, 900, 0.02, sin(t), 0, cos(t));
     glare_sum_add(&sum, 1e9, 0.02, 0, 0.6, -0.8);
@@ -219,8 +202,7 @@ TEST(a_source_is_the_sum_of_its_pieces)
     assert_close(glare_sum_source(&one).position_index, p, 1e-12);
 }
 
-TEST(dgp_is_less_in_low_light)
-{
+TEST(dgp_is_less_in_low_light) {
     static const double ROWS[][2] = {{100, 0.168}, {200, 0.690}, {300, 0.961}, {380, 0.994}};
     for (int i = 0; i < COUNT_OF(ROWS); i++)
         assert_near(discomfort_dgp_low_light(ROWS[i][0]), ROWS[i][1], 5e-4);
@@ -231,8 +213,7 @@ TEST(dgp_is_less_in_low_light)
 
 /* ---- thresholds -------------------------------------------------------------------------- */
 
-TEST(contrast_sensitivity_has_its_values)
-{
+TEST(contrast_sensitivity_has_its_values) {
     static const double U[] = {1, 4, 8, 16, 30}, L[] = {100, 1, 1000};
     static const double VALUES[3][5] = {{410.67, 633.74, 426.12, 169.38, 30.60},
                                         {277.47, 172.37, 84.83, 27.87, 3.37},
@@ -244,17 +225,15 @@ TEST(contrast_sensitivity_has_its_values)
     assert_true(isnan(contrast_sensitivity(4, 100, -1)));
 }
 
-TEST(grey_steps_have_their_values)
-{
-    static const double ROWS[][2] = {{1, 0.04998}, {100, 1.85083}, {200, 8.21785},
+TEST(grey_steps_have_their_values) {
+    static const double ROWS[][2] = {{1, 0.04998},     {100, 1.85083},   {200, 8.21785},
                                      {500, 119.13179}, {800, 933.18743}, {1023, 3993.330}};
     for (int i = 0; i < COUNT_OF(ROWS); i++)
         assert_close(grey_steps_luminance(ROWS[i][0]), ROWS[i][1], 4e-5);
     assert_near(grey_steps_of(grey_steps_luminance(200)), 200.021, 5e-4);
 }
 
-TEST(grey_steps_go_there_and_back)
-{
+TEST(grey_steps_go_there_and_back) {
     double previous = 0;
     for (int step = 1; step <= 1023; step++) {
         double luminance = grey_steps_luminance(step);
@@ -269,8 +248,7 @@ TEST(grey_steps_go_there_and_back)
     assert_near(grey_steps_between(5, 5), 0, 0);
 }
 
-TEST(grey_steps_keep_their_range)
-{
+TEST(grey_steps_keep_their_range) {
     assert_true(isnan(grey_steps_luminance(0.9)) && isnan(grey_steps_luminance(1024)));
     assert_true(isnan(grey_steps_of(0.049)) && isnan(grey_steps_of(4000)));
     assert_true(isnan(grey_steps_of(0)) && isnan(grey_steps_between(10, 5000)));
@@ -279,8 +257,7 @@ TEST(grey_steps_keep_their_range)
 
 /* ---- whose eye --------------------------------------------------------------------------- */
 
-TEST(eyes_are_read)
-{
+TEST(eyes_are_read) {
     HumanEye eye = {0, 0};
     assert_done(human_eye_parse("60", &eye, &err));
     assert_true(eye.age_years == 60 && eye.pigment == HUMAN_EYE_PIGMENT_USUAL);
@@ -288,11 +265,10 @@ TEST(eyes_are_read)
     assert_true(eye.age_years == 24.5 && eye.pigment == 1.2);
 }
 
-TEST(what_is_no_eye_is_refused)
-{
-    static const char *const WRONG[] = {"", "old", "9", "101", "40,", "40,1.3", "40,-1", "40 ",
-                                        "40,0.5,1", "-40", "nan", "40,nan", "0x20", "4e9",
-                                        "+40"};
+TEST(what_is_no_eye_is_refused) {
+    static const char *const WRONG[] = {"",       "old",    "9",    "101",      "40,",
+                                        "40,1.3", "40,-1",  "40 ",  "40,0.5,1", "-40",
+                                        "nan",    "40,nan", "0x20", "4e9",      "+40"};
     for (int i = 0; i < COUNT_OF(WRONG); i++) {
         HumanEye eye = {1, 2};
         assert_false(human_eye_parse(WRONG[i], &eye, why()));

@@ -9,13 +9,11 @@
 /* Accepts what is within a tolerance of the values at the vertices, component by component. */
 typedef struct Bound {
     const float *values;
-    int          components;
-    float        tolerance;
+    int components;
+    float tolerance;
 } Bound;
 
-static inline bool within_bound(const void *context, uint32_t vertex,
-                                const float *reconstructed)
-{
+static inline bool within_bound(const void *context, uint32_t vertex, const float *reconstructed) {
     const Bound *b = context;
     const float *value = b->values + vertex * (size_t)b->components;
     for (int i = 0; i < b->components; i++)

@@ -23,15 +23,13 @@ static const char wall_scene[] =
     "{'buffer':0,'byteOffset':80,'byteLength':12}],"
     "'buffers':[{'byteLength':92,'uri':'data:application/octet-stream;base64,%s'}]}";
 
-static inline void wall_copy(const char *from, const char *name, Arena arena)
-{
+static inline void wall_copy(const char *from, const char *name, Arena arena) {
     FileBytes bytes;
     assert_done(file_read(from, 1 << 24, &arena, &bytes, &err));
     write_bytes(in_folder(name), bytes.data, bytes.size);
 }
 
-static inline void wall_write(const char *name, const char *text, Arena arena)
-{
+static inline void wall_write(const char *name, const char *text, Arena arena) {
     char *quoted = arena_string(&arena, text, strlen(text));
     for (char *c = quoted; *c; c++)
         if (*c == '\'') *c = '"';
@@ -39,17 +37,17 @@ static inline void wall_write(const char *name, const char *text, Arena arena)
 }
 
 /* request: ' stands for ". */
-static inline void wall_write_files(const char *request, Arena arena)
-{
+static inline void wall_write_files(const char *request, Arena arena) {
     static const struct {
-        float    at[12], uv[8];
+        float at[12], uv[8];
         uint16_t corners[6];
     } quad = {{-0.15f, -0.05f, 0, 0.15f, -0.05f, 0, 0.15f, 0.05f, 0, -0.15f, 0.05f, 0},
-              {0, 1, 1, 1, 1, 0, 0, 0}, {0, 1, 2, 0, 2, 3}};
+              {0, 1, 1, 1, 1, 0, 0, 0},
+              {0, 1, 2, 0, 2, 3}};
     Text digits = {.arena = &arena};
     base64_encode(&digits, &quad, sizeof quad);
     size_t room = sizeof wall_scene + digits.size;
-    char  *scene = ARENA_NEW(&arena, char, room);
+    char *scene = ARENA_NEW(&arena, char, room);
     snprintf(scene, room, wall_scene, digits.data);
     wall_write("a.gltf", scene, arena);
     wall_write("r.json", request, arena);

@@ -12,22 +12,20 @@
 #include "scene_builder.h"
 
 typedef struct World {
-    Arena       arena;
-    Scene      *scene;
-    Panel      *panel; /* of the display, if there is one */
-    Bvh        *bvh;
+    Arena arena;
+    Scene *scene;
+    Panel *panel; /* of the display, if there is one */
+    Bvh *bvh;
     PathContext context;
 } World;
 
-static inline World world_start(void)
-{
+static inline World world_start(void) {
     World world = {.arena = arena_reserve((size_t)1 << 30)};
     world.scene = builder_scene(&world.arena);
     return world;
 }
 
-static inline void world_ready(World *world, int max_bounces)
-{
+static inline void world_ready(World *world, int max_bounces) {
     Lights *lights;
     assert_done(bvh_create(world->scene, 1, NULL, &world->bvh, &err) &&
                 lights_build(world->scene, &world->arena, &lights, &err));
@@ -35,8 +33,7 @@ static inline void world_ready(World *world, int max_bounces)
         path_context_build(world->scene, world->bvh, lights, max_bounces, &world->arena);
 }
 
-static inline void world_end(World *world)
-{
+static inline void world_end(World *world) {
     bvh_destroy(world->bvh);
     panel_close(world->panel);
     arena_release(&world->arena);
@@ -48,17 +45,18 @@ static inline void world_end(World *world)
 /* ---- displays ---------------------------------------------------------------------------- */
 
 /* Starts a part that wears a new display of the world's panel, which it opens. */
-static inline Display *world_display(World *world)
-{
-    Scene   *scene = world->scene;
+static inline Display *world_display(World *world) {
+    Scene *scene = world->scene;
     Material material = builder_material(0);
-    int      id = scene->display_count++;
+    int id = scene->display_count++;
     material.display_id = id;
     material.is_emitter = true;
     if (!world->panel)
         assert_done(panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &world->arena,
                                &world->panel, &err));
-    scene->displays[id] = (Display){.name = "display", .panel = world->panel, .level = 1,
+    scene->displays[id] = (Display){.name = "display",
+                                    .panel = world->panel,
+                                    .level = 1,
                                     .material_id = builder_part(scene, material),
                                     .content = builder_no_texture()};
     return &scene->displays[id];
@@ -73,27 +71,28 @@ typedef struct WorldMean {
 /* Rays through a square of side `spread` at distance 1 in the direction; or a luxmeter that
  * faces it. */
 typedef struct Gauge {
-    Vec3  from, direction;
+    Vec3 from, direction;
     float spread;
-    bool  is_luxmeter;
+    bool is_luxmeter;
 } Gauge;
 
 /* Luminance, cd m^-2, or illuminance, lx, by `count` paths. */
-static inline WorldMean world_measure(const World *world, Gauge gauge, uint32_t seed, int count)
-{
-    double         sum = 0, squares = 0, largest = 0;
-    Frame          frame = frame_from_z(vec3_normalize(gauge.direction));
+static inline WorldMean world_measure(const World *world, Gauge gauge, uint32_t seed, int count) {
+    double sum = 0, squares = 0, largest = 0;
+    Frame frame = frame_from_z(vec3_normalize(gauge.direction));
     PathStatistics statistics = {0};
     for (int i = 0; i < count; i++) {
-        Sampler     sampler = sampler_start(seed, 0, 0, (uint32_t)i);
-        Vec2        at = gauge.is_luxmeter ? (Vec2){0, 0} : sampler_2d(&sampler);
+        Sampler sampler = sampler_start(seed, 0, 0, (uint32_t)i);
+        Vec2 at = gauge.is_luxmeter ? (Vec2){0, 0} : sampler_2d(&sampler);
         Wavelengths w;
-        PathResult  result;
+        PathResult result;
         wavelengths_sample(sampler_1d(&sampler), &w);
-        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
+        PathStart start = {.context = &world->context,
+                           .wavelengths = &w,
+                           .sampler = &sampler,
                            .statistics = &statistics};
         Vec3 local = vec3(gauge.spread * (at.x - 0.5f), gauge.spread * (at.y - 0.5f), 1);
-        Ray  ray = {gauge.from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
+        Ray ray = {gauge.from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
         if (gauge.is_luxmeter)
             path_from_point(&start, (LitPoint){gauge.from, gauge.direction, false}, result.xyz);
         else path_from_ray(&start, ray, &result);
@@ -107,15 +106,14 @@ static inline WorldMean world_measure(const World *world, Gauge gauge, uint32_t 
 
 /* From a point, in a pyramid that is `width` wide a metre away. */
 typedef struct WorldLook {
-    Vec3     from, direction;
-    float    width;
+    Vec3 from, direction;
+    float width;
     uint32_t seed;
-    int      count; /* paths */
+    int count; /* paths */
 } WorldLook;
 
 /* cd m^-2 */
-static inline WorldMean world_luminance(const World *world, const WorldLook *look)
-{
+static inline WorldMean world_luminance(const World *world, const WorldLook *look) {
     Gauge gauge = {look->from, look->direction, look->width, false};
     return world_measure(world, gauge, look->seed, look->count);
 }

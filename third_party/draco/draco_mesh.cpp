@@ -21,10 +21,9 @@ struct Counts {
 };
 
 /* The beginning as Draco's bitstream specification 2.2 has it (sections 4 to 6). */
-bool read_counts(draco::DecoderBuffer *in, Counts *out, Error *err)
-{
-    char     magic[5];
-    uint8_t  major = 0, minor = 0, type = 0, method = 0, traversal = 0;
+bool read_counts(draco::DecoderBuffer *in, Counts *out, Error *err) {
+    char magic[5];
+    uint8_t major = 0, minor = 0, type = 0, method = 0, traversal = 0;
     uint16_t flags = 0;
     bool ok = in->Decode(magic, sizeof magic) && std::memcmp(magic, "DRACO", 5) == 0 &&
               in->Decode(&major) && in->Decode(&minor) && in->Decode(&type) &&
@@ -38,7 +37,7 @@ bool read_counts(draco::DecoderBuffer *in, Counts *out, Error *err)
     in->set_bitstream_version(DRACO_BITSTREAM_VERSION(major, minor));
     if (flags & METADATA_FLAG_MASK) {
         draco::GeometryMetadata skipped;
-        draco::MetadataDecoder  metadata;
+        draco::MetadataDecoder metadata;
         ok = metadata.DecodeGeometryMetadata(in, &skipped);
     }
     bool is_sequential = method == draco::MESH_SEQUENTIAL_ENCODING;
@@ -51,8 +50,7 @@ bool read_counts(draco::DecoderBuffer *in, Counts *out, Error *err)
 
 template <typename T>
 bool convert(const draco::Mesh &mesh, const draco::PointAttribute &attribute, int components,
-             void *out)
-{
+             void *out) {
     T *to = static_cast<T *>(out);
     if (!attribute.is_mapping_identity() && attribute.indices_map_size() < mesh.num_points())
         return false;
@@ -65,9 +63,8 @@ bool convert(const draco::Mesh &mesh, const draco::PointAttribute &attribute, in
     return true;
 }
 
-bool convert_to(int component_type, const draco::Mesh &mesh,
-                const draco::PointAttribute &attribute, int components, void *out)
-{
+bool convert_to(int component_type, const draco::Mesh &mesh, const draco::PointAttribute &attribute,
+                int components, void *out) {
     switch (component_type) {
     case 5120: return convert<int8_t>(mesh, attribute, components, out);
     case 5121: return convert<uint8_t>(mesh, attribute, components, out);
@@ -82,8 +79,7 @@ bool convert_to(int component_type, const draco::Mesh &mesh,
 } // namespace
 
 extern "C" bool draco_mesh_decode(const void *bytes, size_t size, size_t most_triangles,
-                                  size_t most_vertices, DracoMesh **out, Error *err)
-{
+                                  size_t most_vertices, DracoMesh **out, Error *err) {
     return guarded(err, ERROR_LIBRARY, "unpacking a mesh", [&] {
         Counts counts = {0, 0};
         draco::DecoderBuffer beginning, all;
@@ -93,8 +89,8 @@ extern "C" bool draco_mesh_decode(const void *bytes, size_t size, size_t most_tr
         if (counts.triangles > most_triangles || counts.vertices > most_vertices)
             return error_set(err, ERROR_INPUT,
                              "%u triangles and %u vertices are packed, at most %zu and %zu are "
-                             "required", counts.triangles, counts.vertices, most_triangles,
-                             most_vertices);
+                             "required",
+                             counts.triangles, counts.vertices, most_triangles, most_vertices);
         draco::Decoder decoder;
         auto found = decoder.DecodeMeshFromBuffer(&all);
         if (!found.ok())
@@ -105,34 +101,30 @@ extern "C" bool draco_mesh_decode(const void *bytes, size_t size, size_t most_tr
     });
 }
 
-extern "C" size_t draco_mesh_vertices(const DracoMesh *mesh)
-{
+extern "C" size_t draco_mesh_vertices(const DracoMesh *mesh) {
     return mesh->mesh->num_points();
 }
 
-extern "C" size_t draco_mesh_triangles(const DracoMesh *mesh)
-{
+extern "C" size_t draco_mesh_triangles(const DracoMesh *mesh) {
     return mesh->mesh->num_faces();
 }
 
-extern "C" bool draco_mesh_corners(const DracoMesh *mesh, uint32_t *out, Error *err)
-{
+extern "C" bool draco_mesh_corners(const DracoMesh *mesh, uint32_t *out, Error *err) {
     const draco::Mesh &from = *mesh->mesh;
     for (draco::FaceIndex i(0); i < from.num_faces(); ++i)
         for (int c = 0; c < 3; c++) {
             uint32_t corner = from.face(i)[c].value();
             if (corner >= from.num_points())
                 return error_set(err, ERROR_INPUT,
-                                 "damaged Draco mesh: triangle %u has vertex %u of %u",
-                                 i.value(), corner, from.num_points());
+                                 "damaged Draco mesh: triangle %u has vertex %u of %u", i.value(),
+                                 corner, from.num_points());
             *out++ = corner;
         }
     return true;
 }
 
 extern "C" bool draco_mesh_values(const DracoMesh *mesh, uint32_t id, int component_type,
-                                  int components, void *out, Error *err)
-{
+                                  int components, void *out, Error *err) {
     return guarded(err, ERROR_LIBRARY, "unpacking a mesh", [&] {
         const draco::PointAttribute *attribute = mesh->mesh->GetAttributeByUniqueId(id);
         if (!attribute)
@@ -145,11 +137,11 @@ extern "C" bool draco_mesh_values(const DracoMesh *mesh, uint32_t id, int compon
         return convert_to(component_type, *mesh->mesh, *attribute, components, out) ||
                error_set(err, ERROR_INPUT,
                          "attribute %u of the packed mesh has values that the accessor cannot "
-                         "hold", id);
+                         "hold",
+                         id);
     });
 }
 
-extern "C" void draco_mesh_destroy(DracoMesh *mesh)
-{
+extern "C" void draco_mesh_destroy(DracoMesh *mesh) {
     delete mesh;
 }

@@ -20,8 +20,8 @@ extern "C" {
 typedef struct DracoMesh DracoMesh;
 
 /* most_triangles, most_vertices: refused where there are more. */
-bool draco_mesh_decode(const void *bytes, size_t size, size_t most_triangles,
-                       size_t most_vertices, DracoMesh **out, Error *err);
+bool draco_mesh_decode(const void *bytes, size_t size, size_t most_triangles, size_t most_vertices,
+                       DracoMesh **out, Error *err);
 
 size_t draco_mesh_vertices(const DracoMesh *mesh);
 size_t draco_mesh_triangles(const DracoMesh *mesh);

@@ -9,8 +9,7 @@ struct Fourier {
     kissfft<double> transform;
 };
 
-extern "C" bool fourier_create(int length, bool is_backwards, Fourier **out, Error *err)
-{
+extern "C" bool fourier_create(int length, bool is_backwards, Fourier **out, Error *err) {
     try {
         *out = new Fourier{kissfft<double>((std::size_t)length, is_backwards)};
         return true;
@@ -20,14 +19,12 @@ extern "C" bool fourier_create(int length, bool is_backwards, Fourier **out, Err
     }
 }
 
-extern "C" void fourier_transform(const Fourier *fourier, const double *in, double *out)
-{
+extern "C" void fourier_transform(const Fourier *fourier, const double *in, double *out) {
     /* The standard lets an array of complex numbers be seen as one of pairs. */
     fourier->transform.transform(reinterpret_cast<const std::complex<double> *>(in),
                                  reinterpret_cast<std::complex<double> *>(out));
 }
 
-extern "C" void fourier_destroy(Fourier *fourier)
-{
+extern "C" void fourier_destroy(Fourier *fourier) {
     delete fourier;
 }

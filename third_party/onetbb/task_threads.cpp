@@ -5,8 +5,7 @@
 
 #include "guarded/guarded.hpp"
 
-extern "C" bool task_threads_limit(int most, Error *err)
-{
+extern "C" bool task_threads_limit(int most, Error *err) {
     return guarded(err, ERROR_LIBRARY, "limiting oneTBB's threads", [&] {
         using oneapi::tbb::global_control;
         new global_control(global_control::max_allowed_parallelism, (size_t)most); // for good

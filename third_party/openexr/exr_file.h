@@ -21,10 +21,10 @@ typedef struct ExrWindow {
 } ExrWindow;
 
 typedef struct ExrChannel {
-    const char *name;     /* "R", "depth.Z" */
-    bool        is_whole; /* stored as 32-bit unsigned: whole numbers 0 .. 2^24; -1 is "none",
-                             stored as 4294967295 */
-    float      *values;   /* data window, row by row; NULL in a description */
+    const char *name; /* "R", "depth.Z" */
+    bool is_whole;    /* stored as 32-bit unsigned: whole numbers 0 .. 2^24; -1 is "none",
+                         stored as 4294967295 */
+    float *values;    /* data window, row by row; NULL in a description */
 } ExrChannel;
 
 typedef enum ExrKind {
@@ -39,37 +39,41 @@ typedef enum ExrKind {
 
 typedef struct ExrAttribute {
     const char *name;
-    ExrKind     kind;
-    const char *text;       /* EXR_STRING, EXR_OTHER */
-    double      values[16]; /* the other kinds */
+    ExrKind kind;
+    const char *text;  /* EXR_STRING, EXR_OTHER */
+    double values[16]; /* the other kinds */
 } ExrAttribute;
 
 /* 32-bit words of every pixel of a picture, kept as they are in a part of their own, of which
  * those who want the picture need not know. */
 typedef struct ExrWords {
-    const char         *name;  /* of the part, "film" */
-    int                 count; /* words a pixel */
-    const char *const  *names; /* of the words, all different; files keep them sorted */
-    const void         *values; /* pixel after pixel, row by row: `count` words each; NULL in a
-                                   description */
-    int                 attribute_count;
+    const char *name;         /* of the part, "film" */
+    int count;                /* words a pixel */
+    const char *const *names; /* of the words, all different; files keep them sorted */
+    const void *values;       /* pixel after pixel, row by row: `count` words each; NULL in a
+                                 description */
+    int attribute_count;
     const ExrAttribute *attributes;
 } ExrWords;
 
 typedef struct ExrPicture {
-    ExrWindow     display, data; /* for writing, data must lie inside display */
-    int           channel_count;
-    ExrChannel   *channels;
-    int           attribute_count;
-    ExrAttribute *attributes; /* files keep them sorted by name */
-    int           channel_room, attribute_room; /* what the lists hold; not looked at here */
-    const ExrWords *words;       /* a second part that is written; NULL: none, and when read */
-    int          more_parts; /* of a file that is read: those behind the first, less words */
+    ExrWindow display, data; /* for writing, data must lie inside display */
+    int channel_count;
+    ExrChannel *channels;
+    int attribute_count;
+    ExrAttribute *attributes;         /* files keep them sorted by name */
+    int channel_room, attribute_room; /* what the lists hold; not looked at here */
+    const ExrWords *words;            /* a second part that is written; NULL: none, and when read */
+    int more_parts; /* of a file that is read: those behind the first, less words */
 } ExrPicture;
 
 /* Whole-file limits, refused before memory is taken for pixels. */
-enum { EXR_MAX_SIDE = 65536, EXR_MAX_PIXELS = 1 << 28, EXR_MAX_CHANNELS = 1024,
-       EXR_MAX_WORDS = 4096 };
+enum {
+    EXR_MAX_SIDE = 65536,
+    EXR_MAX_PIXELS = 1 << 28,
+    EXR_MAX_CHANNELS = 1024,
+    EXR_MAX_WORDS = 4096
+};
 
 typedef struct ExrReader ExrReader; /* owns C++ objects */
 
@@ -88,10 +92,10 @@ const ExrPicture *exr_reader_picture(const ExrReader *reader);
 
 /* A part behind the first that is no words: 0 <= i < more_parts. */
 typedef struct ExrPart {
-    const char        *name;       /* lives as long as the reader */
-    bool               is_flat;
-    unsigned long long digest;     /* of a flat part: of its channels, of their values, and of
-                                      what else decides what they show */
+    const char *name; /* lives as long as the reader */
+    bool is_flat;
+    unsigned long long digest; /* of a flat part: of its channels, of their values, and of
+                                  what else decides what they show */
 } ExrPart;
 
 bool exr_reader_part(ExrReader *reader, int i, ExrPart *out, Error *err);
@@ -108,8 +112,8 @@ bool exr_reader_words(ExrReader *reader, const char *name, const ExrWords **out,
 
 /* Rows [y0, y1) of what exr_reader_words found last, pixel after pixel: of each the words of
  * `wanted`, in its order. values holds them all. */
-bool exr_reader_read_words(ExrReader *reader, const ExrWords *wanted, int y0, int y1,
-                           void *values, Error *err);
+bool exr_reader_read_words(ExrReader *reader, const ExrWords *wanted, int y0, int y1, void *values,
+                           Error *err);
 
 void exr_reader_destroy(ExrReader *reader); /* NULL is fine */
 

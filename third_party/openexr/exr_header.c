@@ -15,16 +15,14 @@ typedef struct HeaderPlace {
 } HeaderPlace;
 
 /* False when the text's end is not there. */
-static bool skip_text(HeaderPlace *place)
-{
+static bool skip_text(HeaderPlace *place) {
     const unsigned char *from = place->bytes + place->at;
     const unsigned char *end = memchr(from, 0, place->size - place->at);
     if (end) place->at += (size_t)(end - from) + 1;
     return end != NULL;
 }
 
-static bool read_size(HeaderPlace *place, uint32_t *out)
-{
+static bool read_size(HeaderPlace *place, uint32_t *out) {
     if (place->size - place->at < 4) return false;
     const unsigned char *b = place->bytes + place->at;
     *out = b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
@@ -32,14 +30,13 @@ static bool read_size(HeaderPlace *place, uint32_t *out)
     return true;
 }
 
-bool exr_check_header(const unsigned char *bytes, size_t size, size_t file_size, Error *err)
-{
+bool exr_check_header(const unsigned char *bytes, size_t size, size_t file_size, Error *err) {
     HeaderPlace place = {bytes, FIRST_HEADER, size};
-    bool  is_multipart = size > VERSION_AT && bytes[VERSION_AT] & MULTIPART;
-    bool  is_empty = true; /* the header so far */
+    bool is_multipart = size > VERSION_AT && bytes[VERSION_AT] & MULTIPART;
+    bool is_empty = true; /* the header so far */
     while (place.at < size) {
         const char *name = (const char *)bytes + place.at;
-        uint32_t    length;
+        uint32_t length;
         if (!skip_text(&place)) return true;
         if (!*name) {
             if (is_empty || !is_multipart) return true;
@@ -51,7 +48,8 @@ bool exr_check_header(const unsigned char *bytes, size_t size, size_t file_size,
         if (length > file_size - place.at)
             return error_set(err, ERROR_INPUT,
                              "damaged: attribute \"%.40s\" has %u bytes, the file ends after "
-                             "%zu", name, length, file_size - place.at);
+                             "%zu",
+                             name, length, file_size - place.at);
         if (length > size - place.at) return true;
         place.at += length;
     }

@@ -30,8 +30,7 @@ void image_decoder_destroy(ImageDecoder *decoder); /* NULL is fine */
 
 /* format: "jpeg" or "tiff" (a PNG: image/plain/picture_png.h). The same input gives the same
  * bytes. */
-bool image_encode(const char *format, const ImageToEncode *image, EncodedImage **out,
-                  Error *err);
+bool image_encode(const char *format, const ImageToEncode *image, EncodedImage **out, Error *err);
 
 const void *encoded_image_bytes(const EncodedImage *encoded, size_t *size);
 void encoded_image_destroy(EncodedImage *encoded); /* NULL is fine */

@@ -19,8 +19,7 @@ typedef struct ImageFileModule {
     ImageFileInfo (*decoder_info)(const ImageDecoder *decoder);
     bool (*decoder_read)(ImageDecoder *decoder, void *pixels, Error *err);
     void (*decoder_destroy)(ImageDecoder *decoder);
-    bool (*encode)(const char *format, const ImageToEncode *image, EncodedImage **out,
-                   Error *err);
+    bool (*encode)(const char *format, const ImageToEncode *image, EncodedImage **out, Error *err);
     const void *(*encoded_bytes)(const EncodedImage *encoded, size_t *size);
     void (*encoded_destroy)(EncodedImage *encoded);
 } ImageFileModule;

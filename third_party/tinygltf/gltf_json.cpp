@@ -28,13 +28,11 @@
 
 using Json = nlohmann::json;
 
-template <typename T> static T *arena_array(Arena *arena, size_t count)
-{
+template <typename T> static T *arena_array(Arena *arena, size_t count) {
     return static_cast<T *>(arena_alloc(arena, sizeof(T), alignof(T), count));
 }
 
-namespace
-{
+namespace {
 
 /* An array or object whose end has not been read yet. */
 struct Open {
@@ -45,75 +43,60 @@ struct Open {
 };
 
 /* Builds the tree while the (iterative) parser reads: deep nesting costs no stack. */
-class TreeBuilder : public nlohmann::json_sax<Json>
-{
+class TreeBuilder : public nlohmann::json_sax<Json> {
   public:
-    TreeBuilder(Arena *arena, Error *err) : arena_(arena), err_(err)
-    {
+    TreeBuilder(Arena *arena, Error *err) : arena_(arena), err_(err) {
     }
 
     GltfValue root{};
 
-    bool null() override
-    {
+    bool null() override {
         return add(make(GLTF_NULL));
     }
-    bool boolean(bool value) override
-    {
+    bool boolean(bool value) override {
         GltfValue v = make(GLTF_BOOLEAN);
         v.number = value;
         return add(v);
     }
-    bool number_integer(number_integer_t value) override
-    {
+    bool number_integer(number_integer_t value) override {
         return number((double)value);
     }
-    bool number_unsigned(number_unsigned_t value) override
-    {
+    bool number_unsigned(number_unsigned_t value) override {
         return number((double)value);
     }
-    bool number_float(number_float_t value, const string_t &) override
-    {
+    bool number_float(number_float_t value, const string_t &) override {
         return number(value);
     }
-    bool string(string_t &value) override
-    {
+    bool string(string_t &value) override {
         if (!is_plain(value)) return false;
         GltfValue v = make(GLTF_STRING);
         v.text = arena_string(arena_, value.data(), value.size());
         return add(v);
     }
-    bool binary(binary_t &) override
-    {
+    bool binary(binary_t &) override {
         return false;
     }
-    bool start_object(size_t) override
-    {
+    bool start_object(size_t) override {
         return open(GLTF_OBJECT);
     }
-    bool start_array(size_t) override
-    {
+    bool start_array(size_t) override {
         return open(GLTF_ARRAY);
     }
-    bool end_object() override
-    {
+    bool end_object() override {
         return close();
     }
-    bool end_array() override
-    {
+    bool end_array() override {
         return close();
     }
-    bool key(string_t &name) override
-    {
+    bool key(string_t &name) override {
         if (!is_plain(name)) return false;
         if (!open_.back().names.insert(name).second)
-            return error_set(err_, ERROR_INPUT,
-                             "the name \"%.100s\" stands twice in one object", name.c_str());
+            return error_set(err_, ERROR_INPUT, "the name \"%.100s\" stands twice in one object",
+                             name.c_str());
         open_.back().next_key = arena_string(arena_, name.data(), name.size());
         return true;
     }
-    bool parse_error(size_t, const std::string &, const Json::exception &e) override
-    {
+    bool parse_error(size_t, const std::string &, const Json::exception &e) override {
         const char *what = e.what(), *end = std::strstr(what, "] ");
         return error_set(err_, ERROR_INPUT, "not valid JSON: %s", end ? end + 2 : what);
     }
@@ -124,28 +107,25 @@ class TreeBuilder : public nlohmann::json_sax<Json>
     std::vector<Open> open_;
     int count_ = 0;
 
-    bool is_plain(const string_t &text)
-    {
+    bool is_plain(const string_t &text) {
         if (text.find('\0') == string_t::npos) return true;
         return error_set(err_, ERROR_INPUT,
                          "the text \"%.100s\" goes on behind a zero character, which is not "
-                         "taken", text.c_str());
+                         "taken",
+                         text.c_str());
     }
-    static GltfValue make(GltfKind kind)
-    {
+    static GltfValue make(GltfKind kind) {
         GltfValue v{};
         v.kind = kind;
         v.text = "";
         return v;
     }
-    bool number(double value)
-    {
+    bool number(double value) {
         GltfValue v = make(GLTF_NUMBER);
         v.number = value;
         return add(v);
     }
-    bool add(GltfValue v)
-    {
+    bool add(GltfValue v) {
         if (open_.empty()) {
             root = v;
             return true;
@@ -159,8 +139,7 @@ class TreeBuilder : public nlohmann::json_sax<Json>
         parent.items.push_back(v);
         return true;
     }
-    bool open(GltfKind kind)
-    {
+    bool open(GltfKind kind) {
         if (open_.size() >= GLTF_MAX_DEPTH)
             return error_set(err_, ERROR_INPUT, "JSON nested deeper than %d levels",
                              GLTF_MAX_DEPTH);
@@ -168,8 +147,7 @@ class TreeBuilder : public nlohmann::json_sax<Json>
         open_.back().value = make(kind);
         return true;
     }
-    bool close()
-    {
+    bool close() {
         Open done = std::move(open_.back());
         size_t count = done.items.size();
         GltfValue *items = arena_array<GltfValue>(arena_, count);
@@ -182,8 +160,7 @@ class TreeBuilder : public nlohmann::json_sax<Json>
 };
 
 /* Values move while the tree grows, so the way up is drawn when it stands. */
-void set_parents(GltfValue *value)
-{
+void set_parents(GltfValue *value) {
     GltfValue *items = const_cast<GltfValue *>(value->items);
     for (int i = 0; i < value->count; i++) {
         items[i].parent = value;
@@ -192,23 +169,20 @@ void set_parents(GltfValue *value)
 }
 
 /* tinygltf takes 3.0 for no integer; the specification takes it for one. */
-Json json_from_number(double number)
-{
+Json json_from_number(double number) {
     if (number == std::floor(number) && std::fabs(number) < 0x1p53)
         return static_cast<std::int64_t>(number);
     return number;
 }
 
 /* Members that tinygltf has no use for, and that may be large. */
-bool is_unused(const char *key)
-{
+bool is_unused(const char *key) {
     for (const char *unused : {"name", "extras", "extensions", "min", "max"})
         if (std::strcmp(key, unused) == 0) return true;
     return false;
 }
 
-Json json_from(const GltfValue &value)
-{
+Json json_from(const GltfValue &value) {
     Json out;
     switch (value.kind) {
     case GLTF_NULL: break;
@@ -222,34 +196,28 @@ Json json_from(const GltfValue &value)
     case GLTF_OBJECT:
         out = Json::object();
         for (int i = 0; i < value.count; i++)
-            if (!is_unused(value.items[i].key))
-                out[value.items[i].key] = json_from(value.items[i]);
+            if (!is_unused(value.items[i].key)) out[value.items[i].key] = json_from(value.items[i]);
         break;
     }
     return out;
 }
 
-bool is_among(const Json &object, const char *name, std::initializer_list<Json> values)
-{
+bool is_among(const Json &object, const char *name, std::initializer_list<Json> values) {
     auto found = object.find(name);
-    return found != object.end() &&
-           std::find(values.begin(), values.end(), *found) != values.end();
+    return found != object.end() && std::find(values.begin(), values.end(), *found) != values.end();
 }
 
 /* Types and components that an extension adds are not read, by tinygltf neither. */
-bool is_known(const Json &accessor)
-{
+bool is_known(const Json &accessor) {
     auto sparse = accessor.find("sparse");
-    return is_among(accessor, "type",
-                    {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"}) &&
+    return is_among(accessor, "type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"}) &&
            is_among(accessor, "componentType", {5120, 5121, 5122, 5123, 5125, 5126}) &&
            (sparse == accessor.end() ||
             is_among(sparse->at("indices"), "componentType", {5121, 5123, 5125}));
 }
 
 /* Integers stand for them: tinygltf knows those, no accessor that is_known has them. */
-void make_unknown(Json &accessor)
-{
+void make_unknown(Json &accessor) {
     accessor = Json::object();
     accessor["type"] = "SCALAR";
     accessor["componentType"] = TINYGLTF_COMPONENT_TYPE_INT;
@@ -258,14 +226,12 @@ void make_unknown(Json &accessor)
 
 /* The part of the document that tinygltf is asked about. It gets no URI and no image, and of a
  * large document not the many values that only we read. */
-std::string data_document(const GltfValue &root)
-{
+std::string data_document(const GltfValue &root) {
     Json part;
     part["asset"]["version"] = "2.0";
     for (int i = 0; root.kind == GLTF_OBJECT && i < root.count; i++)
         for (const char *name : {"bufferViews", "accessors"})
-            if (std::strcmp(root.items[i].key, name) == 0)
-                part[name] = json_from(root.items[i]);
+            if (std::strcmp(root.items[i].key, name) == 0) part[name] = json_from(root.items[i]);
     auto accessors = part.find("accessors");
     if (accessors == part.end()) return part.dump();
     for (Json &accessor : *accessors)
@@ -273,13 +239,11 @@ std::string data_document(const GltfValue &root)
     return part.dump();
 }
 
-GltfBufferView view_from(const tinygltf::BufferView &view)
-{
+GltfBufferView view_from(const tinygltf::BufferView &view) {
     return {view.buffer, view.byteOffset, view.byteLength, view.byteStride};
 }
 
-GltfAccessor accessor_from(const tinygltf::Accessor &accessor)
-{
+GltfAccessor accessor_from(const tinygltf::Accessor &accessor) {
     GltfAccessor out{};
     if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_INT) {
         out.buffer_view = -1;
@@ -308,8 +272,7 @@ GltfAccessor accessor_from(const tinygltf::Accessor &accessor)
 } // namespace
 
 bool gltf_json_parse(const char *text, size_t size, Arena *arena, const GltfValue **root,
-                     Error *err)
-{
+                     Error *err) {
     return guarded(err, ERROR_LIBRARY, "JSON", [&] {
         TreeBuilder builder(arena, err);
         if (!Json::sax_parse(text, text + size, &builder)) return false;
@@ -321,8 +284,7 @@ bool gltf_json_parse(const char *text, size_t size, Arena *arena, const GltfValu
     });
 }
 
-bool gltf_json_data(const GltfValue *root, Arena *arena, GltfData *out, Error *err)
-{
+bool gltf_json_data(const GltfValue *root, Arena *arena, GltfData *out, Error *err) {
     return guarded(err, ERROR_LIBRARY, "tinygltf", [&] {
         tinygltf::TinyGLTF loader;
         tinygltf::Model model;
@@ -336,8 +298,8 @@ bool gltf_json_data(const GltfValue *root, Arena *arena, GltfData *out, Error *e
             views[i] = view_from(model.bufferViews[i]);
         for (size_t i = 0; i < model.accessors.size(); i++)
             accessors[i] = accessor_from(model.accessors[i]);
-        *out = GltfData{views, accessors, (int)model.bufferViews.size(),
-                        (int)model.accessors.size()};
+        *out =
+            GltfData{views, accessors, (int)model.bufferViews.size(), (int)model.accessors.size()};
         return true;
     });
 }

@@ -23,56 +23,55 @@
 #include "scene/load/scene_load.h"
 
 typedef struct SceneQuestion {
-    CameraChoice      camera;
-    SceneOptions      scene;
+    CameraChoice camera;
+    SceneOptions scene;
     EnvironmentChange environment;
-    const char       *display; /* "cluster", "node:NAME"; NULL: pixels */
-    double            uv[4];   /* of the content: left, top, right, bottom */
-    double            region[4]; /* pixels: X0, Y0, X1, Y1 */
-    bool              has_pixel; /* it is one pixel: its samples are those of a frame */
-    int               size[2];
-    RenderOptions     render;  /* threads, isa, seed, bounces and guide alone */
-    long              paths, most, seed, max_bounces;
-    Problems         *problems;
-    const Outputs    *outputs;
+    const char *display; /* "cluster", "node:NAME"; NULL: pixels */
+    double uv[4];        /* of the content: left, top, right, bottom */
+    double region[4];    /* pixels: X0, Y0, X1, Y1 */
+    bool has_pixel;      /* it is one pixel: its samples are those of a frame */
+    int size[2];
+    RenderOptions render; /* threads, isa, seed, bounces and guide alone */
+    long paths, most, seed, max_bounces;
+    Problems *problems;
+    const Outputs *outputs;
 } SceneQuestion;
 
 #define BOUNCES 64
 #define WAYS 10
 #define SEED 0x6578706cu /* of what is no pixel, with --seed 0 */
-#define SIDE 32 /* of the raster of a region */
+#define SIDE 32          /* of the raster of a region */
 
 /* Points along the looks of a raster. */
-static bool aim_at_region(const SceneQuestion *question, const SceneCamera *camera,
-                          Arena *arena, ProbeAim *aim, Error *err)
-{
+static bool aim_at_region(const SceneQuestion *question, const SceneCamera *camera, Arena *arena,
+                          ProbeAim *aim, Error *err) {
     const double *r = question->region;
     Camera seen = camera_from_scene(camera, question->size[0], question->size[1]);
-    Vec3  *targets = ARENA_NEW(arena, Vec3, SIDE * SIDE);
+    Vec3 *targets = ARENA_NEW(arena, Vec3, SIDE * SIDE);
     for (int i = 0; i < SIDE * SIDE; i++) {
         double u = (i + 0.5) / (SIDE * SIDE), v = reverse_bits((uint32_t)i) * 0x1p-32;
-        float  x = (float)(r[0] + u * (r[2] - r[0]));
-        float  y = (float)(r[1] + (v + 0.5 / (SIDE * SIDE)) * (r[3] - r[1]));
+        float x = (float)(r[0] + u * (r[2] - r[0]));
+        float y = (float)(r[1] + (v + 0.5 / (SIDE * SIDE)) * (r[3] - r[1]));
         if (!camera_sees(&seen, x, y)) continue;
         targets[aim->target_count++] = vec3_add(aim->eye, camera_ray(&seen, x, y).direction);
     }
     aim->targets = targets;
     return aim->target_count > 0 ||
-           error_set(err, ERROR_USAGE, "pixels %g,%g,%g,%g lie outside the fisheye's circle",
-                     r[0], r[1], r[2], r[3]);
+           error_set(err, ERROR_USAGE, "pixels %g,%g,%g,%g lie outside the fisheye's circle", r[0],
+                     r[1], r[2], r[3]);
 }
 
-static bool aim_at_display(const SceneQuestion *question, Arena *arena, ProbeAim *aim,
-                           Error *err)
-{
-    const Scene  *scene = aim->context->scene;
+static bool aim_at_display(const SceneQuestion *question, Arena *arena, ProbeAim *aim, Error *err) {
+    const Scene *scene = aim->context->scene;
     const double *uv = question->uv;
     ReviewDisplay display;
     SymbolSurface surface;
     if (!review_display_find(scene, question->display, arena, &display, err))
         return error_prefix(err, "--display %s", question->display);
-    SymbolPlace place = {.scene = scene, .display = &display,
-                         .uv = {uv[0], uv[1], uv[2], uv[3]}, .point_count = SYMBOL_POINTS};
+    SymbolPlace place = {.scene = scene,
+                         .display = &display,
+                         .uv = {uv[0], uv[1], uv[2], uv[3]},
+                         .point_count = SYMBOL_POINTS};
     if (!symbol_surface_build(&place, arena, &surface, err))
         return error_prefix(err, "--display %s", question->display);
     bool *is_visible = ARENA_NEW(arena, bool, surface.point_count);
@@ -84,12 +83,10 @@ static bool aim_at_display(const SceneQuestion *question, Arena *arena, ProbeAim
 }
 
 /* A sum that has met one number that is none is none. */
-static bool check_light(const PixelLight *light, const double pixel[2], Error *err)
-{
+static bool check_light(const PixelLight *light, const double pixel[2], Error *err) {
     double sum = 0;
     for (int i = 0; i < 3; i++) sum += light->xyz[i].mean + light->xyz[i].sigma;
-    for (int i = 0; i < PIXEL_BANDS; i++)
-        sum += light->radiance[i].mean + light->radiance[i].sigma;
+    for (int i = 0; i < PIXEL_BANDS; i++) sum += light->radiance[i].mean + light->radiance[i].sigma;
     return isfinite(sum) ||
            error_set(err, ERROR_INPUT,
                      "pixel %g,%g: its light is not finite: a light of the scene, or what a "
@@ -99,12 +96,12 @@ static bool check_light(const PixelLight *light, const double pixel[2], Error *e
 
 /* The samples of a pixel are those that a render of the same options takes. */
 static bool explain_lit(const SceneQuestion *question, const SceneCamera *camera,
-                        const RenderSetup *setup, Arena *arena, ExplainAnswer *out, Error *err)
-{
-    const double      *r = question->region;
-    const ProbePixel   pixel = {&setup->camera, (int)r[0], (int)r[1]};
+                        const RenderSetup *setup, Arena *arena, ExplainAnswer *out, Error *err) {
+    const double *r = question->region;
+    const ProbePixel pixel = {&setup->camera, (int)r[0], (int)r[1]};
     const ReadingTools tools = {setup->kernel, question->render.threads};
-    ProbeAim aim = {.context = &setup->context, .eye = camera->world_from_camera.origin,
+    ProbeAim aim = {.context = &setup->context,
+                    .eye = camera->world_from_camera.origin,
                     .pixel = question->has_pixel ? &pixel : NULL,
                     .seed = (uint32_t)question->seed + (question->has_pixel ? 0 : SEED)};
     if (!(question->display ? aim_at_display(question, arena, &aim, err)
@@ -121,12 +118,11 @@ static bool explain_lit(const SceneQuestion *question, const SceneCamera *camera
 }
 
 static bool explain_loaded(SceneQuestion *question, const Scene *scene, Arena *arena,
-                           ExplainAnswer *out, Error *err)
-{
-    SceneCamera    camera;
-    RenderSetup    setup;
+                           ExplainAnswer *out, Error *err) {
+    SceneCamera camera;
+    RenderSetup setup;
     RenderOptions *render = &question->render;
-    Problems       unsaid = problems_start(arena); /* about names of a frame's layers */
+    Problems unsaid = problems_start(arena); /* about names of a frame's layers */
     render_warn_of_darkness(scene, question->problems);
     if (!render_choose_camera(scene, &question->camera, question->problems, &camera, err) ||
         (question->has_pixel &&
@@ -144,11 +140,10 @@ static bool explain_loaded(SceneQuestion *question, const Scene *scene, Arena *a
     return ok;
 }
 
-static bool explain_scene(SceneQuestion *question, Arena *arena, ExplainAnswer *out, Error *err)
-{
-    Scene           *scene;
-    const SceneAsked asked = {&question->scene, &question->environment,
-                              question->render.progress, question->outputs};
+static bool explain_scene(SceneQuestion *question, Arena *arena, ExplainAnswer *out, Error *err) {
+    Scene *scene;
+    const SceneAsked asked = {&question->scene, &question->environment, question->render.progress,
+                              question->outputs};
     if (!scene_options_load(&asked, arena, question->problems, &scene, err)) return false;
     bool ok = explain_loaded(question, scene, arena, out, err);
     scene_close(scene);
@@ -157,29 +152,28 @@ static bool explain_scene(SceneQuestion *question, Arena *arena, ExplainAnswer *
 
 typedef struct ExplainWords {
     SceneQuestion scene;
-    SceneWords    scene_words;
-    const char   *condition, *eye, *symbol;
-    double        pixel[2];
-    bool          has_region, has_uv, has_size, has_seed, has_bounces, has_ways;
-    Cli           cli;
+    SceneWords scene_words;
+    const char *condition, *eye, *symbol;
+    double pixel[2];
+    bool has_region, has_uv, has_size, has_seed, has_bounces, has_ways;
+    Cli cli;
 } ExplainWords;
 
-static bool is_review(const ExplainWords *words)
-{
+static bool is_review(const ExplainWords *words) {
     return !strcasecmp(path_ending(words->cli.arguments[0]), ".json");
 }
 
 /* ---- the command line -------------------------------------------------------------------- */
 
-static bool check_region(const ExplainWords *words, Error *err)
-{
+static bool check_region(const ExplainWords *words, Error *err) {
     const double *r = words->scene.region;
-    const int    *size = words->scene.size;
+    const int *size = words->scene.size;
     if (words->scene.has_pixel && !(r[0] == floor(r[0]) && r[1] == floor(r[1]) && r[0] >= 0 &&
-                              r[1] >= 0 && r[0] < size[0] && r[1] < size[1]))
+                                    r[1] >= 0 && r[0] < size[0] && r[1] < size[1]))
         return error_set(err, ERROR_USAGE,
                          "--pixel %g,%g: is no pixel of a picture of %dx%d, whose first is 0,0 "
-                         "at the top left", r[0], r[1], size[0], size[1]);
+                         "at the top left",
+                         r[0], r[1], size[0], size[1]);
     for (int i = 0; i < 4; i++)
         if (r[i] != floor(r[i]) || r[i] < 0 || r[i] > size[i % 2])
             return error_set(err, ERROR_USAGE,
@@ -189,8 +183,7 @@ static bool check_region(const ExplainWords *words, Error *err)
            error_set(err, ERROR_USAGE, "--region: required: X0 < X1 and Y0 < Y1");
 }
 
-static bool read_eye(ExplainWords *words, Error *err)
-{
+static bool read_eye(ExplainWords *words, Error *err) {
     CameraChoice *camera = &words->scene.camera;
     if (!words->eye) return true;
     camera->has_eye = cli_numbers(words->eye, 3, camera->eye);
@@ -199,15 +192,13 @@ static bool read_eye(ExplainWords *words, Error *err)
                      words->eye);
 }
 
-static bool read_scene(ExplainWords *words, Arena *arena, Error *err)
-{
+static bool read_scene(ExplainWords *words, Arena *arena, Error *err) {
     SceneQuestion *scene = &words->scene;
     const char *of_review = words->symbol ? "--symbol" : NULL;
     if (words->condition) of_review = "--condition";
     int asked = (scene->display != NULL) + scene->has_pixel + words->has_region;
     if (of_review)
-        return error_set(err, ERROR_USAGE, "%s: a scene has none; a REVIEW.json has",
-                         of_review);
+        return error_set(err, ERROR_USAGE, "%s: a scene has none; a REVIEW.json has", of_review);
     if (asked != 1)
         return error_set(err, ERROR_USAGE,
                          "required: one of --display NAME, --pixel X,Y, --region X0,Y0,X1,Y1: "
@@ -224,43 +215,47 @@ static bool read_scene(ExplainWords *words, Arena *arena, Error *err)
 }
 
 /* An option that a review sets itself; NULL: none is there. */
-static const char *option_of_scene(const ExplainWords *words)
-{
+static const char *option_of_scene(const ExplainWords *words) {
     const CameraChoice *camera = &words->scene.camera;
-    EnvironmentChange   no_sun = words->scene.environment;
-    SceneWords          no_state = words->scene_words;
+    EnvironmentChange no_sun = words->scene.environment;
+    SceneWords no_state = words->scene_words;
     no_sun.sun = NULL;
     no_state.state = (StateWords){.has_time = false};
     const struct {
-        bool        is_given;
+        bool is_given;
         const char *option;
-    } options[] = {
-        {camera->name != NULL, "--camera"}, {words->scene.display != NULL, "--display"},
-        {words->has_uv, "--uv"}, {words->scene.has_pixel, "--pixel"},
-        {words->has_region, "--region"}, {words->has_size, "--size"},
-        {camera->projection != 0, "--projection"},
-        {camera->has_look_at, "--look-at"}, {camera->has_fov, "--fov"},
-        {words->has_seed, "--seed"}, {words->has_bounces, "--max-bounces"},
-        {words->has_ways, "--ways"}, {words->scene.render.no_guiding, "--no-guiding"}};
+    } options[] = {{camera->name != NULL, "--camera"},
+                   {words->scene.display != NULL, "--display"},
+                   {words->has_uv, "--uv"},
+                   {words->scene.has_pixel, "--pixel"},
+                   {words->has_region, "--region"},
+                   {words->has_size, "--size"},
+                   {camera->projection != 0, "--projection"},
+                   {camera->has_look_at, "--look-at"},
+                   {camera->has_fov, "--fov"},
+                   {words->has_seed, "--seed"},
+                   {words->has_bounces, "--max-bounces"},
+                   {words->has_ways, "--ways"},
+                   {words->scene.render.no_guiding, "--no-guiding"}};
     for (int i = 0; i < COUNT_OF(options); i++)
         if (options[i].is_given) return options[i].option;
     return scene_options_given(&no_state, &no_sun);
 }
 
-static bool check_review(ExplainWords *words, Error *err)
-{
+static bool check_review(ExplainWords *words, Error *err) {
     const char *of_scene = option_of_scene(words);
     if (of_scene)
-        return error_set(err, ERROR_USAGE, "%s: a review says that itself; --condition, --eye "
-                         "and --symbol choose from it", of_scene);
+        return error_set(err, ERROR_USAGE,
+                         "%s: a review says that itself; --condition, --eye "
+                         "and --symbol choose from it",
+                         of_scene);
     if (words->cli.argument_count > 1)
         return error_set(err, ERROR_USAGE, "%s: one review at a time is explained",
                          words->cli.arguments[1]);
     return state_options_read(&words->scene_words.state, &words->scene.scene.state, err);
 }
 
-static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error *err)
-{
+static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error *err) {
     SceneQuestion *scene = &out->scene;
     const Option options[] = {
         {"--condition", OPTION_TEXT, "NAME", "of a review: in which (default: the only one)",
@@ -270,15 +265,14 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
          &out->eye},
         {"--display", OPTION_TEXT, "MATERIAL|node:NAME", "of a scene: a display that is seen",
          &scene->display},
-        {"--uv", OPTION_NUMBERS, "L,T,R,B", "a rectangle of its content, 0 to 1, v down",
-         scene->uv, .low = 0, .high = 1, .count = 4, .given = &out->has_uv},
+        {"--uv", OPTION_NUMBERS, "L,T,R,B", "a rectangle of its content, 0 to 1, v down", scene->uv,
+         .low = 0, .high = 1, .count = 4, .given = &out->has_uv},
         {"--pixel", OPTION_NUMBERS, "X,Y", "of a scene: a pixel of the camera's picture",
          out->pixel, .low = -1e9, .high = 1e9, .count = 2, .given = &scene->has_pixel},
         {"--region", OPTION_NUMBERS, "X0,Y0,X1,Y1", "pixels, half-open, from the top left",
          scene->region, .low = 0, .high = 65536, .count = 4, .given = &out->has_region},
-        {"--size", OPTION_SIZE, "WxH",
-         "of that picture (default 1280x720, of a fisheye 1024x1024)", scene->size,
-         .given = &out->has_size},
+        {"--size", OPTION_SIZE, "WxH", "of that picture (default 1280x720, of a fisheye 1024x1024)",
+         scene->size, .given = &out->has_size},
         {"--camera", OPTION_TEXT, "NAME|INDEX", "node's or camera's name, or place (default 0)",
          &scene->camera.name},
         PROJECTION_OPTION(&scene->camera),
@@ -288,8 +282,8 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
         {"--fov", OPTION_NUMBER, "DEG", "with --eye: the picture's height as an angle (40)",
          &scene->camera.fov_deg, .low = 0.01, .high = 179, .given = &scene->camera.has_fov},
         {"--paths", OPTION_INTEGER, "N",
-         "rounded up to whole chunks of 64; of a pixel its samples (default 65536)",
-         &scene->paths, .low = CHAIN_PATHS_LEAST, .high = 1 << 24},
+         "rounded up to whole chunks of 64; of a pixel its samples (default 65536)", &scene->paths,
+         .low = CHAIN_PATHS_LEAST, .high = 1 << 24},
         {"--ways", OPTION_INTEGER, "N",
          "of a scene: chains that are listed by themselves, at most (default 10)", &scene->most,
          .low = 1, .high = 1000, .given = &out->has_ways},
@@ -299,18 +293,21 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
          "of a scene: 0 emission only, 1 adds direct light (default 64)", &scene->max_bounces,
          .low = 0, .high = 100000, .given = &out->has_bounces},
         {"--no-guiding", OPTION_FLAG, NULL,
-         "of a pixel: as a frame that was rendered with this option",
-         &scene->render.no_guiding},
+         "of a pixel: as a frame that was rendered with this option", &scene->render.no_guiding},
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &scene->render.isa},
         SCENE_OPTIONS(&out->scene_words, &scene->scene, &scene->environment),
     };
     const CliCommand command = {
-        "explain", command_explain.summary,
+        "explain",
+        command_explain.summary,
         "REVIEW.json [--condition NAME] [--symbol NAME] [--eye NAME] | SCENE... --display NAME "
         "| SCENE... --pixel X,Y",
         "parhelion explain scenes/glance.review.json --condition night",
-        options, COUNT_OF(options), 1, -1};
+        options,
+        COUNT_OF(options),
+        1,
+        -1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     scene->render.threads = out->cli.threads;
@@ -320,52 +317,56 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
 }
 
 /* As far as a sweep's may go. */
-static bool read_sun(const char *text, double out_deg[2], Error *err)
-{
+static bool read_sun(const char *text, double out_deg[2], Error *err) {
     return (cli_numbers(text, 2, out_deg) && fabs(out_deg[0]) <= 720 && out_deg[1] >= -18 &&
             out_deg[1] <= 90) ||
-           error_set(err, ERROR_USAGE, "--sun %s: required: AZ,EL in degrees, the azimuth of "
-                     "the vehicle: 0 ahead, 90 right; the elevation from -18 to 90", text);
+           error_set(err, ERROR_USAGE,
+                     "--sun %s: required: AZ,EL in degrees, the azimuth of "
+                     "the vehicle: 0 ahead, 90 right; the elevation from -18 to 90",
+                     text);
 }
 
-static bool spare_scene(void *user, const Scene *scene, Error *err)
-{
+static bool spare_scene(void *user, const Scene *scene, Error *err) {
     return outputs_spare(user, scene->inputs, scene->input_count, err);
 }
 
-static bool review_question(const ExplainWords *words, Arena *arena, Explained *out,
-                            Error *err)
-{
+static bool review_question(const ExplainWords *words, Arena *arena, Explained *out, Error *err) {
     const SceneQuestion *scene = &words->scene;
-    const char     *root = scene->scene.root, *sun = scene->environment.sun;
-    Outputs         outputs = words->cli.outputs;
-    ReviewRequest   request;
-    ExplainOptions  options = {.condition = words->condition, .eye = words->eye,
-                               .symbol = words->symbol, .has_sun = sun != NULL,
-                               .means = {.root = root, .state = scene->scene.state,
-                                         .isa = scene->render.isa,
-                                         .threads = scene->render.threads},
-                               .paths = scene->paths, .problems = scene->problems, .read = spare_scene,
-                               .user = &outputs};
+    const char *root = scene->scene.root, *sun = scene->environment.sun;
+    Outputs outputs = words->cli.outputs;
+    ReviewRequest request;
+    ExplainOptions options = {.condition = words->condition,
+                              .eye = words->eye,
+                              .symbol = words->symbol,
+                              .has_sun = sun != NULL,
+                              .means = {.root = root,
+                                        .state = scene->scene.state,
+                                        .isa = scene->render.isa,
+                                        .threads = scene->render.threads},
+                              .paths = scene->paths,
+                              .problems = scene->problems,
+                              .read = spare_scene,
+                              .user = &outputs};
     if (sun && !read_sun(sun, options.sun_deg, err)) return false;
-    if (!review_request_read(words->cli.arguments[0], root, arena, scene->problems, &request,
-                             err))
+    if (!review_request_read(words->cli.arguments[0], root, arena, scene->problems, &request, err))
         return false;
     const Lines files = review_request_files(&request, arena);
     if (!outputs_spare(&outputs, files.list, files.count, err)) return false;
     if (!profile_load(request.profile, arena, &options.profile, err))
         return error_in_file(err, request.file);
     if (request.privacy.is_given)
-        options.profile = profile_with_security(options.profile, request.privacy.security_min,
-                                                arena);
+        options.profile =
+            profile_with_security(options.profile, request.privacy.security_min, arena);
     return explain_review(&request, &options, arena, out, err);
 }
 
-static Outcome run(int argc, char **argv, Arena *arena, Error *err)
-{
-    Problems      problems = problems_start(arena);
-    ExplainWords  words = {.scene = {.uv = {0, 0, 1, 1}, .paths = 65536, .most = WAYS,
-                                     .max_bounces = BOUNCES, .problems = &problems}};
+static Outcome run(int argc, char **argv, Arena *arena, Error *err) {
+    Problems problems = problems_start(arena);
+    ExplainWords words = {.scene = {.uv = {0, 0, 1, 1},
+                                    .paths = 65536,
+                                    .most = WAYS,
+                                    .max_bounces = BOUNCES,
+                                    .problems = &problems}};
     ExplainAnswer answer = {.size = {0, 0}};
     if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
     if (words.cli.help_shown) return OUTCOME_DONE;

@@ -19,39 +19,36 @@
 /* One thing that a chain of objects does with light, in the order of the eye's ray. */
 typedef struct Bounce {
     const char *what;
-    int         part_id;
-    bool        has_place;
-    Vec3        at; /* on one of the chain's paths */
+    int part_id;
+    bool has_place;
+    Vec3 at; /* on one of the chain's paths */
 } Bounce;
 
 /* A chain as it is told: of an answer about a scene. */
 typedef struct LightWay {
-    Bounce      bounce[2 * CHAIN_STEPS + 2];
-    int         count;
-    const char *light;    /* as the scene has it */
-    bool        has_from; /* the light is near: */
-    Vec3        from;     /* where that path met it */
+    Bounce bounce[2 * CHAIN_STEPS + 2];
+    int count;
+    const char *light; /* as the scene has it */
+    bool has_from;     /* the light is near: */
+    Vec3 from;         /* where that path met it */
 } LightWay;
 
-static void add_bounce(LightWay *way, const char *what, int part_id, const Vec3 *at)
-{
+static void add_bounce(LightWay *way, const char *what, int part_id, const Vec3 *at) {
     if (part_id == NO_ID) return;
     Bounce *bounce = &way->bounce[way->count++];
     *bounce = (Bounce){.what = what, .part_id = part_id, .has_place = at != NULL};
     if (at) bounce->at = *at;
 }
 
-static bool is_distant(const Scene *scene, const ChainKey *key)
-{
+static bool is_distant(const Scene *scene, const ChainKey *key) {
     if (key->source == LIGHTS_EMITTERS) return false;
     return key->source != LIGHTS_PUNCTUAL ||
            scene->lights[key->source_id].kind == LIGHT_DIRECTIONAL;
 }
 
-static LightWay way_of(const ExplainAnswer *answer, const Chain *chain)
-{
+static LightWay way_of(const ExplainAnswer *answer, const Chain *chain) {
     static const char *const events[] = {"scatters", "mirror", "refracts"}; /* PathEvent */
-    const Scene    *scene = answer->found.chains.scene;
+    const Scene *scene = answer->found.chains.scene;
     const ChainKey *key = &chain->key;
     const ChainRay *ray = chain->ray_count ? &chain->rays[0] : NULL;
     int group = light_group_of(&answer->lights, (LightSet)key->source, key->source_id);
@@ -69,21 +66,18 @@ static LightWay way_of(const ExplainAnswer *answer, const Chain *chain)
 
 /* ---- as text ----------------------------------------------------------------------------- */
 
-static void print_where(const ExplainAnswer *answer)
-{
+static void print_where(const ExplainAnswer *answer) {
     const ReviewCase *c = &answer->found.of;
     if (answer->found.has_pixel)
         print("pixel      %d,%d of %dx%d, %ld paths\n", answer->pixel[0], answer->pixel[1],
               answer->size[0], answer->size[1], answer->found.paths);
     if (c->symbol)
-        print("symbol     %s on %s, seen by %s, %s\n", c->symbol, c->display, c->eye,
-              c->condition);
+        print("symbol     %s on %s, seen by %s, %s\n", c->symbol, c->display, c->eye, c->condition);
     else if (c->display) print("display    %s\n", c->display);
     print("eye        %.3f, %.3f, %.3f m\n", c->eye_m[0], c->eye_m[1], c->eye_m[2]);
 }
 
-static void print_pixel(const PixelLight *light)
-{
+static void print_pixel(const PixelLight *light) {
     const PixelFigure *xyz = light->xyz;
     double sum = xyz[0].mean + xyz[1].mean + xyz[2].mean;
     print("luminance  %.5g cd/m2, standard error %.2g", xyz[1].mean, xyz[1].sigma);
@@ -91,21 +85,19 @@ static void print_pixel(const PixelLight *light)
     print("\n");
 }
 
-static void print_light(const Explained *explained, Arena scratch)
-{
-    const ReviewCase     *c = &explained->of;
+static void print_light(const Explained *explained, Arena scratch) {
+    const ReviewCase *c = &explained->of;
     const CaseLuminances *l = &c->luminance_cd_m2;
     if (explained->has_pixel) print_pixel(&explained->light);
     if (c->symbol)
-        print("sends      %.4g cd/m2 foreground, %.4g background\n", l->foreground,
-              l->background);
+        print("sends      %.4g cd/m2 foreground, %.4g background\n", l->foreground, l->background);
     else if (c->display)
-        print("sends      %.4g cd/m2; white %.4g, black %.4g\n", explained->shown,
-              l->foreground, l->background);
+        print("sends      %.4g cd/m2; white %.4g, black %.4g\n", explained->shown, l->foreground,
+              l->background);
     if (!explained->has_pixel || c->display)
-        print("%-10s %s cd/m2", c->display ? "reflected" : "luminance",
-              interval_text(l->reflected, c->reflected_range.low, c->reflected_range.high,
-                            &scratch));
+        print(
+            "%-10s %s cd/m2", c->display ? "reflected" : "luminance",
+            interval_text(l->reflected, c->reflected_range.low, c->reflected_range.high, &scratch));
     if (c->display)
         print(": mirror %.4g, scattered %.4g\n"
               "contrast   %s : 1; %.4g : 1 if nothing were reflected",
@@ -116,8 +108,7 @@ static void print_light(const Explained *explained, Arena scratch)
 }
 
 /* Of a review's case: the quantity of the limit that decides it. */
-static void print_judged(const ReviewCase *c, Arena scratch)
-{
+static void print_judged(const ReviewCase *c, Arena scratch) {
     const LimitVerdict *limit = case_worst_limit(c);
     if (!limit) return;
     print("judged     %s: %s %s, required %s\n", verdict_names[c->verdict], words_kind(limit),
@@ -125,22 +116,19 @@ static void print_judged(const ReviewCase *c, Arena scratch)
 }
 
 /* Each adds up to all of the light. */
-static void print_groups(const ReviewCase *c)
-{
+static void print_groups(const ReviewCase *c) {
     static const char *const NAMES[CAUSE_GROUPS] = {"began at", "came by", "met at"};
     for (int g = 0; g < CAUSE_GROUPS; g++) {
         const CaseGroup *group = &c->groups[g];
         if (group->count && g) print("\n");
         for (int i = 0; i < group->count; i++)
-            print("%s%.3g %% %s", i ? ", " : "", 100 * group->list[i].share,
-                  group->list[i].what);
+            print("%s%.3g %% %s", i ? ", " : "", 100 * group->list[i].share, group->list[i].what);
         if (group->count) print(" (%s)", NAMES[g]);
     }
     print("\n");
 }
 
-static void print_place(const Scene *scene, Vec3 p)
-{
+static void print_place(const Scene *scene, Vec3 p) {
     double at[3];
     world_from_scene(scene->origin, p, at);
     print("  at %.3f, %.3f, %.3f m", at[0], at[1], at[2]);
@@ -148,8 +136,7 @@ static void print_place(const Scene *scene, Vec3 p)
 
 /* A line for each thing that the eye's ray meets before the light. */
 static void print_bounces(const ExplainAnswer *answer, const Chain *chain, int indent,
-                          Arena scratch)
-{
+                          Arena scratch) {
     const Scene *scene = answer->found.chains.scene;
     LightWay way = way_of(answer, chain);
     print("  %s\n", way.light);
@@ -167,9 +154,7 @@ static void print_bounces(const ExplainAnswer *answer, const Chain *chain, int i
     print("\n");
 }
 
-static void print_cause(const ExplainAnswer *answer, int index, bool has_contrast,
-                        Arena scratch)
-{
+static void print_cause(const ExplainAnswer *answer, int index, bool has_contrast, Arena scratch) {
     const Explained *found = &answer->found;
     const CaseCause *cause = &found->of.causes[index];
     print("%6.1f %%  %8s  %8s to %-8s", 100 * cause->share,
@@ -182,37 +167,30 @@ static void print_cause(const ExplainAnswer *answer, int index, bool has_contras
         print_bounces(answer, &found->chains.list[index], has_contrast ? 54 : 41, scratch);
         return;
     }
-    for (int i = 0; i < cause->links; i++)
-        print("%s%s", i ? " > " : "  ", cause->chain[i]);
+    for (int i = 0; i < cause->links; i++) print("%s%s", i ? " > " : "  ", cause->chain[i]);
     print("\n");
 }
 
-static void print_causes(const ExplainAnswer *answer, Arena scratch)
-{
+static void print_causes(const ExplainAnswer *answer, Arena scratch) {
     const ReviewCase *c = &answer->found.of;
     bool has_contrast = c->display != NULL;
     if (!c->cause_count) return;
-    print("\n   share     cd/m2   95 %% interval     %s  %s\n",
-          has_contrast ? "without it " : "",
+    print("\n   share     cd/m2   95 %% interval     %s  %s\n", has_contrast ? "without it " : "",
           answer->found.has_pixel ? "light, and what the eye's ray meets before it" : "via");
     for (int i = 0; i < c->cause_count; i++) print_cause(answer, i, has_contrast, scratch);
 }
 
-static void print_remedies(const ReviewCase *c, Arena scratch)
-{
+static void print_remedies(const ReviewCase *c, Arena scratch) {
     if (c->remedy_count) print("\n");
     for (int i = 0; i < c->remedy_count; i++)
-        print("remedy     %s: %s\n", c->remedies[i].what,
-              words_remedy(&c->remedies[i], &scratch));
+        print("remedy     %s: %s\n", c->remedies[i].what, words_remedy(&c->remedies[i], &scratch));
 }
 
-static int band_center_nm(int band)
-{
+static int band_center_nm(int band) {
     return PIXEL_FIRST_NM + PIXEL_BAND_NM * band + PIXEL_BAND_NM / 2;
 }
 
-static void print_spectrum(const PixelLight *light)
-{
+static void print_spectrum(const PixelLight *light) {
     double most = 0;
     for (int i = 0; i < PIXEL_BANDS; i++) most = fmax(most, light->radiance[i].mean);
     if (!(most > 0)) return;
@@ -220,14 +198,13 @@ static void print_spectrum(const PixelLight *light)
     for (int i = 0; i < PIXEL_BANDS; i++) {
         const PixelFigure *figure = &light->radiance[i];
         int length = (int)(BAR * fmax(figure->mean, 0) / most + 0.5);
-        print("%6d  %15.4g  %9.2g  %.*s\n", band_center_nm(i), figure->mean, figure->sigma,
-              length, "########################################");
+        print("%6d  %15.4g  %9.2g  %.*s\n", band_center_nm(i), figure->mean, figure->sigma, length,
+              "########################################");
     }
 }
 
-static void print_text(const ExplainAnswer *answer, Arena *arena)
-{
-    const Explained  *explained = &answer->found;
+static void print_text(const ExplainAnswer *answer, Arena *arena) {
+    const Explained *explained = &answer->found;
     const ReviewCase *c = &explained->of;
     print_where(answer);
     if (c->hider_count) print("hidden     %s\n", words_hiders(c, arena));
@@ -247,15 +224,13 @@ static void print_text(const ExplainAnswer *answer, Arena *arena)
 
 /* ---- as JSON ----------------------------------------------------------------------------- */
 
-static json_t *json_point(const double origin_m[3], Vec3 p)
-{
+static json_t *json_point(const double origin_m[3], Vec3 p) {
     double at[3];
     world_from_scene(origin_m, p, at);
     return json_world_point(at);
 }
 
-static json_t *json_rays(const ReviewCase *c, const CaseCause *cause)
-{
+static json_t *json_rays(const ReviewCase *c, const CaseCause *cause) {
     json_t *out = json_array();
     for (int i = 0; i < cause->ray_count; i++) {
         json_t *ray = json_array();
@@ -267,20 +242,20 @@ static json_t *json_rays(const ReviewCase *c, const CaseCause *cause)
 }
 
 /* What a scene's chain has besides a review's. */
-static void add_way(const ExplainAnswer *answer, const Chain *chain, json_t *to)
-{
+static void add_way(const ExplainAnswer *answer, const Chain *chain, json_t *to) {
     static const char *const kinds[] = {"sun", "sky", "surface", "lamp"}; /* LightSet */
     const Scene *scene = answer->found.chains.scene;
-    LightWay     way = way_of(answer, chain);
+    LightWay way = way_of(answer, chain);
     json_t *bounces = json_array();
     for (int i = 0; i < way.count; i++) {
         const Bounce *bounce = &way.bounce[i];
-        const Part   *part = &scene->parts[bounce->part_id];
-        json_array_append_new(bounces, json_pack(
-            "{s:s, s:o, s:o, s:o}", "what", bounce->what, "material",
-            json_text(scene->materials[part->material_id].name), "node", json_text(part->name),
-            "at_m",
-            bounce->has_place ? json_point(scene->origin, bounce->at) : json_null()));
+        const Part *part = &scene->parts[bounce->part_id];
+        json_array_append_new(
+            bounces,
+            json_pack("{s:s, s:o, s:o, s:o}", "what", bounce->what, "material",
+                      json_text(scene->materials[part->material_id].name), "node",
+                      json_text(part->name), "at_m",
+                      bounce->has_place ? json_point(scene->origin, bounce->at) : json_null()));
     }
     json_object_set_new(to, "light", json_text(way.light));
     json_object_set_new(to, "kind", json_string(kinds[chain->key.source]));
@@ -290,14 +265,13 @@ static void add_way(const ExplainAnswer *answer, const Chain *chain, json_t *to)
     json_object_set_new(to, "has_further_surfaces", json_boolean(chain->key.is_longer));
 }
 
-static json_t *json_chains(const ExplainAnswer *answer)
-{
+static json_t *json_chains(const ExplainAnswer *answer) {
     const ReviewCase *c = &answer->found.of;
-    const Chains     *chains = &answer->found.chains;
+    const Chains *chains = &answer->found.chains;
     json_t *out = json_array();
     for (int i = 0; i < c->cause_count; i++) {
         const CaseCause *cause = &c->causes[i];
-        double  without = c->display ? cause->contrast_without : (double)NAN;
+        double without = c->display ? cause->contrast_without : (double)NAN;
         json_t *one = json_pack(
             "{s:o, s:o, s:o, s:[o,o], s:o, s:o, s:o}", "chain",
             json_texts(cause->chain, cause->links), "share", json_figure(cause->share), "cd_m2",
@@ -310,10 +284,9 @@ static json_t *json_chains(const ExplainAnswer *answer)
     return out;
 }
 
-static json_t *json_light(const Explained *explained)
-{
+static json_t *json_light(const Explained *explained) {
     const CaseLuminances *l = &explained->of.luminance_cd_m2;
-    double  all = explained->has_pixel ? explained->light.xyz[1].mean : l->reflected;
+    double all = explained->has_pixel ? explained->light.xyz[1].mean : l->reflected;
     json_t *out = json_object();
     if (explained->has_pixel || !explained->of.display)
         json_object_set_new(out, "all", json_figure(all));
@@ -328,8 +301,7 @@ static json_t *json_light(const Explained *explained)
     return out;
 }
 
-static json_t *json_spectrum(const PixelLight *light)
-{
+static json_t *json_spectrum(const PixelLight *light) {
     json_t *nm = json_array(), *radiance = json_array(), *error = json_array();
     for (int i = 0; i < PIXEL_BANDS; i++) {
         json_array_append_new(nm, json_integer(band_center_nm(i)));
@@ -340,20 +312,17 @@ static json_t *json_spectrum(const PixelLight *light)
                      PIXEL_BAND_NM, "nm", nm, "radiance", radiance, "standard_error", error);
 }
 
-static void add_pixel(const ExplainAnswer *answer, json_t *to)
-{
+static void add_pixel(const ExplainAnswer *answer, json_t *to) {
     const PixelFigure *xyz = answer->found.light.xyz;
     json_object_set_new(to, "pixel", json_pack("[i, i]", answer->pixel[0], answer->pixel[1]));
     json_object_set_new(to, "size", json_pack("[i, i]", answer->size[0], answer->size[1]));
-    json_object_set_new(to, "XYZ",
-                        json_pack("[f, f, f]", xyz[0].mean, xyz[1].mean, xyz[2].mean));
+    json_object_set_new(to, "XYZ", json_pack("[f, f, f]", xyz[0].mean, xyz[1].mean, xyz[2].mean));
     json_object_set_new(to, "standard_error_cd_m2", json_real(xyz[1].sigma));
     json_object_set_new(to, "spectrum", json_spectrum(&answer->found.light));
 }
 
-static bool print_json(const ExplainAnswer *answer, Error *err)
-{
-    const Explained  *explained = &answer->found;
+static bool print_json(const ExplainAnswer *answer, Error *err) {
+    const Explained *explained = &answer->found;
     const ReviewCase *c = &explained->of;
     json_t *out = json_pack(
         "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:[o,o], s:I}", "condition",
@@ -375,8 +344,7 @@ static bool print_json(const ExplainAnswer *answer, Error *err)
     return cli_print_json(out, err);
 }
 
-bool explain_answer(const Cli *cli, const ExplainAnswer *answer, Arena *arena, Error *err)
-{
+bool explain_answer(const Cli *cli, const ExplainAnswer *answer, Arena *arena, Error *err) {
     if (cli->json) return print_json(answer, err);
     print_text(answer, arena);
     return true;

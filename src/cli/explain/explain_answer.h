@@ -10,9 +10,9 @@
 
 /* What was found, and the names of what was asked. */
 typedef struct ExplainAnswer {
-    Explained   found;
+    Explained found;
     LightGroups lights; /* of a scene: by which lights are named */
-    int         pixel[2], size[2];
+    int pixel[2], size[2];
 } ExplainAnswer;
 
 bool explain_answer(const Cli *cli, const ExplainAnswer *answer, Arena *arena, Error *err);

@@ -11,63 +11,57 @@
 
 #define DOCUMENT_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
 
-static bool write_document(Text *text, const json_t *document)
-{
+static bool write_document(Text *text, const json_t *document) {
     bool is_whole = json_dump_text(text, document, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
     text_add(text, "\n");
     return is_whole;
 }
 
-bool cli_write_json(const json_t *document, const char *path, Error *err)
-{
+bool cli_write_json(const json_t *document, const char *path, Error *err) {
     Arena arena = arena_reserve(DOCUMENT_BYTES);
-    Text  text = {.arena = &arena};
-    bool  done = write_document(&text, document) ? text_write(&text, path, err)
-                     : error_at(err, ERROR_OUTPUT, path, NULL, "holds no JSON");
+    Text text = {.arena = &arena};
+    bool done = write_document(&text, document)
+                    ? text_write(&text, path, err)
+                    : error_at(err, ERROR_OUTPUT, path, NULL, "holds no JSON");
     arena_release(&arena);
     return done;
 }
 
-bool cli_print_json(json_t *document, Error *err)
-{
+bool cli_print_json(json_t *document, Error *err) {
     Arena arena = arena_reserve(DOCUMENT_BYTES);
-    Text  text = {.arena = &arena};
-    bool  is_whole = write_document(&text, document);
+    Text text = {.arena = &arena};
+    bool is_whole = write_document(&text, document);
     if (is_whole) print_own(stdout, text.data);
     bool done = is_whole && !fflush(stdout) && !ferror(stdout);
-    int  reason = errno;
+    int reason = errno;
     arena_release(&arena);
     json_decref(document);
-    return done || error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s",
-                            strerror(reason));
+    return done ||
+           error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s", strerror(reason));
 }
 
-void cli_error_line(const Error *error, char *buffer, int size)
-{
+void cli_error_line(const Error *error, char *buffer, int size) {
     const char *advice = strstr(error->text, " — ");
-    int         length = advice ? (int)(advice - error->text) : (int)strlen(error->text);
-    bool        has_path = error->path[0] != '\0';
+    int length = advice ? (int)(advice - error->text) : (int)strlen(error->text);
+    bool has_path = error->path[0] != '\0';
     snprintf(buffer, (size_t)size, "parhelion: %s%s%.*s%s%s%s%s", error->file,
              error->file[0] ? ": " : "", length, error->text, has_path ? " (" : "", error->path,
              has_path ? ")" : "", advice ? advice : "");
 }
 
-void cli_report_error(const Error *error, bool json)
-{
+void cli_report_error(const Error *error, bool json) {
     char line[2048];
     cli_error_line(error, line, (int)sizeof line);
     print_to(stderr, "%s\n", line);
     if (!json) return;
-    json_t *document = json_pack(
-        "{s:{s:i, s:o, s:o, s:o}}", "error", "status", error_exit_status(error->code), "file",
-        json_text(error->file), "path", json_text(error->path), "message",
-        json_text(error->text));
+    json_t *document = json_pack("{s:{s:i, s:o, s:o, s:o}}", "error", "status",
+                                 error_exit_status(error->code), "file", json_text(error->file),
+                                 "path", json_text(error->path), "message", json_text(error->text));
     Error ignored;
     cli_print_json(document, &ignored);
 }
 
-static bool is_repeated(const Problems *problems, int index)
-{
+static bool is_repeated(const Problems *problems, int index) {
     const Problem *one = &problems->list[index];
     for (int i = 0; i < index; i++) {
         const Problem *other = &problems->list[i];
@@ -78,34 +72,29 @@ static bool is_repeated(const Problems *problems, int index)
     return false;
 }
 
-void cli_print_warnings(const Problems *problems)
-{
+void cli_print_warnings(const Problems *problems) {
     for (int i = 0; i < problems->count; i++) {
         const Problem *one = &problems->list[i];
         if (one->severity != SEVERITY_WARNING || is_repeated(problems, i)) continue;
-        print_to(stderr, "parhelion: warning: %s%s%s%s%s%s\n", one->file,
-                 one->file[0] ? ": " : "", one->message, one->path[0] ? " (" : "", one->path,
-                 one->path[0] ? ")" : "");
+        print_to(stderr, "parhelion: warning: %s%s%s%s%s%s\n", one->file, one->file[0] ? ": " : "",
+                 one->message, one->path[0] ? " (" : "", one->path, one->path[0] ? ")" : "");
     }
 }
 
-json_t *cli_json_problems(const Problems *problems, Severity severity)
-{
+json_t *cli_json_problems(const Problems *problems, Severity severity) {
     json_t *list = json_array();
     for (int i = 0; i < problems->count; i++) {
         const Problem *one = &problems->list[i];
         if (one->severity != severity || is_repeated(problems, i)) continue;
         const char *severity_name = severity == SEVERITY_ERROR ? "error" : "warning";
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:s, s:o}", "file", json_text(one->file), "path",
-                            json_text(one->path), "severity", severity_name, "message",
-                            json_text(one->message)));
+        json_array_append_new(list, json_pack("{s:o, s:o, s:s, s:o}", "file", json_text(one->file),
+                                              "path", json_text(one->path), "severity",
+                                              severity_name, "message", json_text(one->message)));
     }
     return list;
 }
 
-const char *cli_relative_error(double error, char *out, size_t size)
-{
+const char *cli_relative_error(double error, char *out, size_t size) {
     if (isnan(error)) snprintf(out, size, "unknown");
     else snprintf(out, size, "%.2f%%", 100 * error);
     return out;

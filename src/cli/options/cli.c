@@ -27,19 +27,18 @@
 /* One run of cli_parse. */
 typedef struct Parser {
     const CliCommand *command;
-    const Option     *common;
-    int               common_count;
-    int               argc, next; /* next: the first argument that is not read yet */
-    char            **argv;
-    const char       *first[NAMES_MAX]; /* what each option was given first; NULL: not yet */
-    Arena            *arena;
-    Error            *err;
+    const Option *common;
+    int common_count;
+    int argc, next; /* next: the first argument that is not read yet */
+    char **argv;
+    const char *first[NAMES_MAX]; /* what each option was given first; NULL: not yet */
+    Arena *arena;
+    Error *err;
 } Parser;
 
 /* ---- one value --------------------------------------------------------------------------- */
 
-bool cli_numbers(const char *text, int count, double *out)
-{
+bool cli_numbers(const char *text, int count, double *out) {
     double values[NUMBERS_MAX];
     for (int i = 0; i < count; i++) {
         char *end;
@@ -54,51 +53,46 @@ bool cli_numbers(const char *text, int count, double *out)
 }
 
 bool cli_name_value(const char *option, const char *text, Arena *arena, const char **name,
-                    const char **value, Error *err)
-{
+                    const char **value, Error *err) {
     const char *equals = strchr(text, '=');
     if (!equals || equals == text || !equals[1])
-        return error_set(err, ERROR_USAGE, "%s %s: required: NAME=VALUE, both not "
-                         "empty", option,
-                         text);
+        return error_set(err, ERROR_USAGE,
+                         "%s %s: required: NAME=VALUE, both not "
+                         "empty",
+                         option, text);
     *name = arena_string(arena, text, (size_t)(equals - text));
     *value = equals + 1;
     return true;
 }
 
-bool cli_is_option(const char *word, const char *name)
-{
+bool cli_is_option(const char *word, const char *name) {
     size_t length = strcspn(word, "=");
     return strlen(name) == length && !strncmp(word, name, length);
 }
 
-int cli_option_words(const char *word, bool has_value)
-{
+int cli_option_words(const char *word, bool has_value) {
     return has_value && !strchr(word, '=') ? 2 : 1;
 }
 
-static bool has_limits(const Option *option)
-{
+static bool has_limits(const Option *option) {
     return option->low != 0 || option->high != 0;
 }
 
 static bool bad_value(const Parser *in, const Option *option, const char *text,
-                      const char *wanted)
-{
-    return error_set(in->err, ERROR_USAGE, "%s %s: required: %s "
-                     "(%s)", option->name, text, wanted,
-                     option->value);
+                      const char *wanted) {
+    return error_set(in->err, ERROR_USAGE,
+                     "%s %s: required: %s "
+                     "(%s)",
+                     option->name, text, wanted, option->value);
 }
 
 /* "2147483647", "0.5", "1e-06": whole numbers in full. */
-static void print_number(char buffer[32], double value)
-{
+static void print_number(char buffer[32], double value) {
     bool is_whole = value == floor(value) && fabs(value) < 1e15;
     snprintf(buffer, 32, is_whole ? "%.0f" : "%.9g", value);
 }
 
-static bool inside_limits(const Parser *in, const Option *option, double value)
-{
+static bool inside_limits(const Parser *in, const Option *option, double value) {
     char found[32], low[32], high[32];
     if (!has_limits(option) || (value >= option->low && value <= option->high)) return true;
     print_number(found, value);
@@ -111,10 +105,9 @@ static bool inside_limits(const Parser *in, const Option *option, double value)
                      option->name, found, low, high);
 }
 
-static bool read_numbers(const Parser *in, const Option *option, const char *text, int count)
-{
+static bool read_numbers(const Parser *in, const Option *option, const char *text, int count) {
     double values[NUMBERS_MAX];
-    char   wanted[64] = "a number";
+    char wanted[64] = "a number";
     if (count > 1) snprintf(wanted, sizeof wanted, "%d numbers with commas between", count);
     if (!cli_numbers(text, count, values)) return bad_value(in, option, text, wanted);
     for (int i = 0; i < count; i++)
@@ -123,8 +116,7 @@ static bool read_numbers(const Parser *in, const Option *option, const char *tex
     return true;
 }
 
-static bool read_integer(const Parser *in, const Option *option, const char *text)
-{
+static bool read_integer(const Parser *in, const Option *option, const char *text) {
     char *end;
     errno = 0;
     long value = strtol(text, &end, 10);
@@ -135,31 +127,25 @@ static bool read_integer(const Parser *in, const Option *option, const char *tex
     return true;
 }
 
-static bool read_size(const Parser *in, const Option *option, const char *text)
-{
+static bool read_size(const Parser *in, const Option *option, const char *text) {
     char *end_w, *end_h = NULL;
-    long  width = strtol(text, &end_w, 10);
-    long  height = *end_w == 'x' ? strtol(end_w + 1, &end_h, 10) : 0;
-    bool  reads = end_w != text && end_h && end_h != end_w + 1 && !*end_h;
-    if (!reads || width < 1 || height < 1 || width > SIZE_MAX_PIXELS ||
-        height > SIZE_MAX_PIXELS)
-        return bad_value(in, option, text,
-                         "a size in pixels such as 1280x720, each 1 to 65536");
+    long width = strtol(text, &end_w, 10);
+    long height = *end_w == 'x' ? strtol(end_w + 1, &end_h, 10) : 0;
+    bool reads = end_w != text && end_h && end_h != end_w + 1 && !*end_h;
+    if (!reads || width < 1 || height < 1 || width > SIZE_MAX_PIXELS || height > SIZE_MAX_PIXELS)
+        return bad_value(in, option, text, "a size in pixels such as 1280x720, each 1 to 65536");
     ((int *)option->out)[0] = (int)width;
     ((int *)option->out)[1] = (int)height;
     return true;
 }
 
-static bool refuse_choice(const Parser *in, const Option *option, const char *text)
-{
+static bool refuse_choice(const Parser *in, const Option *option, const char *text) {
     const char *instead = removed_instead(option->name, text);
     if (!instead) return bad_value(in, option, text, "one of these");
-    return error_set(in->err, ERROR_USAGE, "%s %s was removed — %s", option->name, text,
-                     instead);
+    return error_set(in->err, ERROR_USAGE, "%s %s was removed — %s", option->name, text, instead);
 }
 
-static bool read_choice(const Parser *in, const Option *option, const char *text)
-{
+static bool read_choice(const Parser *in, const Option *option, const char *text) {
     const char *name = option->value;
     for (int index = 0;; index++) {
         size_t length = strcspn(name, "|");
@@ -172,18 +158,15 @@ static bool read_choice(const Parser *in, const Option *option, const char *text
     }
 }
 
-static void append_text(CliTexts *texts, const char *text, Arena *arena)
-{
+static void append_text(CliTexts *texts, const char *text, Arena *arena) {
     if (texts->count == texts->capacity) {
         texts->capacity = 2 * texts->capacity + 8;
-        texts->list = ARENA_GROW(arena, const char *, texts->list, texts->count,
-                                 texts->capacity);
+        texts->list = ARENA_GROW(arena, const char *, texts->list, texts->count, texts->capacity);
     }
     texts->list[texts->count++] = text;
 }
 
-static bool read_value(const Parser *in, const Option *option, const char *text)
-{
+static bool read_value(const Parser *in, const Option *option, const char *text) {
     switch (option->kind) {
     case OPTION_FLAG: *(bool *)option->out = true; return true;
     case OPTION_TEXT:
@@ -202,15 +185,13 @@ static bool read_value(const Parser *in, const Option *option, const char *text)
 
 /* ---- the whole line ---------------------------------------------------------------------- */
 
-static const Option *option_at(const Parser *in, int i)
-{
+static const Option *option_at(const Parser *in, int i) {
     int own = in->command->option_count;
     return i < own ? &in->command->options[i] : &in->common[i - own];
 }
 
 /* Its place among all options, or -1. */
-static int find_place(const Parser *in, const char *name, size_t length)
-{
+static int find_place(const Parser *in, const char *name, size_t length) {
     for (int i = 0; i < in->command->option_count + in->common_count; i++) {
         const Option *option = option_at(in, i);
         if (strlen(option->name) == length && !strncmp(option->name, name, length)) return i;
@@ -218,8 +199,7 @@ static int find_place(const Parser *in, const char *name, size_t length)
     return -1;
 }
 
-static const Option *find_option(const Parser *in, const char *name, size_t length)
-{
+static const Option *find_option(const Parser *in, const char *name, size_t length) {
     int place = find_place(in, name, length);
     return place < 0 ? NULL : option_at(in, place);
 }
@@ -228,44 +208,74 @@ static const Option *find_option(const Parser *in, const char *name, size_t leng
 static const struct {
     const char *theirs, *ours;
 } called[] = {
-    {"--max-depth", "--max-bounces"}, {"--maxdepth", "--max-bounces"},
-    {"--bounces", "--max-bounces"}, {"-ab", "--max-bounces"},
-    {"--nthreads", "--threads"}, {"--jobs", "--threads"}, {"--cores", "--threads"},
-    {"-j", "--threads"}, {"-t", "--threads"}, {"-n", "--threads"},
-    {"--output", "-o"}, {"--outfile", "-o"}, {"--out", "-o"},
-    {"--samples-per-pixel", "--spp"}, {"--sample-count", "--spp"}, {"-s", "--spp"},
+    {"--max-depth", "--max-bounces"},
+    {"--maxdepth", "--max-bounces"},
+    {"--bounces", "--max-bounces"},
+    {"-ab", "--max-bounces"},
+    {"--nthreads", "--threads"},
+    {"--jobs", "--threads"},
+    {"--cores", "--threads"},
+    {"-j", "--threads"},
+    {"-t", "--threads"},
+    {"-n", "--threads"},
+    {"--output", "-o"},
+    {"--outfile", "-o"},
+    {"--out", "-o"},
+    {"--samples-per-pixel", "--spp"},
+    {"--sample-count", "--spp"},
+    {"-s", "--spp"},
     {"--spp", "--paths"},
-    {"--resolution", "--size"}, {"--width", "--size"}, {"--height", "--size"},
-    {"--film", "--size"}, {"--falsecolor", "--false-colour"},
-    {"--falsecolour", "--false-colour"}, {"--false-color", "--false-colour"},
-    {"--envmap", "--environment"}, {"--sky", "--environment"}, {"--hdri", "--environment"},
-    {"--origin", "--eye"}, {"--viewpoint", "--eye"}, {"--vp", "--eye"}, {"-vp", "--eye"},
-    {"--target", "--look-at"}, {"--lookat", "--look-at"}, {"-vd", "--look-at"},
-    {"--vfov", "--fov"}, {"-vv", "--fov"}, {"--date", "--when"}, {"--datetime", "--when"},
-    {"--location", "--where"}, {"--epw", "--weather"}, {"--denoiser", "--denoise"},
-    {"--cropwindow", "--crop"}, {"--region", "--crop"}, {"--ev", "--exposure"},
-    {"--tonemap", "--view"}, {"--ocio", "--config"}, {"--continue", "--resume"},
-    {"--interactive", "--live"}, {"--limits", "--profile"},
+    {"--resolution", "--size"},
+    {"--width", "--size"},
+    {"--height", "--size"},
+    {"--film", "--size"},
+    {"--falsecolor", "--false-colour"},
+    {"--falsecolour", "--false-colour"},
+    {"--false-color", "--false-colour"},
+    {"--envmap", "--environment"},
+    {"--sky", "--environment"},
+    {"--hdri", "--environment"},
+    {"--origin", "--eye"},
+    {"--viewpoint", "--eye"},
+    {"--vp", "--eye"},
+    {"-vp", "--eye"},
+    {"--target", "--look-at"},
+    {"--lookat", "--look-at"},
+    {"-vd", "--look-at"},
+    {"--vfov", "--fov"},
+    {"-vv", "--fov"},
+    {"--date", "--when"},
+    {"--datetime", "--when"},
+    {"--location", "--where"},
+    {"--epw", "--weather"},
+    {"--denoiser", "--denoise"},
+    {"--cropwindow", "--crop"},
+    {"--region", "--crop"},
+    {"--ev", "--exposure"},
+    {"--tonemap", "--view"},
+    {"--ocio", "--config"},
+    {"--continue", "--resume"},
+    {"--interactive", "--live"},
+    {"--limits", "--profile"},
     {"--standard", "--profile"},
 };
 
-static bool unknown_option(const Parser *in, const char *name, size_t length)
-{
+static bool unknown_option(const Parser *in, const char *name, size_t length) {
     const char *names[NAMES_MAX];
-    int         count = 0;
+    int count = 0;
     for (int i = 0; i < COUNT_OF(called); i++)
         if (strlen(called[i].theirs) == length && !strncmp(called[i].theirs, name, length) &&
             find_place(in, called[i].ours, strlen(called[i].ours)) >= 0)
-            return error_set(in->err, ERROR_USAGE, "unknown option %s — here it is called %s; "
-                             "`parhelion %s --help` lists what there is", called[i].theirs,
-                             called[i].ours, in->command->name);
+            return error_set(in->err, ERROR_USAGE,
+                             "unknown option %s — here it is called %s; "
+                             "`parhelion %s --help` lists what there is",
+                             called[i].theirs, called[i].ours, in->command->name);
     for (; count < in->command->option_count + in->common_count; count++)
         names[count] = option_at(in, count)->name;
-    char        word[64];
+    char word[64];
     snprintf(word, sizeof word, "%.*s", (int)length, name);
     const char *instead = removed_instead(in->command->name, word);
-    if (instead)
-        return error_set(in->err, ERROR_USAGE, "%s was removed — %s", word, instead);
+    if (instead) return error_set(in->err, ERROR_USAGE, "%s was removed — %s", word, instead);
     const char *nearest = nearest_word_meant(word, names, count);
     return error_set(in->err, ERROR_USAGE,
                      "unknown option %.*s — %s%s%s`parhelion %s --help` lists what there is",
@@ -274,29 +284,27 @@ static bool unknown_option(const Parser *in, const char *name, size_t length)
 }
 
 /* Only lists may be repeated: of two values one would be dropped. */
-static bool stands_once(Parser *in, int place, const char *value)
-{
+static bool stands_once(Parser *in, int place, const char *value) {
     const Option *option = option_at(in, place);
-    const char   *before = in->first[place];
+    const char *before = in->first[place];
     in->first[place] = value ? value : "";
     if (!before || option->kind == OPTION_TEXTS) return true;
     if (!value)
         return error_set(in->err, ERROR_USAGE, "%s is given twice: required at most once",
                          option->name);
     return error_set(in->err, ERROR_USAGE,
-                     "%s is given twice, %.200s and %.200s: required at most once",
-                     option->name, before, value);
+                     "%s is given twice, %.200s and %.200s: required at most once", option->name,
+                     before, value);
 }
 
 /* The option at in->argv[in->next], and its value. */
-static bool read_option(Parser *in)
-{
+static bool read_option(Parser *in) {
     const char *text = in->argv[in->next++];
-    size_t      length = strcspn(text, "=");
-    int         place = find_place(in, text, length);
+    size_t length = strcspn(text, "=");
+    int place = find_place(in, text, length);
     if (place < 0) return unknown_option(in, text, length);
     const Option *option = option_at(in, place);
-    const char   *value = text[length] ? text + length + 1 : NULL;
+    const char *value = text[length] ? text + length + 1 : NULL;
     if (option->kind == OPTION_FLAG) {
         if (value)
             return error_set(in->err, ERROR_USAGE, "%s takes no value, found %s", option->name,
@@ -312,8 +320,7 @@ static bool read_option(Parser *in)
     return true;
 }
 
-static bool count_arguments(const Parser *in, int count)
-{
+static bool count_arguments(const Parser *in, int count) {
     const CliCommand *command = in->command;
     if (count < command->min_arguments)
         return error_set(in->err, ERROR_USAGE, "too few arguments — usage: parhelion %s %s",
@@ -324,11 +331,10 @@ static bool count_arguments(const Parser *in, int count)
     return true;
 }
 
-static void print_options(const Option *options, int count)
-{
+static void print_options(const Option *options, int count) {
     for (int i = 0; i < count; i++) {
         const Option *option = &options[i];
-        char          left[256];
+        char left[256];
         snprintf(left, sizeof left, "%s%s%s", option->name, option->value ? " " : "",
                  option->value ? option->value : "");
         if (strlen(left) <= 30) print("  %-30s", left);
@@ -337,20 +343,17 @@ static void print_options(const Option *options, int count)
     }
 }
 
-void cli_print_guide(const char *command)
-{
+void cli_print_guide(const char *command) {
     const Guide *guide = guide_of_command(command);
     if (guide) print("\nguide: parhelion help %s\n", guide->name);
 }
 
-static void print_row(void *user, const char *name, const char *text)
-{
+static void print_row(void *user, const char *name, const char *text) {
     (void)user;
     print("  %-12s %s\n", name, text);
 }
 
-static void print_help(const Parser *in)
-{
+static void print_help(const Parser *in) {
     const CliCommand *command = in->command;
     print("parhelion %s: %s\n\nusage: parhelion %s %s\n\n", command->name, command->summary,
           command->name, command->usage);
@@ -365,8 +368,7 @@ static void print_help(const Parser *in)
     cli_print_guide(command->name);
 }
 
-static bool read_line(Parser *in, CliTexts *arguments)
-{
+static bool read_line(Parser *in, CliTexts *arguments) {
     bool only_arguments = false;
     while (in->next < in->argc) {
         const char *text = in->argv[in->next];
@@ -382,24 +384,21 @@ static bool read_line(Parser *in, CliTexts *arguments)
     return true;
 }
 
-bool cli_is_help(const char *word)
-{
+bool cli_is_help(const char *word) {
     return !strcmp(word, "--help") || !strcmp(word, "-h");
 }
 
-bool cli_is_version(const char *word)
-{
+bool cli_is_version(const char *word) {
     return !strcmp(word, "--version") || !strcmp(word, "-V");
 }
 
 /* Help or the version is requested somewhere before `--`, and not as the value of an option:
  * then nothing else counts but --json. Help goes first. *prints: false: it cannot be printed. */
-static bool asks_for_help(const Parser *in, bool *prints)
-{
+static bool asks_for_help(const Parser *in, bool *prints) {
     bool wants_help = false, wants_version = false, wants_json = false;
     *prints = true;
     for (int i = 1; i < in->argc && strcmp(in->argv[i], "--"); i++) {
-        const char   *word = in->argv[i];
+        const char *word = in->argv[i];
         const Option *option = word[0] == '-' ? find_option(in, word, strlen(word)) : NULL;
         wants_help = wants_help || cli_is_help(word);
         wants_json = wants_json || !strcmp(word, "--json");
@@ -414,19 +413,16 @@ static bool asks_for_help(const Parser *in, bool *prints)
 }
 
 /* Outputs are noted; every other text may name a file that is read. */
-static bool check_outputs(const Parser *in, const CliTexts *arguments, Cli *cli)
-{
+static bool check_outputs(const Parser *in, const CliTexts *arguments, Cli *cli) {
     CliTexts words = {0};
     append_text(&words, getenv("OCIO"), in->arena);
-    for (int i = 0; i < arguments->count; i++)
-        append_text(&words, arguments->list[i], in->arena);
+    for (int i = 0; i < arguments->count; i++) append_text(&words, arguments->list[i], in->arena);
     for (int i = 0; i < in->command->option_count; i++) {
-        const Option   *option = option_at(in, i);
+        const Option *option = option_at(in, i);
         const CliTexts *list = option->out;
         bool is_list = option->kind == OPTION_TEXTS;
         if (!in->first[i] || (option->kind != OPTION_TEXT && !is_list)) continue;
-        if (option->file)
-            outputs_note(&cli->outputs, option->name, *(const char **)option->out);
+        if (option->file) outputs_note(&cli->outputs, option->name, *(const char **)option->out);
         for (int k = 0; is_list && k < list->count; k++)
             append_text(&words, list->list[k], in->arena);
         if (!is_list && option->file != OPTION_OUTPUT)
@@ -435,30 +431,34 @@ static bool check_outputs(const Parser *in, const CliTexts *arguments, Cli *cli)
     return outputs_spare_words(&cli->outputs, &words, in->err);
 }
 
-static bool is_help_alone(const Parser *in)
-{
+static bool is_help_alone(const Parser *in) {
     return in->argc == 2 && !strcmp(in->argv[1], "help") && !file_exists("help");
 }
 
 bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
-               Error *err)
-{
-    Cli  cli = {0};
-    int  progress = PROGRESS_AUTO;
+               Error *err) {
+    Cli cli = {0};
+    int progress = PROGRESS_AUTO;
     long threads = parallel_default_threads();
     const Option common[] = {
         {"--json", OPTION_FLAG, NULL, "the answer as one JSON document on stdout", &cli.json},
         {"--quiet", OPTION_FLAG, NULL, "no progress", &cli.quiet},
         {"--progress", OPTION_CHOICE, "auto|bar|plain|json|none",
          "how progress is shown on stderr (default auto)", &progress},
-        {"--threads", OPTION_INTEGER, "N", "threads (default: what the scheduler allows)",
-         &threads, .low = 1, .high = PARALLEL_THREADS_MAX},
+        {"--threads", OPTION_INTEGER, "N", "threads (default: what the scheduler allows)", &threads,
+         .low = 1, .high = PARALLEL_THREADS_MAX},
         {"--help", OPTION_FLAG, NULL, "this text; also -h", &cli.help_shown},
         {"--version", OPTION_FLAG, NULL, "of the program and its libraries; also -V",
          &cli.help_shown},
     };
-    Parser in = {.command = command, .common = common, .common_count = COUNT_OF(common),
-                 .argc = argc, .next = 1, .argv = argv, .arena = arena, .err = err};
+    Parser in = {.command = command,
+                 .common = common,
+                 .common_count = COUNT_OF(common),
+                 .argc = argc,
+                 .next = 1,
+                 .argv = argv,
+                 .arena = arena,
+                 .err = err};
     assert(command->option_count + COUNT_OF(common) <= NAMES_MAX);
     CliTexts arguments = {0};
     bool prints;
@@ -468,8 +468,7 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
         if (!read_line(&in, &arguments)) return false;
         cli.help_shown = is_help_alone(&in);
         if (cli.help_shown) print_help(&in);
-        else if (!count_arguments(&in, arguments.count) ||
-                 !check_outputs(&in, &arguments, &cli))
+        else if (!count_arguments(&in, arguments.count) || !check_outputs(&in, &arguments, &cli))
             return false;
     }
     cli.progress = cli.quiet ? PROGRESS_NONE : (ProgressMode)progress;
@@ -480,12 +479,10 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
     return true;
 }
 
-void version_print(void)
-{
+void version_print(void) {
     const Kernel *kernel;
-    Error         err;
-    bool          chosen = kernel_choose(NULL, &kernel, &err);
-    print("parhelion %s\nsources: %s\ninstruction set: %s\nlibraries: %s, %s\n",
-          PARHELION_VERSION, SOURCES_HASH, chosen ? kernel->isa : "none", bvh_library(),
-          LIBRARY_VERSIONS);
+    Error err;
+    bool chosen = kernel_choose(NULL, &kernel, &err);
+    print("parhelion %s\nsources: %s\ninstruction set: %s\nlibraries: %s, %s\n", PARHELION_VERSION,
+          SOURCES_HASH, chosen ? kernel->isa : "none", bvh_library(), LIBRARY_VERSIONS);
 }

@@ -31,13 +31,13 @@
 
 /* Results of cli_parse besides the values. */
 typedef struct Cli {
-    bool         help_shown; /* help, or the version, was requested and is printed: done */
-    bool         json, quiet;
-    ProgressMode progress;   /* PROGRESS_NONE when quiet */
-    int          threads;    /* at least 1 */
-    const char **arguments;  /* words that are no options */
-    int          argument_count;
-    Outputs      outputs;
+    bool help_shown; /* help, or the version, was requested and is printed: done */
+    bool json, quiet;
+    ProgressMode progress;  /* PROGRESS_NONE when quiet */
+    int threads;            /* at least 1 */
+    const char **arguments; /* words that are no options */
+    int argument_count;
+    Outputs outputs;
 } Cli;
 
 /* argv[0] is the command's own name and skipped. Lists come from the arena; texts stay argv's.

@@ -21,8 +21,7 @@ typedef enum Outcome {
     OUTCOME_STOPPED /* by a signal, of which a line is printed: 128 and its number */
 } Outcome;
 
-static inline Outcome outcome_of(bool is_done)
-{
+static inline Outcome outcome_of(bool is_done) {
     return is_done ? OUTCOME_DONE : OUTCOME_FAILED;
 }
 
@@ -57,7 +56,7 @@ typedef enum OptionKind {
 /* Every value of an OPTION_TEXTS, in the order given. */
 typedef struct CliTexts {
     const char **list;
-    int          count, capacity;
+    int count, capacity;
 } CliTexts;
 
 /* What a command does with the file that an option names. */
@@ -68,27 +67,27 @@ typedef enum OptionFile {
 } OptionFile;
 
 typedef struct Option {
-    const char *name;  /* as typed: "--size", "-o" */
-    OptionKind  kind;
+    const char *name; /* as typed: "--size", "-o" */
+    OptionKind kind;
     const char *value; /* what stands for the value in the help: "WxH"; NULL for a flag */
     const char *help;  /* one line, with the unit and the default */
-    void       *out;   /* the type that belongs to the kind */
-    double      low, high; /* limits of numbers; both 0: none */
-    int         count; /* OPTION_NUMBERS: how many, at most 8 */
-    bool       *given; /* set when the option was there; NULL: not requested */
-    OptionFile  file;  /* of OPTION_TEXT */
+    void *out;         /* the type that belongs to the kind */
+    double low, high;  /* limits of numbers; both 0: none */
+    int count;         /* OPTION_NUMBERS: how many, at most 8 */
+    bool *given;       /* set when the option was there; NULL: not requested */
+    OptionFile file;   /* of OPTION_TEXT */
 } Option;
 
 typedef void HelpRow(void *user, const char *name, const char *text);
 
 typedef struct CliCommand {
-    const char   *name;    /* "render", "panel fit" */
-    const char   *summary; /* one line, lower case, no full stop */
-    const char   *usage;   /* arguments: "SCENE.gltf [LIGHTS.gltf ...] -o FRAME.exr" */
-    const char   *example; /* a whole command line that works on the shipped files */
+    const char *name;    /* "render", "panel fit" */
+    const char *summary; /* one line, lower case, no full stop */
+    const char *usage;   /* arguments: "SCENE.gltf [LIGHTS.gltf ...] -o FRAME.exr" */
+    const char *example; /* a whole command line that works on the shipped files */
     const Option *options;
-    int           option_count;
-    int           min_arguments, max_arguments; /* max -1: any number */
-    const char   *rows_title; /* of what the help lists besides: "formats"; NULL: nothing */
-    void        (*each_row)(HelpRow *row, void *user);
+    int option_count;
+    int min_arguments, max_arguments; /* max -1: any number */
+    const char *rows_title;           /* of what the help lists besides: "formats"; NULL: nothing */
+    void (*each_row)(HelpRow *row, void *user);
 } CliCommand;

@@ -16,7 +16,7 @@ typedef struct Guide {
 } Guide;
 
 extern const Guide guide_table[]; /* in the order of their names */
-extern const int   guide_count;
+extern const int guide_count;
 
 /* NULL: there is none of this name. */
 const Guide *guide_named(const char *name);

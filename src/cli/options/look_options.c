@@ -12,8 +12,7 @@
 
 #define FIELD_OF_VIEW "parhelion:yfov_deg"
 
-bool eye_option_check(EyeOption *option, Error *err)
-{
+bool eye_option_check(EyeOption *option, Error *err) {
     if (!option->words)
         return option->fov_deg == 0 ||
                error_set(err, ERROR_USAGE, "--fov: is the width of --eye's view: give both");
@@ -22,51 +21,56 @@ bool eye_option_check(EyeOption *option, Error *err)
 
 /* The frame's own word counts. */
 static bool field_of_view(const EyeOption *option, const FrameImage *frame, double *out,
-                          Error *err)
-{
+                          Error *err) {
     const ExrAttribute *own = frame_attribute(frame, FIELD_OF_VIEW);
     if (frame_attribute(frame, "parhelion:ymag_m"))
         return error_set(err, ERROR_INPUT, "is an orthographic view: no eye sees one");
     if (frame_view_circle(frame).fisheye)
-        return error_set(err, ERROR_INPUT, "is a fisheye's: --eye spreads light in perspective "
+        return error_set(err, ERROR_INPUT,
+                         "is a fisheye's: --eye spreads light in perspective "
                          "views alone");
     if (!own) {
         *out = option->fov_deg;
-        return *out > 0 || error_set(err, ERROR_USAGE, "does not say its field of view ("
-                                     FIELD_OF_VIEW "): add --fov DEG, the picture's height as "
+        return *out > 0 || error_set(err, ERROR_USAGE,
+                                     "does not say its field of view (" FIELD_OF_VIEW
+                                     "): add --fov DEG, the picture's height as "
                                      "an angle");
     }
     double degrees = own->kind == EXR_STRING ? NAN : own->values[0];
     if (!(degrees > 0 && degrees < 180))
-        return error_set(err, ERROR_INPUT, FIELD_OF_VIEW " is %g, required: degrees between 0 "
-                                                         "and 180", degrees);
+        return error_set(err, ERROR_INPUT,
+                         FIELD_OF_VIEW " is %g, required: degrees between 0 "
+                                       "and 180",
+                         degrees);
     if (option->fov_deg > 0 && fabs(option->fov_deg - degrees) > 1e-3 * degrees)
-        return error_set(err, ERROR_USAGE, "says itself that it is %g degrees high: leave out "
-                         "--fov %g", degrees, option->fov_deg);
+        return error_set(err, ERROR_USAGE,
+                         "says itself that it is %g degrees high: leave out "
+                         "--fov %g",
+                         degrees, option->fov_deg);
     *out = degrees;
     return true;
 }
 
 /* Square pixels about the middle of the display window, of which the planes may be a part. */
-static EyeView view_of(const FrameImage *frame, double fov_deg)
-{
+static EyeView view_of(const FrameImage *frame, double fov_deg) {
     const ExrWindow whole = frame->display, part = frame->data;
     double high = 2 * tan_d(radians_from_degrees(fov_deg) / 2);
-    return (EyeView){.width = part.x1 - part.x0, .height = part.y1 - part.y0,
+    return (EyeView){.width = part.x1 - part.x0,
+                     .height = part.y1 - part.y0,
                      .axis_x = (whole.x0 + whole.x1) / 2.0 - part.x0,
                      .axis_y = (whole.y0 + whole.y1) / 2.0 - part.y0,
                      .pixel = high / (whole.y1 - whole.y0)};
 }
 
 /* The frame with R, G, B filtered; other channels are shared with it. out may be the frame. */
-static bool apply_eye(const EyeOption *option, const FrameImage *frame, int threads,
-                      Arena *arena, FrameImage *out, Error *err)
-{
+static bool apply_eye(const EyeOption *option, const FrameImage *frame, int threads, Arena *arena,
+                      FrameImage *out, Error *err) {
     const float *rgb[3];
-    float       *planes[3];
-    double       fov_deg = 0;
+    float *planes[3];
+    double fov_deg = 0;
     if (!frame_rgb(frame, "", rgb))
-        return error_set(err, ERROR_INPUT, "has no channels R, G, B whose light an eye could "
+        return error_set(err, ERROR_INPUT,
+                         "has no channels R, G, B whose light an eye could "
                          "spread");
     if (!field_of_view(option, frame, &fov_deg, err)) return false;
     for (int c = 0; c < 3; c++) planes[c] = ARENA_NEW(arena, float, frame_pixel_count(frame));
@@ -80,34 +84,33 @@ static bool apply_eye(const EyeOption *option, const FrameImage *frame, int thre
 /* ---- the look ---------------------------------------------------------------------------- */
 
 /* Before anything is filtered. */
-static bool check_denoise(const DevelopOptions *look, Error *err)
-{
+static bool check_denoise(const DevelopOptions *look, Error *err) {
     if (look->is_denoised && look->false_colour)
-        return error_set(err, ERROR_USAGE, "--denoise and --false-colour exclude each other: "
+        return error_set(err, ERROR_USAGE,
+                         "--denoise and --false-colour exclude each other: "
                          "colours that stand for figures show the frame as it is");
     if (look->is_denoised && look->layer)
-        return error_set(err, ERROR_USAGE, "--denoise and --layer exclude each other: the "
+        return error_set(err, ERROR_USAGE,
+                         "--denoise and --layer exclude each other: the "
                          "frame is filtered, its layers are not");
     return true;
 }
 
-static bool check_eye(const DevelopOptions *look, Error *err)
-{
-    return !look->layer ||
-           error_set(err, ERROR_USAGE, "--eye and --layer exclude each other: the frame's own "
-                     "light is spread, its layers are not");
+static bool check_eye(const DevelopOptions *look, Error *err) {
+    return !look->layer || error_set(err, ERROR_USAGE,
+                                     "--eye and --layer exclude each other: the frame's own "
+                                     "light is spread, its layers are not");
 }
 
 bool look_options_develop(const LookRequest *request, Arena scratch, LookReport *report,
-                          Error *err)
-{
+                          Error *err) {
     DevelopOptions look = *request->look;
-    FrameImage     filtered = *request->frame;
-    LookReport     made = {0};
-    bool           has_eye = request->eye && request->eye->words;
+    FrameImage filtered = *request->frame;
+    LookReport made = {0};
+    bool has_eye = request->eye && request->eye->words;
     if (!check_denoise(&look, err) || (has_eye && !check_eye(&look, err))) return false;
-    if (look.is_denoised && !denoise_frame(request->frame, request->threads, &scratch,
-                                           &filtered, &made.denoise, err))
+    if (look.is_denoised &&
+        !denoise_frame(request->frame, request->threads, &scratch, &filtered, &made.denoise, err))
         return error_in_file(err, look.frame_name);
     if (has_eye) {
         if (!apply_eye(request->eye, &filtered, request->threads, &scratch, &filtered, err))
@@ -118,16 +121,14 @@ bool look_options_develop(const LookRequest *request, Arena scratch, LookReport 
                                 request->eye->eye.age_years, request->eye->eye.pigment);
         made.eye = request->eye->eye;
     }
-    if (!develop_frame(&filtered, &look, request->path, scratch, &made.develop, err))
-        return false;
+    if (!develop_frame(&filtered, &look, request->path, scratch, &made.develop, err)) return false;
     *report = made;
     return true;
 }
 
-const char *look_options_words(const LookReport *report, Arena *arena)
-{
+const char *look_options_words(const LookReport *report, Arena *arena) {
     const DenoiseReport *denoise = &report->denoise;
-    const char          *words = "";
+    const char *words = "";
     if (report->develop.is_denoised)
         words = arena_format(arena, ", denoised (%.4g of the light)", denoise->energy_ratio);
     if (report->develop.is_adapted) words = arena_format(arena, "%s, locally adapted", words);
@@ -135,21 +136,19 @@ const char *look_options_words(const LookReport *report, Arena *arena)
                                   : words;
 }
 
-void look_options_json(const LookReport *report, json_t *answer)
-{
+void look_options_json(const LookReport *report, json_t *answer) {
     const DenoiseReport *denoise = &report->denoise;
     json_object_set_new(answer, "denoised",
                         report->develop.is_denoised
-                            ? json_pack("{s:f, s:f, s:f}", "energy_ratio",
-                                        denoise->energy_ratio, "block_error",
-                                        denoise->block_error, "left_share",
+                            ? json_pack("{s:f, s:f, s:f}", "energy_ratio", denoise->energy_ratio,
+                                        "block_error", denoise->block_error, "left_share",
                                         denoise->left_share)
                             : json_null());
     json_object_set_new(answer, "adapt",
                         report->develop.is_adapted ? json_string("local") : json_null());
     json_object_set_new(answer, "eye",
                         report->develop.eye[0]
-                            ? json_pack("{s:f, s:f}", "age_years", report->eye.age_years,
-                                        "pigment", report->eye.pigment)
+                            ? json_pack("{s:f, s:f}", "age_years", report->eye.age_years, "pigment",
+                                        report->eye.pigment)
                             : json_null());
 }

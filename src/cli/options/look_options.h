@@ -20,55 +20,61 @@
 #include "vision/human_eye.h"
 
 /* Rows of an option table; `look` is a DevelopOptions *. */
-#define LOOK_OPTIONS(look)                                                                     \
-    {"--exposure", OPTION_TEXT, "auto|EV|white:CD_M2",                                         \
-     "auto (default: the cabin looks well), an exposure value at ISO 100 (15: full sun; "      \
-     "one more is half as bright), or the luminance that becomes white, by the view "          \
-     "untonemapped unless --view names one: others show it as light grey",                     \
-     .out = &(look)->exposure},                                                                \
-    {"--display", OPTION_TEXT, "NAME", "sRGB (default), Display P3, Rec.1886",                 \
-     .out = &(look)->display},                                                                 \
-    {"--view", OPTION_TEXT, "NAME", "photographic (default), ACES SDR, untonemapped, raw",     \
-     .out = &(look)->view},                                                                    \
-    {"--config", OPTION_TEXT, "FILE",                                                          \
-     "OpenColorIO configuration; else $OCIO, else the program's own", .out = &(look)->config}, \
-    {"--adapt", OPTION_CHOICE, "auto|none|local",                                              \
-     "local: keeps a dark cabin and a bright street in one picture; auto (default): where "    \
-     "the street would burn out and --exposure is auto",                                       \
-     .out = &(look)->adapt},                                                                   \
-    {"--denoise", OPTION_FLAG, NULL,                                                           \
-     "filters the noise of few samples away: a preview, not for figures",                      \
-     .out = &(look)->is_denoised}
+#define LOOK_OPTIONS(look) \
+    {"--exposure", OPTION_TEXT, "auto|EV|white:CD_M2", \
+     "auto (default: the cabin looks well), an exposure value at ISO 100 (15: full sun; " \
+     "one more is half as bright), or the luminance that becomes white, by the view " \
+     "untonemapped unless --view names one: others show it as light grey", \
+     .out = &(look)->exposure}, \
+        {"--display", OPTION_TEXT, "NAME", "sRGB (default), Display P3, Rec.1886", \
+         .out = &(look)->display}, \
+        {"--view", OPTION_TEXT, "NAME", "photographic (default), ACES SDR, untonemapped, raw", \
+         .out = &(look)->view}, \
+        {"--config", OPTION_TEXT, "FILE", \
+         "OpenColorIO configuration; else $OCIO, else the program's own", .out = &(look)->config}, \
+        {"--adapt", OPTION_CHOICE, "auto|none|local", \
+         "local: keeps a dark cabin and a bright street in one picture; auto (default): where " \
+         "the street would burn out and --exposure is auto", \
+         .out = &(look)->adapt}, \
+    { \
+        "--denoise", OPTION_FLAG, NULL, \
+            "filters the noise of few samples away: a preview, not for figures", \
+            .out = &(look)->is_denoised \
+    }
 
 typedef struct EyeOption {
-    const char *words;   /* of --eye; NULL: not requested */
-    double      fov_deg; /* of --fov: the display window's height as an angle; 0: not given */
-    HumanEye    eye;     /* by eye_option_check */
+    const char *words; /* of --eye; NULL: not requested */
+    double fov_deg;    /* of --fov: the display window's height as an angle; 0: not given */
+    HumanEye eye;      /* by eye_option_check */
 } EyeOption;
 
 /* Rows of an option table; `option` is an EyeOption *. */
-#define EYE_OPTIONS(option)                                                                    \
-    {"--eye", OPTION_TEXT, "AGE[,PIGMENT]",                                                    \
-     "light spread as in the eye of somebody so old, iris 0 (dark) to 1.2 (light blue; "       \
-     "default 0.5, brown), by the CIE's point spread",                                         \
-     .out = &(option)->words},                                                                 \
-    {"--fov", OPTION_NUMBER, "DEG",                                                            \
-     "with --eye, of a frame that does not say it: the picture's height as an angle",          \
-     .out = &(option)->fov_deg, .low = 0.01, .high = 170}
+#define EYE_OPTIONS(option) \
+    {"--eye", OPTION_TEXT, "AGE[,PIGMENT]", \
+     "light spread as in the eye of somebody so old, iris 0 (dark) to 1.2 (light blue; " \
+     "default 0.5, brown), by the CIE's point spread", \
+     .out = &(option)->words}, \
+        {"--fov", \
+         OPTION_NUMBER, \
+         "DEG", \
+         "with --eye, of a frame that does not say it: the picture's height as an angle", \
+         .out = &(option)->fov_deg, \
+         .low = 0.01, \
+         .high = 170}
 
 /* The report on a picture, with develop.h's. */
 typedef struct LookReport {
     DevelopReport develop;
     DenoiseReport denoise; /* when develop.is_denoised */
-    HumanEye      eye;     /* when develop.eye is not "" */
+    HumanEye eye;          /* when develop.eye is not "" */
 } LookReport;
 
 typedef struct LookRequest {
-    const FrameImage     *frame;
+    const FrameImage *frame;
     const DevelopOptions *look;
-    const char           *path;
-    int                   threads;
-    const EyeOption      *eye; /* NULL: the command has no such option */
+    const char *path;
+    int threads;
+    const EyeOption *eye; /* NULL: the command has no such option */
 } LookRequest;
 
 /* Before anything is read. */

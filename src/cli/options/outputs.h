@@ -18,7 +18,7 @@ typedef struct Output {
 /* The files that a command will write. */
 typedef struct Outputs {
     Output list[OUTPUTS_MAX];
-    int    count;
+    int count;
 } Outputs;
 
 /* One that is not typed, such as a checkpoint's usual name. `path` must outlive it. */

@@ -13,19 +13,26 @@
 /* As typed. */
 typedef struct StateWords {
     CliTexts variants, animations;
-    double   time_s;
-    bool     has_time;
+    double time_s;
+    bool has_time;
 } StateWords;
 
 /* Rows of an option table: StateWords *. */
-#define STATE_OPTIONS(words)                                                                   \
+#define STATE_OPTIONS(words) \
     {"--variant", OPTION_TEXTS, "NAME", "wears the materials of that variant (default: none)", \
-     &(words)->variants},                                                                      \
-    {"--time", OPTION_NUMBER, "S",                                                             \
-     "plays animations up to S seconds, 0 is their first frame (default: at rest)",            \
-     &(words)->time_s, .low = 0, .high = 1e6, .given = &(words)->has_time},                    \
-    {"--animation", OPTION_TEXTS, "NAME", "plays that one (default: all there are)",           \
-     &(words)->animations}
+     &(words)->variants}, \
+        {"--time", \
+         OPTION_NUMBER, \
+         "S", \
+         "plays animations up to S seconds, 0 is their first frame (default: at rest)", \
+         &(words)->time_s, \
+         .low = 0, \
+         .high = 1e6, \
+         .given = &(words)->has_time}, \
+    { \
+        "--animation", OPTION_TEXTS, "NAME", "plays that one (default: all there are)", \
+            &(words)->animations \
+    }
 
 /* As typed, NAME=VALUE each. */
 typedef struct SceneWords {
@@ -34,35 +41,37 @@ typedef struct SceneWords {
 } SceneWords;
 
 /* Rows of an option table: luminaire files as lamps. */
-#define LAMP_OPTIONS(words)                                                                    \
-    {"--light", OPTION_TEXTS, "NODE=FILE.ies|.ldt", "makes a node a lamp, along its -Z",       \
-     &(words)->lights},                                                                        \
-    {"--light-level", OPTION_TEXTS, "NODE|*=PERCENT", "dims such a lamp (*: all)",             \
-     &(words)->light_levels},                                                                  \
-    {"--light-cct", OPTION_TEXTS, "NODE|*=KELVIN", "gives it a colour temperature",            \
-     &(words)->light_ccts}
+#define LAMP_OPTIONS(words) \
+    {"--light", OPTION_TEXTS, "NODE=FILE.ies|.ldt", "makes a node a lamp, along its -Z", \
+     &(words)->lights}, \
+        {"--light-level", OPTION_TEXTS, "NODE|*=PERCENT", "dims such a lamp (*: all)", \
+         &(words)->light_levels}, \
+    { \
+        "--light-cct", OPTION_TEXTS, "NODE|*=KELVIN", "gives it a colour temperature", \
+            &(words)->light_ccts \
+    }
 
 /* Rows of an option table: SceneWords *, SceneOptions *, EnvironmentChange *. */
-#define SCENE_OPTIONS(words, options, change)                                                  \
-    ENVIRONMENT_OPTIONS(change),                                                               \
-    {"--content", OPTION_TEXTS, "MATERIAL=IMAGE", "what a display shows", &(words)->contents}, \
-    {"--panel", OPTION_TEXTS, "MATERIAL=FILE.panel", "makes a material a display",             \
-     &(words)->panels},                                                                        \
-    {"--display-level", OPTION_TEXTS, "MATERIAL|*=PERCENT",                                    \
-     "how bright a display is set (*: all)", &(words)->levels},                                \
-    LAMP_OPTIONS(words),                                                                       \
-    STATE_OPTIONS(&(words)->state),                                                            \
-    {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &(options)->root}
+#define SCENE_OPTIONS(words, options, change) \
+    ENVIRONMENT_OPTIONS(change), \
+        {"--content", OPTION_TEXTS, "MATERIAL=IMAGE", "what a display shows", &(words)->contents}, \
+        {"--panel", OPTION_TEXTS, "MATERIAL=FILE.panel", "makes a material a display", \
+         &(words)->panels}, \
+        {"--display-level", OPTION_TEXTS, "MATERIAL|*=PERCENT", \
+         "how bright a display is set (*: all)", &(words)->levels}, \
+        LAMP_OPTIONS(words), STATE_OPTIONS(&(words)->state), { \
+        "--root", OPTION_TEXT, "DIR", ROOT_HELP, &(options)->root \
+    }
 
 /* The words, and cli's arguments as the scene's files, become options. */
 bool scene_options_read(const SceneWords *words, const Cli *cli, Arena *arena,
                         SceneOptions *options, Error *err);
 
 typedef struct SceneAsked {
-    const SceneOptions      *options;
+    const SceneOptions *options;
     const EnvironmentChange *change;
-    ProgressMode             progress; /* of its loading */
-    const Outputs           *outputs;  /* which spare the scene's files */
+    ProgressMode progress;  /* of its loading */
+    const Outputs *outputs; /* which spare the scene's files */
 } SceneAsked;
 
 /* The scene with the surroundings that are requested. Warnings go to *problems. */

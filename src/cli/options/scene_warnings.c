@@ -6,17 +6,16 @@
 #include "panel/query/panel_stated.h"
 #include "scene/load/material_data.h"
 
-#define WAY_OUT                                                                                \
-    " — give its horizontal illuminance with --hdri-lux LX (clear noon 100000, overcast "      \
-    "10000, sunset 400, a lit room 500, a street at night 10), or with "                       \
+#define WAY_OUT \
+    " — give its horizontal illuminance with --hdri-lux LX (clear noon 100000, overcast " \
+    "10000, sunset 400, a lit room 500, a street at night 10), or with " \
     "\"horizontal_illuminance_lx\" or \"scale\" in the scene"
 
-void hdri_warn(const Environment *environment, Problems *problems)
-{
+void hdri_warn(const Environment *environment, Problems *problems) {
     bool is_scaled = environment->hdri_scale != 1 || environment->horizontal_illuminance_lx > 0;
     if (environment->kind != ENVIRONMENT_HDRI || is_scaled || !environment->hdri.pixels) return;
     if (environment->hdri.format != IMAGE_RGBA32F) return;
-    HdriLook    look = hdri_look(environment);
+    HdriLook look = hdri_look(environment);
     const char *path = environment->hdri_path;
     switch (hdri_doubt(&look)) {
     case HDRI_PLAUSIBLE: break;
@@ -41,11 +40,10 @@ void hdri_warn(const Environment *environment, Problems *problems)
     }
 }
 
-void data_warn(const Scene *scene, Severity severity, Problems *problems)
-{
-    int         count;
-    Arena       scratch = *problems->arena;
-    const int  *list = scene_without_data(scene, &count, &scratch);
+void data_warn(const Scene *scene, Severity severity, Problems *problems) {
+    int count;
+    Arena scratch = *problems->arena;
+    const int *list = scene_without_data(scene, &count, &scratch);
     const char *names = scene_names_of(scene, list, count, &scratch);
     if (!count) return;
     Arena own = arena_reserve((size_t)1 << 16); /* problems grow where the names lie */
@@ -53,21 +51,19 @@ void data_warn(const Scene *scene, Severity severity, Problems *problems)
     problems_add(problems, severity, scene->input_count ? scene->inputs[0] : "", "",
                  "%d of %d materials carr%s no optical data and %s taken as perfectly white: "
                  "%.900s — give each a base colour, a texture or a measured spectrum",
-                 count, scene->material_count, count == 1 ? "ies" : "y",
-                 count == 1 ? "is" : "are", names);
+                 count, scene->material_count, count == 1 ? "ies" : "y", count == 1 ? "is" : "are",
+                 names);
     arena_release(&own);
 }
 
 /* Displays of one file share its panel: the first of them is named. */
-static bool is_first_of_panel(const Scene *scene, int display_id)
-{
+static bool is_first_of_panel(const Scene *scene, int display_id) {
     for (int i = 0; i < display_id; i++)
         if (scene->displays[i].panel == scene->displays[display_id].panel) return false;
     return true;
 }
 
-void panels_warn(const Scene *scene, Severity severity, Problems *problems)
-{
+void panels_warn(const Scene *scene, Severity severity, Problems *problems) {
     Arena own = arena_reserve((size_t)1 << 24); /* problems grow in theirs */
     for (int i = 0; i < scene->display_count; i++) {
         const Display *display = &scene->displays[i];
@@ -76,8 +72,8 @@ void panels_warn(const Scene *scene, Severity severity, Problems *problems)
         if (stated.is_unusable)
             problems_add(problems, severity, display->panel_path, "",
                          "the panel of display '%.100s' says of itself that it is not usable: "
-                         "%.700s", display->name,
-                         stated.reason ? stated.reason : "its file gives no reason");
+                         "%.700s",
+                         display->name, stated.reason ? stated.reason : "its file gives no reason");
     }
     arena_release(&own);
 }

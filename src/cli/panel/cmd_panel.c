@@ -10,21 +10,14 @@
 #include "cli/panel/panel_commands.h"
 
 static const Command *const commands[] = {
-    &command_panel_import,
-    &command_panel_fit,
-    &command_panel_info,
-    &command_panel_eval,
-    &command_panel_export,
-    &command_panel_plot,
-    &command_panel_report,
-    &command_panel_show,
-    &command_panel_simulate,
+    &command_panel_import, &command_panel_fit,    &command_panel_info,
+    &command_panel_eval,   &command_panel_export, &command_panel_plot,
+    &command_panel_report, &command_panel_show,   &command_panel_simulate,
 };
 
 enum { COMMAND_COUNT = COUNT_OF(commands) };
 
-static void print_text(void)
-{
+static void print_text(void) {
     print("parhelion panel COMMAND ... -- measured display panels\n\ncommands:\n");
     for (int i = 0; i < COMMAND_COUNT; i++)
         print("  %-10s %s\n", commands[i]->name, commands[i]->summary);
@@ -32,15 +25,13 @@ static void print_text(void)
     cli_print_guide("panel");
 }
 
-static bool print_json(Arena *arena, Error *err)
-{
+static bool print_json(Arena *arena, Error *err) {
     json_t *head = json_pack("{s:s, s:s, s:s}", "name", command_panel.name, "summary",
                              command_panel.summary, "guide", guide_of_command("panel")->name);
     return help_json_group(head, commands, COMMAND_COUNT, arena, err);
 }
 
-static Outcome run_panel(int argc, char **argv, Arena *arena, Error *err)
-{
+static Outcome run_panel(int argc, char **argv, Arena *arena, Error *err) {
     const char *word = argc > 1 ? argv[1] : "";
     if (cli_is_version(word)) return version_print(), OUTCOME_DONE;
     if (cli_is_help(word) || !strcmp(word, "help")) {

@@ -20,11 +20,11 @@
 /* The command line of `panel eval`. */
 typedef struct EvalRequest {
     PanelQuestion question;
-    const char   *batch, *grid;
-    bool          has_theta, has_rgb, has_incidence, wants_csv;
-    PanelLevel    level;
-    int           layout; /* 0: rows, a table that `panel fit` reads; 1: a matrix */
-    int           quantity; /* index of PANEL_QUANTITIES */
+    const char *batch, *grid;
+    bool has_theta, has_rgb, has_incidence, wants_csv;
+    PanelLevel level;
+    int layout;   /* 0: rows, a table that `panel fit` reads; 1: a matrix */
+    int quantity; /* index of PANEL_QUANTITIES */
 } EvalRequest;
 
 /* ---- a grid of directions ---------------------------------------------------------------- */
@@ -43,20 +43,17 @@ typedef struct PanelGrid {
 
 #define POINTS_MAX 20000000
 
-static int range_count(const PanelRange *range)
-{
+static int range_count(const PanelRange *range) {
     return 1 + (int)floor((range->last - range->first) / range->step + 1e-9);
 }
 
-static double range_at(const PanelRange *range, int i)
-{
+static double range_at(const PanelRange *range, int i) {
     return range->first + i * range->step;
 }
 
 /* ---- the option ------------------------------------------------------------------------ */
 
-static bool parse_range(const char **text, PanelRange *out)
-{
+static bool parse_range(const char **text, PanelRange *out) {
     double *const to[3] = {&out->first, &out->last, &out->step};
     for (int i = 0; i < 3; i++) {
         char *after;
@@ -70,36 +67,34 @@ static bool parse_range(const char **text, PanelRange *out)
 }
 
 /* "THETA0:THETA1:STEP,PHI0:PHI1:STEP"; theta within 0..90, phi within -360..360. */
-static bool panel_grid_parse(const char *text, PanelGrid *out, Error *err)
-{
+static bool panel_grid_parse(const char *text, PanelGrid *out, Error *err) {
     const char *at = text;
     bool ok = parse_range(&at, &out->theta) && *at++ == ',' && parse_range(&at, &out->phi) &&
-              !*at && out->theta.first >= 0 && out->theta.last <= 90 &&
-              out->phi.first >= -360 && out->phi.last <= 360;
+              !*at && out->theta.first >= 0 && out->theta.last <= 90 && out->phi.first >= -360 &&
+              out->phi.last <= 360;
     if (ok && (double)range_count(&out->theta) * range_count(&out->phi) > POINTS_MAX)
         return error_set(err, ERROR_USAGE, "--grid %s has more than %d directions", text,
                          POINTS_MAX);
     return ok || error_set(err, ERROR_USAGE,
                            "--grid is '%s', required: THETA0:THETA1:STEP,PHI0:PHI1:STEP in "
-                           "degrees, theta within 0 to 90, steps above 0", text);
+                           "degrees, theta within 0 to 90, steps above 0",
+                           text);
 }
 
 /* ---- CSV ------------------------------------------------------------------------------- */
 
 /* Describes the numbers below it. */
-static void print_comment(const PanelQuestion *q)
-{
+static void print_comment(const PanelQuestion *q) {
     if (q->is_brdf)
         print("# reflection in sr^-1, the cosine not included, mirror part left out; light "
-              "at theta %g, phi %g; angles in degrees, columns in nm\n", q->incidence,
-              q->incidence_phi);
+              "at theta %g, phi %g; angles in degrees, columns in nm\n",
+              q->incidence, q->incidence_phi);
     else
         print("# emission at codes %g,%g,%g: CIE 1931 XYZ, Y in cd/m2; angles in degrees\n",
               q->rgb[0], q->rgb[1], q->rgb[2]);
 }
 
-static void print_list_names(const Panel *panel, const PanelQuestion *q)
-{
+static void print_list_names(const Panel *panel, const PanelQuestion *q) {
     PanelReflected r;
     print_comment(q);
     if (!q->is_brdf) {
@@ -112,8 +107,7 @@ static void print_list_names(const Panel *panel, const PanelQuestion *q)
     print("\n");
 }
 
-static void print_list_row(const Panel *panel, const PanelQuestion *q)
-{
+static void print_list_row(const Panel *panel, const PanelQuestion *q) {
     print("%.10g,%.10g", q->theta, q->phi);
     if (q->is_brdf) {
         PanelReflected r;
@@ -127,8 +121,7 @@ static void print_list_row(const Panel *panel, const PanelQuestion *q)
     print("\n");
 }
 
-static void print_list(const Panel *panel, const PanelQuestion *question, const PanelGrid *grid)
-{
+static void print_list(const Panel *panel, const PanelQuestion *question, const PanelGrid *grid) {
     PanelQuestion q = *question;
     print_list_names(panel, &q);
     for (int t = 0; t < range_count(&grid->theta); t++)
@@ -140,11 +133,15 @@ static void print_list(const Panel *panel, const PanelQuestion *question, const 
 }
 
 typedef enum Quantity {
-    QUANTITY_X, QUANTITY_Y, QUANTITY_Z, QUANTITY_U, QUANTITY_V, QUANTITY_BRDF
+    QUANTITY_X,
+    QUANTITY_Y,
+    QUANTITY_Z,
+    QUANTITY_U,
+    QUANTITY_V,
+    QUANTITY_BRDF
 } Quantity;
 
-static double quantity_at(const Panel *panel, const PanelQuestion *q, Quantity quantity)
-{
+static double quantity_at(const Panel *panel, const PanelQuestion *q, Quantity quantity) {
     PanelReflected r;
     float xyz[3];
     if (q->is_brdf) {
@@ -162,18 +159,16 @@ static double quantity_at(const Panel *panel, const PanelQuestion *q, Quantity q
     }
 }
 
-static void print_matrix(const Panel *panel, const PanelQuestion *question,
-                         const PanelGrid *grid, Quantity quantity)
-{
-    static const char *const names[] = {"X, cd/m2 as Y", "Y, cd/m2", "Z, cd/m2 as Y",
+static void print_matrix(const Panel *panel, const PanelQuestion *question, const PanelGrid *grid,
+                         Quantity quantity) {
+    static const char *const names[] = {"X, cd/m2 as Y", "Y, cd/m2",      "Z, cd/m2 as Y",
                                         "u' (CIE 1976)", "v' (CIE 1976)", "BRDF, sr^-1"};
     PanelQuestion q = *question;
     print_comment(&q);
     print("# %s", names[q.is_brdf ? QUANTITY_BRDF : quantity]);
     if (q.is_brdf) print(" at %g nm", q.wavelength_nm);
     print("; theta down, phi across\ntheta\\phi");
-    for (int p = 0; p < range_count(&grid->phi); p++)
-        print(",%.10g", range_at(&grid->phi, p));
+    for (int p = 0; p < range_count(&grid->phi); p++) print(",%.10g", range_at(&grid->phi, p));
     for (int t = 0; t < range_count(&grid->theta); t++) {
         q.theta = range_at(&grid->theta, t);
         print("\n%.10g", q.theta);
@@ -187,8 +182,7 @@ static void print_matrix(const Panel *panel, const PanelQuestion *question,
 
 /* ---- JSON ------------------------------------------------------------------------------ */
 
-static json_t *range_json(const PanelRange *range)
-{
+static json_t *range_json(const PanelRange *range) {
     json_t *list = json_array();
     for (int i = 0; i < range_count(range); i++)
         json_array_append_new(list, json_real(range_at(range, i)));
@@ -196,8 +190,7 @@ static json_t *range_json(const PanelRange *range)
 }
 
 /* Channels of one direction; returns whether it is measured. */
-static bool channels_at(const Panel *panel, const PanelQuestion *q, float *out)
-{
+static bool channels_at(const Panel *panel, const PanelQuestion *q, float *out) {
     PanelReflected r;
     if (!q->is_brdf) return panel_query_emission(panel, q, out);
     panel_query_reflection(panel, q, &r);
@@ -212,13 +205,12 @@ typedef struct FarLists {
 
 /* Fills one theta x phi table a channel. */
 static FarLists fill_tables(const Panel *panel, const PanelQuestion *question,
-                            const PanelGrid *grid, int channels, json_t **table)
-{
-    FarLists      far = {json_array(), json_array()};
+                            const PanelGrid *grid, int channels, json_t **table) {
+    FarLists far = {json_array(), json_array()};
     PanelQuestion q = *question;
-    float         value[PANEL_INFO_WAVELENGTHS_MAX];
+    float value[PANEL_INFO_WAVELENGTHS_MAX];
     for (int t = 0; t < range_count(&grid->theta); t++) {
-        bool    is_all = true;
+        bool is_all = true;
         json_t *row = json_array();
         q.theta = range_at(&grid->theta, t);
         for (int c = 0; c < channels; c++) json_array_append_new(table[c], json_array());
@@ -238,8 +230,7 @@ static FarLists fill_tables(const Panel *panel, const PanelQuestion *question,
 }
 
 static json_t *reflection_grid_json(const Panel *panel, const PanelQuestion *q,
-                                    const PanelGrid *grid)
-{
+                                    const PanelGrid *grid) {
     json_t *table[PANEL_INFO_WAVELENGTHS_MAX], *nm = json_array();
     json_t *brdf = json_array(), *mirror = json_array();
     PanelReflected r;
@@ -251,38 +242,32 @@ static json_t *reflection_grid_json(const Panel *panel, const PanelQuestion *q,
         json_array_append_new(mirror, json_real((double)r.mirror[i]));
     }
     FarLists far = fill_tables(panel, q, grid, r.count, table);
-    return json_pack("{s:f, s:f, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "incidence_deg",
-                     q->incidence, "incidence_phi_deg", q->incidence_phi, "theta_deg",
-                     range_json(&grid->theta), "phi_deg", range_json(&grid->phi),
-                     "wavelengths_nm", nm, "brdf_sr", brdf, "mirror", mirror, "extrapolated",
-                     far.theta, "extrapolated_at", far.at);
+    return json_pack("{s:f, s:f, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "incidence_deg", q->incidence,
+                     "incidence_phi_deg", q->incidence_phi, "theta_deg", range_json(&grid->theta),
+                     "phi_deg", range_json(&grid->phi), "wavelengths_nm", nm, "brdf_sr", brdf,
+                     "mirror", mirror, "extrapolated", far.theta, "extrapolated_at", far.at);
 }
 
 static json_t *emission_grid_json(const Panel *panel, const PanelQuestion *q,
-                                  const PanelGrid *grid)
-{
-    json_t  *table[3] = {json_array(), json_array(), json_array()};
+                                  const PanelGrid *grid) {
+    json_t *table[3] = {json_array(), json_array(), json_array()};
     FarLists far = fill_tables(panel, q, grid, 3, table);
-    return json_pack("{s:[f,f,f], s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "rgb", q->rgb[0],
-                     q->rgb[1], q->rgb[2], "theta_deg", range_json(&grid->theta), "phi_deg",
+    return json_pack("{s:[f,f,f], s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "rgb", q->rgb[0], q->rgb[1],
+                     q->rgb[2], "theta_deg", range_json(&grid->theta), "phi_deg",
                      range_json(&grid->phi), "X", table[0], "Y", table[1], "Z", table[2],
                      "extrapolated", far.theta, "extrapolated_at", far.at);
 }
 
-static bool print_grid_text(const Panel *panel, const EvalRequest *request,
-                            const PanelGrid *grid, Error *err)
-{
-    if (request->layout)
-        print_matrix(panel, &request->question, grid, (Quantity)request->quantity);
-    else
-        print_list(panel, &request->question, grid);
+static bool print_grid_text(const Panel *panel, const EvalRequest *request, const PanelGrid *grid,
+                            Error *err) {
+    if (request->layout) print_matrix(panel, &request->question, grid, (Quantity)request->quantity);
+    else print_list(panel, &request->question, grid);
     if (fflush(stdout) || ferror(stdout))
         return error_set(err, ERROR_OUTPUT, "stdout cannot be written: %s", strerror(errno));
     return true;
 }
 
-static json_t *answer_json(const Panel *panel, const PanelQuestion *q, const PanelLevel *level)
-{
+static json_t *answer_json(const Panel *panel, const PanelQuestion *q, const PanelLevel *level) {
     json_t *one = panel_answer_json(panel, q);
     panel_level_add(level, one);
     return one;
@@ -291,14 +276,14 @@ static json_t *answer_json(const Panel *panel, const PanelQuestion *q, const Pan
 /* ---- many rows at once ----------------------------------------------------------------- */
 
 static bool fill_question(const CsvTable *csv, int row, Arena *arena, PanelQuestion *q,
-                          Error *err)
-{
+                          Error *err) {
     for (int c = 0; c < csv->columns; c++) {
         double *to = panel_question_member(q, csv->name[c]);
         if (!to)
             return error_at(err, ERROR_INPUT, csv->file, "header line",
                             "column '%s' is unknown, required: theta, phi, r, g, b, incidence, "
-                            "incidence_phi, wavelength, u or v", csv->name[c]);
+                            "incidence_phi, wavelength, u or v",
+                            csv->name[c]);
         *to = (double)csv->cell[(size_t)row * (size_t)csv->columns + (size_t)c];
     }
     if (panel_question_check(q, err)) return true;
@@ -307,29 +292,30 @@ static bool fill_question(const CsvTable *csv, int row, Arena *arena, PanelQuest
 }
 
 /* Columns of the kind that is requested, so that none is passed over. */
-static bool check_columns(const CsvTable *csv, const EvalRequest *request, Error *err)
-{
+static bool check_columns(const CsvTable *csv, const EvalRequest *request, Error *err) {
     bool is_brdf = request->question.is_brdf, has_incidence = request->has_incidence;
     for (int c = 0; c < csv->columns; c++) {
         const char *name = csv->name[c];
         has_incidence |= !strcmp(name, "incidence");
         if (is_brdf ? panel_question_is_of_emission(name) : panel_question_is_of_brdf(name))
-            return error_at(err, ERROR_INPUT, csv->file, "header line", "column '%s' is of "
-                            "%s", name, is_brdf ? "an emission, and --brdf requests reflection"
-                                                : "a reflection, which --brdf requests");
+            return error_at(err, ERROR_INPUT, csv->file, "header line",
+                            "column '%s' is of "
+                            "%s",
+                            name,
+                            is_brdf ? "an emission, and --brdf requests reflection"
+                                    : "a reflection, which --brdf requests");
     }
     return !is_brdf || has_incidence ||
-           error_at(err, ERROR_INPUT, csv->file, "header line", "has no column 'incidence', "
+           error_at(err, ERROR_INPUT, csv->file, "header line",
+                    "has no column 'incidence', "
                     "required with --brdf (or --incidence T)");
 }
 
 static bool answer_batch(const Panel *panel, const EvalRequest *request, const Cli *cli,
-                         Arena *arena, Error *err)
-{
-    CsvTable       csv;
+                         Arena *arena, Error *err) {
+    CsvTable csv;
     PanelQuestion *list;
-    if (!csv_table_read(request->batch, arena, &csv, err) ||
-        !check_columns(&csv, request, err))
+    if (!csv_table_read(request->batch, arena, &csv, err) || !check_columns(&csv, request, err))
         return false;
     list = ARENA_NEW(arena, PanelQuestion, csv.rows);
     for (int i = 0; i < csv.rows; i++) {
@@ -339,12 +325,10 @@ static bool answer_batch(const Panel *panel, const EvalRequest *request, const C
     json_t *answers = json_array();
     if (request->wants_csv) panel_answer_csv_header(&list[0], stdout);
     for (int i = 0; i < csv.rows; i++) {
-        if (request->wants_csv)
-            panel_answer_csv(panel, &list[i], stdout);
+        if (request->wants_csv) panel_answer_csv(panel, &list[i], stdout);
         else if (cli->json)
             json_array_append_new(answers, answer_json(panel, &list[i], &request->level));
-        else
-            panel_answer_print(panel, &list[i]);
+        else panel_answer_print(panel, &list[i]);
     }
     if (cli->json) return cli_print_json(answers, err);
     json_decref(answers);
@@ -353,9 +337,7 @@ static bool answer_batch(const Panel *panel, const EvalRequest *request, const C
 
 /* ---- one answer ------------------------------------------------------------------------ */
 
-static bool answer_one(const Panel *panel, const EvalRequest *request, const Cli *cli,
-                       Error *err)
-{
+static bool answer_one(const Panel *panel, const EvalRequest *request, const Cli *cli, Error *err) {
     const PanelQuestion *q = &request->question;
     if (cli->json) return cli_print_json(answer_json(panel, q, &request->level), err);
     if (request->wants_csv) {
@@ -368,35 +350,30 @@ static bool answer_one(const Panel *panel, const EvalRequest *request, const Cli
 }
 
 static bool answer_grid(const Panel *panel, const EvalRequest *request, const Cli *cli,
-                        Error *err)
-{
-    PanelGrid            grid;
+                        Error *err) {
+    PanelGrid grid;
     const PanelQuestion *q = &request->question;
     if (!panel_grid_parse(request->grid, &grid, err)) return false;
     if (!cli->json) return print_grid_text(panel, request, &grid, err);
-    json_t *tables = q->is_brdf ? reflection_grid_json(panel, q, &grid)
-                                : emission_grid_json(panel, q, &grid);
+    json_t *tables =
+        q->is_brdf ? reflection_grid_json(panel, q, &grid) : emission_grid_json(panel, q, &grid);
     panel_level_add(&request->level, tables);
     return cli_print_json(tables, err);
 }
 
 static bool answer(const char *path, EvalRequest *request, const Cli *cli, Arena *arena,
-                   Error *err)
-{
+                   Error *err) {
     Panel *panel = NULL;
-    bool   ok;
+    bool ok;
     request->level.parts =
         request->question.is_brdf ? PANEL_COARSE_REFLECTION : PANEL_COARSE_EMISSION;
     if (!panel_level_open(path, &request->level, arena, &panel, err)) return false;
     if (request->question.is_brdf && !panel_reflects(panel))
         ok = error_at(err, ERROR_INPUT, path, "",
                       "has no reflection data; fit a set with a 'reflection' entry");
-    else if (request->grid)
-        ok = answer_grid(panel, request, cli, err);
-    else if (request->batch)
-        ok = answer_batch(panel, request, cli, arena, err);
-    else
-        ok = answer_one(panel, request, cli, err);
+    else if (request->grid) ok = answer_grid(panel, request, cli, err);
+    else if (request->batch) ok = answer_batch(panel, request, cli, arena, err);
+    else ok = answer_one(panel, request, cli, err);
     bool is_listed = request->grid || request->batch || request->wants_csv;
     if (ok && !cli->quiet && (is_listed || !cli->json))
         panel_level_print(&request->level, is_listed ? stderr : stdout);
@@ -404,8 +381,7 @@ static bool answer(const char *path, EvalRequest *request, const Cli *cli, Arena
     return ok;
 }
 
-static bool check_request(const EvalRequest *request, const Cli *cli, Error *err)
-{
+static bool check_request(const EvalRequest *request, const Cli *cli, Error *err) {
     const PanelQuestion *q = &request->question;
     PanelGrid grid;
     if (request->wants_csv && cli->json)
@@ -428,13 +404,12 @@ static bool check_request(const EvalRequest *request, const Cli *cli, Error *err
     return true;
 }
 
-static Outcome run_eval(int argc, char **argv, Arena *arena, Error *err)
-{
-    Cli     cli;
-    EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180,
-                                  .at = {NAN, NAN}}, .quantity = 1};
+static Outcome run_eval(int argc, char **argv, Arena *arena, Error *err) {
+    Cli cli;
+    EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180, .at = {NAN, NAN}},
+                     .quantity = 1};
     PanelQuestion *q = &r.question;
-    const Option   options[] = {
+    const Option options[] = {
         {"--theta", OPTION_NUMBER, "DEG", "angle from the normal, degrees", &q->theta, 0, 90, 0,
          &r.has_theta},
         {"--phi", OPTION_NUMBER, "DEG", "azimuth, degrees: 0 right, 90 up (default 0)", &q->phi,
@@ -450,9 +425,10 @@ static Outcome run_eval(int argc, char **argv, Arena *arena, Error *err)
          &q->incidence_phi, -360, 360},
         {"--at", OPTION_NUMBERS, "U,V",
          "place on the active area, 0 to 1 from its upper left corner, right and down "
-         "(default: the panel's own tables)", q->at, 0, 1, 2},
-        {"--wavelength", OPTION_NUMBER, "NM",
-         "one wavelength, nm, instead of all measured ones", &q->wavelength_nm, 360, 830},
+         "(default: the panel's own tables)",
+         q->at, 0, 1, 2},
+        {"--wavelength", OPTION_NUMBER, "NM", "one wavelength, nm, instead of all measured ones",
+         &q->wavelength_nm, 360, 830},
         {"--grid", OPTION_TEXT, "T0:T1:DT,P0:P1:DP",
          "theta and phi from, to, step, degrees, instead of one direction", &r.grid},
         {"--layout", OPTION_CHOICE, "list|matrix",
@@ -468,11 +444,16 @@ static Outcome run_eval(int argc, char **argv, Arena *arena, Error *err)
          "answers as comma-separated rows: XYZ in cd/m2, or sr^-1, a row a wavelength",
          &r.wants_csv},
     };
-    const CliCommand command = {"panel eval",
+    const CliCommand command = {
+        "panel eval",
         command_panel_eval.summary,
         "X.panel --theta T --phi P --rgb R,G,B | --brdf --incidence T --theta T --phi P",
         "parhelion panel eval assets/panels/ips_cluster.panel --theta 30 --phi 0 "
-        "--rgb 255,255,255", options, COUNT_OF(options), 1, 1};
+        "--rgb 255,255,255",
+        options,
+        COUNT_OF(options),
+        1,
+        1};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;
     return outcome_of(check_request(&r, &cli, err) &&

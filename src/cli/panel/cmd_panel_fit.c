@@ -15,8 +15,7 @@
 #include "panel/query/panel_open.h"
 
 /* The memory and CPU time of the process. */
-static void add_usage(json_t *report)
-{
+static void add_usage(json_t *report) {
     struct timespec now;
     if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now)) return;
     json_object_set_new(report, "peak_memory_bytes",
@@ -27,46 +26,51 @@ static void add_usage(json_t *report)
 
 /* The command line of `panel fit`. */
 typedef struct FitWords {
-    Cli         cli;
+    Cli cli;
     const char *output, *root, *levels;
-    int         basis, wavelet, incidence; /* places in the lists of the options */
-    long        level;
-    double      level_max, keep, max_error, error_floor, frame;
-    bool        lobe_is_mirror, force;
+    int basis, wavelet, incidence; /* places in the lists of the options */
+    long level;
+    double level_max, keep, max_error, error_floor, frame;
+    bool lobe_is_mirror, force;
 } FitWords;
 
-static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err)
-{
+static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err) {
     const Option options[] = {
-        {"-o", OPTION_TEXT, "X.panel", "the file to write", &out->output,
-         .file = OPTION_OUTPUT},
+        {"-o", OPTION_TEXT, "X.panel", "the file to write", &out->output, .file = OPTION_OUTPUT},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
-        {"--levels", OPTION_TEXT, "FILE.csv", "gamma table of a set of white alone: columns "
+        {"--levels", OPTION_TEXT, "FILE.csv",
+         "gamma table of a set of white alone: columns "
          "level and luminance (or red, green, blue), cd/m2 on the axis or relative",
          &out->levels},
-        {"--level-max", OPTION_NUMBER, "N", "highest code of --levels (default: 255, 1023, "
-         "4095 or 65535, whichever it ends at)", &out->level_max, 1, 65535},
+        {"--level-max", OPTION_NUMBER, "N",
+         "highest code of --levels (default: 255, 1023, "
+         "4095 or 65535, whichever it ends at)",
+         &out->level_max, 1, 65535},
         {"--basis", OPTION_CHOICE, "vertex|haar",
          "basis on the hemisphere (default vertex); haar: `parhelion help the-paper`", &out->basis},
         {"--level", OPTION_INTEGER, "N",
-         "subdivision level of the trees (default: what the samples need, up to 9)",
-         &out->level, 2, 9},
+         "subdivision level of the trees (default: what the samples need, up to 9)", &out->level, 2,
+         9},
         {"--keep", OPTION_NUMBER, "SHARE",
          "of the Haar basis: share of its coefficients (default: what 5 % of the source have "
-         "room for)", &out->keep, 1e-5, 1},
+         "room for)",
+         &out->keep, 1e-5, 1},
         {"--max-error", OPTION_NUMBER, "R",
          "relative error allowed at every sample besides its noise (default: 0.0025 for "
-         "emission, 0.02 for reflection, or what the noise needs)", &out->max_error, 1e-5,
-         1},
+         "emission, 0.02 for reflection, or what the noise needs)",
+         &out->max_error, 1e-5, 1},
         {"--error-floor", OPTION_NUMBER, "PERCENT",
          "of an emission table's largest value: errors of what is less are relative to it "
-         "(default 0.1)", &out->error_floor, 1e-4, 10},
+         "(default 0.1)",
+         &out->error_floor, 1e-4, 10},
         {"--lobe-is-mirror", OPTION_FLAG, NULL,
          "a narrow peak on the haze is the mirror's image as wide as the instrument, where the "
-         "set does not declare that width", &out->lobe_is_mirror},
+         "set does not declare that width",
+         &out->lobe_is_mirror},
         {"--wavelet", OPTION_CHOICE, "principal|haar|cdf53|cdf97",
          "basis along the wavelengths: a few principal spectra, or a wavelet (default "
-         "principal)", &out->wavelet},
+         "principal)",
+         &out->wavelet},
         {"--frame", OPTION_NUMBER, "K",
          "specular frame's exponent, 1 to 3 (default: the least error)", &out->frame, 1, 3},
         {"--incidence", OPTION_CHOICE, "cubic|linear",
@@ -74,24 +78,29 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
         {"--force", OPTION_FLAG, NULL,
          "write the panel also where it is judged not usable; its report says so", &out->force},
     };
-    const CliCommand command = {"panel fit", command_panel_fit.summary,
-        "MANIFEST.json|TABLE.csv -o X.panel [options]",
-        "parhelion panel fit measured/MANIFEST.json -o cluster.panel", options,
-        COUNT_OF(options), 1, 1};
+    const CliCommand command = {"panel fit",
+                                command_panel_fit.summary,
+                                "MANIFEST.json|TABLE.csv -o X.panel [options]",
+                                "parhelion panel fit measured/MANIFEST.json -o cluster.panel",
+                                options,
+                                COUNT_OF(options),
+                                1,
+                                1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     if (!out->output) return error_set(err, ERROR_USAGE, "panel fit wants -o X.panel");
     if (out->basis == FIT_HAAR && out->max_error > 0)
-        return error_set(err, ERROR_USAGE, "--max-error is for --basis vertex, --basis haar "
+        return error_set(err, ERROR_USAGE,
+                         "--max-error is for --basis vertex, --basis haar "
                          "has --keep");
     if (out->basis != FIT_HAAR && out->keep > 0)
-        return error_set(err, ERROR_USAGE, "--keep is for --basis haar, --basis vertex has "
+        return error_set(err, ERROR_USAGE,
+                         "--keep is for --basis haar, --basis vertex has "
                          "--max-error");
     return true;
 }
 
-static FitOptions options_of(const FitWords *words)
-{
+static FitOptions options_of(const FitWords *words) {
     FitOptions fit = fit_options_default();
     fit.level = (int)words->level;
     fit.has_wavelet = words->wavelet > 0;
@@ -110,8 +119,7 @@ static FitOptions options_of(const FitWords *words)
 }
 
 /* Read back from the file that was written. */
-static bool add_facts(const char *path, json_t *report, Arena *arena, Error *err)
-{
+static bool add_facts(const char *path, json_t *report, Arena *arena, Error *err) {
     Panel *panel = NULL;
     if (!panel_open(path, arena, &panel, err)) return false;
     panel_facts_add(panel, report);
@@ -120,25 +128,23 @@ static bool add_facts(const char *path, json_t *report, Arena *arena, Error *err
 }
 
 /* As JSON the report of a panel that is not written is the answer; stderr has the reason. */
-static Outcome print_refused(json_t *report, Error *err)
-{
+static Outcome print_refused(json_t *report, Error *err) {
     cli_report_error(err, false);
     return panel_print_report(report, true, err) ? OUTCOME_NO : OUTCOME_FAILED;
 }
 
-static Outcome run_fit(int argc, char **argv, Arena *arena, Error *err)
-{
+static Outcome run_fit(int argc, char **argv, Arena *arena, Error *err) {
     FitWords words = {0};
     if (!parse(argc, argv, arena, &words, err)) return OUTCOME_FAILED;
     if (words.cli.help_shown) return OUTCOME_DONE;
-    FitOptions   fit = options_of(&words);
+    FitOptions fit = options_of(&words);
     Measurement *set = ARENA_NEW(arena, Measurement, 1);
-    json_t      *report = NULL;
+    json_t *report = NULL;
     bool ok = reference_check_root(words.root, err) &&
               measurement_read_below(words.cli.arguments[0], words.root, arena, set, err) &&
               outputs_spare(&words.cli.outputs, set->inputs.list, set->inputs.count, err) &&
-              (!words.levels || measurement_read_levels(set, words.levels, words.level_max,
-                                                        arena, err)) &&
+              (!words.levels ||
+               measurement_read_levels(set, words.levels, words.level_max, arena, err)) &&
               panel_fit(set, &fit, words.output, arena, &report, err);
     if (!ok && (!report || !words.cli.json)) {
         json_decref(report);
@@ -153,5 +159,5 @@ static Outcome run_fit(int argc, char **argv, Arena *arena, Error *err)
     return outcome_of(panel_print_report(report, words.cli.json, err));
 }
 
-const Command command_panel_fit = {
-    "fit", "measurement files to one compressed panel file", run_fit};
+const Command command_panel_fit = {"fit", "measurement files to one compressed panel file",
+                                   run_fit};

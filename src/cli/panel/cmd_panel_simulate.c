@@ -10,9 +10,8 @@
 #include "panel/set/simulate.h"
 
 /* The closed form at one direction: the answer of a perfect fit. */
-static bool print_closed_form(const SyntheticPanel *panel, const double at[5], Error *err)
-{
-    double  xyz[3], angles[2] = {radians_from_degrees(at[0]), radians_from_degrees(at[1])};
+static bool print_closed_form(const SyntheticPanel *panel, const double at[5], Error *err) {
+    double xyz[3], angles[2] = {radians_from_degrees(at[0]), radians_from_degrees(at[1])};
     json_t *brdf = json_array(), *mirror = json_array(), *nm = json_array();
     closed_form_black_xyz(panel, angles, xyz);
     for (int p = 0; p < 3; p++) {
@@ -20,9 +19,8 @@ static bool print_closed_form(const SyntheticPanel *panel, const double at[5], E
         closed_form_emission_xyz(panel, p, at[2 + p], angles, add);
         for (int j = 0; j < 3; j++) xyz[j] += add[j];
     }
-    json_t *document = json_pack("{s:f, s:f, s:[f,f,f], s:[f,f,f]}", "theta_deg", at[0],
-                                 "phi_deg", at[1], "rgb", at[2], at[3], at[4], "XYZ", xyz[0],
-                                 xyz[1], xyz[2]);
+    json_t *document = json_pack("{s:f, s:f, s:[f,f,f], s:[f,f,f]}", "theta_deg", at[0], "phi_deg",
+                                 at[1], "rgb", at[2], at[3], at[4], "XYZ", xyz[0], xyz[1], xyz[2]);
     for (int w = 0; w < panel->reflection.wavelength_count && panel->reflection.exists; w++) {
         double l = panel->reflection.wavelength_nm[w];
         json_array_append_new(nm, json_real(l));
@@ -36,14 +34,12 @@ static bool print_closed_form(const SyntheticPanel *panel, const double at[5], E
     return cli_print_json(document, err);
 }
 
-static void switch_noise_off(SyntheticInstrument *instrument)
-{
+static void switch_noise_off(SyntheticInstrument *instrument) {
     instrument->noise_relative = instrument->noise_cd_m2 = instrument->noise_brdf_sr = 0;
 }
 
 /* So many rings, the normal not counted, and azimuths. */
-static bool set_grid(SyntheticInstrument *instrument, const int grid[2], Error *err)
-{
+static bool set_grid(SyntheticInstrument *instrument, const int grid[2], Error *err) {
     double theta = instrument->theta_max_deg / grid[0], phi = 360.0 / grid[1];
     if (theta < 0.05 || phi < 0.05)
         return error_set(err, ERROR_USAGE,
@@ -55,15 +51,14 @@ static bool set_grid(SyntheticInstrument *instrument, const int grid[2], Error *
     return true;
 }
 
-static Outcome run_simulate(int argc, char **argv, Arena *arena, Error *err)
-{
-    Cli         cli;
+static Outcome run_simulate(int argc, char **argv, Arena *arena, Error *err) {
+    Cli cli;
     SyntheticPanel panel;
     const char *folder = NULL;
-    double      at[5];
-    int         noise = 0, grid[2] = {0, 0};
-    double      place[2] = {0.5, 0.5};
-    bool        wants_truth = false, has_grid = false, has_place = false;
+    double at[5];
+    int noise = 0, grid[2] = {0, 0};
+    double place[2] = {0.5, 0.5};
+    bool wants_truth = false, has_grid = false, has_place = false;
     const Option options[] = {
         {"-o", OPTION_TEXT, "DIR", "folder for MANIFEST.json and its tables", &folder,
          .file = OPTION_OUTPUT},
@@ -72,22 +67,25 @@ static Outcome run_simulate(int argc, char **argv, Arena *arena, Error *err)
          &wants_truth},
         {"--at", OPTION_NUMBERS, "U,V",
          "of --truth: place on the active area, 0 to 1 from its upper left corner, right and "
-         "down (default 0.5,0.5)", place, 0, 1, 2, &has_place},
-        {"--noise", OPTION_CHOICE, "recipe|off", "the instrument's noise (default recipe)",
-         &noise},
+         "down (default 0.5,0.5)",
+         place, 0, 1, 2, &has_place},
+        {"--noise", OPTION_CHOICE, "recipe|off", "the instrument's noise (default recipe)", &noise},
         {"--grid", OPTION_SIZE, "RINGSxAZIMUTHS",
          "directions of every table up to the cone, instead of the recipe's steps", grid,
          .given = &has_grid},
     };
-    const CliCommand command = {"panel simulate",
+    const CliCommand command = {
+        "panel simulate",
         command_panel_simulate.summary,
         "RECIPE.json -o DIR",
         "parhelion panel simulate assets/panels/ips_cluster.recipe.json -o ips_cluster",
-        options, COUNT_OF(options), 1, 1};
+        options,
+        COUNT_OF(options),
+        1,
+        1};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;
-    if (!folder && !wants_truth)
-        return error_set(err, ERROR_USAGE, "panel simulate wants -o DIR");
+    if (!folder && !wants_truth) return error_set(err, ERROR_USAGE, "panel simulate wants -o DIR");
     if (has_place && !wants_truth)
         return error_set(err, ERROR_USAGE, "--at places the values of --truth; required: both");
     bool ok = synthetic_panel_read(cli.arguments[0], arena, &panel, err);
@@ -102,4 +100,5 @@ static Outcome run_simulate(int argc, char **argv, Arena *arena, Error *err)
 }
 
 const Command command_panel_simulate = {
-    "simulate", "a virtual Fourier-optics instrument writes a recipe's measurement set", run_simulate};
+    "simulate", "a virtual Fourier-optics instrument writes a recipe's measurement set",
+    run_simulate};

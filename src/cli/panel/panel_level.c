@@ -4,24 +4,23 @@
 #include "print/print.h"
 #include "panel/query/panel_open.h"
 
-static bool refuse(const char *path, const PanelLevel *level, int finest, Error *err)
-{
-    return error_at(err, ERROR_USAGE, path, "", "--level is %ld, required: 0 to "
-                    "%d", level->asked,
-                    finest);
+static bool refuse(const char *path, const PanelLevel *level, int finest, Error *err) {
+    return error_at(err, ERROR_USAGE, path, "",
+                    "--level is %ld, required: 0 to "
+                    "%d",
+                    level->asked, finest);
 }
 
-static bool refuse_any(const char *path, const PanelLevel *level, Error *err)
-{
-    return error_at(err, ERROR_USAGE, path, "", "--level is %ld, required: none: it has no %s, "
-                    "and so no tree of it", level->asked,
+static bool refuse_any(const char *path, const PanelLevel *level, Error *err) {
+    return error_at(err, ERROR_USAGE, path, "",
+                    "--level is %ld, required: none: it has no %s, "
+                    "and so no tree of it",
+                    level->asked,
                     level->parts == PANEL_COARSE_EMISSION ? "emission" : "reflection data");
 }
 
-static bool read_down(const char *path, PanelLevel *level, Arena *arena, Panel *panel,
-                      Error *err)
-{
-    int          finest = panel_coarse_finest(panel);
+static bool read_down(const char *path, PanelLevel *level, Arena *arena, Panel *panel, Error *err) {
+    int finest = panel_coarse_finest(panel);
     PanelCoarse *found = &level->found;
     if (!level->is_asked) return true;
     if (level->asked < 0 || level->asked > finest) return refuse(path, level, finest, err);
@@ -32,9 +31,7 @@ static bool read_down(const char *path, PanelLevel *level, Arena *arena, Panel *
     return true;
 }
 
-bool panel_level_open(const char *path, PanelLevel *level, Arena *arena, Panel **out,
-                      Error *err)
-{
+bool panel_level_open(const char *path, PanelLevel *level, Arena *arena, Panel **out, Error *err) {
     if (!panel_open(path, arena, out, err)) return false;
     if (read_down(path, level, arena, *out, err)) return true;
     panel_close(*out);
@@ -44,14 +41,12 @@ bool panel_level_open(const char *path, PanelLevel *level, Arena *arena, Panel *
 
 /* ---- one level --------------------------------------------------------------------------- */
 
-const char *panel_level_words(const PanelLevel *level, Arena *arena)
-{
+const char *panel_level_words(const PanelLevel *level, Arena *arena) {
     if (!level->is_asked) return NULL;
     return arena_format(arena, "read down to level %ld", level->asked);
 }
 
-static void print_part(const PanelCoarsePart *part, const char *name, FILE *to)
-{
+static void print_part(const PanelCoarsePart *part, const char *name, FILE *to) {
     if (!part->is_asked) return;
     if (part->level == part->finest)
         print_to(to, "level %d: %s is whole, its tree ends there\n", part->level, name);
@@ -60,38 +55,34 @@ static void print_part(const PanelCoarsePart *part, const char *name, FILE *to)
                  part->level, part->finest, name, 100 * part->max, 100 * part->rms);
 }
 
-void panel_level_print(const PanelLevel *level, FILE *to)
-{
+void panel_level_print(const PanelLevel *level, FILE *to) {
     if (!level->is_asked) return;
     print_part(&level->found.emission, "emission", to);
     print_part(&level->found.reflection, "reflection", to);
 }
 
-static void add_part(const PanelCoarsePart *part, const char *name, json_t *to)
-{
+static void add_part(const PanelCoarsePart *part, const char *name, json_t *to) {
     if (part->is_asked)
-        json_object_set_new(to, name, json_pack("{s:i, s:i, s:f, s:f}", "level", part->level,
-                                                "finest", part->finest, "max_error", part->max,
-                                                "rms_error", part->rms));
+        json_object_set_new(to, name,
+                            json_pack("{s:i, s:i, s:f, s:f}", "level", part->level, "finest",
+                                      part->finest, "max_error", part->max, "rms_error",
+                                      part->rms));
 }
 
-static json_t *level_json(const PanelCoarse *found)
-{
+static json_t *level_json(const PanelCoarse *found) {
     json_t *out = json_pack("{s:i}", "level", found->level);
     add_part(&found->emission, "emission", out);
     add_part(&found->reflection, "reflection", out);
     return out;
 }
 
-void panel_level_add(const PanelLevel *level, json_t *answer)
-{
+void panel_level_add(const PanelLevel *level, json_t *answer) {
     if (level->is_asked) json_object_set_new(answer, "level", level_json(&level->found));
 }
 
 /* ---- all levels -------------------------------------------------------------------------- */
 
-json_t *panel_level_list(const Panel *panel, Arena *arena)
-{
+json_t *panel_level_list(const Panel *panel, Arena *arena) {
     json_t *list = json_array();
     for (int level = 0; level <= panel_coarse_finest(panel); level++) {
         PanelCoarse found;
@@ -101,22 +92,18 @@ json_t *panel_level_list(const Panel *panel, Arena *arena)
     return list;
 }
 
-static void print_column(const json_t *row, const char *part, const char *key)
-{
+static void print_column(const json_t *row, const char *part, const char *key) {
     const json_t *value = json_object_get(json_object_get(row, part), key);
-    if (value)
-        print(" %13.3g %%", 100 * json_number_value(value));
-    else
-        print(" %15s", "-");
+    if (value) print(" %13.3g %%", 100 * json_number_value(value));
+    else print(" %15s", "-");
 }
 
-void panel_level_print_list(const json_t *list)
-{
-    size_t  i;
+void panel_level_print_list(const json_t *list) {
+    size_t i;
     json_t *row;
     print("each level (--level of eval, export and plot): relative differences to the whole "
-          "panel, at any direction\n%-5s %15s %15s %15s %15s\n", "level", "emission, most",
-          "rms", "reflection, most", "rms");
+          "panel, at any direction\n%-5s %15s %15s %15s %15s\n",
+          "level", "emission, most", "rms", "reflection, most", "rms");
     json_array_foreach(list, i, row) {
         print("%-5zu", i);
         print_column(row, "emission", "max_error");

@@ -10,21 +10,23 @@
 #include "panel/set/panel_coarse.h"
 
 /* A row of Options; the variable is a PanelLevel. */
-#define PANEL_LEVEL_OPTION(level)                                                              \
-    {"--level", OPTION_INTEGER, "N",                                                           \
-     "read the trees down to level N only, and state the error (default: all of them)",        \
-     .out = &(level).asked, .given = &(level).is_asked}
+#define PANEL_LEVEL_OPTION(level) \
+    {"--level", \
+     OPTION_INTEGER, \
+     "N", \
+     "read the trees down to level N only, and state the error (default: all of them)", \
+     .out = &(level).asked, \
+     .given = &(level).is_asked}
 
 typedef struct PanelLevel {
-    long        asked;
-    bool        is_asked; /* false: the whole panel */
-    unsigned    parts;    /* which trees, PANEL_COARSE_... */
-    PanelCoarse found;    /* by panel_level_open */
+    long asked;
+    bool is_asked;     /* false: the whole panel */
+    unsigned parts;    /* which trees, PANEL_COARSE_... */
+    PanelCoarse found; /* by panel_level_open */
 } PanelLevel;
 
 /* Opens a panel at the level that is requested. */
-bool panel_level_open(const char *path, PanelLevel *level, Arena *arena, Panel **out,
-                      Error *err);
+bool panel_level_open(const char *path, PanelLevel *level, Arena *arena, Panel **out, Error *err);
 
 /* "read down to level 3", for titles; NULL: the panel is whole. */
 const char *panel_level_words(const PanelLevel *level, Arena *arena);
@@ -37,4 +39,4 @@ void panel_level_add(const PanelLevel *level, json_t *answer);
 
 /* All levels of a panel: a new list, and as a table. */
 json_t *panel_level_list(const Panel *panel, Arena *arena);
-void    panel_level_print_list(const json_t *list);
+void panel_level_print_list(const json_t *list);

@@ -11,48 +11,50 @@
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
 
-Vec3 panel_direction(double theta_deg, double phi_deg)
-{
+Vec3 panel_direction(double theta_deg, double phi_deg) {
     double t = radians_from_degrees(theta_deg), p = radians_from_degrees(phi_deg);
     return vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
 }
 
-double *panel_question_member(PanelQuestion *q, const char *name)
-{
-    struct { const char *name; double *to; } members[] = {
-        {"theta", &q->theta}, {"phi", &q->phi}, {"r", &q->rgb[0]}, {"g", &q->rgb[1]},
-        {"b", &q->rgb[2]}, {"incidence", &q->incidence}, {"incidence_phi", &q->incidence_phi},
-        {"wavelength", &q->wavelength_nm}, {"u", &q->at[0]}, {"v", &q->at[1]}};
+double *panel_question_member(PanelQuestion *q, const char *name) {
+    struct {
+        const char *name;
+        double *to;
+    } members[] = {{"theta", &q->theta},
+                   {"phi", &q->phi},
+                   {"r", &q->rgb[0]},
+                   {"g", &q->rgb[1]},
+                   {"b", &q->rgb[2]},
+                   {"incidence", &q->incidence},
+                   {"incidence_phi", &q->incidence_phi},
+                   {"wavelength", &q->wavelength_nm},
+                   {"u", &q->at[0]},
+                   {"v", &q->at[1]}};
     for (int i = 0; i < COUNT_OF(members); i++)
         if (!strcmp(members[i].name, name)) return members[i].to;
     return NULL;
 }
 
-static bool is_among(const char *name, const char *const *list)
-{
+static bool is_among(const char *name, const char *const *list) {
     while (*list && strcmp(*list, name)) list++;
     return *list != NULL;
 }
 
-bool panel_question_is_of_brdf(const char *name)
-{
+bool panel_question_is_of_brdf(const char *name) {
     static const char *const names[] = {"incidence", "incidence_phi", "wavelength", NULL};
     return is_among(name, names);
 }
 
-bool panel_question_is_of_emission(const char *name)
-{
+bool panel_question_is_of_emission(const char *name) {
     static const char *const names[] = {"r", "g", "b", NULL};
     return is_among(name, names);
 }
 
-static bool is_anywhere(const PanelQuestion *q)
-{
+static bool is_anywhere(const PanelQuestion *q) {
     return isnan(q->at[0]) && isnan(q->at[1]);
 }
 
-bool panel_question_check(const PanelQuestion *q, Error *err)
-{
+bool panel_question_check(const PanelQuestion *q, Error *err) {
     if (q->is_brdf && !(q->incidence >= 0 && q->incidence <= 90))
         return error_set(err, ERROR_USAGE, "incidence is %g, required: 0 to 90 degrees",
                          q->incidence);
@@ -69,25 +71,22 @@ bool panel_question_check(const PanelQuestion *q, Error *err)
     return true;
 }
 
-bool panel_query_emission(const Panel *panel, const PanelQuestion *q, float xyz[3])
-{
+bool panel_query_emission(const Panel *panel, const PanelQuestion *q, float xyz[3]) {
     float rgb[3] = {(float)q->rgb[0], (float)q->rgb[1], (float)q->rgb[2]};
     float at[2] = {(float)q->at[0], (float)q->at[1]};
-    Vec3  direction = panel_direction(q->theta, q->phi);
+    Vec3 direction = panel_direction(q->theta, q->phi);
     return is_anywhere(q) ? panel_emission_xyz(panel, direction, rgb, xyz)
                           : panel_place_emission_xyz(panel, at, direction, rgb, xyz);
 }
 
 /* At the place that is requested. */
-static PanelMix panel_asked(const Panel *panel, const PanelQuestion *q)
-{
+static PanelMix panel_asked(const Panel *panel, const PanelQuestion *q) {
     float at[2] = {(float)q->at[0], (float)q->at[1]};
     if (!is_anywhere(q)) return panel_place_reflection(panel, at);
     return (PanelMix){.count = 1, .panel = {panel}, .weight = {1}};
 }
 
-void panel_query_reflection(const Panel *panel, const PanelQuestion *q, PanelReflected *out)
-{
+void panel_query_reflection(const Panel *panel, const PanelQuestion *q, PanelReflected *out) {
     Vec3 wo = panel_direction(q->theta, q->phi);
     Vec3 wi = panel_direction(q->incidence, q->incidence_phi);
     PanelMix mix = panel_asked(panel, q);
@@ -117,20 +116,17 @@ void panel_query_reflection(const Panel *panel, const PanelQuestion *q, PanelRef
 
 /* ---- JSON ------------------------------------------------------------------------------ */
 
-static json_t *emission_json(const Panel *panel, const PanelQuestion *q)
-{
-    float  xyz[3];
-    bool   measured = panel_query_emission(panel, q, xyz);
+static json_t *emission_json(const Panel *panel, const PanelQuestion *q) {
+    float xyz[3];
+    bool measured = panel_query_emission(panel, q, xyz);
     double x = (double)xyz[0], y = (double)xyz[1], z = (double)xyz[2], d = x + 15 * y + 3 * z;
-    return json_pack("{s:f, s:f, s:[f,f,f], s:[f,f,f], s:f, s:[f,f], s:b}",
-        "theta_deg", q->theta, "phi_deg", q->phi, "rgb", q->rgb[0], q->rgb[1], q->rgb[2],
-        "XYZ", x, y, z, "luminance_cd_m2", y,
-        "uv", d > 0 ? 4 * x / d : 0, d > 0 ? 9 * y / d : 0,
-        "extrapolated", (int)!measured);
+    return json_pack("{s:f, s:f, s:[f,f,f], s:[f,f,f], s:f, s:[f,f], s:b}", "theta_deg", q->theta,
+                     "phi_deg", q->phi, "rgb", q->rgb[0], q->rgb[1], q->rgb[2], "XYZ", x, y, z,
+                     "luminance_cd_m2", y, "uv", d > 0 ? 4 * x / d : 0, d > 0 ? 9 * y / d : 0,
+                     "extrapolated", (int)!measured);
 }
 
-static json_t *reflection_json(const Panel *panel, const PanelQuestion *q)
-{
+static json_t *reflection_json(const Panel *panel, const PanelQuestion *q) {
     json_t *nm = json_array(), *brdf = json_array(), *mirror = json_array();
     json_t *lambertian = json_array();
     PanelReflected r;
@@ -141,14 +137,13 @@ static json_t *reflection_json(const Panel *panel, const PanelQuestion *q)
         json_array_append_new(lambertian, json_real((double)r.lambertian[i]));
         json_array_append_new(mirror, json_real((double)r.mirror[i]));
     }
-    return json_pack("{s:f, s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:b}", "incidence_deg",
-        q->incidence, "incidence_phi_deg", q->incidence_phi, "theta_deg", q->theta, "phi_deg",
-        q->phi, "wavelengths_nm", nm, "brdf_sr", brdf, "lambertian_sr", lambertian, "mirror",
-        mirror, "extrapolated", (int)!r.is_measured);
+    return json_pack("{s:f, s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:b}", "incidence_deg", q->incidence,
+                     "incidence_phi_deg", q->incidence_phi, "theta_deg", q->theta, "phi_deg",
+                     q->phi, "wavelengths_nm", nm, "brdf_sr", brdf, "lambertian_sr", lambertian,
+                     "mirror", mirror, "extrapolated", (int)!r.is_measured);
 }
 
-json_t *panel_answer_json(const Panel *panel, const PanelQuestion *q)
-{
+json_t *panel_answer_json(const Panel *panel, const PanelQuestion *q) {
     json_t *out = q->is_brdf ? reflection_json(panel, q) : emission_json(panel, q);
     if (!is_anywhere(q))
         json_object_set_new(out, "position", json_pack("[f, f]", q->at[0], q->at[1]));
@@ -157,17 +152,15 @@ json_t *panel_answer_json(const Panel *panel, const PanelQuestion *q)
 
 /* ---- text ------------------------------------------------------------------------------ */
 
-static void print_emission(const Panel *panel, const PanelQuestion *q)
-{
-    float  xyz[3];
-    bool   measured = panel_query_emission(panel, q, xyz);
+static void print_emission(const Panel *panel, const PanelQuestion *q) {
+    float xyz[3];
+    bool measured = panel_query_emission(panel, q, xyz);
     double x = (double)xyz[0], y = (double)xyz[1], z = (double)xyz[2], d = x + 15 * y + 3 * z;
-    print("%.6g cd/m2  XYZ %.6g %.6g %.6g  u'v' %.4f %.4f%s\n", y, x, y, z,
-          d > 0 ? 4 * x / d : 0, d > 0 ? 9 * y / d : 0, measured ? "" : "  (extrapolated)");
+    print("%.6g cd/m2  XYZ %.6g %.6g %.6g  u'v' %.4f %.4f%s\n", y, x, y, z, d > 0 ? 4 * x / d : 0,
+          d > 0 ? 9 * y / d : 0, measured ? "" : "  (extrapolated)");
 }
 
-static void print_reflection(const Panel *panel, const PanelQuestion *q)
-{
+static void print_reflection(const Panel *panel, const PanelQuestion *q) {
     PanelReflected r;
     panel_query_reflection(panel, q, &r);
     for (int i = 0; i < r.count; i++)
@@ -175,35 +168,29 @@ static void print_reflection(const Panel *panel, const PanelQuestion *q)
               (double)r.mirror[i], r.is_measured ? "" : "  (extrapolated)");
 }
 
-void panel_answer_print(const Panel *panel, const PanelQuestion *q)
-{
-    if (q->is_brdf)
-        print_reflection(panel, q);
-    else
-        print_emission(panel, q);
+void panel_answer_print(const Panel *panel, const PanelQuestion *q) {
+    if (q->is_brdf) print_reflection(panel, q);
+    else print_emission(panel, q);
 }
 
 /* ---- CSV ------------------------------------------------------------------------------- */
 
-void panel_answer_csv_header(const PanelQuestion *q, FILE *out)
-{
+void panel_answer_csv_header(const PanelQuestion *q, FILE *out) {
     print_to(out, q->is_brdf ? "theta,phi,incidence,incidence_phi,wavelength,brdf,mirror,"
                                "measured\n"
                              : "theta,phi,r,g,b,X,Y,Z,measured\n");
 }
 
-static void csv_reflection(const Panel *panel, const PanelQuestion *q, FILE *out)
-{
+static void csv_reflection(const Panel *panel, const PanelQuestion *q, FILE *out) {
     PanelReflected r;
     panel_query_reflection(panel, q, &r);
     for (int i = 0; i < r.count; i++)
-        print_to(out, "%.10g,%.10g,%.10g,%.10g,%.9g,%.9g,%.9g,%d\n", q->theta, q->phi,
-                 q->incidence, q->incidence_phi, (double)r.nm[i], (double)r.brdf[i],
-                 (double)r.mirror[i], (int)r.is_measured);
+        print_to(out, "%.10g,%.10g,%.10g,%.10g,%.9g,%.9g,%.9g,%d\n", q->theta, q->phi, q->incidence,
+                 q->incidence_phi, (double)r.nm[i], (double)r.brdf[i], (double)r.mirror[i],
+                 (int)r.is_measured);
 }
 
-void panel_answer_csv(const Panel *panel, const PanelQuestion *q, FILE *out)
-{
+void panel_answer_csv(const Panel *panel, const PanelQuestion *q, FILE *out) {
     float xyz[3];
     if (q->is_brdf) {
         csv_reflection(panel, q, out);
@@ -211,6 +198,5 @@ void panel_answer_csv(const Panel *panel, const PanelQuestion *q, FILE *out)
     }
     bool measured = panel_query_emission(panel, q, xyz);
     print_to(out, "%.10g,%.10g,%g,%g,%g,%.9g,%.9g,%.9g,%d\n", q->theta, q->phi, q->rgb[0],
-             q->rgb[1], q->rgb[2], (double)xyz[0], (double)xyz[1], (double)xyz[2],
-             (int)measured);
+             q->rgb[1], q->rgb[2], (double)xyz[0], (double)xyz[1], (double)xyz[2], (int)measured);
 }

@@ -16,18 +16,18 @@
 typedef struct PanelQuestion {
     double theta, phi, rgb[3];
     double incidence, incidence_phi;
-    bool   is_brdf;
+    bool is_brdf;
     double wavelength_nm; /* 0: all measured ones */
     double at[2];         /* place (panel_place.h); NaN: the file's own panel, wherever */
 } PanelQuestion;
 
 /* A reflection's answer. */
 typedef struct PanelReflected {
-    int   count;
+    int count;
     float nm[PANEL_INFO_WAVELENGTHS_MAX];
     float brdf[PANEL_INFO_WAVELENGTHS_MAX], mirror[PANEL_INFO_WAVELENGTHS_MAX];
     float lambertian[PANEL_INFO_WAVELENGTHS_MAX]; /* of brdf */
-    bool  is_measured;
+    bool is_measured;
 } PanelReflected;
 
 /* Unit vector of a direction in degrees. */
@@ -44,12 +44,11 @@ bool panel_question_check(const PanelQuestion *question, Error *err);
 
 /* True where the value is measured. */
 bool panel_query_emission(const Panel *panel, const PanelQuestion *question, float xyz[3]);
-void panel_query_reflection(const Panel *panel, const PanelQuestion *question,
-                            PanelReflected *out);
+void panel_query_reflection(const Panel *panel, const PanelQuestion *question, PanelReflected *out);
 
 /* A new document (cli.md: panel eval --json). */
 json_t *panel_answer_json(const Panel *panel, const PanelQuestion *question);
-void    panel_answer_print(const Panel *panel, const PanelQuestion *question);
+void panel_answer_print(const Panel *panel, const PanelQuestion *question);
 
 /* A header line, and then rows, of the question and its answer: one of an emission, one for
  * each wavelength of a reflection. */

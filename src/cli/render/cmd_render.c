@@ -27,21 +27,20 @@
 /* Everything of one run of the command. */
 typedef struct RenderRun {
     RenderRequest request;
-    Arena        *arena;
-    Problems      problems;
-    Scene        *scene;
-    SceneCamera   camera;
-    RenderSetup   setup;
-    LightGroups   lights;
-    const char   *identity;
-    RenderLive    live;
+    Arena *arena;
+    Problems problems;
+    Scene *scene;
+    SceneCamera camera;
+    RenderSetup setup;
+    LightGroups lights;
+    const char *identity;
+    RenderLive live;
 } RenderRun;
 
 /* ---- before ------------------------------------------------------------------------------ */
 
 /* Of the film, and of the frame that it becomes. */
-static double bytes_of(const RenderOptions *options, unsigned layers)
-{
+static double bytes_of(const RenderOptions *options, unsigned layers) {
     int lights = options->lights ? options->lights->count : 0;
     return (double)film_bytes(options->crop, layers, lights) +
            (double)film_frame_bytes(options->crop, layers, lights);
@@ -49,16 +48,14 @@ static double bytes_of(const RenderOptions *options, unsigned layers)
 
 /* Frames that our own reader would refuse, and films that the memory does not hold. */
 static bool check_memory(const RenderOptions *options, unsigned layers, const Arena *arena,
-                         Error *err)
-{
+                         Error *err) {
     FilmRect crop = options->crop;
-    double   pixels = (double)options->width * (double)options->height;
-    double   wanted = bytes_of(options, layers);
-    double   memory = (double)arena_left(arena);
+    double pixels = (double)options->width * (double)options->height;
+    double wanted = bytes_of(options, layers);
+    double memory = (double)arena_left(arena);
     if (pixels > EXR_MAX_PIXELS)
-        return error_set(err, ERROR_USAGE,
-                         "--size %dx%d: %.0f pixels, at most %d are supported", options->width,
-                         options->height, pixels, EXR_MAX_PIXELS);
+        return error_set(err, ERROR_USAGE, "--size %dx%d: %.0f pixels, at most %d are supported",
+                         options->width, options->height, pixels, EXR_MAX_PIXELS);
     if (wanted < memory) return true;
     return error_set(
         err, ERROR_MEMORY,
@@ -68,13 +65,12 @@ static bool check_memory(const RenderOptions *options, unsigned layers, const Ar
 }
 
 /* The groups of lights, once the scene is known: each is a layer. */
-static bool find_lights(RenderRun *work, Error *err)
-{
+static bool find_lights(RenderRun *work, Error *err) {
     RenderOptions *options = &work->request.render;
-    int            reported = work->problems.count;
+    int reported = work->problems.count;
     if (!(options->layers & LAYER_LIGHT) || work->request.replays) return true;
-    work->lights = light_groups_build(work->scene, work->setup.context.lights, work->arena,
-                                      &work->problems);
+    work->lights =
+        light_groups_build(work->scene, work->setup.context.lights, work->arena, &work->problems);
     for (; reported < work->problems.count; reported++)
         print_to(stderr, "parhelion: warning: %s\n", work->problems.list[reported].message);
     if (work->lights.count > FILM_LIGHTS_MAX)
@@ -88,8 +84,7 @@ static bool find_lights(RenderRun *work, Error *err)
 }
 
 /* Hours of rendering must not end at a folder that cannot be written. */
-static bool check_outputs(const RenderRequest *request, Error *err)
-{
+static bool check_outputs(const RenderRequest *request, Error *err) {
     if (request->output && !file_check_writable(request->output, err)) return false;
     if (!render_check_checkpoint(request, err)) return false;
     if (request->live && !request->replays && !file_check_writable(request->live, err))
@@ -99,27 +94,24 @@ static bool check_outputs(const RenderRequest *request, Error *err)
 
 /* A view that does not exist is found now, on a frame of one pixel, a format whose library
  * cannot be loaded here, and a denoiser without weights. */
-static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
-{
+static bool check_look(const RenderRequest *request, Arena scratch, Error *err) {
     if (request->look.is_denoised && !denoise_check(err)) return false;
     if (!request->png) return true;
-    FrameImage    frame = frame_create(1, 1, (ExrWindow){0, 0, 1, 1}, 3, 0, &scratch);
-    Picture       picture;
-    FileBytes     file;
+    FrameImage frame = frame_create(1, 1, (ExrWindow){0, 0, 1, 1}, 3, 0, &scratch);
+    Picture picture;
+    FileBytes file;
     DevelopReport report;
     for (const char *name = "RGB"; *name; name++)
         frame_add_channel(&frame, arena_format(&scratch, "%c", *name), false, &scratch)[0] = 1;
     return picture_check_name(request->png, 8, err) &&
            develop_picture(&frame, &request->look, &scratch, &picture, &report, err) &&
-           picture_encode(request->png, &picture, (PictureFile){.bits = 8}, &scratch, &file,
-                          err);
+           picture_encode(request->png, &picture, (PictureFile){.bits = 8}, &scratch, &file, err);
 }
 
 /* One sample that is replayed has none of them. */
-static void set_areas(RenderRequest *request)
-{
+static void set_areas(RenderRequest *request) {
     RenderOptions *options = &request->render;
-    bool           favours = request->favoured.option && !request->replays;
+    bool favours = request->favoured.option && !request->replays;
     options->noise = request->replays ? 0 : request->noise.error;
     options->noise_area = request->noise.of.area;
     options->favours_noise = options->favours_noise && favours;
@@ -127,27 +119,25 @@ static void set_areas(RenderRequest *request)
 }
 
 /* A part of a frame is merged with others. */
-static void warn_of_halves(const RenderRequest *request, Problems *problems)
-{
+static void warn_of_halves(const RenderRequest *request, Problems *problems) {
     const RenderOptions *options = &request->render;
     uint32_t count = options->end_sample - options->first_sample;
     uint32_t least = film_halves_samples(options->first_sample);
     if (request->names_halves && !request->is_part && count < least)
         problems_add(problems, SEVERITY_WARNING, "--layers", "",
                      "halves are known from %u samples a pixel on, %u are rendered: they will "
-                     "be NaN", least, count);
+                     "be NaN",
+                     least, count);
 }
 
-static bool load(RenderRun *work, Error *err)
-{
+static bool load(RenderRun *work, Error *err) {
     RenderRequest *request = &work->request;
     work->problems = problems_start(work->arena);
     const SceneAsked asked = {&request->scene, &request->environment, request->render.progress,
                               &request->cli.outputs};
     bool loaded =
         scene_options_load(&asked, work->arena, &work->problems, &work->scene, err) &&
-        render_choose_camera(work->scene, &request->camera, &work->problems, &work->camera,
-                             err) &&
+        render_choose_camera(work->scene, &request->camera, &work->problems, &work->camera, err) &&
         frame_area_find(work->scene, *work->arena, &request->noise.of, err) &&
         frame_area_find(work->scene, *work->arena, &request->favoured, err);
     if (loaded) set_areas(request);
@@ -160,59 +150,52 @@ static bool load(RenderRun *work, Error *err)
     return loaded;
 }
 
-static bool identify(RenderRun *work, Error *err)
-{
+static bool identify(RenderRun *work, Error *err) {
     RenderOptions *options = &work->request.render;
     work->request.field_hash = work->setup.field_hash;
-    work->identity = render_identity(&work->request, work->scene, &work->camera,
-                                     work->setup.kernel, work->arena);
-    return render_find_checkpoint(&work->request, work->identity, work->arena,
-                                  &options->resume, err);
+    work->identity = render_identity(&work->request, work->scene, &work->camera, work->setup.kernel,
+                                     work->arena);
+    return render_find_checkpoint(&work->request, work->identity, work->arena, &options->resume,
+                                  err);
 }
 
 /* ---- after ------------------------------------------------------------------------------- */
 
-static bool write_frame(const RenderRun *work, const RenderResult *result, Error *err)
-{
-    Arena      scratch = *work->arena;
+static bool write_frame(const RenderRun *work, const RenderResult *result, Error *err) {
+    Arena scratch = *work->arena;
     if (work->request.only_png) return true;
-    FrameImage frame = render_make_frame(&work->request, work->scene, &work->camera, result,
-                                         &scratch);
+    FrameImage frame =
+        render_make_frame(&work->request, work->scene, &work->camera, result, &scratch);
     if (!render_output_is_radiance(&work->request))
         return frame_write(work->request.output, &frame, err);
-    return radiance_picture_write(work->request.output, &frame, work->request.command_line,
-                                  scratch, err);
+    return radiance_picture_write(work->request.output, &frame, work->request.command_line, scratch,
+                                  err);
 }
 
-static void write_snapshot(void *user, const RenderResult *so_far)
-{
+static void write_snapshot(void *user, const RenderResult *so_far) {
     const RenderRun *work = user;
-    Error       err;
+    Error err;
     if (write_frame(work, so_far, &err))
-        print_to(stderr, "parhelion: %s: snapshot after %u samples a pixel\n",
-                 work->request.output, so_far->samples);
-    else
-        cli_report_error(&err, false);
+        print_to(stderr, "parhelion: %s: snapshot after %u samples a pixel\n", work->request.output,
+                 so_far->samples);
+    else cli_report_error(&err, false);
 }
 
 /* On stderr at once, and among the answer's warnings. */
-static void warn(RenderRun *work, const char *text)
-{
+static void warn(RenderRun *work, const char *text) {
     print_to(stderr, "parhelion: warning: %s\n", text);
     problems_add(&work->problems, SEVERITY_WARNING, "", "", "%s", text);
 }
 
 /* A warning of an error that the render survives. */
-static void warn_of(RenderRun *work, const Error *err)
-{
+static void warn_of(RenderRun *work, const Error *err) {
     char line[2048];
     error_line(err, line, (int)sizeof line);
     warn(work, arena_string(work->arena, line, strlen(line)));
 }
 
 /* Half of the memory: others need some, and so do the scene and what writes the file. */
-static void warn_of_memory(RenderRun *work)
-{
+static void warn_of_memory(RenderRun *work) {
     const RenderOptions *options = &work->request.render;
     double wanted = bytes_of(options, options->layers), memory = (double)machine_memory_bytes();
     if (wanted <= memory / 2 || work->request.replays) return;
@@ -220,19 +203,18 @@ static void warn_of_memory(RenderRun *work)
                             "--layers: the film and the frame take %.1f of the %.1f GB here%s",
                             wanted / 1e9, memory / 1e9,
                             options->layers & ~(unsigned)LAYER_COMPARED
-                                ? " — --layers compare takes less, or --crop" : ""));
+                                ? " — --layers compare takes less, or --crop"
+                                : ""));
 }
 
-static void warn_of_dropped(RenderRun *work, const RenderResult *result)
-{
+static void warn_of_dropped(RenderRun *work, const RenderResult *result) {
     const char *line = work->request.command_line;
     const char *text = frame_dropped_warning(result->film, line, work->arena);
     if (text && !work->request.replays) warn(work, text);
 }
 
 /* Of a part that was dealt the others may have what it lacks. */
-static bool check_dropped(const RenderRun *work, const RenderResult *result, Error *err)
-{
+static bool check_dropped(const RenderRun *work, const RenderResult *result, Error *err) {
     const RenderRequest *request = &work->request;
     if (request->replays || request->part.count ||
         frame_check_dropped(result->film, request->command_line, *work->arena, err))
@@ -241,15 +223,13 @@ static bool check_dropped(const RenderRun *work, const RenderResult *result, Err
     return false;
 }
 
-static void warn_of_noise(RenderRun *work, const RenderResult *result)
-{
+static void warn_of_noise(RenderRun *work, const RenderResult *result) {
     const RenderOptions *options = &work->request.render;
     const char *area = frame_area_words(&work->request.noise.of, work->arena);
     if (!(options->noise > 0) || !result->complete) return;
     if (isnan(result->noise))
         warn(work, arena_format(work->arena,
-                                "nothing of %s is in view: --noise had nothing to go by",
-                                area));
+                                "nothing of %s is in view: --noise had nothing to go by", area));
     else if (!result->stop.reached && result->noise > options->noise)
         warn(work, arena_format(work->arena,
                                 "the relative error of %s is %.3g, not the %.3g of --noise, "
@@ -264,8 +244,7 @@ static void warn_of_noise(RenderRun *work, const RenderResult *result)
 }
 
 /* A crop may well lie beside the area. */
-static void warn_of_favour(RenderRun *work, const RenderResult *result)
-{
+static void warn_of_favour(RenderRun *work, const RenderResult *result) {
     const RenderOptions *options = &work->request.render;
     const FilmRect all = {0, 0, options->width, options->height};
     if (!options->favoured || memcmp(&all, &options->crop, sizeof all) != 0 ||
@@ -278,10 +257,9 @@ static void warn_of_favour(RenderRun *work, const RenderResult *result)
 }
 
 /* False after a warning: the render is worth more than its checkpoint. */
-static bool keep_checkpoint(RenderRun *work, const RenderResult *so_far)
-{
+static bool keep_checkpoint(RenderRun *work, const RenderResult *so_far) {
     Error err;
-    char  line[2048];
+    char line[2048];
     if (!work->request.checkpoint) return false;
     if (render_keep_checkpoint(&work->request, work->identity, so_far, *work->arena, &err))
         return true;
@@ -291,47 +269,41 @@ static bool keep_checkpoint(RenderRun *work, const RenderResult *so_far)
     return false;
 }
 
-static void keep_checkpoint_meanwhile(void *user, const RenderResult *so_far)
-{
+static void keep_checkpoint_meanwhile(void *user, const RenderResult *so_far) {
     keep_checkpoint(user, so_far);
 }
 
 /* ---- who watches ------------------------------------------------------------------------- */
 
 /* It has no sums, also of a part: they would be out of date before anybody merges them. */
-static bool write_live_file(RenderRun *work, const RenderResult *so_far, Error *err)
-{
-    Arena         scratch = *work->arena;
-    double        begun_s = monotonic_seconds();
+static bool write_live_file(RenderRun *work, const RenderResult *so_far, Error *err) {
+    Arena scratch = *work->arena;
+    double begun_s = monotonic_seconds();
     RenderRequest request = work->request;
-    RenderResult  result = *so_far;
+    RenderResult result = *so_far;
     request.is_part = false;
     result.error = film_relative_error(so_far->film);
-    FrameImage frame = render_make_frame(&request, work->scene, &work->camera, &result,
-                                         &scratch);
+    FrameImage frame = render_make_frame(&request, work->scene, &work->camera, &result, &scratch);
     return render_live_write(&work->live, &frame, begun_s, err);
 }
 
-static void show_pass(void *user, const RenderResult *so_far, const Progress *shown)
-{
+static void show_pass(void *user, const RenderResult *so_far, const Progress *shown) {
     RenderRun *work = user;
-    Error      err;
+    Error err;
     if (!render_live_is_due(&work->live) || write_live_file(work, so_far, &err)) return;
     progress_clear(shown);
     warn_of(work, &err);
 }
 
 /* The file is a copy of the frame in the end, but for a part's sums. */
-static void show_end(RenderRun *work, const RenderResult *result)
-{
+static void show_end(RenderRun *work, const RenderResult *result) {
     Error err;
     if (work->live.path && !write_live_file(work, result, &err)) warn_of(work, &err);
 }
 
 /* The partial frame is written and the answer given: only the line is left. */
 static Outcome report_interruption(const RenderRun *work, const RenderResult *result,
-                                   bool is_kept)
-{
+                                   bool is_kept) {
     const RenderOptions *options = &work->request.render;
     print_to(stderr,
              "parhelion: %s: stopped by %s after %u of %u samples a pixel; the frame is marked "
@@ -343,61 +315,57 @@ static Outcome report_interruption(const RenderRun *work, const RenderResult *re
     return OUTCOME_STOPPED;
 }
 
-static bool develop(const RenderRun *work, const RenderResult *result, Error *err)
-{
-    Arena         scratch = *work->arena;
-    LookReport    look;
-    FrameImage    frame = render_make_frame(&work->request, work->scene, &work->camera, result,
-                                            &scratch);
+static bool develop(const RenderRun *work, const RenderResult *result, Error *err) {
+    Arena scratch = *work->arena;
+    LookReport look;
+    FrameImage frame =
+        render_make_frame(&work->request, work->scene, &work->camera, result, &scratch);
     const LookRequest request = {&frame, &work->request.look, work->request.png,
                                  work->request.cli.threads};
     if (!look_options_develop(&request, scratch, &look, err)) return false;
     if (work->request.cli.json || !look.develop.is_developed) return true;
-    print("%s: %s, %s, middle grey %.4g cd/m2, %s%s\n", work->request.png,
-          look.develop.display, look.develop.view, look.develop.grey_cd_m2,
-          look.develop.config, look_options_words(&look, &scratch));
+    print("%s: %s, %s, middle grey %.4g cd/m2, %s%s\n", work->request.png, look.develop.display,
+          look.develop.view, look.develop.grey_cd_m2, look.develop.config,
+          look_options_words(&look, &scratch));
     return true;
 }
 
 /* The checkpoint comes first: who stopped the render may not wait for long. */
-static Outcome hand_over(RenderRun *work, const RenderResult *result, Error *err)
-{
+static Outcome hand_over(RenderRun *work, const RenderResult *result, Error *err) {
     if (!check_dropped(work, result, err)) return OUTCOME_FAILED;
     warn_of_dropped(work, result);
     warn_of_noise(work, result);
     warn_of_favour(work, result);
     if (work->request.replays)
-        return outcome_of(render_print_replay(&work->request, work->scene, result, work->arena,
-                                              err));
+        return outcome_of(
+            render_print_replay(&work->request, work->scene, result, work->arena, err));
     bool is_kept = !result->complete && keep_checkpoint(work, result);
     if (!write_frame(work, result, err)) return OUTCOME_FAILED;
     if (result->complete) render_remove_checkpoint(&work->request);
     show_end(work, result);
     if ((work->request.png && !develop(work, result, err)) ||
-        !render_print_answer(&work->request, result, work->live.spent_s,
-                             &work->problems, err))
+        !render_print_answer(&work->request, result, work->live.spent_s, &work->problems, err))
         return OUTCOME_FAILED;
     return result->complete ? OUTCOME_DONE : report_interruption(work, result, is_kept);
 }
 
 /* A pixel that is replayed has samples; a Radiance picture can say the view. */
-static bool check_view(const RenderRun *work, Error *err)
-{
+static bool check_view(const RenderRun *work, Error *err) {
     const RenderOptions *options = &work->request.render;
     const double at[2] = {options->crop.x0, options->crop.y0};
-    const int    size[2] = {options->width, options->height};
+    const int size[2] = {options->width, options->height};
     if (work->request.replays) return render_check_pixel(&work->camera, size, at, err);
-    if (!render_output_is_radiance(&work->request) ||
-        work->camera.fisheye != FISHEYE_EQUISOLID)
+    if (!render_output_is_radiance(&work->request) || work->camera.fisheye != FISHEYE_EQUISOLID)
         return true;
-    return error_set(err, ERROR_USAGE, "-o %s: a Radiance picture cannot say an equisolid view "
-                     "— add --projection equidistant, or -o FRAME.exr", work->request.output);
+    return error_set(err, ERROR_USAGE,
+                     "-o %s: a Radiance picture cannot say an equisolid view "
+                     "— add --projection equidistant, or -o FRAME.exr",
+                     work->request.output);
 }
 
-static Outcome run(RenderRun *work, Error *err)
-{
+static Outcome run(RenderRun *work, Error *err) {
     RenderOptions *options = &work->request.render;
-    RenderResult   result;
+    RenderResult result;
     bool keeps_frame = !work->request.replays && !work->request.only_png;
     options->snapshot = keeps_frame ? write_snapshot : NULL;
     options->checkpoint = work->request.keeps_checkpoints ? keep_checkpoint_meanwhile : NULL;
@@ -405,8 +373,8 @@ static Outcome run(RenderRun *work, Error *err)
     /* whether the scene has a second display is not known yet */
     if (!check_memory(options, options->layers & ~(unsigned)LAYER_DISPLAY_SECOND, work->arena,
                       err) ||
-        !check_outputs(&work->request, err) ||
-        !check_look(&work->request, *work->arena, err) || !load(work, err))
+        !check_outputs(&work->request, err) || !check_look(&work->request, *work->arena, err) ||
+        !load(work, err))
         return OUTCOME_FAILED;
     if (!check_view(work, err)) return OUTCOME_FAILED;
     work->live = render_live_begin(&work->request);
@@ -420,16 +388,14 @@ static Outcome run(RenderRun *work, Error *err)
     return done ? hand_over(work, &result, err) : OUTCOME_FAILED;
 }
 
-Outcome cmd_render_request(const RenderRequest *request, Arena *arena, Error *err)
-{
+Outcome cmd_render_request(const RenderRequest *request, Arena *arena, Error *err) {
     RenderRun work = {.request = *request, .arena = arena};
-    Outcome   outcome = run(&work, err);
+    Outcome outcome = run(&work, err);
     scene_close(work.scene);
     return outcome;
 }
 
-static Outcome run_render(int argc, char **argv, Arena *arena, Error *err)
-{
+static Outcome run_render(int argc, char **argv, Arena *arena, Error *err) {
     RenderRequest request;
     if (!render_request_parse(argc, argv, arena, &request, err)) return OUTCOME_FAILED;
     return request.cli.help_shown ? OUTCOME_DONE : cmd_render_request(&request, arena, err);

@@ -13,8 +13,8 @@ typedef struct FrameArea {
     const char *option;  /* who names it, for messages: "--noise"; NULL: nobody does */
     const char *instead; /* what else it takes, for messages: "noise, "; NULL: nothing */
     const char *text;    /* as it was typed */
-    FilmArea    area;    /* the frame, if nobody names another */
-    bool        is_rect; /* a rectangle was named */
+    FilmArea area;       /* the frame, if nobody names another */
+    bool is_rect;        /* a rectangle was named */
     const char *display; /* the name of the one that was named; NULL: none */
 } FrameArea;
 

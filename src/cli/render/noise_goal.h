@@ -5,10 +5,9 @@
 #include "cli/render/frame_area.h"
 
 typedef struct NoiseGoal {
-    double    error; /* 0: none is requested */
+    double error; /* 0: none is requested */
     FrameArea of;
 } NoiseGoal;
 
 /* The area may not leave the crop. */
-bool noise_goal_parse(const char *text, FilmRect crop, Arena *arena, NoiseGoal *out,
-                      Error *err);
+bool noise_goal_parse(const char *text, FilmRect crop, Arena *arena, NoiseGoal *out, Error *err);

@@ -10,8 +10,7 @@
 
 #define MOST_DEGREES 360
 
-static bool read_number(const char **text, double *out)
-{
+static bool read_number(const char **text, double *out) {
     char *end;
     *out = strtod(*text, &end);
     bool is_some = end != *text && isfinite(*out);
@@ -20,13 +19,12 @@ static bool read_number(const char **text, double *out)
 }
 
 /* An extinction ratio E:1 is light that is let through over light that is not. */
-static bool read_sunglasses(const char *text, PolarisedEye *eye, Error *err)
-{
+static bool read_sunglasses(const char *text, PolarisedEye *eye, Error *err) {
     const char *at = text;
-    double      degrees, extinction = (double)INFINITY;
-    bool is_read = read_number(&at, &degrees) && fabs(degrees) <= MOST_DEGREES &&
-                   (!*at || (*at++ == ':' && read_number(&at, &extinction) && !*at &&
-                             extinction >= 1));
+    double degrees, extinction = (double)INFINITY;
+    bool is_read =
+        read_number(&at, &degrees) && fabs(degrees) <= MOST_DEGREES &&
+        (!*at || (*at++ == ':' && read_number(&at, &extinction) && !*at && extinction >= 1));
     if (!is_read)
         return error_set(err, ERROR_USAGE,
                          "--sunglasses %.80s: required: DEG or DEG:EXTINCTION, degrees from "
@@ -42,18 +40,19 @@ static bool read_sunglasses(const char *text, PolarisedEye *eye, Error *err)
 }
 
 bool polarised_options_read(const PolarisedWords *words, bool wants_all, unsigned *layers,
-                            Arena *arena, const PolarisedEye **out, Error *err)
-{
-    bool          asks = (*layers & LAYER_STOKES) != 0;
+                            Arena *arena, const PolarisedEye **out, Error *err) {
+    bool asks = (*layers & LAYER_STOKES) != 0;
     PolarisedEye *eye = ARENA_NEW(arena, PolarisedEye, 1);
     *out = NULL;
     if (words->sunglasses && !read_sunglasses(words->sunglasses, eye, err)) return false;
     if (!words->is_polarised && !words->sunglasses)
-        return !asks || error_set(err, ERROR_USAGE, "--layers stokes: how light is polarised "
-                                                    "is followed with --polarised alone");
+        return !asks || error_set(err, ERROR_USAGE,
+                                  "--layers stokes: how light is polarised "
+                                  "is followed with --polarised alone");
     if (asks && eye->has_glasses)
-        return error_set(err, ERROR_USAGE, "--layers stokes is of light before it meets "
-                                           "--sunglasses — leave one of them out");
+        return error_set(err, ERROR_USAGE,
+                         "--layers stokes is of light before it meets "
+                         "--sunglasses — leave one of them out");
     eye->with_stokes = !eye->has_glasses && (asks || wants_all);
     if (eye->with_stokes) *layers |= LAYER_STOKES;
     *out = eye;

@@ -9,18 +9,20 @@
 #include "path/polarised.h"
 
 typedef struct PolarisedWords {
-    bool        is_polarised;
+    bool is_polarised;
     const char *sunglasses; /* as typed; NULL: none */
 } PolarisedWords;
 
-#define POLARISED_OPTIONS(words)                                                               \
-    {"--polarised", OPTION_FLAG, NULL,                                                         \
-     "follow how light is polarised, by glass, displays and the sky; adds the layer stokes",   \
-     &(words)->is_polarised},                                                                  \
-    {"--sunglasses", OPTION_TEXT, "DEG[:EXTINCTION]",                                          \
-     "the eye wears a polariser, its axis so far from the vertical, clockwise as its wearer "  \
-     "sees it; ideal, or with this extinction ratio (implies --polarised)",                    \
-     &(words)->sunglasses}
+#define POLARISED_OPTIONS(words) \
+    {"--polarised", OPTION_FLAG, NULL, \
+     "follow how light is polarised, by glass, displays and the sky; adds the layer stokes", \
+     &(words)->is_polarised}, \
+    { \
+        "--sunglasses", OPTION_TEXT, "DEG[:EXTINCTION]", \
+            "the eye wears a polariser, its axis so far from the vertical, clockwise as its wearer " \
+            "sees it; ideal, or with this extinction ratio (implies --polarised)", \
+            &(words)->sunglasses \
+    }
 
 /* *out: NULL where neither option is there; directions are set with the camera. *layers: has
  * LAYER_STOKES afterwards if it may and `wants_all` or it had. */

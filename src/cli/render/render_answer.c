@@ -24,45 +24,38 @@
 /* ---- the frame --------------------------------------------------------------------------- */
 
 /* How far along the axis the scene's coordinates begin. */
-static double origin_along(const Scene *scene, Vec3 axis)
-{
+static double origin_along(const Scene *scene, Vec3 axis) {
     const double *o = scene->origin;
     return o[0] * (double)axis.x + o[1] * (double)axis.y + o[2] * (double)axis.z;
 }
 
 /* For row vectors, as OpenEXR has it: p_camera = p_world * M. Zeros are all positive. */
 static void set_world_to_camera(FrameImage *frame, const Scene *scene, const Transform *t,
-                                Arena *arena)
-{
+                                Arena *arena) {
     const Vec3 axes[3] = {t->x, t->y, t->z};
-    double     matrix[16] = {[15] = 1};
+    double matrix[16] = {[15] = 1};
     for (int i = 0; i < 3; i++) {
         matrix[i] = 0.0 + (double)axes[i].x;
         matrix[4 + i] = 0.0 + (double)axes[i].y;
         matrix[8 + i] = 0.0 + (double)axes[i].z;
-        matrix[12 + i] =
-            0.0 - (double)vec3_dot(t->origin, axes[i]) - origin_along(scene, axes[i]);
+        matrix[12 + i] = 0.0 - (double)vec3_dot(t->origin, axes[i]) - origin_along(scene, axes[i]);
     }
     frame_set_values(frame, "worldToCamera", EXR_MATRIX44, matrix, arena);
 }
 
 static void set_camera(FrameImage *frame, const Scene *scene, const SceneCamera *camera,
-                       Arena *arena)
-{
+                       Arena *arena) {
     set_world_to_camera(frame, scene, &camera->world_from_camera, arena);
     frame_set_string(frame, "parhelion:camera",
                      camera->node_name[0] ? camera->node_name : camera->camera_name, arena);
-    if (camera->fisheye)
-        frame_set_fisheye(frame, camera->fisheye, arena);
+    if (camera->fisheye) frame_set_fisheye(frame, camera->fisheye, arena);
     else if (camera->is_perspective)
-        frame_set_number(frame, "parhelion:yfov_deg",
-                         degrees_from_radians((double)camera->yfov), arena);
-    else
-        frame_set_number(frame, "parhelion:ymag_m", (double)camera->ymag, arena);
+        frame_set_number(frame, "parhelion:yfov_deg", degrees_from_radians((double)camera->yfov),
+                         arena);
+    else frame_set_number(frame, "parhelion:ymag_m", (double)camera->ymag, arena);
 }
 
-static void set_inputs(FrameImage *frame, const Scene *scene, Arena *arena)
-{
+static void set_inputs(FrameImage *frame, const Scene *scene, Arena *arena) {
     const char *list = "";
     for (int i = 0; i < scene->input_count; i++)
         list = arena_format(arena, "%s%016llx  %s\n", list,
@@ -71,52 +64,49 @@ static void set_inputs(FrameImage *frame, const Scene *scene, Arena *arena)
 }
 
 /* Which names the numbers of id.part and id.display stand for. */
-static void set_names(FrameImage *frame, const Scene *scene, unsigned layers, Arena *arena)
-{
+static void set_names(FrameImage *frame, const Scene *scene, unsigned layers, Arena *arena) {
     for (int i = 0; (layers & LAYER_ID) && i < scene->part_count; i++)
-        frame_set_string(frame, arena_format(arena, "parhelion:part.%d", i),
-                         scene->parts[i].name, arena);
+        frame_set_string(frame, arena_format(arena, "parhelion:part.%d", i), scene->parts[i].name,
+                         arena);
     for (int i = 0; (layers & (LAYER_ID | LAYER_DISPLAYS)) && i < scene->display_count; i++)
         frame_set_string(frame, arena_format(arena, "parhelion:display.%d", i),
                          scene->displays[i].name, arena);
 }
 
 /* Records the approximations with the frame. */
-static void set_eye(FrameImage *frame, const PolarisedEye *eye, Arena *arena)
-{
+static void set_eye(FrameImage *frame, const PolarisedEye *eye, Arena *arena) {
     frame_set_string(frame, "parhelion:polarised",
                      "by glass, covers, gloss and metals of n, k, displays that say so and the "
                      "clear sky; other metals as perfect mirrors, coated sheets and solids as "
-                     "bare ones; haze and matt surfaces depolarise", arena);
+                     "bare ones; haze and matt surfaces depolarise",
+                     arena);
     if (!eye->has_glasses) return;
     frame_set_string(frame, "parhelion:sunglasses",
                      arena_format(arena, "axis right %.6g, up %.6g; across it %.6g",
-                                  (double)eye->axis[0], (double)eye->axis[1],
-                                  (double)eye->blocks), arena);
+                                  (double)eye->axis[0], (double)eye->axis[1], (double)eye->blocks),
+                     arena);
 }
 
 /* And the names of layers for those of lights. */
-static void set_lights(FrameImage *frame, const LightGroups *lights, Arena *arena)
-{
+static void set_lights(FrameImage *frame, const LightGroups *lights, Arena *arena) {
     for (int i = 0; lights && i < lights->count; i++)
         frame_set_string(frame, arena_format(arena, "parhelion:light.%s", lights->names[i]),
                          lights->said[i], arena);
 }
 
 static void set_sampling(FrameImage *frame, const RenderRequest *request,
-                         const RenderResult *result, Arena *arena)
-{
+                         const RenderResult *result, Arena *arena) {
     const RenderOptions *options = &request->render;
-    const FrameOutcome   outcome = {.first_sample = options->first_sample,
-                                    .end_sample = options->first_sample + result->samples,
-                                    .complete = result->complete,
-                                    .relative_error = result->error.frame,
-                                    .dropped_samples = film_dropped(result->film).count};
+    const FrameOutcome outcome = {.first_sample = options->first_sample,
+                                  .end_sample = options->first_sample + result->samples,
+                                  .complete = result->complete,
+                                  .relative_error = result->error.frame,
+                                  .dropped_samples = film_dropped(result->film).count};
     frame_set_outcome(frame, &outcome, arena);
     if (request->part.count)
         frame_set_string(frame, DEALT_PART_ATTRIBUTE,
-                         arena_format(arena, "%u/%u", request->part.number,
-                                      request->part.count), arena);
+                         arena_format(arena, "%u/%u", request->part.number, request->part.count),
+                         arena);
     frame_set_string(frame, "parhelion:isa", result->kernel->isa, arena);
     frame_set_string(frame, "parhelion:seed", arena_format(arena, "%u", options->seed), arena);
     frame_set_whole(frame, "parhelion:maxBounces", options->max_bounces, arena);
@@ -124,12 +114,13 @@ static void set_sampling(FrameImage *frame, const RenderRequest *request,
     if (options->favoured)
         frame_set_string(frame, "parhelion:for",
                          arena_format(arena, "all samples for %s, of other pixels 1 in %u",
-                                      frame_area_words(&request->favoured, arena),
-                                      FAVOUR_OTHERS), arena);
+                                      frame_area_words(&request->favoured, arena), FAVOUR_OTHERS),
+                         arena);
     if (options->favours_noise)
-        frame_set_string(frame, "parhelion:for",
-                         arena_format(arena, "samples where %u of each pixel found noise",
-                                      PILOT_SAMPLES), arena);
+        frame_set_string(
+            frame, "parhelion:for",
+            arena_format(arena, "samples where %u of each pixel found noise", PILOT_SAMPLES),
+            arena);
     if (options->eye) set_eye(frame, options->eye, arena);
     if (result->field_hash)
         frame_set_string(frame, "parhelion:field",
@@ -138,9 +129,8 @@ static void set_sampling(FrameImage *frame, const RenderRequest *request,
 }
 
 /* A part carries the film's sums, so that it can be merged with the others. */
-static void attach_sums(FrameImage *frame, const RenderOptions *options,
-                        const RenderResult *result, Arena *arena)
-{
+static void attach_sums(FrameImage *frame, const RenderOptions *options, const RenderResult *result,
+                        Arena *arena) {
     const PathStatistics *cost = &result->statistics;
     uint32_t first = options->first_sample;
     FilmPart part = film_part_of(result->film, first, first + result->samples);
@@ -153,10 +143,8 @@ static void attach_sums(FrameImage *frame, const RenderOptions *options,
 }
 
 FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
-                             const SceneCamera *camera, const RenderResult *result,
-                             Arena *arena)
-{
-    int        room = 32 + scene->part_count + scene->display_count + FILM_LIGHTS_MAX;
+                             const SceneCamera *camera, const RenderResult *result, Arena *arena) {
+    int room = 32 + scene->part_count + scene->display_count + FILM_LIGHTS_MAX;
     FrameImage frame = film_to_frame(result->film, room, arena);
     frame_set_string(&frame, "software", "parhelion " PARHELION_VERSION, arena);
     frame_set_string(&frame, "parhelion:commandLine", request->command_line, arena);
@@ -182,83 +170,75 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
 
 /* ---- the answer -------------------------------------------------------------------------- */
 
-static double ray_count(const PathStatistics *statistics)
-{
+static double ray_count(const PathStatistics *statistics) {
     return (double)statistics->camera_rays + (double)statistics->bounce_rays +
            (double)statistics->shadow_rays;
 }
 
-static double per_second(double count, double seconds)
-{
+static double per_second(double count, double seconds) {
     return seconds > 0 ? count / seconds : 0;
 }
 
-static json_t *worst_pixels(const Film *film)
-{
+static json_t *worst_pixels(const Film *film) {
     FilmWorst worst[WORST_PIXELS];
-    json_t   *list = json_array();
-    int       count = film_worst_pixels(film, WORST_PIXELS, worst);
+    json_t *list = json_array();
+    int count = film_worst_pixels(film, WORST_PIXELS, worst);
     for (int i = 0; i < count; i++)
-        json_array_append_new(
-            list, json_pack("{s:i, s:i, s:o, s:o}", "x", worst[i].x, "y", worst[i].y,
-                            "luminance_cd_m2", json_figure(worst[i].luminance),
-                            "relative_error", json_figure(worst[i].error)));
+        json_array_append_new(list,
+                              json_pack("{s:i, s:i, s:o, s:o}", "x", worst[i].x, "y", worst[i].y,
+                                        "luminance_cd_m2", json_figure(worst[i].luminance),
+                                        "relative_error", json_figure(worst[i].error)));
     return list;
 }
 
 /* The training before the first sample; null: none. */
-static json_t *training_document(const RenderResult *result)
-{
+static json_t *training_document(const RenderResult *result) {
     char hash[17];
     if (!result->field_hash) return json_null();
     snprintf(hash, sizeof hash, "%016llx", (unsigned long long)result->field_hash);
-    return json_pack("{s:s, s:f, s:I}", "field", hash, "seconds", result->training_seconds,
-                     "paths", (json_int_t)result->training_paths);
+    return json_pack("{s:s, s:f, s:I}", "field", hash, "seconds", result->training_seconds, "paths",
+                     (json_int_t)result->training_paths);
 }
 
-static double mean_samples(const RenderRequest *request, const RenderResult *result)
-{
+static double mean_samples(const RenderRequest *request, const RenderResult *result) {
     const RenderOptions *options = &request->render;
-    const FilmRect       crop = options->crop;
+    const FilmRect crop = options->crop;
     double pixels = (double)(crop.x1 - crop.x0) * (crop.y1 - crop.y0);
     return (double)sample_shares_sum(&result->shares, crop, options->first_sample,
-                                     options->first_sample + result->samples) / pixels;
+                                     options->first_sample + result->samples) /
+           pixels;
 }
 
 /* What all samples were for; null: every pixel. */
-static json_t *favour_document(const RenderRequest *request, const RenderResult *result)
-{
+static json_t *favour_document(const RenderRequest *request, const RenderResult *result) {
     const RenderOptions *options = &request->render;
     if (!options->favoured && !options->favours_noise) return json_null();
-    return json_pack("{s:o, s:I, s:o, s:f}", "area", json_text(request->favoured.text),
-                     "pixels", (json_int_t)sample_shares_whole(&result->shares), "others",
+    return json_pack("{s:o, s:I, s:o, s:f}", "area", json_text(request->favoured.text), "pixels",
+                     (json_int_t)sample_shares_whole(&result->shares), "others",
                      options->favoured ? json_real(1.0 / FAVOUR_OTHERS) : json_null(),
                      "mean_samples", mean_samples(request, result));
 }
 
 /* What --noise required and what came of it; null: nothing was required. The answer's error is
  * of the frame's own samples, the pilot's of those that decided. */
-static json_t *noise_document(const RenderRequest *request, const RenderResult *result)
-{
+static json_t *noise_document(const RenderRequest *request, const RenderResult *result) {
     const RenderOptions *options = &request->render;
-    const NoiseStop     *stop = &result->stop;
+    const NoiseStop *stop = &result->stop;
     bool is_rare = render_noise_is_rare(result);
     if (!(options->noise > 0)) return json_null();
     json_t *pilot = json_pack("{s:i, s:o, s:I, s:f}", "pixels", stop->pixels, "relative_error",
-                              json_figure(stop->error), "paths", (json_int_t)stop->paths,
-                              "seconds", stop->seconds);
+                              json_figure(stop->error), "paths", (json_int_t)stop->paths, "seconds",
+                              stop->seconds);
     return json_pack("{s:o, s:f, s:b, s:o, s:b, s:o, s:o}", "area",
                      json_text(request->noise.of.text ? request->noise.of.text : "frame"),
-                     "required",
-                     options->noise, "reached",
+                     "required", options->noise, "reached",
                      !is_rare && (stop->reached || result->noise <= options->noise),
                      "relative_error", json_figure(result->noise), "rare_light", is_rare,
                      "error_may_be", json_figure(result->noise_doubt), "pilot", pilot);
 }
 
 static json_t *answer_document(const RenderRequest *request, const RenderResult *result,
-                               const Problems *problems)
-{
+                               const Problems *problems) {
     const PathStatistics *counts = &result->statistics;
     json_t *answer = json_pack(
         "{s:o, s:[i,i], s:I, s:f, s:f, s:I, s:f, s:f, s:I, s:I, s:o, s:o, s:b, s:o}", "output",
@@ -292,8 +272,7 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
 
 /* One pixel far beyond what chance makes of even noise: a caustic, or a lamp that is hardly
  * found. */
-static void print_worst(const RenderRequest *request, const RenderResult *result)
-{
+static void print_worst(const RenderRequest *request, const RenderResult *result) {
     FilmWorst worst;
     if (result->samples < WORST_LEAST_SAMPLES) return;
     if (!film_worst_pixels(result->film, 1, &worst)) return;
@@ -303,9 +282,8 @@ static void print_worst(const RenderRequest *request, const RenderResult *result
 }
 
 /* Whose samples a pixel has, behind their number. */
-static const char *favour_words(const RenderRequest *request, const RenderResult *result,
-                                char *out, size_t size)
-{
+static const char *favour_words(const RenderRequest *request, const RenderResult *result, char *out,
+                                size_t size) {
     if (request->render.favours_noise) {
         snprintf(out, size, " at most, %.1f on average", mean_samples(request, result));
         return out;
@@ -314,25 +292,24 @@ static const char *favour_words(const RenderRequest *request, const RenderResult
     uint32_t first = request->render.first_sample, share = SAMPLE_SHARE_ALL / FAVOUR_OTHERS;
     snprintf(out, size, " of %llu, %u of the others",
              (unsigned long long)sample_shares_whole(&result->shares),
-             sample_shares_own(share, first + result->samples) -
-                 sample_shares_own(share, first));
+             sample_shares_own(share, first + result->samples) - sample_shares_own(share, first));
     return out;
 }
 
-static void print_fisheye(const RenderRequest *request, const RenderResult *result)
-{
+static void print_fisheye(const RenderRequest *request, const RenderResult *result) {
     if (!request->camera.projection) return;
     if (result->statistics.samples)
         print("%s: a fisheye of 180 degrees: pixels outside its circle are black and have no "
-              "samples\n", request->output);
+              "samples\n",
+              request->output);
     else
         print("%s: a fisheye of 180 degrees: all pixels rendered lie outside its circle, they "
-              "are black and have no samples\n", request->output);
+              "are black and have no samples\n",
+              request->output);
 }
 
 /* Of the area whose error was required. */
-static void print_noise(const RenderRequest *request, const RenderResult *result)
-{
+static void print_noise(const RenderRequest *request, const RenderResult *result) {
     char error[32], required[32];
     if (!(request->render.noise > 0) || isnan(result->noise)) return;
     print("%s: relative error of %s %s, required %s%s\n", request->output,
@@ -342,21 +319,18 @@ static void print_noise(const RenderRequest *request, const RenderResult *result
           render_noise_is_rare(result) ? "; rare light: not yet known" : "");
 }
 
-static void print_line(const RenderRequest *request, const RenderResult *result)
-{
+static void print_line(const RenderRequest *request, const RenderResult *result) {
     const PathStatistics *counts = &result->statistics;
     char samples[32], rays[32], favour[64], error[32];
-    rate_text(per_second((double)counts->samples, result->seconds), samples,
-              (int)sizeof samples);
+    rate_text(per_second((double)counts->samples, result->seconds), samples, (int)sizeof samples);
     rate_text(per_second(ray_count(counts), result->seconds), rays, (int)sizeof rays);
     print("%s: %dx%d, %u samples a pixel%s%s, %.1f s, %ssamples/s, %srays/s, "
           "relative error %s, peak memory %.0f MB (%.0f while building)\n",
-          request->output, request->render.width, request->render.height,
-          result->samples, favour_words(request, result, favour, sizeof favour),
-          result->complete ? "" : " (incomplete)",
-          result->seconds, samples, rays,
-          cli_relative_error(result->error.frame, error, sizeof error),
-          machine_peak_bytes() / 1e6, result->build_peak_bytes / 1e6);
+          request->output, request->render.width, request->render.height, result->samples,
+          favour_words(request, result, favour, sizeof favour),
+          result->complete ? "" : " (incomplete)", result->seconds, samples, rays,
+          cli_relative_error(result->error.frame, error, sizeof error), machine_peak_bytes() / 1e6,
+          result->build_peak_bytes / 1e6);
     print_noise(request, result);
     print_fisheye(request, result);
     if (render_output_is_radiance(request))
@@ -366,9 +340,8 @@ static void print_line(const RenderRequest *request, const RenderResult *result)
     print_worst(request, result);
 }
 
-bool render_print_answer(const RenderRequest *request, const RenderResult *result,
-                         double live_s, const Problems *problems, Error *err)
-{
+bool render_print_answer(const RenderRequest *request, const RenderResult *result, double live_s,
+                         const Problems *problems, Error *err) {
     if (request->cli.json) {
         json_t *answer = answer_document(request, result, problems);
         json_object_set_new(answer, "live_seconds", json_real(live_s));
@@ -380,68 +353,59 @@ bool render_print_answer(const RenderRequest *request, const RenderResult *resul
 
 /* ---- replay ------------------------------------------------------------------------------ */
 
-static double value_of(const FrameImage *frame, const char *channel)
-{
+static double value_of(const FrameImage *frame, const char *channel) {
     const float *values = frame_channel(frame, channel);
     return values ? (double)values[0] : (double)NAN;
 }
 
-static json_t *triple(const FrameImage *frame, const char *a, const char *b, const char *c)
-{
-    return json_pack("[o,o,o]", json_figure(value_of(frame, a)),
-                     json_figure(value_of(frame, b)),
+static json_t *triple(const FrameImage *frame, const char *a, const char *b, const char *c) {
+    return json_pack("[o,o,o]", json_figure(value_of(frame, a)), json_figure(value_of(frame, b)),
                      json_figure(value_of(frame, c)));
 }
 
-static const char *part_name(const Scene *scene, int id)
-{
+static const char *part_name(const Scene *scene, int id) {
     return id >= 0 && id < scene->part_count ? scene->parts[id].name : NULL;
 }
 
-static const char *display_name(const Scene *scene, int id)
-{
+static const char *display_name(const Scene *scene, int id) {
     return id >= 0 && id < scene->display_count ? scene->displays[id].name : NULL;
 }
 
 bool render_print_replay(const RenderRequest *request, const Scene *scene,
-                         const RenderResult *result, Arena *arena, Error *err)
-{
+                         const RenderResult *result, Arena *arena, Error *err) {
     const RenderOptions *options = &request->render;
-    FrameImage  frame = film_to_frame(result->film, 0, arena);
-    bool        is_finite = film_dropped(result->film).count == 0;
+    FrameImage frame = film_to_frame(result->film, 0, arena);
+    bool is_finite = film_dropped(result->film).count == 0;
     const char *part = part_name(scene, (int)value_of(&frame, "id.part"));
     const char *display = display_name(scene, (int)value_of(&frame, "id.display"));
     if (request->cli.json)
         return cli_print_json(
-            json_pack("{s:i, s:i, s:I, s:b, s:o, s:o, s:o, s:o, s:o}", "x", options->crop.x0,
-                      "y", options->crop.y0, "sample", (json_int_t)options->first_sample,
-                      "finite", is_finite, "XYZ", triple(&frame, "xyz.X", "xyz.Y", "xyz.Z"),
-                      "RGB", triple(&frame, "R", "G", "B"), "depth_m",
-                      json_figure(value_of(&frame, "depth.Z")), "part",
-                      json_text_or_null(part), "display", json_text_or_null(display)),
+            json_pack("{s:i, s:i, s:I, s:b, s:o, s:o, s:o, s:o, s:o}", "x", options->crop.x0, "y",
+                      options->crop.y0, "sample", (json_int_t)options->first_sample, "finite",
+                      is_finite, "XYZ", triple(&frame, "xyz.X", "xyz.Y", "xyz.Z"), "RGB",
+                      triple(&frame, "R", "G", "B"), "depth_m",
+                      json_figure(value_of(&frame, "depth.Z")), "part", json_text_or_null(part),
+                      "display", json_text_or_null(display)),
             err);
-    print("pixel %d,%d sample %u: ", options->crop.x0, options->crop.y0,
-          options->first_sample);
+    print("pixel %d,%d sample %u: ", options->crop.x0, options->crop.y0, options->first_sample);
     if (is_finite)
         print("XYZ %.9g %.9g %.9g cd/m2, RGB %.9g %.9g %.9g\n", value_of(&frame, "xyz.X"),
               value_of(&frame, "xyz.Y"), value_of(&frame, "xyz.Z"), value_of(&frame, "R"),
               value_of(&frame, "G"), value_of(&frame, "B"));
-    else
-        print("not finite\n");
+    else print("not finite\n");
     if (part)
         print("first surface: %s%s%s at %.6g m\n", part, display ? ", display " : "",
               display ? display : "", value_of(&frame, "depth.Z"));
     return true;
 }
 
-static void set_time(FrameImage *frame, Arena *arena)
-{
+static void set_time(FrameImage *frame, Arena *arena) {
     const char *epoch = getenv("SOURCE_DATE_EPOCH");
     if (!epoch) return;
-    char     *end;
-    time_t    seconds = (time_t)strtoll(epoch, &end, 10);
+    char *end;
+    time_t seconds = (time_t)strtoll(epoch, &end, 10);
     struct tm date;
-    char      text[32];
+    char text[32];
     if (end == epoch || *end || !gmtime_r(&seconds, &date)) return;
     strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &date);
     frame_set_string(frame, "capDate", text, arena);
@@ -449,42 +413,36 @@ static void set_time(FrameImage *frame, Arena *arena)
 }
 
 /* Of the film's samples so many are gone, and where the first can be seen again. */
-static const char *dropped_words(const Film *film, const char *line, Arena *arena)
-{
+static const char *dropped_words(const Film *film, const char *line, Arena *arena) {
     FilmDropped dropped = film_dropped(film);
-    uint64_t    all = dropped.count + film_kept_samples(film);
+    uint64_t all = dropped.count + film_kept_samples(film);
     const char *again = "";
     if (line)
         again = arena_format(arena, "; to see the first again: %s --replay %d,%d,%u", line,
-                             dropped.first[0].x, dropped.first[0].y,
-                             dropped.first[0].sample_index);
+                             dropped.first[0].x, dropped.first[0].y, dropped.first[0].sample_index);
     return arena_format(arena,
                         "%llu of %llu samples (%.3g %%) are not finite, or above %.2g cd/m2, "
-                        "and are left out%s", (unsigned long long)dropped.count,
-                        (unsigned long long)all, 100 * (double)dropped.count / (double)all,
-                        FILM_MOST_CD_M2, again);
+                        "and are left out%s",
+                        (unsigned long long)dropped.count, (unsigned long long)all,
+                        100 * (double)dropped.count / (double)all, FILM_MOST_CD_M2, again);
 }
 
-const char *frame_dropped_warning(const Film *film, const char *line, Arena *arena)
-{
+const char *frame_dropped_warning(const Film *film, const char *line, Arena *arena) {
     return film_dropped(film).count ? dropped_words(film, line, arena) : NULL;
 }
 
-bool frame_check_dropped(const Film *film, const char *line, Arena scratch, Error *err)
-{
+bool frame_check_dropped(const Film *film, const char *line, Arena scratch, Error *err) {
     return !film_dropped(film).count || film_kept_samples(film) ||
            error_set(err, ERROR_INPUT, "there is no frame: %s",
                      dropped_words(film, line, &scratch));
 }
 
-void frame_set_outcome(FrameImage *frame, const FrameOutcome *outcome, Arena *arena)
-{
+void frame_set_outcome(FrameImage *frame, const FrameOutcome *outcome, Arena *arena) {
     frame_set_string(frame, "parhelion:samples",
                      arena_format(arena, "%u:%u", outcome->first_sample, outcome->end_sample),
                      arena);
     frame_set_whole(frame, "parhelion:complete", outcome->complete, arena);
     frame_set_number(frame, "parhelion:relativeError", outcome->relative_error, arena);
-    frame_set_number(frame, "parhelion:droppedSamples", (double)outcome->dropped_samples,
-                     arena);
+    frame_set_number(frame, "parhelion:droppedSamples", (double)outcome->dropped_samples, arena);
     set_time(frame, arena);
 }

@@ -9,12 +9,11 @@
 
 /* The film as it stands, with its metadata. */
 FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
-                             const SceneCamera *camera, const RenderResult *result,
-                             Arena *arena);
+                             const SceneCamera *camera, const RenderResult *result, Arena *arena);
 
 /* The command's answer on stdout. live_s: seconds that the file of --live took. */
-bool render_print_answer(const RenderRequest *request, const RenderResult *result,
-                         double live_s, const Problems *problems, Error *err);
+bool render_print_answer(const RenderRequest *request, const RenderResult *result, double live_s,
+                         const Problems *problems, Error *err);
 
 /* The value of the one sample that was replayed, on stdout. */
 bool render_print_replay(const RenderRequest *request, const Scene *scene,
@@ -23,8 +22,8 @@ bool render_print_replay(const RenderRequest *request, const Scene *scene,
 /* How a frame came out: the same from a render and from a merge of its parts. */
 typedef struct FrameOutcome {
     uint32_t first_sample, end_sample; /* half-open, of the frame */
-    bool     complete;       /* all samples that were requested, or the requested noise */
-    double   relative_error; /* film.h's, of the frame */
+    bool complete;                     /* all samples that were requested, or the requested noise */
+    double relative_error;             /* film.h's, of the frame */
     uint64_t dropped_samples;
 } FrameOutcome;
 

@@ -11,11 +11,11 @@
 #include "cli/render/render_request.h"
 
 typedef struct RenderLive {
-    const char *path;   /* NULL: nothing is written, or not any more */
-    double begun_s;     /* all of the monotonic clock: when the render began, */
-    double written_s;   /* and the file was last written; 0: never */
-    double spent_s;     /* seconds that all of its writing took, */
-    double longest_s;   /* and the one that took longest */
+    const char *path; /* NULL: nothing is written, or not any more */
+    double begun_s;   /* all of the monotonic clock: when the render began, */
+    double written_s; /* and the file was last written; 0: never */
+    double spent_s;   /* seconds that all of its writing took, */
+    double longest_s; /* and the one that took longest */
 } RenderLive;
 
 RenderLive render_live_begin(const RenderRequest *request);

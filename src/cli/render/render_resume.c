@@ -11,8 +11,7 @@
 
 /* Hours of rendering must not end at a checkpoint that cannot be written, and a slip of the
  * fingers must not replace a scene by one. */
-bool render_check_checkpoint(const RenderRequest *request, Error *err)
-{
+bool render_check_checkpoint(const RenderRequest *request, Error *err) {
     const char *path = request->checkpoint;
     if (request->replays || !path) return true;
     if (!strcmp(path, request->output) || (request->png && !strcmp(path, request->png)))
@@ -26,19 +25,17 @@ bool render_check_checkpoint(const RenderRequest *request, Error *err)
 }
 
 /* One line on stderr, unless nothing is to be said. */
-static void say(const RenderRequest *request, const char *text)
-{
-    if (!request->cli.quiet)
-        print_to(stderr, "parhelion: %s: %s\n", request->checkpoint, text);
+static void say(const RenderRequest *request, const char *text) {
+    if (!request->cli.quiet) print_to(stderr, "parhelion: %s: %s\n", request->checkpoint, text);
 }
 
 static bool open_and_check(const RenderRequest *request, const char *identity, Arena *arena,
-                           Checkpoint *out, Error *err)
-{
+                           Checkpoint *out, Error *err) {
     const RenderOptions *options = &request->render;
-    const FilmPart       wanted = {.crop = options->crop, .first_sample = options->first_sample,
-                                   .end_sample = options->end_sample};
-    Checkpoint           found;
+    const FilmPart wanted = {.crop = options->crop,
+                             .first_sample = options->first_sample,
+                             .end_sample = options->end_sample};
+    Checkpoint found;
     if (!checkpoint_open(request->checkpoint, arena, &found, err)) return false;
     const char *difference = identity_difference(found.identity, identity, arena);
     if (difference && !identity_same_program(found.identity, identity))
@@ -48,11 +45,9 @@ static bool open_and_check(const RenderRequest *request, const char *identity, A
                         difference);
     if (difference)
         return error_at(err, ERROR_INPUT, request->checkpoint, "",
-                        "is of another render: %s — leave out --resume to begin anew",
-                        difference);
+                        "is of another render: %s — leave out --resume to begin anew", difference);
     if (!checkpoint_fits(&found, &wanted, err)) return false;
-    if (options->noise > 0 && options->noise_area.display != FILM_ALL_PIXELS &&
-        !found.has_features)
+    if (options->noise > 0 && options->noise_area.display != FILM_ALL_PIXELS && !found.has_features)
         return error_at(err, ERROR_INPUT, request->checkpoint, "",
                         "does not know which samples saw a display, which --noise display: "
                         "asks for — leave out --resume to begin anew");
@@ -61,8 +56,7 @@ static bool open_and_check(const RenderRequest *request, const char *identity, A
 }
 
 bool render_find_checkpoint(const RenderRequest *request, const char *identity, Arena *arena,
-                            const Checkpoint **out, Error *err)
-{
+                            const Checkpoint **out, Error *err) {
     *out = NULL;
     if (request->replays || !request->checkpoint) return true;
     bool is_there = file_exists(request->checkpoint);
@@ -86,14 +80,12 @@ bool render_find_checkpoint(const RenderRequest *request, const char *identity, 
 }
 
 bool render_keep_checkpoint(const RenderRequest *request, const char *identity,
-                            const RenderResult *so_far, Arena scratch, Error *err)
-{
+                            const RenderResult *so_far, Arena scratch, Error *err) {
     const CheckpointName name = {request->checkpoint, identity};
     return render_write_checkpoint(&name, &request->render, so_far, scratch, err);
 }
 
-void render_remove_checkpoint(const RenderRequest *request)
-{
+void render_remove_checkpoint(const RenderRequest *request) {
     const char *path = request->checkpoint;
     if (path && checkpoint_is_there(path)) file_remove(path);
 }

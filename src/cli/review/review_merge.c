@@ -19,22 +19,20 @@
 /* ---- words ------------------------------------------------------------------------------- */
 
 /* How many words, this one first, a part has of its own. */
-static int own_words(const char *word)
-{
+static int own_words(const char *word) {
     static const struct {
         const char *name;
-        bool        has_value;
-    } own[] = {{"-o", true},         {"--only", true}, {"--isa", true},   {"--threads", true},
+        bool has_value;
+    } own[] = {{"-o", true},         {"--only", true},  {"--isa", true},   {"--threads", true},
                {"--progress", true}, {"--json", false}, {"--quiet", false}};
     for (int i = 0; i < COUNT_OF(own); i++)
         if (cli_is_option(word, own[i].name)) return cli_option_words(word, own[i].has_value);
     return 0;
 }
 
-const char *const *review_merge_words(int argc, char **argv, Arena *arena, int *count)
-{
+const char *const *review_merge_words(int argc, char **argv, Arena *arena, int *count) {
     const char **words = ARENA_NEW(arena, const char *, argc);
-    bool         has_options = true;
+    bool has_options = true;
     *count = 0;
     for (int i = 1; i < argc; i++) {
         int skipped = has_options ? own_words(argv[i]) : 0;
@@ -47,10 +45,9 @@ const char *const *review_merge_words(int argc, char **argv, Arena *arena, int *
 
 /* Who wrote a part is not known: words that write elsewhere, or do something else, are none of
  * a part. */
-static bool are_of_a_part(const Lines *words, Arena scratch)
-{
+static bool are_of_a_part(const Lines *words, Arena scratch) {
     static const char *const elsewhere[] = {"--init", "--dry-run"};
-    int    kept;
+    int kept;
     char **argv = ARENA_NEW(&scratch, char *, words->count + 1);
     for (int i = 0; i < words->count; i++) {
         argv[i + 1] = arena_string(&scratch, words->list[i], strlen(words->list[i]));
@@ -65,41 +62,36 @@ static bool are_of_a_part(const Lines *words, Arena scratch)
 
 /* ---- what is there ----------------------------------------------------------------------- */
 
-bool review_merge_is_meant(const char *const *folders, int count)
-{
+bool review_merge_is_meant(const char *const *folders, int count) {
     struct stat info;
     for (int i = 0; i < count; i++)
         if (stat(folders[i], &info) == 0 && S_ISDIR(info.st_mode)) return true;
     return false;
 }
 
-static int compare_names(const void *a, const void *b)
-{
+static int compare_names(const void *a, const void *b) {
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
 /* Sorted: the order of a folder decides nothing. */
-static Lines files_with(const char *folder, const char *ending, Arena *arena)
-{
+static Lines files_with(const char *folder, const char *ending, Arena *arena) {
     Lines files = {.arena = arena};
-    DIR  *names = opendir(folder);
+    DIR *names = opendir(folder);
     for (struct dirent *entry; names && (entry = readdir(names));)
         if (!strcmp(path_ending(entry->d_name), ending))
             lines_put(&files, arena_format(arena, "%s/%s", folder, entry->d_name));
     if (names) closedir(names);
-    if (files.count > 1)
-        qsort(files.list, (size_t)files.count, sizeof *files.list, compare_names);
+    if (files.count > 1) qsort(files.list, (size_t)files.count, sizeof *files.list, compare_names);
     return files;
 }
 
 static bool find_parts(const char *const *folders, int count, Arena *arena, ReviewMerge *out,
-                       Error *err)
-{
-    int    room = 0;
+                       Error *err) {
+    int room = 0;
     Lines *found = ARENA_NEW(arena, Lines, count);
     for (int i = 0; i < count; i++) {
-        found[i] = files_with(arena_format(arena, "%s/conditions", folders[i]), ".condition",
-                              arena);
+        found[i] =
+            files_with(arena_format(arena, "%s/conditions", folders[i]), ".condition", arena);
         room += found[i].count;
         if (!found[i].count)
             return error_at(err, ERROR_INPUT, folders[i], "",
@@ -119,22 +111,19 @@ static bool find_parts(const char *const *folders, int count, Arena *arena, Revi
 
 /* ---- do they belong together? ------------------------------------------------------------ */
 
-static const char *isa_of(const MergePart *part, Arena *arena)
-{
+static const char *isa_of(const MergePart *part, Arena *arena) {
     Lines isa = condition_identity_values(part->identity, "isa", arena);
     return isa.count ? isa.list[0] : "none";
 }
 
 /* What all have in common. */
-static const char *common_of(const char *identity, bool with_words, Arena *arena)
-{
+static const char *common_of(const char *identity, bool with_words, Arena *arena) {
     const char *common = condition_identity_without(
         condition_identity_without(identity, "condition", arena), "isa", arena);
     return with_words ? common : condition_identity_without(common, "word", arena);
 }
 
-static bool belong_together(const ReviewMerge *merge, Arena scratch, Error *err)
-{
+static bool belong_together(const ReviewMerge *merge, Arena scratch, Error *err) {
     const MergePart *first = &merge->parts[0];
     for (int i = 1; i < merge->count; i++) {
         const MergePart *part = &merge->parts[i];
@@ -148,14 +137,14 @@ static bool belong_together(const ReviewMerge *merge, Arena scratch, Error *err)
         if (strcmp(isa, of_first) != 0)
             return error_at(err, ERROR_MACHINE, part->path, "",
                             "was made with %.20s, %.200s with %.20s: their bits differ — make "
-                            "all parts with one --isa", isa, first->path, of_first);
+                            "all parts with one --isa",
+                            isa, first->path, of_first);
     }
     return true;
 }
 
 bool review_merge_find(const char *const *folders, int count, Arena *arena, ReviewMerge *out,
-                       Error *err)
-{
+                       Error *err) {
     if (!find_parts(folders, count, arena, out, err) || !belong_together(out, *arena, err))
         return false;
     out->words = condition_identity_values(out->parts[0].identity, "word", arena);
@@ -166,18 +155,16 @@ bool review_merge_find(const char *const *folders, int count, Arena *arena, Revi
 /* ---- held against the request ------------------------------------------------------------ */
 
 /* "3 of 7" */
-static int id_of(const MergePart *part, int condition_count, Arena scratch)
-{
-    char  none;
-    int   number, of;
+static int id_of(const MergePart *part, int condition_count, Arena scratch) {
+    char none;
+    int number, of;
     Lines values = condition_identity_values(part->identity, "condition", &scratch);
-    bool  is_one = values.count == 1 &&
-                  sscanf(values.list[0], "%d of %d%c", &number, &of, &none) == 2;
+    bool is_one =
+        values.count == 1 && sscanf(values.list[0], "%d of %d%c", &number, &of, &none) == 2;
     return is_one && of == condition_count && number >= 1 && number <= of ? number - 1 : -1;
 }
 
-static bool is_of_request(const MergePart *part, const ReviewRun *run, Arena scratch, Error *err)
-{
+static bool is_of_request(const MergePart *part, const ReviewRun *run, Arena scratch, Error *err) {
     const char *own = condition_identity(run, 0, &scratch, err);
     if (!own) return false;
     const char *difference = identity_difference(common_of(part->identity, false, &scratch),
@@ -189,24 +176,22 @@ static bool is_of_request(const MergePart *part, const ReviewRun *run, Arena scr
 
 /* A task that was run twice has the same answers. */
 static bool are_same(const ReviewRun *run, int id, const char *one, const char *other,
-                     Arena scratch, Error *err)
-{
+                     Arena scratch, Error *err) {
     ConditionFound a, b;
     if (!condition_read(run, id, one, &scratch, &a, err) ||
         !condition_read(run, id, other, &scratch, &b, err))
         return false;
     return (a.answer_bytes == b.answer_bytes && !memcmp(a.answers, b.answers, a.answer_bytes)) ||
            error_at(err, ERROR_INPUT, other, "",
-                    "has other answers than %.200s: of condition '%.100s' one of them counts",
-                    one, run->request->conditions[id].name);
+                    "has other answers than %.200s: of condition '%.100s' one of them counts", one,
+                    run->request->conditions[id].name);
 }
 
 static bool find_missing(const ReviewRun *run, const char *const *merged, Arena scratch,
-                         Error *err)
-{
+                         Error *err) {
     const ReviewRequest *request = run->request;
-    Text                 names = {.arena = &scratch};
-    int                  count = 0;
+    Text names = {.arena = &scratch};
+    int count = 0;
     for (int i = 0; i < request->condition_count; i++)
         if (!merged[i])
             text_format(&names, "%s'%s'", count++ ? ", " : "", request->conditions[i].name);
@@ -216,8 +201,7 @@ static bool find_missing(const ReviewRun *run, const char *const *merged, Arena 
 }
 
 /* A file of the scene that was another for another part. */
-static bool same_files(const Review *one, const Review *other, const char *path, Error *err)
-{
+static bool same_files(const Review *one, const Review *other, const char *path, Error *err) {
     for (int i = 0; i < one->input_count; i++)
         for (int k = 0; k < other->input_count; k++)
             if (!strcmp(one->inputs[i].path, other->inputs[k].path) &&
@@ -229,8 +213,7 @@ static bool same_files(const Review *one, const Review *other, const char *path,
 }
 
 static bool check_files(const ReviewRun *run, const char *const *merged, Arena scratch,
-                        Error *err)
-{
+                        Error *err) {
     ConditionFound first, found;
     if (!condition_read(run, 0, merged[0], &scratch, &first, err)) return false;
     for (int i = 1; i < run->request->condition_count; i++) {
@@ -242,14 +225,13 @@ static bool check_files(const ReviewRun *run, const char *const *merged, Arena s
     return true;
 }
 
-bool review_merge_check(const ReviewMerge *merge, ReviewRun *run, Arena *arena, Error *err)
-{
-    int          count = run->request->condition_count;
+bool review_merge_check(const ReviewMerge *merge, ReviewRun *run, Arena *arena, Error *err) {
+    int count = run->request->condition_count;
     const char **merged = ARENA_NEW(arena, const char *, count);
     if (!is_of_request(&merge->parts[0], run, *arena, err)) return false;
     for (int i = 0; i < merge->count; i++) {
         const MergePart *part = &merge->parts[i];
-        int              id = id_of(part, count, *arena);
+        int id = id_of(part, count, *arena);
         if (id < 0)
             return error_at(err, ERROR_INPUT, part->path, "", "is of none of its conditions");
         if (merged[id] && !are_same(run, id, merged[id], part->path, *arena, err)) return false;
@@ -263,12 +245,11 @@ bool review_merge_check(const ReviewMerge *merge, ReviewRun *run, Arena *arena, 
 
 /* From the first part that has it; of a folder that all share there is nothing to copy. */
 static bool copy_response(const ReviewMerge *merge, const char *name, const char *folder,
-                          Arena scratch, Error *err)
-{
-    FileBytes   bytes;
+                          Arena scratch, Error *err) {
+    FileBytes bytes;
     const char *to = arena_format(&scratch, "%s/%s", folder, name);
     for (int i = 0; i < merge->count && !file_exists(to); i++) {
-        Arena       room = scratch;
+        Arena room = scratch;
         const char *from = arena_format(&room, "%s/responses/%s", merge->parts[i].folder, name);
         if (file_exists(from) && (!file_read(from, SIZE_MAX, &room, &bytes, err) ||
                                   !file_write(to, bytes.data, bytes.size, err)))
@@ -278,8 +259,7 @@ static bool copy_response(const ReviewMerge *merge, const char *name, const char
 }
 
 bool review_merge_responses(const ReviewMerge *merge, const Review *review, const char *folder,
-                            Arena scratch, Error *err)
-{
+                            Arena scratch, Error *err) {
     for (int v = -1; v < review->variant_count; v++) {
         const Review *of = v < 0 ? review : review->variants[v].review;
         for (int i = 0; i < of->response_count; i++)

@@ -19,8 +19,8 @@ typedef struct MergePart {
 
 typedef struct ReviewMerge {
     MergePart *parts;
-    int        count;
-    Lines      words; /* of the command, that all parts have in common */
+    int count;
+    Lines words; /* of the command, that all parts have in common */
 } ReviewMerge;
 
 /* Is any of the words a folder, of a review then? */

@@ -18,8 +18,7 @@
 #include "text/interval_text.h"
 
 /* A row has one quantity: that of the limit which decides it. */
-static void print_judged(const ReviewCase *c, Arena *scratch)
-{
+static void print_judged(const ReviewCase *c, Arena *scratch) {
     const LimitVerdict *limit = case_worst_limit(c);
     if (c->unjudged && c->unjudged != UNJUDGED_PANEL && c->unjudged != UNJUDGED_DATA) {
         print(": %s", words_unjudged(c, scratch));
@@ -32,20 +31,17 @@ static void print_judged(const ReviewCase *c, Arena *scratch)
 }
 
 /* All figures are of the worst part. */
-static void print_whole(const ReviewCase *c, Arena *scratch)
-{
+static void print_whole(const ReviewCase *c, Arena *scratch) {
     const char *whole = words_whole(c, scratch);
     if (*whole) print("; of the worst part, %s", whole);
 }
 
-static void print_levels(const ReviewCase *c, Arena *scratch)
-{
+static void print_levels(const ReviewCase *c, Arena *scratch) {
     const char *levels = words_levels(c, scratch);
     if (*levels) print("; %s", levels);
 }
 
-static void print_case(const ReviewCase *c, Arena scratch)
-{
+static void print_case(const ReviewCase *c, Arena scratch) {
     print("%-16s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
     print_judged(c, &scratch);
     if (case_is_seen(c))
@@ -54,13 +50,11 @@ static void print_case(const ReviewCase *c, Arena scratch)
                             c->reflected_range.high, &scratch));
     print_whole(c, &scratch);
     print_levels(c, &scratch);
-    if (c->hider_count && case_is_seen(c))
-        print("; %s", words_hiders(c, &scratch));
+    if (c->hider_count && case_is_seen(c)) print("; %s", words_hiders(c, &scratch));
     print("%s%s\n", words_precision(c, &scratch), words_decide(c, &scratch));
 }
 
-static void print_sweep(const ReviewSweep *s, Arena scratch)
-{
+static void print_sweep(const ReviewSweep *s, Arena scratch) {
     bool is_sure = sweep_verdict(s) == VERDICT_FAIL || !(s->failed_share > 0);
     print("%-16s %s, %s, %s: %sfails %s %s%s", verdict_names[sweep_verdict(s)], s->condition,
           s->eye, s->symbol, sweep_has_box(s) ? "the middle eye " : "",
@@ -70,8 +64,7 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
         print(", %.4g minutes at a stretch", s->longest_failure_minutes);
     print("; %ld suns judged", s->cases);
     if (sweep_has_box(s) && s->middle_contrast > 0)
-        print("; at its own worst %s",
-              words_ratio_as(&s->worst, s->middle_contrast, &scratch));
+        print("; at its own worst %s", words_ratio_as(&s->worst, s->middle_contrast, &scratch));
     if (sweep_has_box(s))
         print("; at the worst sun %s of eyes fail",
               words_share(s->worst.eye_failed_share, &scratch));
@@ -86,18 +79,16 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
 }
 
 /* Prints a gaze that keeps less than half of the contrast. */
-static void print_gaze(const GazeFinding *g, Arena scratch)
-{
+static void print_gaze(const GazeFinding *g, Arena scratch) {
     if (!(g->contrast_left < GAZE_POOR)) return;
     print("%-16s %s, %s, looking at %s: %.3g %% of a distant object's contrast left; seen "
-          "%.4g cd/m2, mirrored by glass %s, veil in the eye %s\n", "veiled", g->condition,
-          g->eye, g->gaze, 100 * g->contrast_left, g->through,
+          "%.4g cd/m2, mirrored by glass %s, veil in the eye %s\n",
+          "veiled", g->condition, g->eye, g->gaze, 100 * g->contrast_left, g->through,
           review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
 }
 
 /* A gaze at a road: its verdict, and displays that no level suits. */
-static void print_road(const GazeFinding *g, Arena scratch)
-{
+static void print_road(const GazeFinding *g, Arena scratch) {
     int count;
     if (!g->road) return;
     print("%-16s %s, %s, looking at %s: %s\n", road_outcome(g), g->condition, g->eye, g->gaze,
@@ -107,16 +98,14 @@ static void print_road(const GazeFinding *g, Arena scratch)
 }
 
 /* A display in glass that is held against a limit. */
-static void print_pane(const PaneFinding *f, Arena scratch)
-{
+static void print_pane(const PaneFinding *f, Arena scratch) {
     if (!pane_counts(f)) return;
     print("%-16s %s, %s, %s\n", verdict_names[f->limit.verdict], f->condition, f->eye,
           review_pane_words(f, &scratch));
 }
 
 /* Those, and how many there are in all. */
-static void print_panes(const Review *review, Arena scratch)
-{
+static void print_panes(const Review *review, Arena scratch) {
     int shown = 0;
     for (int i = 0; i < review->pane_image_count; i++) {
         shown += !review->pane_images[i].none;
@@ -126,8 +115,7 @@ static void print_panes(const Review *review, Arena scratch)
         print("%-16s %d image%s of displays in glass\n", "panes", shown, shown == 1 ? "" : "s");
 }
 
-static void print_variant(const Review *review, const ReviewVariantFound *v, Arena scratch)
-{
+static void print_variant(const Review *review, const ReviewVariantFound *v, Arena scratch) {
     RoadChange change;
     print("%-16s variant %s: %s\n", verdict_names[review_verdict(v->review)], v->name,
           review_variants_words(v, &scratch));
@@ -137,25 +125,22 @@ static void print_variant(const Review *review, const ReviewVariantFound *v, Are
 }
 
 /* Dots that go on from the line before are left out. */
-static void print_fact(const ReviewFact *fact)
-{
+static void print_fact(const ReviewFact *fact) {
     static const char ON[] = "… ";
-    size_t      skipped = strncmp(fact->name, ON, strlen(ON)) ? 0 : strlen(ON);
+    size_t skipped = strncmp(fact->name, ON, strlen(ON)) ? 0 : strlen(ON);
     const char *name = fact->name + skipped;
     print("%c%-15s %s\n", tolower((unsigned char)name[0]), name + 1, fact->value);
 }
 
 /* The first screen of the page, as lines: of all cases the one that decides. */
-static void print_worst(const Review *review, const ReviewCase *worst, Arena scratch)
-{
+static void print_worst(const Review *review, const ReviewCase *worst, Arena scratch) {
     ReviewFacts facts = review_facts_of(review, worst, NULL, &scratch);
     print("%-16s %s: %s\n", "worst case", words_case(worst, &scratch),
           words_headline(worst, &scratch));
     for (int i = 0; i < facts.count; i++) print_fact(&facts.list[i]);
 }
 
-static void print_review(const Review *review, Arena scratch)
-{
+static void print_review(const Review *review, Arena scratch) {
     for (int i = 0; i < review->case_count; i++) print_case(&review->cases[i], scratch);
     for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i], scratch);
     for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i], scratch);
@@ -167,13 +152,11 @@ static void print_review(const Review *review, Arena scratch)
     if (worst) print_worst(review, worst, scratch);
     const char *rests = review_rests_words(review, &scratch);
     if (rests[0]) print("%-16s %s\n", "rests on", rests);
-    static const char *const LAST[4] = {"pass", "FAIL", "too close to call",
-                                        "cannot be judged"};
+    static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "cannot be judged"};
     print("%s\n", LAST[review_verdict(review)]);
 }
 
-bool review_print(const Cli *cli, const Review *review, Arena scratch, Error *err)
-{
+bool review_print(const Cli *cli, const Review *review, Arena scratch, Error *err) {
     if (cli->json) return cli_print_json(review_json(review), err);
     print_review(review, scratch);
     return true;

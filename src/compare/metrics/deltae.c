@@ -9,8 +9,7 @@
 #include "compare/metrics/rank.h"
 
 /* c^7 / (c^7 + 25^7) */
-static double seventh_power_share(double c)
-{
+static double seventh_power_share(double c) {
     double c2 = c * c, c7 = c2 * c2 * c2 * c;
     return c7 / (c7 + 6103515625.0);
 }
@@ -19,32 +18,27 @@ typedef struct Polar {
     double chroma, hue_deg; /* 0 <= hue < 360 */
 } Polar;
 
-static Polar polar_of(double a, double b)
-{
+static Polar polar_of(double a, double b) {
     double degrees = degrees_from_radians(atan2_d(b, a));
     return (Polar){sqrt(a * a + b * b), degrees < 0 ? degrees + 360 : degrees};
 }
 
-static double cos_deg(double degrees)
-{
+static double cos_deg(double degrees) {
     return cos_d(radians_from_degrees(degrees));
 }
 
-static double sin_deg(double degrees)
-{
+static double sin_deg(double degrees) {
     return sin_d(radians_from_degrees(degrees));
 }
 
 /* From the first hue to the second by the shorter way, -180 .. 180. */
-static double hue_step_deg(Polar first, Polar second)
-{
+static double hue_step_deg(Polar first, Polar second) {
     double step = second.hue_deg - first.hue_deg;
     return step > 180 ? step - 360 : step < -180 ? step + 360 : step;
 }
 
 /* Half way along the shorter arc. */
-static double mean_hue_deg(Polar first, Polar second)
-{
+static double mean_hue_deg(Polar first, Polar second) {
     double sum = first.hue_deg + second.hue_deg;
     if (fabs(first.hue_deg - second.hue_deg) <= 180) return sum / 2;
     return sum < 360 ? (sum + 360) / 2 : (sum - 360) / 2;
@@ -52,13 +46,11 @@ static double mean_hue_deg(Polar first, Polar second)
 
 /* Sharma, Wu, Dalal, equations 2 to 22. Hues 180 degrees apart are where the formula jumps.
  * A grey has no hue; none of the terms with one is left then, since dh is 0. */
-double deltae_2000(const double reference[3], const double test[3])
-{
+double deltae_2000(const double reference[3], const double test[3]) {
     const double *r = reference, *t = test;
-    double mean_chroma =
-        (sqrt(r[1] * r[1] + r[2] * r[2]) + sqrt(t[1] * t[1] + t[2] * t[2])) / 2;
+    double mean_chroma = (sqrt(r[1] * r[1] + r[2] * r[2]) + sqrt(t[1] * t[1] + t[2] * t[2])) / 2;
     double stretch = 1 + 0.5 * (1 - sqrt(seventh_power_share(mean_chroma)));
-    Polar  pr = polar_of(stretch * r[1], r[2]), pt = polar_of(stretch * t[1], t[2]);
+    Polar pr = polar_of(stretch * r[1], r[2]), pt = polar_of(stretch * t[1], t[2]);
 
     double lightness = (r[0] + t[0]) / 2, chroma = (pr.chroma + pt.chroma) / 2;
     double hue = mean_hue_deg(pr, pt);
@@ -73,14 +65,13 @@ double deltae_2000(const double reference[3], const double test[3])
     dh /= 1 + 0.015 * chroma * hue_shape;
 
     double from_blue = (hue - 275) / 25;
-    double turn = -2 * sqrt(seventh_power_share(chroma)) *
-                  sin_deg(60 * exp_d(-from_blue * from_blue));
+    double turn =
+        -2 * sqrt(seventh_power_share(chroma)) * sin_deg(60 * exp_d(-from_blue * from_blue));
     return sqrt(dl * dl + dc * dc + dh * dh + turn * dc * dh);
 }
 
 static double pixel_difference(const ColourMatrix *from_rgb, const float reference[3],
-                               const float test[3])
-{
+                               const float test[3]) {
     double lab_reference[3], lab_test[3];
     if (!memcmp(reference, test, 3 * sizeof *test)) return 0;
     lab_from_rgb(from_rgb, reference, lab_reference);
@@ -88,8 +79,7 @@ static double pixel_difference(const ColourMatrix *from_rgb, const float referen
     return deltae_2000(lab_reference, lab_test);
 }
 
-void deltae_map(const Planes *reference, const Planes *test, float *map)
-{
+void deltae_map(const Planes *reference, const Planes *test, float *map) {
     const ColourMatrix from_rgb = relative_to_white(xyz_from_primaries(REC709_CHROMATICITIES));
     for (size_t i = 0; i < planes_pixel_count(reference); i++) {
         const float r[3] = {reference->rgb[0][i], reference->rgb[1][i], reference->rgb[2][i]};
@@ -99,8 +89,7 @@ void deltae_map(const Planes *reference, const Planes *test, float *map)
 }
 
 MapSummary deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask,
-                           float *map)
-{
+                           float *map) {
     deltae_map(reference, test, map);
     return map_summary(map, planes_pixel_count(reference), mask);
 }

@@ -15,5 +15,4 @@ double deltae_2000(const double reference[3], const double test[3]);
 void deltae_map(const Planes *reference, const Planes *test, float *map);
 
 /* It and its summary: the map holds the masked pixels too. */
-MapSummary deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask,
-                           float *map);
+MapSummary deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask, float *map);

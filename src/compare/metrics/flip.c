@@ -28,17 +28,17 @@
 enum { FLIP_TILE = 128 }; /* columns */
 
 typedef struct FlipJob {
-    const Planes  *reference, *test;
-    FlipFilters    filters;
-    ColourMatrix   ratios_from_rgb, rgb_from_ratios;
-    double         log_most;     /* of the difference of pure green and pure blue, a power */
-    double         log_knee, log_stretch; /* of colour differences, see flip_tile.c */
-    bool           is_hdr;
-    FlipToneMapper tone_mapper;  /* these three: HDR */
-    int            exposures;    /* LDR: 1 */
-    const double  *gains;        /* 2^ev, one per exposure */
-    float         *map;          /* zeroed before the tiles start */
-    float         *exposure_map; /* zeroed, or NULL */
+    const Planes *reference, *test;
+    FlipFilters filters;
+    ColourMatrix ratios_from_rgb, rgb_from_ratios;
+    double log_most;              /* of the difference of pure green and pure blue, a power */
+    double log_knee, log_stretch; /* of colour differences, see flip_tile.c */
+    bool is_hdr;
+    FlipToneMapper tone_mapper; /* these three: HDR */
+    int exposures;              /* LDR: 1 */
+    const double *gains;        /* 2^ev, one per exposure */
+    float *map;                 /* zeroed before the tiles start */
+    float *exposure_map;        /* zeroed, or NULL */
 } FlipJob;
 
 typedef struct FlipScratch FlipScratch;
@@ -47,14 +47,13 @@ typedef struct FlipTile {
     int x0, x1, y0, y1; /* pixels; x1 and y1 are the first ones outside */
 } FlipTile;
 
-#define COLOUR_POWER  0.7
-#define KNEE          0.4  /* of the greatest colour difference ... */
-#define KNEE_MAPPED   0.95 /* ... is mapped to this */
+#define COLOUR_POWER 0.7
+#define KNEE 0.4         /* of the greatest colour difference ... */
+#define KNEE_MAPPED 0.95 /* ... is mapped to this */
 
 /* sRGB to XYZ as FLIP has it, in 1 / 73733382; only ratios to white are needed. */
-static const ColourMatrix FLIP_XYZ_FROM_RGB = {{{30406656, 26366430, 13305225},
-                                               {15678432, 52732860, 5322090},
-                                               {1425312, 8788810, 70074185}}};
+static const ColourMatrix FLIP_XYZ_FROM_RGB = {
+    {{30406656, 26366430, 13305225}, {15678432, 52732860, 5322090}, {1425312, 8788810, 70074185}}};
 
 /* FLIP filters Y, Cx and Cz (lightness, red against green, blue against yellow), which are
  * linear in XYZ over that of white (x, y, z): 116 y - 16, 500 (x - y), 200 (y - z). The
@@ -77,31 +76,29 @@ typedef struct Filtered {
 enum { REFERENCE, TEST, PICTURES };
 
 struct FlipScratch {
-    double  *line[CHANNELS]; /* a row before the filters: FLIP_TILE + 2 radius */
+    double *line[CHANNELS];  /* a row before the filters: FLIP_TILE + 2 radius */
     RingRow *ring[PICTURES]; /* row y at y % (2 radius + 1) */
     Filtered filtered[PICTURES];
 };
 
 /* Lightness and chromas, which weigh less in the dark: Hunt's effect. */
-static void hunt_lab(const double ratios[3], double lab[3])
-{
+static void hunt_lab(const double ratios[3], double lab[3]) {
     lab_from_ratios(ratios, lab);
     lab[1] *= 0.01 * lab[0];
     lab[2] *= 0.01 * lab[0];
 }
 
 /* HyAB: lightness and chroma are seen apart. */
-static double colour_distance(const double a[3], const double b[3])
-{
+static double colour_distance(const double a[3], const double b[3]) {
     double da = a[1] - b[1], db = a[2] - b[2];
     return fabs(a[0] - b[0]) + sqrt(da * da + db * db);
 }
 
 /* Constants and filters; all that is left is 0. */
 static FlipJob flip_job_create(const Planes *reference, const Planes *test,
-                               double pixels_per_degree, Arena *arena)
-{
-    FlipJob job = {.reference = reference, .test = test,
+                               double pixels_per_degree, Arena *arena) {
+    FlipJob job = {.reference = reference,
+                   .test = test,
                    .filters = flip_filters_create(pixels_per_degree, arena),
                    .ratios_from_rgb = relative_to_white(FLIP_XYZ_FROM_RGB)};
     job.rgb_from_ratios = colour_inverse(&job.ratios_from_rgb);
@@ -116,25 +113,22 @@ static FlipJob flip_job_create(const Planes *reference, const Planes *test,
     return job;
 }
 
-static FlipScratch *flip_scratch_create(const FlipJob *job, Arena *arena)
-{
+static FlipScratch *flip_scratch_create(const FlipJob *job, Arena *arena) {
     FlipScratch *scratch = ARENA_NEW(arena, FlipScratch, 1);
-    int          height = 2 * job->filters.radius + 1;
+    int height = 2 * job->filters.radius + 1;
     for (int c = 0; c < CHANNELS; c++)
         scratch->line[c] = ARENA_NEW(arena, double, FLIP_TILE + height - 1);
     for (int p = 0; p < PICTURES; p++) scratch->ring[p] = ARENA_NEW(arena, RingRow, height);
     return scratch;
 }
 
-static double clamp_unit(double value)
-{
+static double clamp_unit(double value) {
     return value > 1 ? 1 : value > 0 ? value : 0;
 }
 
 /* Pixel i as a display of the exposure shows it, 0 .. 1. */
 static void displayed_rgb(const FlipJob *job, const Planes *planes, size_t i, double gain,
-                          double rgb[3])
-{
+                          double rgb[3]) {
     for (int c = 0; c < 3; c++) {
         double value = (double)planes->rgb[c][i];
         rgb[c] = value > 0 ? value : 0;
@@ -148,11 +142,10 @@ static void displayed_rgb(const FlipJob *job, const Planes *planes, size_t i, do
 
 /* Outside the picture its border goes on. */
 static void set_line(const FlipJob *job, const Planes *planes, int x0, int y, double gain,
-                     FlipScratch *scratch)
-{
+                     FlipScratch *scratch) {
     const int radius = job->filters.radius, width = planes->width;
     for (int k = 0; k < FLIP_TILE + 2 * radius; k++) {
-        int    x = x0 - radius + k;
+        int x = x0 - radius + k;
         double rgb[3], ratios[3];
         x = x < 0 ? 0 : x >= width ? width - 1 : x;
         displayed_rgb(job, planes, (size_t)y * (size_t)width + (size_t)x, gain, rgb);
@@ -165,41 +158,34 @@ static void set_line(const FlipJob *job, const Planes *planes, int x0, int y, do
 
 /* The four loops that nearly all the time is spent in: they have one length that the compiler
  * knows, so that it does several columns at once. */
-static void put_scaled(double weight, const double *restrict a, double *restrict sum)
-{
+static void put_scaled(double weight, const double *restrict a, double *restrict sum) {
     for (int x = 0; x < FLIP_TILE; x++) sum[x] = weight * a[x];
 }
 
 static void add_pair(double weight, const double *restrict a, const double *restrict b,
-                     double *restrict sum)
-{
+                     double *restrict sum) {
     for (int x = 0; x < FLIP_TILE; x++) sum[x] += weight * (a[x] + b[x]);
 }
 
 static void add_slope(double weight, const double *restrict a, const double *restrict b,
-                      double *restrict sum)
-{
+                      double *restrict sum) {
     for (int x = 0; x < FLIP_TILE; x++) sum[x] += weight * (b[x] - a[x]);
 }
 
 /* The weights of all of them have the sum 0; taken from the centre, an even surface gives 0
  * exactly. (The feature difference is a square root: 1e-16 would come out as 1e-8.) */
-static void add_curve(double weight, const double *const abc[3], double *restrict sum)
-{
+static void add_curve(double weight, const double *const abc[3], double *restrict sum) {
     const double *restrict a = abc[0], *restrict centre = abc[1], *restrict b = abc[2];
     for (int x = 0; x < FLIP_TILE; x++)
         sum[x] += weight * ((a[x] - centre[x]) + (b[x] - centre[x]));
 }
 
-static void smooth_line(const FlipFilter *filter, const double *line, double *sum)
-{
+static void smooth_line(const FlipFilter *filter, const double *line, double *sum) {
     put_scaled(filter->weights[0], line, sum);
-    for (int k = 1; k <= filter->radius; k++)
-        add_pair(filter->weights[k], line - k, line + k, sum);
+    for (int k = 1; k <= filter->radius; k++) add_pair(filter->weights[k], line - k, line + k, sum);
 }
 
-static void filter_line(const FlipJob *job, const FlipScratch *scratch, RingRow *row)
-{
+static void filter_line(const FlipJob *job, const FlipScratch *scratch, RingRow *row) {
     const FlipFilters *f = &job->filters;
     const double *grey = scratch->line[GREY] + f->radius;
     const double *blue_yellow = scratch->line[BLUE_YELLOW] + f->radius;
@@ -212,8 +198,7 @@ static void filter_line(const FlipJob *job, const FlipScratch *scratch, RingRow 
     put_scaled(0, grey, row->curve);
     for (int k = 1; k <= f->gauss.radius; k++) {
         add_slope(f->slope.weights[k], grey - k, grey + k, row->slope);
-        add_curve(f->curve.weights[k], (const double *[3]){grey - k, grey, grey + k},
-                  row->curve);
+        add_curve(f->curve.weights[k], (const double *[3]){grey - k, grey, grey + k}, row->curve);
     }
 }
 
@@ -222,23 +207,21 @@ typedef struct RowPair {
     const RingRow *above, *below;
 } RowPair;
 
-static RowPair rows_around(const FlipJob *job, const RingRow *ring, int y, int k)
-{
+static RowPair rows_around(const FlipJob *job, const RingRow *ring, int y, int k) {
     int height = job->reference->height, slots = 2 * job->filters.radius + 1;
     int above = y - k < 0 ? 0 : y - k, below = y + k < height ? y + k : height - 1;
     return (RowPair){ring + above % slots, ring + below % slots};
 }
 
-static void smooth_column(const FlipJob *job, const RingRow *ring, int y, Filtered *out)
-{
+static void smooth_column(const FlipJob *job, const RingRow *ring, int y, Filtered *out) {
     const FlipFilters *f = &job->filters;
-    const RingRow     *centre = rows_around(job, ring, y, 0).above;
+    const RingRow *centre = rows_around(job, ring, y, 0).above;
     put_scaled(f->lightness.weights[0], centre->grey, out->channel[GREY]);
     put_scaled(f->red_green.weights[0], centre->red_green, out->channel[RED_GREEN]);
     put_scaled(0, centre->grey, out->channel[BLUE_YELLOW]);
     for (int i = 0; i < 2; i++)
-        add_pair(f->blue_yellow[i].weights[0] / 2, centre->blue_yellow[i],
-                 centre->blue_yellow[i], out->channel[BLUE_YELLOW]);
+        add_pair(f->blue_yellow[i].weights[0] / 2, centre->blue_yellow[i], centre->blue_yellow[i],
+                 out->channel[BLUE_YELLOW]);
     for (int k = 1; k <= f->radius; k++) {
         const RowPair rows = rows_around(job, ring, y, k);
         if (k <= f->lightness.radius)
@@ -254,10 +237,9 @@ static void smooth_column(const FlipJob *job, const RingRow *ring, int y, Filter
     }
 }
 
-static void feature_column(const FlipJob *job, const RingRow *ring, int y, Filtered *out)
-{
+static void feature_column(const FlipJob *job, const RingRow *ring, int y, Filtered *out) {
     const FlipFilters *f = &job->filters;
-    const RingRow     *centre = rows_around(job, ring, y, 0).above;
+    const RingRow *centre = rows_around(job, ring, y, 0).above;
     put_scaled(f->gauss.weights[0], centre->slope, out->slope_x);
     put_scaled(f->gauss.weights[0], centre->curve, out->curve_x);
     put_scaled(0, centre->gauss, out->slope_y);
@@ -269,14 +251,12 @@ static void feature_column(const FlipJob *job, const RingRow *ring, int y, Filte
         add_pair(f->gauss.weights[k], above->curve, below->curve, out->curve_x);
         add_slope(f->slope.weights[k], above->gauss, below->gauss, out->slope_y);
         add_curve(f->curve.weights[k],
-                  (const double *[3]){above->gauss, centre->gauss, below->gauss},
-                  out->curve_y);
+                  (const double *[3]){above->gauss, centre->gauss, below->gauss}, out->curve_y);
     }
 }
 
 /* A pixel's colour after the eye's filters, for colour_distance. */
-static void seen_lab(const FlipJob *job, const Filtered *filtered, int x, double lab[3])
-{
+static void seen_lab(const FlipJob *job, const Filtered *filtered, int x, double lab[3]) {
     double y = filtered->channel[GREY][x], rgb[3];
     double ratios[3] = {y + filtered->channel[RED_GREEN][x], y,
                         y - filtered->channel[BLUE_YELLOW][x]};
@@ -288,8 +268,7 @@ static void seen_lab(const FlipJob *job, const Filtered *filtered, int x, double
 
 /* Natural logarithm, since a power of it is required; -infinity for equal colours. Small
  * differences are stretched: those up to KNEE of the greatest fill 0 .. KNEE_MAPPED. */
-static double log_colour_difference(const FlipJob *job, const FlipScratch *scratch, int x)
-{
+static double log_colour_difference(const FlipJob *job, const FlipScratch *scratch, int x) {
     double reference[3], test[3];
     seen_lab(job, &scratch->filtered[REFERENCE], x, reference);
     seen_lab(job, &scratch->filtered[TEST], x, test);
@@ -300,46 +279,41 @@ static double log_colour_difference(const FlipJob *job, const FlipScratch *scrat
     return (double)log_f((float)(KNEE_MAPPED + (part - KNEE) * (1 - KNEE_MAPPED) / (1 - KNEE)));
 }
 
-static double length(double x, double y)
-{
+static double length(double x, double y) {
     return sqrt(x * x + y * y);
 }
 
 /* The difference of edges or of points, whichever is greater; 1 for the sharpest possible
  * ones. */
-static double feature_difference(const FlipScratch *scratch, int x)
-{
+static double feature_difference(const FlipScratch *scratch, int x) {
     const Filtered *r = &scratch->filtered[REFERENCE], *t = &scratch->filtered[TEST];
-    double edges = fabs(length(r->slope_x[x], r->slope_y[x]) -
-                        length(t->slope_x[x], t->slope_y[x]));
-    double points = fabs(length(r->curve_x[x], r->curve_y[x]) -
-                         length(t->curve_x[x], t->curve_y[x]));
+    double edges =
+        fabs(length(r->slope_x[x], r->slope_y[x]) - length(t->slope_x[x], t->slope_y[x]));
+    double points =
+        fabs(length(r->curve_x[x], r->curve_y[x]) - length(t->curve_x[x], t->curve_y[x]));
     return sqrt((edges > points ? edges : points) * 0.7071067811865476);
 }
 
 static void set_pixels(const FlipJob *job, FlipTile tile, int y, int exposure,
-                       const FlipScratch *scratch)
-{
+                       const FlipScratch *scratch) {
     size_t first = (size_t)y * (size_t)job->reference->width;
     for (int x = tile.x0; x < tile.x1; x++) {
         size_t i = first + (size_t)x;
         double log_colour = log_colour_difference(job, scratch, x - tile.x0);
         if (log_colour == (double)-INFINITY) continue;
         double feature = feature_difference(scratch, x - tile.x0);
-        float  value = clampf(exp_f((float)((1 - feature) * log_colour)), 0, 1);
+        float value = clampf(exp_f((float)((1 - feature) * log_colour)), 0, 1);
         if (value <= job->map[i]) continue;
         job->map[i] = value;
         if (job->exposure_map) job->exposure_map[i] = (float)exposure;
     }
 }
 
-static void flip_exposure(const FlipJob *job, FlipTile tile, int exposure,
-                          FlipScratch *scratch)
-{
+static void flip_exposure(const FlipJob *job, FlipTile tile, int exposure, FlipScratch *scratch) {
     const Planes *pictures[PICTURES] = {job->reference, job->test};
-    const int     radius = job->filters.radius, height = job->reference->height;
-    const double  gain = job->is_hdr ? job->gains[exposure] : 1;
-    int           next = tile.y0 > radius ? tile.y0 - radius : 0; /* row for the ring */
+    const int radius = job->filters.radius, height = job->reference->height;
+    const double gain = job->is_hdr ? job->gains[exposure] : 1;
+    int next = tile.y0 > radius ? tile.y0 - radius : 0; /* row for the ring */
     for (int y = tile.y0; y < tile.y1; y++) {
         for (; next < height && next <= y + radius; next++)
             for (int p = 0; p < PICTURES; p++) {
@@ -355,8 +329,7 @@ static void flip_exposure(const FlipJob *job, FlipTile tile, int exposure,
 }
 
 /* Raises map to the greatest of all exposures. */
-static void flip_tile(const FlipJob *job, FlipTile tile, FlipScratch *scratch)
-{
+static void flip_tile(const FlipJob *job, FlipTile tile, FlipScratch *scratch) {
     for (int i = 0; i < job->exposures; i++) flip_exposure(job, tile, i, scratch);
 }
 
@@ -369,8 +342,7 @@ static void flip_tile(const FlipJob *job, FlipTile tile, FlipScratch *scratch)
  * pictures go on beyond it as FLIP lets them go on beyond their border. */
 
 /* The nearest column of a row that counts for each column; false when none does. */
-static bool nearest_columns(const unsigned char *mask, int width, int *nearest)
-{
+static bool nearest_columns(const unsigned char *mask, int width, int *nearest) {
     int last = -1;
     for (int x = 0; x < width; x++) {
         if (mask[x]) last = x;
@@ -385,8 +357,7 @@ static bool nearest_columns(const unsigned char *mask, int width, int *nearest)
 }
 
 /* Rows that have no values take those of the nearest row that has. */
-static void fill_rows(float *plane, const bool *has, int width, int height)
-{
+static void fill_rows(float *plane, const bool *has, int width, int height) {
     for (int y = 0; y < height; y++) {
         int above = y, below = y;
         while (above >= 0 && !has[above]) above--;
@@ -398,22 +369,20 @@ static void fill_rows(float *plane, const bool *has, int width, int height)
     }
 }
 
-static bool all_count(const Planes *picture, PixelMask mask)
-{
+static bool all_count(const Planes *picture, PixelMask mask) {
     return !mask || !memchr(mask, 0, planes_pixel_count(picture));
 }
 
 /* The picture itself where every pixel counts, and black where none does. */
-static Planes mask_fill(const Planes *picture, PixelMask mask, Arena *arena)
-{
+static Planes mask_fill(const Planes *picture, PixelMask mask, Arena *arena) {
     Planes out = *picture;
-    int    width = out.width;
+    int width = out.width;
     if (all_count(picture, mask)) return out;
     float *plane[3];
     for (int c = 0; c < 3; c++)
         out.rgb[c] = plane[c] = ARENA_NEW(arena, float, planes_pixel_count(picture));
     bool *has = ARENA_NEW(arena, bool, out.height);
-    int  *nearest = ARENA_NEW(arena, int, width);
+    int *nearest = ARENA_NEW(arena, int, width);
     for (int y = 0; y < out.height; y++) {
         size_t row = (size_t)y * (size_t)width;
         has[y] = nearest_columns(mask + row, width, nearest);
@@ -429,33 +398,30 @@ enum { TILE_ROWS = 128 };
 
 typedef struct Tiles {
     const FlipJob *job;
-    FlipScratch  **scratch; /* of each worker */
-    int            columns;
+    FlipScratch **scratch; /* of each worker */
+    int columns;
 } Tiles;
 
-static int lower(int a, int b)
-{
+static int lower(int a, int b) {
     return a < b ? a : b;
 }
 
-static void work_on_tile(void *context, int item, int worker)
-{
-    const Tiles  *tiles = context;
+static void work_on_tile(void *context, int item, int worker) {
+    const Tiles *tiles = context;
     const Planes *picture = tiles->job->reference;
-    int           x0 = item % tiles->columns * FLIP_TILE;
-    int           y0 = item / tiles->columns * TILE_ROWS;
-    FlipTile      tile = {x0, lower(x0 + FLIP_TILE, picture->width), y0,
-                          lower(y0 + TILE_ROWS, picture->height)};
+    int x0 = item % tiles->columns * FLIP_TILE;
+    int y0 = item / tiles->columns * TILE_ROWS;
+    FlipTile tile = {x0, lower(x0 + FLIP_TILE, picture->width), y0,
+                     lower(y0 + TILE_ROWS, picture->height)};
     flip_tile(tiles->job, tile, tiles->scratch[worker]);
 }
 
-static void run(const FlipJob *job, int threads, Arena scratch)
-{
+static void run(const FlipJob *job, int threads, Arena scratch) {
     const Planes *picture = job->reference;
-    size_t        count = planes_pixel_count(picture);
-    int           columns = (picture->width + FLIP_TILE - 1) / FLIP_TILE;
-    int           items = columns * ((picture->height + TILE_ROWS - 1) / TILE_ROWS);
-    int           workers = lower(lower(threads, items), PARALLEL_THREADS_MAX);
+    size_t count = planes_pixel_count(picture);
+    int columns = (picture->width + FLIP_TILE - 1) / FLIP_TILE;
+    int items = columns * ((picture->height + TILE_ROWS - 1) / TILE_ROWS);
+    int workers = lower(lower(threads, items), PARALLEL_THREADS_MAX);
     Tiles tiles = {job, ARENA_NEW(&scratch, FlipScratch *, workers), columns};
     for (int i = 0; i < workers; i++) tiles.scratch[i] = flip_scratch_create(job, &scratch);
     memset(job->map, 0, count * sizeof *job->map);
@@ -463,14 +429,12 @@ static void run(const FlipJob *job, int threads, Arena scratch)
     parallel_for(workers, items, work_on_tile, &tiles);
 }
 
-static double chosen_ppd(const FlipOptions *options)
-{
+static double chosen_ppd(const FlipOptions *options) {
     return options->pixels_per_degree > 0 ? options->pixels_per_degree : FLIP_PIXELS_PER_DEGREE;
 }
 
 void flip_ldr(const Planes *reference, const Planes *test, const FlipOptions *options,
-              Arena scratch, float *map)
-{
+              Arena scratch, float *map) {
     const Planes filled[2] = {mask_fill(reference, options->mask, &scratch),
                               mask_fill(test, options->mask, &scratch)};
     FlipJob job = flip_job_create(&filled[0], &filled[1], chosen_ppd(options), &scratch);
@@ -482,18 +446,16 @@ void flip_ldr(const Planes *reference, const Planes *test, const FlipOptions *op
 /* The greatest and the median luminance of what is not black; false for a black picture. The
  * median is that of FLIP 1.6 where less than half of the picture is black; beyond that the
  * authors' is 0, and their range has no end. */
-static bool find_luminances(const Planes *picture, PixelMask mask, Arena scratch,
-                            double *median, double *most)
-{
-    size_t         count = planes_pixel_count(picture), lit = 0, counting = 0;
-    float         *luminance = ARENA_NEW(&scratch, float, count);
+static bool find_luminances(const Planes *picture, PixelMask mask, Arena scratch, double *median,
+                            double *most) {
+    size_t count = planes_pixel_count(picture), lit = 0, counting = 0;
+    float *luminance = ARENA_NEW(&scratch, float, count);
     unsigned char *is_lit = ARENA_NEW(&scratch, unsigned char, count);
     for (size_t i = 0; i < count; i++) {
         const float weights[3] = {0.2126f, 0.7152f, 0.0722f};
         if (mask && !mask[i]) continue;
         counting++;
-        for (int c = 0; c < 3; c++)
-            luminance[i] += weights[c] * fmaxf(picture->rgb[c][i], 0);
+        for (int c = 0; c < 3; c++) luminance[i] += weights[c] * fmaxf(picture->rgb[c][i], 0);
         is_lit[i] = luminance[i] > 0;
         lit += is_lit[i];
     }
@@ -508,10 +470,9 @@ static bool find_luminances(const Planes *picture, PixelMask mask, Arena scratch
 
 /* The brightest light just so at 0.85, and the median just so. */
 static FlipExposures find_exposures(const Planes *reference, const FlipOptions *options,
-                                    Arena scratch)
-{
+                                    Arena scratch) {
     FlipExposures range = {options->start_ev, options->stop_ev, options->exposures};
-    double        median, most, bright = flip_tone_input(options->tone_mapper, 0.85);
+    double median, most, bright = flip_tone_input(options->tone_mapper, 0.85);
     if (!options->has_range) {
         bool has_light = find_luminances(reference, options->mask, scratch, &median, &most);
         range.start_ev = has_light ? log2_d(bright / most) : 0;
@@ -524,14 +485,13 @@ static FlipExposures find_exposures(const Planes *reference, const FlipOptions *
 }
 
 FlipExposures flip_hdr(const Planes *reference, const Planes *test, const FlipOptions *options,
-                       Arena scratch, float *map, float *exposure_map)
-{
+                       Arena scratch, float *map, float *exposure_map) {
     const Planes filled[2] = {mask_fill(reference, options->mask, &scratch),
                               mask_fill(test, options->mask, &scratch)};
     FlipJob job = flip_job_create(&filled[0], &filled[1], chosen_ppd(options), &scratch);
     const FlipExposures range = find_exposures(reference, options, scratch);
     double *gains = ARENA_NEW(&scratch, double, range.count);
-    double  step = range.count > 1 ? (range.stop_ev - range.start_ev) / (range.count - 1) : 0;
+    double step = range.count > 1 ? (range.stop_ev - range.start_ev) / (range.count - 1) : 0;
     for (int i = 0; i < range.count; i++) gains[i] = exp2_d(range.start_ev + i * step);
     job.is_hdr = true;
     job.tone_mapper = options->tone_mapper;

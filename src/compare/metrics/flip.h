@@ -20,13 +20,13 @@
 #define FLIP_PIXELS_PER_DEGREE 67.0206432766 /* 0.7 m from a screen of 0.7 m and 3840 pixels */
 
 typedef struct FlipOptions {
-    double pixels_per_degree; /* 1 .. 1000; 0: FLIP_PIXELS_PER_DEGREE */
-    int    threads;           /* at least 1 */
-    PixelMask mask;           /* what counts: the pictures end there (mask_fill.h); NULL: all */
+    double pixels_per_degree;   /* 1 .. 1000; 0: FLIP_PIXELS_PER_DEGREE */
+    int threads;                /* at least 1 */
+    PixelMask mask;             /* what counts: the pictures end there (mask_fill.h); NULL: all */
     FlipToneMapper tone_mapper; /* HDR */
-    bool   has_range;         /* HDR: the exposures below, else from the reference */
-    double start_ev, stop_ev; /* HDR: light is multiplied by 2^ev; start <= stop */
-    int    exposures;         /* HDR: 0: ceil(stop - start), at least 2; an empty range: 1 */
+    bool has_range;             /* HDR: the exposures below, else from the reference */
+    double start_ev, stop_ev;   /* HDR: light is multiplied by 2^ev; start <= stop */
+    int exposures;              /* HDR: 0: ceil(stop - start), at least 2; an empty range: 1 */
 } FlipOptions;
 
 /* Linear Rec.709, clamped to 0 .. 1. map: width * height values. Symmetric. */
@@ -36,7 +36,7 @@ void flip_ldr(const Planes *reference, const Planes *test, const FlipOptions *op
 /* The exposures that HDR-FLIP used. */
 typedef struct FlipExposures {
     double start_ev, stop_ev;
-    int    count;
+    int count;
 } FlipExposures;
 
 /* Linear Rec.709 of any scale; negative values count as 0. For every pixel the greatest

@@ -17,8 +17,7 @@ static const Sensitivity LIGHTNESS = {1, 0.0047}, RED_GREEN = {1, 0.0053},
 #define FEATURE_WIDTH 0.082 /* degrees: of the edges that the eye sees best */
 
 /* exp(-k^2 falloff) out to `radius`, without the tail that double precision hides. */
-static FlipFilter bell(double falloff, int radius, Arena *arena)
-{
+static FlipFilter bell(double falloff, int radius, Arena *arena) {
     FlipFilter filter = {.weights = ARENA_NEW(arena, double, radius + 1)};
     for (int k = 0; k <= radius; k++) {
         filter.weights[k] = exp_d(-k * k * falloff);
@@ -27,23 +26,20 @@ static FlipFilter bell(double falloff, int radius, Arena *arena)
     return filter;
 }
 
-static double sum_of(const FlipFilter *filter)
-{
+static double sum_of(const FlipFilter *filter) {
     double sum = filter->weights[0];
     for (int k = 1; k <= filter->radius; k++) sum += 2 * filter->weights[k];
     return sum;
 }
 
-static void scale(FlipFilter *filter, double factor)
-{
+static void scale(FlipFilter *filter, double factor) {
     for (int k = 0; k <= filter->radius; k++) filter->weights[k] *= factor;
 }
 
 /* Both parts stay in proportion and together have the sum 1 over the plane, where the sum of
  * a product f(x) f(y) is the square of f's; so f carries the root of its amplitude. */
 static void create_blue_yellow(FlipFilters *filters, double pixels_per_degree, int radius,
-                               Arena *arena)
-{
+                               Arena *arena) {
     double whole = 0;
     for (int i = 0; i < 2; i++) {
         const Sensitivity s = BLUE_YELLOW[i];
@@ -57,8 +53,7 @@ static void create_blue_yellow(FlipFilters *filters, double pixels_per_degree, i
 
 /* Positive and negative weights to the sums 1 and -1, each for itself. Of filters so narrow
  * that a neighbour's weight is 0 nothing is left. */
-static void balance(FlipFilter *filter)
-{
+static void balance(FlipFilter *filter) {
     double positive = 0, negative = 0;
     for (int k = 0; k <= filter->radius; k++) {
         double weight = filter->weights[k] * (k ? 2 : 1);
@@ -73,10 +68,9 @@ static void balance(FlipFilter *filter)
 
 /* With s the standard deviation: exp(-x^2 / 2s^2), its first derivative as x exp(...) and its
  * second as (x^2 / s^2 - 1) exp(...), each up to a factor. */
-static void create_features(FlipFilters *filters, double pixels_per_degree, Arena *arena)
-{
+static void create_features(FlipFilters *filters, double pixels_per_degree, Arena *arena) {
     const double s = 0.5 * FEATURE_WIDTH * pixels_per_degree;
-    const int    radius = (int)ceil(3 * s);
+    const int radius = (int)ceil(3 * s);
     filters->gauss = bell(1 / (2 * s * s), radius, arena);
     filters->slope = bell(1 / (2 * s * s), radius, arena);
     filters->curve = bell(1 / (2 * s * s), radius, arena);
@@ -91,8 +85,7 @@ static void create_features(FlipFilters *filters, double pixels_per_degree, Aren
     balance(&filters->curve);
 }
 
-FlipFilters flip_filters_create(double pixels_per_degree, Arena *arena)
-{
+FlipFilters flip_filters_create(double pixels_per_degree, Arena *arena) {
     const double area = pixels_per_degree * pixels_per_degree;
     /* three standard deviations of the widest: 0.135 degrees, the features' are 0.123 */
     const int radius = (int)ceil(3 * sqrt(BLUE_YELLOW[0].b / 2) / PI * pixels_per_degree);

@@ -12,7 +12,7 @@
 
 /* weights[k], 0 <= k <= radius, stands for k and -k pixels from the centre. */
 typedef struct FlipFilter {
-    int     radius; /* pixels */
+    int radius; /* pixels */
     double *weights;
 } FlipFilter;
 
@@ -20,7 +20,7 @@ typedef struct FlipFilter {
  * slope is odd, -weights[k] belonging to -k, and its positive weights have the sum 1.
  * curve's positive weights have the sum 1, and its negative ones -1. */
 typedef struct FlipFilters {
-    int        radius; /* the greatest of all */
+    int radius; /* the greatest of all */
     FlipFilter lightness, red_green, blue_yellow[2];
     FlipFilter gauss, slope, curve;
 } FlipFilters;

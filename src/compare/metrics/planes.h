@@ -9,12 +9,11 @@
 #include <stddef.h>
 
 typedef struct Planes {
-    int          width, height; /* at least 1 */
+    int width, height; /* at least 1 */
     const float *rgb[3];
 } Planes;
 
-static inline size_t planes_pixel_count(const Planes *planes)
-{
+static inline size_t planes_pixel_count(const Planes *planes) {
     return (size_t)planes->width * (size_t)planes->height;
 }
 

@@ -8,49 +8,43 @@
 
 /* ---- metrics ----------------------------------------------------------------------------- */
 
-static json_t *regions_json(const StatisticResult *s)
-{
+static json_t *regions_json(const StatisticResult *s) {
     json_t *list = json_array();
     for (int i = 0; i < s->region_count; i++) {
         const StatisticRegion *r = &s->regions[i];
         json_array_append_new(
-            list, json_pack("{s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:b}", "name",
-                            json_text(r->name), "pixels", (json_int_t)r->pixels,
-                            "reference_cd_m2", json_figure(r->reference), "test_cd_m2",
-                            json_figure(r->test), "shift", json_figure(r->shift), "shift_sigma",
-                            json_figure(r->shift_sigma), "p_value", json_figure(r->p_value),
-                            "moved", r->moved));
+            list, json_pack("{s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:b}", "name", json_text(r->name),
+                            "pixels", (json_int_t)r->pixels, "reference_cd_m2",
+                            json_figure(r->reference), "test_cd_m2", json_figure(r->test), "shift",
+                            json_figure(r->shift), "shift_sigma", json_figure(r->shift_sigma),
+                            "p_value", json_figure(r->p_value), "moved", r->moved));
     }
     return list;
 }
 
-static json_t *stat_json(const StatisticResult *s)
-{
+static json_t *stat_json(const StatisticResult *s) {
     static const char *const VERDICTS[] = {[STATISTIC_EQUAL] = "equal",
                                            [STATISTIC_SAME] = "same",
                                            [STATISTIC_DIFFERENT] = "different"};
     return json_pack("{s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:b, s:i, s:o, s:o}", "p_value",
-                     json_figure(s->p_value), "fraction_failed",
-                     json_figure(s->fraction_failed), "mean_shift", json_figure(s->mean_shift),
-                     "verdict", VERDICTS[s->verdict], "p_blocks", json_figure(s->p_blocks),
-                     "p_histogram", json_figure(s->p_histogram), "p_regions",
-                     json_figure(s->p_regions), "shares_noise", s->shares_noise, "block_side",
-                     s->block_side, "regions", regions_json(s), "reason", json_text(s->reason));
+                     json_figure(s->p_value), "fraction_failed", json_figure(s->fraction_failed),
+                     "mean_shift", json_figure(s->mean_shift), "verdict", VERDICTS[s->verdict],
+                     "p_blocks", json_figure(s->p_blocks), "p_histogram",
+                     json_figure(s->p_histogram), "p_regions", json_figure(s->p_regions),
+                     "shares_noise", s->shares_noise, "block_side", s->block_side, "regions",
+                     regions_json(s), "reason", json_text(s->reason));
 }
 
-static json_t *interval(Measured range)
-{
+static json_t *interval(Measured range) {
     if (!isfinite(range.low) || !isfinite(range.high)) return json_null();
     return json_pack("[f,f]", range.low, range.high);
 }
 
-static json_t *pair_of(double a, double b)
-{
+static json_t *pair_of(double a, double b) {
     return json_pack("[o,o]", json_figure(a), json_figure(b));
 }
 
-static json_t *contrast_json(const Comparison *c)
-{
+static json_t *contrast_json(const Comparison *c) {
     json_t *object = json_object();
     for (int i = 0; i < c->contrast_count; i++) {
         const ContrastChange *d = &c->contrasts[i];
@@ -68,14 +62,12 @@ static json_t *contrast_json(const Comparison *c)
     return object;
 }
 
-static json_t *metrics_json(const Comparison *c)
-{
+static json_t *metrics_json(const Comparison *c) {
     json_t *metrics = json_object();
     for (int i = 0; i < METRIC_COUNT; i++) {
         bool is_stat = metric_info((Metric)i)->group == GROUP_STAT;
         if (!isnan(c->value[i]) && !is_stat)
-            json_object_set_new(metrics, metric_info((Metric)i)->name,
-                                json_figure(c->value[i]));
+            json_object_set_new(metrics, metric_info((Metric)i)->name, json_figure(c->value[i]));
     }
     if (!isnan(c->value[METRIC_PSNR]))
         json_object_set_new(metrics, "psnr_peak", json_figure(c->psnr_peak));
@@ -92,74 +84,66 @@ static json_t *metrics_json(const Comparison *c)
 
 /* ---- the rest ---------------------------------------------------------------------------- */
 
-static json_t *limits_json(const Comparison *c, const CompareOptions *options)
-{
+static json_t *limits_json(const Comparison *c, const CompareOptions *options) {
     json_t *list = json_array();
     for (int i = 0; i < options->threshold_count; i++) {
-        Threshold         t = options->thresholds[i];
+        Threshold t = options->thresholds[i];
         const MetricInfo *info = metric_info(t.metric);
-        double            value = c->value[t.metric];
-        json_array_append_new(list, json_pack("{s:s, s:s, s:f, s:o, s:b}", "metric", info->name,
-                                              "kind", info->is_min ? "min" : "max", "limit",
-                                              t.limit, "value", json_figure(value), "holds",
-                                              threshold_holds(t, value)));
+        double value = c->value[t.metric];
+        json_array_append_new(list,
+                              json_pack("{s:s, s:s, s:f, s:o, s:b}", "metric", info->name, "kind",
+                                        info->is_min ? "min" : "max", "limit", t.limit, "value",
+                                        json_figure(value), "holds", threshold_holds(t, value)));
     }
     return list;
 }
 
-static json_t *channels_json(const ChannelDifferences *channels)
-{
+static json_t *channels_json(const ChannelDifferences *channels) {
     json_t *list = json_array();
     for (int i = 0; i < channels->count; i++) {
         const ChannelDifference *c = &channels->list[i];
         json_array_append_new(
             list, json_pack("{s:o, s:I, s:o, s:o, s:[I,I], s:I}", "name", json_text(c->name),
                             "differing", (json_int_t)c->differing, "mean", json_figure(c->mean),
-                            "max", json_figure(c->max), "nonfinite",
-                            (json_int_t)c->nonfinite[0], (json_int_t)c->nonfinite[1], "gaps",
-                            (json_int_t)c->gaps));
+                            "max", json_figure(c->max), "nonfinite", (json_int_t)c->nonfinite[0],
+                            (json_int_t)c->nonfinite[1], "gaps", (json_int_t)c->gaps));
     }
     return list;
 }
 
-static json_t *metadata_json(const Structure *structure)
-{
+static json_t *metadata_json(const Structure *structure) {
     json_t *list = json_array();
     for (int i = 0; i < structure->metadata_count; i++) {
         const MetadataRow *row = &structure->metadata[i];
         if (!row->differs) continue;
         json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o, s:b, s:b}", "name", json_text(row->name),
-                            "reference", json_text_or_null(row->reference), "test",
-                            json_text_or_null(row->test), "decides", row->decides, "ignored",
-                            row->is_ignored));
+            list, json_pack("{s:o, s:o, s:o, s:b, s:b}", "name", json_text(row->name), "reference",
+                            json_text_or_null(row->reference), "test", json_text_or_null(row->test),
+                            "decides", row->decides, "ignored", row->is_ignored));
     }
     return list;
 }
 
-json_t *comparison_json(const Comparison *c, const CompareOptions *options)
-{
+json_t *comparison_json(const Comparison *c, const CompareOptions *options) {
     static const char *const JUDGES[] = {[JUDGED_BY_LIMITS] = "limits",
                                          [JUDGED_BY_STATISTIC] = "stat",
                                          [JUDGED_BY_EQUALITY] = "equality"};
-    json_t *out = json_pack("{s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "same", c->same,
-                            "reference", json_text(c->reference.name), "test",
-                            json_text(c->test.name), "verdict", json_text(c->verdict),
-                            "mean", json_text(c->mean), "metrics", metrics_json(c), "limits",
-                            limits_json(c, options), "reasons",
-                            json_texts(c->reasons.list, c->reasons.count), "notes",
-                            json_texts(c->notes.list, c->notes.count));
-    json_object_set_new(out, "kind", json_string(c->reference.kind == INPUT_FRAME
-                                                     ? "frame" : "picture"));
+    json_t *out = json_pack(
+        "{s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "same", c->same, "reference",
+        json_text(c->reference.name), "test", json_text(c->test.name), "verdict",
+        json_text(c->verdict), "mean", json_text(c->mean), "metrics", metrics_json(c), "limits",
+        limits_json(c, options), "reasons", json_texts(c->reasons.list, c->reasons.count), "notes",
+        json_texts(c->notes.list, c->notes.count));
+    json_object_set_new(out, "kind",
+                        json_string(c->reference.kind == INPUT_FRAME ? "frame" : "picture"));
     json_object_set_new(out, "metadata", metadata_json(&c->structure));
     json_object_set_new(out, "seconds", json_real(c->seconds));
     if (!c->has_pixels) return out;
     json_object_set_new(out, "judged_by", json_string(JUDGES[c->judged_by]));
-    json_object_set_new(out, "size", json_pack("[i,i]", c->reference.light.width,
-                                               c->reference.light.height));
+    json_object_set_new(out, "size",
+                        json_pack("[i,i]", c->reference.light.width, c->reference.light.height));
     json_object_set_new(out, "pixels", json_integer((json_int_t)c->selection.pixels));
-    json_object_set_new(out, "differing_pixels",
-                        json_integer((json_int_t)c->channels.differing));
+    json_object_set_new(out, "differing_pixels", json_integer((json_int_t)c->channels.differing));
     json_object_set_new(out, "channels", channels_json(&c->channels));
     if (c->reference.kind == INPUT_FRAME) {
         json_object_set_new(out, "shown_ev", json_figure(c->shown_ev));

@@ -18,19 +18,19 @@ typedef struct Ramp {
 } Ramp;
 
 /* Blue over light grey to red, as even in lightness on both sides as five stops make it. */
-static void signed_colour(float t, float srgb[3])
-{
-    static const float STOPS[5][3] = {{0.04f, 0.21f, 0.46f}, {0.33f, 0.60f, 0.81f},
-                                      {0.95f, 0.95f, 0.94f}, {0.92f, 0.58f, 0.40f},
+static void signed_colour(float t, float srgb[3]) {
+    static const float STOPS[5][3] = {{0.04f, 0.21f, 0.46f},
+                                      {0.33f, 0.60f, 0.81f},
+                                      {0.95f, 0.95f, 0.94f},
+                                      {0.92f, 0.58f, 0.40f},
                                       {0.54f, 0.08f, 0.09f}};
-    int   stop = t < 1 ? (int)(t * 4) : 3;
+    int stop = t < 1 ? (int)(t * 4) : 3;
     float part = t * 4 - (float)stop;
     for (int c = 0; c < 3; c++)
         srgb[c] = STOPS[stop][c] + part * (STOPS[stop + 1][c] - STOPS[stop][c]);
 }
 
-static void make_ramp(bool is_signed, Ramp *out)
-{
+static void make_ramp(bool is_signed, Ramp *out) {
     for (int i = 0; i < RAMP_COLOURS; i++) {
         float t = (float)i / (RAMP_COLOURS - 1);
         if (is_signed) signed_colour(t, out->colour[i]);
@@ -38,26 +38,22 @@ static void make_ramp(bool is_signed, Ramp *out)
     }
 }
 
-static int code_of(float value)
-{
+static int code_of(float value) {
     return (int)(value * 255 + 0.5f);
 }
 
-static void add_colour(Text *text, const char *before, const float srgb[3])
-{
+static void add_colour(Text *text, const char *before, const float srgb[3]) {
     text_format(text, "%s%02x%02x%02x", before, code_of(srgb[0]), code_of(srgb[1]),
                 code_of(srgb[2]));
 }
 
-void shot_ramp_digits(Text *text, bool is_signed)
-{
+void shot_ramp_digits(Text *text, bool is_signed) {
     Ramp ramp;
     make_ramp(is_signed, &ramp);
     for (int i = 0; i < RAMP_COLOURS; i++) add_colour(text, "", ramp.colour[i]);
 }
 
-void shot_ramp_gradient(Text *html, bool is_signed)
-{
+void shot_ramp_gradient(Text *html, bool is_signed) {
     enum { STOPS = 16 };
     Ramp ramp;
     make_ramp(is_signed, &ramp);
@@ -67,9 +63,8 @@ void shot_ramp_gradient(Text *html, bool is_signed)
 
 /* ---- smaller ----------------------------------------------------------------------------- */
 
-int shot_factor(const Planes *planes, long most)
-{
-    int    factor = 1;
+int shot_factor(const Planes *planes, long most) {
+    int factor = 1;
     double pixels = (double)planes_pixel_count(planes);
     while (pixels / ((double)factor * factor) > (double)most) factor++;
     return factor;
@@ -80,27 +75,23 @@ typedef struct PixelBlock {
     int x0, y0, x1, y1;
 } PixelBlock;
 
-static PixelBlock block_of(const Planes *planes, int factor, size_t i)
-{
+static PixelBlock block_of(const Planes *planes, int factor, size_t i) {
     int row = (planes->width + factor - 1) / factor;
     int x = (int)(i % (size_t)row) * factor, y = (int)(i / (size_t)row) * factor;
     return (PixelBlock){x, y, x + factor < planes->width ? x + factor : planes->width,
-                   y + factor < planes->height ? y + factor : planes->height};
+                        y + factor < planes->height ? y + factor : planes->height};
 }
 
-static Picture small_picture(const Planes *planes, int factor, Arena *arena)
-{
+static Picture small_picture(const Planes *planes, int factor, Arena *arena) {
     return picture_create((planes->width + factor - 1) / factor,
                           (planes->height + factor - 1) / factor, arena);
 }
 
-static size_t picture_pixels(const Picture *picture)
-{
+static size_t picture_pixels(const Picture *picture) {
     return (size_t)picture->width * (size_t)picture->height;
 }
 
-static Picture side_picture(const Planes *codes, int factor, Arena *arena)
-{
+static Picture side_picture(const Planes *codes, int factor, Arena *arena) {
     Picture out = small_picture(codes, factor, arena);
     for (size_t i = 0; i < picture_pixels(&out); i++) {
         PixelBlock b = block_of(codes, factor, i);
@@ -115,16 +106,14 @@ static Picture side_picture(const Planes *codes, int factor, Arena *arena)
     return out;
 }
 
-Picture shot_thumbnail(const Comparison *c, ShotKind kind, int side, Arena *arena)
-{
+Picture shot_thumbnail(const Comparison *c, ShotKind kind, int side, Arena *arena) {
     const Planes *codes = kind == SHOT_TEST ? &c->test.codes : &c->reference.codes;
     int factor = (codes->width + side - 1) / side;
     return side_picture(codes, factor > 0 ? factor : 1, arena);
 }
 
 /* The value of greatest magnitude in a block; NaN when none counts there. */
-static float extreme_of(const Planes *planes, const float *map, PixelMask mask, PixelBlock b)
-{
+static float extreme_of(const Planes *planes, const float *map, PixelMask mask, PixelBlock b) {
     float extreme = NAN;
     for (int y = b.y0; y < b.y1; y++)
         for (int x = b.x0; x < b.x1; x++) {
@@ -135,11 +124,10 @@ static float extreme_of(const Planes *planes, const float *map, PixelMask mask, 
 }
 
 static Picture map_picture(const Comparison *c, const float *map, const ShotScale *scale,
-                           int factor, Arena *arena)
-{
+                           int factor, Arena *arena) {
     const Planes *planes = &c->light[0];
-    Picture       out = small_picture(planes, factor, arena);
-    Ramp          ramp;
+    Picture out = small_picture(planes, factor, arena);
+    Ramp ramp;
     make_ramp(scale->is_signed, &ramp);
     for (size_t i = 0; i < picture_pixels(&out); i++) {
         double value = (double)extreme_of(planes, map, c->mask, block_of(planes, factor, i));
@@ -158,31 +146,26 @@ static Picture map_picture(const Comparison *c, const float *map, const ShotScal
 /* ---- scales ------------------------------------------------------------------------------ */
 
 /* 1, 2 or 5 times a power of ten, not below the value. */
-static double round_up(double value)
-{
+static double round_up(double value) {
     double power = pow(10, floor(log10(value)));
     double head = value / power;
     return power * (head <= 1 ? 1 : head <= 2 ? 2 : head <= 5 ? 5 : 10);
 }
 
-static void set_ticks(ShotScale *scale, const char *beyond, Arena *arena)
-{
+static void set_ticks(ShotScale *scale, const char *beyond, Arena *arena) {
     for (int i = 0; i < 5; i++) {
         double value = scale->low + (scale->high - scale->low) * i / 4;
-        scale->ticks[i] = arena_format(arena, "%s%.3g",
-                                       value > 0 && scale->is_signed ? "+" : "", value);
+        scale->ticks[i] =
+            arena_format(arena, "%s%.3g", value > 0 && scale->is_signed ? "+" : "", value);
     }
     scale->ticks[4] = arena_format(arena, "%s%s", scale->ticks[4], beyond);
 }
 
-static float luminance_at(const Planes *planes, size_t i)
-{
-    return 0.2126f * planes->rgb[0][i] + 0.7152f * planes->rgb[1][i] +
-           0.0722f * planes->rgb[2][i];
+static float luminance_at(const Planes *planes, size_t i) {
+    return 0.2126f * planes->rgb[0][i] + 0.7152f * planes->rgb[1][i] + 0.0722f * planes->rgb[2][i];
 }
 
-static double mean_luminance(const Planes *planes, PixelMask mask)
-{
+static double mean_luminance(const Planes *planes, PixelMask mask) {
     double sum = 0, pixels = 0;
     for (size_t i = 0; i < planes_pixel_count(planes); i++) {
         if (!mask[i]) continue;
@@ -192,12 +175,11 @@ static double mean_luminance(const Planes *planes, PixelMask mask)
     return sum / pixels;
 }
 
-static const float *make_difference(const Comparison *c, Arena *arena, Shot *out)
-{
+static const float *make_difference(const Comparison *c, Arena *arena, Shot *out) {
     const Planes *a = &c->light[0], *b = &c->light[1];
-    size_t        count = planes_pixel_count(a);
+    size_t count = planes_pixel_count(a);
     float *difference = ARENA_NEW(arena, float, count), *size = ARENA_NEW(arena, float, count);
-    bool   is_frame = c->reference.kind == INPUT_FRAME;
+    bool is_frame = c->reference.kind == INPUT_FRAME;
     for (size_t i = 0; i < count; i++) {
         difference[i] = luminance_at(b, i) - luminance_at(a, i);
         if (!is_frame) difference[i] *= 100;
@@ -210,23 +192,24 @@ static const float *make_difference(const Comparison *c, Arena *arena, Shot *out
     out->title = "Difference";
     out->caption = "Luminance of the test less that of the reference: red is brighter, blue "
                    "darker.";
-    out->scale = (ShotScale){.is_signed = true, .low = -limit, .high = limit,
-                             .unit = is_frame ? "cd/m²" : "% of white"};
+    out->scale = (ShotScale){
+        .is_signed = true, .low = -limit, .high = limit, .unit = is_frame ? "cd/m²" : "% of white"};
     set_ticks(&out->scale, "", arena);
     if (is_frame && mean > 0)
-        out->scale.also = arena_format(arena, "±%.3g %% of the reference's mean luminance, "
-                                       "%.4g cd/m²", 100 * limit / mean, mean);
+        out->scale.also = arena_format(arena,
+                                       "±%.3g %% of the reference's mean luminance, "
+                                       "%.4g cd/m²",
+                                       100 * limit / mean, mean);
     return difference;
 }
 
-#define BLOCK 8        /* pixels along a side: as the statistical test's small ones */
-#define DARK 0.01f     /* of the mean luminance: darker blocks are taken relative to this */
+#define BLOCK 8    /* pixels along a side: as the statistical test's small ones */
+#define DARK 0.01f /* of the mean luminance: darker blocks are taken relative to this */
 
 /* The change of a block's mean luminance, in percent. */
-static float change_of_block(const Comparison *c, PixelBlock b, float dark)
-{
+static float change_of_block(const Comparison *c, PixelBlock b, float dark) {
     const Planes *reference = &c->light[0], *test = &c->light[1];
-    float         before = 0, after = 0, pixels = 0;
+    float before = 0, after = 0, pixels = 0;
     for (int y = b.y0; y < b.y1; y++)
         for (int x = b.x0; x < b.x1; x++) {
             size_t i = (size_t)y * (size_t)reference->width + (size_t)x;
@@ -239,14 +222,13 @@ static float change_of_block(const Comparison *c, PixelBlock b, float dark)
 }
 
 /* Every pixel gets the change of its block; size: the magnitude. */
-static void change_of_blocks(const Comparison *c, float dark, float *change, float *size)
-{
+static void change_of_blocks(const Comparison *c, float dark, float *change, float *size) {
     const Planes *planes = &c->light[0];
-    size_t        row = ((size_t)planes->width + BLOCK - 1) / BLOCK;
-    size_t        rows = ((size_t)planes->height + BLOCK - 1) / BLOCK;
+    size_t row = ((size_t)planes->width + BLOCK - 1) / BLOCK;
+    size_t rows = ((size_t)planes->height + BLOCK - 1) / BLOCK;
     for (size_t k = 0; k < row * rows; k++) {
         PixelBlock b = block_of(planes, BLOCK, k);
-        float      value = change_of_block(c, b, dark);
+        float value = change_of_block(c, b, dark);
         for (int y = b.y0; y < b.y1; y++)
             for (int x = b.x0; x < b.x1; x++) {
                 size_t i = (size_t)y * (size_t)planes->width + (size_t)x;
@@ -256,11 +238,10 @@ static void change_of_blocks(const Comparison *c, float dark, float *change, flo
     }
 }
 
-static const float *make_blocks(const Comparison *c, Arena *arena, Shot *out)
-{
+static const float *make_blocks(const Comparison *c, Arena *arena, Shot *out) {
     size_t count = planes_pixel_count(&c->light[0]);
     float *change = ARENA_NEW(arena, float, count), *size = ARENA_NEW(arena, float, count);
-    float  dark = DARK * (float)mean_luminance(&c->light[0], c->mask);
+    float dark = DARK * (float)mean_luminance(&c->light[0], c->mask);
     change_of_blocks(c, dark > 0 ? dark : 1, change, size);
     double most = (double)rank_value(size, count, c->mask, 0.95);
     double limit = most > 0 ? round_up(most) : 1;
@@ -272,23 +253,23 @@ static const float *make_blocks(const Comparison *c, Arena *arena, Shot *out)
     return change;
 }
 
-static const float *make_flip(const Comparison *c, Arena *arena, Shot *out)
-{
+static const float *make_flip(const Comparison *c, Arena *arena, Shot *out) {
     bool is_frame = c->reference.kind == INPUT_FRAME;
     out->title = "FLIP";
     out->caption = "What an eye notices when one picture is flipped for the other.";
     if (is_frame)
-        out->caption = arena_format(
-            arena, "What an eye notices when one picture is flipped for the other: the worst "
-            "of %d exposures, EV %.1f to %.1f.", c->exposures.count,
-            ev_of_stops(c->exposures.stop_ev), ev_of_stops(c->exposures.start_ev));
+        out->caption =
+            arena_format(arena,
+                         "What an eye notices when one picture is flipped for the other: the worst "
+                         "of %d exposures, EV %.1f to %.1f.",
+                         c->exposures.count, ev_of_stops(c->exposures.stop_ev),
+                         ev_of_stops(c->exposures.start_ev));
     out->scale = (ShotScale){.low = 0, .high = 1, .unit = ""};
     set_ticks(&out->scale, "", arena);
     return c->flip_map;
 }
 
-static const float *make_deltae(const Comparison *c, Arena *arena, Shot *out)
-{
+static const float *make_deltae(const Comparison *c, Arena *arena, Shot *out) {
     size_t count = planes_pixel_count(&c->light[0]);
     double most = (double)rank_value(c->deltae_map, count, c->mask, 0.995);
     out->title = "ΔE2000";
@@ -301,26 +282,26 @@ static const float *make_deltae(const Comparison *c, Arena *arena, Shot *out)
 #define P_DECADES 6
 
 /* -log10 p of the block that each pixel lies in. */
-static const float *make_p_values(const Comparison *c, Arena *arena, Shot *out)
-{
+static const float *make_p_values(const Comparison *c, Arena *arena, Shot *out) {
     static const char *const TICKS[5] = {"p = 1", "0.03", "0.001", "3e-5", "1e-6 or less"};
     const StatisticResult *s = &c->stat;
-    const Planes          *planes = &c->light[0];
-    const ExrWindow        w = c->reference.frame.display, d = c->reference.frame.data;
+    const Planes *planes = &c->light[0];
+    const ExrWindow w = c->reference.frame.display, d = c->reference.frame.data;
     float *map = ARENA_NEW(arena, float, planes_pixel_count(planes));
     for (int y = 0; y < planes->height; y++)
         for (int x = 0; x < planes->width; x++) {
-            int    u = (x + w.x0 - d.x0) / s->block_side, v = (y + w.y0 - d.y0) / s->block_side;
-            bool   inside = u >= 0 && v >= 0 && u < s->blocks_x && v < s->blocks_y;
-            float  p = inside ? s->block_p[(size_t)v * (size_t)s->blocks_x + (size_t)u] : NAN;
+            int u = (x + w.x0 - d.x0) / s->block_side, v = (y + w.y0 - d.y0) / s->block_side;
+            bool inside = u >= 0 && v >= 0 && u < s->blocks_x && v < s->blocks_y;
+            float p = inside ? s->block_p[(size_t)v * (size_t)s->blocks_x + (size_t)u] : NAN;
             size_t i = (size_t)y * (size_t)planes->width + (size_t)x;
             map[i] = p > 0 ? -log10f(p) : p == 0 ? P_DECADES : 0;
         }
     out->title = "p-values";
-    out->caption = arena_format(
-        arena, "How likely the noise alone makes blocks of %d x %d pixels differ by so much. "
-        "Noise gives every p as often as any other: bright patches are a change.",
-        s->block_side, s->block_side);
+    out->caption =
+        arena_format(arena,
+                     "How likely the noise alone makes blocks of %d x %d pixels differ by so much. "
+                     "Noise gives every p as often as any other: bright patches are a change.",
+                     s->block_side, s->block_side);
     out->scale = (ShotScale){.low = 0, .high = P_DECADES, .unit = "decades below 1"};
     memcpy(out->scale.ticks, TICKS, sizeof TICKS);
     return map;
@@ -328,21 +309,18 @@ static const float *make_p_values(const Comparison *c, Arena *arena, Shot *out)
 
 /* ---- the shots --------------------------------------------------------------------------- */
 
-static void make_side(const Comparison *c, ShotKind kind, int factor, Arena *arena, Shot *out)
-{
-    bool                is_reference = kind == SHOT_REFERENCE;
+static void make_side(const Comparison *c, ShotKind kind, int factor, Arena *arena, Shot *out) {
+    bool is_reference = kind == SHOT_REFERENCE;
     const CompareInput *side = is_reference ? &c->reference : &c->test;
     out->title = is_reference ? "Reference" : "Test";
     out->caption = c->reference.kind == INPUT_PICTURE
                        ? arena_format(arena, "%s, %d bits", side->name, side->bits)
-                       : arena_format(arena, "%s, developed at EV %.2f", side->name,
-                                      c->shown_ev);
+                       : arena_format(arena, "%s, developed at EV %.2f", side->name, c->shown_ev);
     out->picture = side_picture(&side->codes, factor, arena);
 }
 
 /* Fills title, caption and scale; NULL when this comparison has no such map. */
-static const float *make_map(const Comparison *c, ShotKind kind, Arena *arena, Shot *out)
-{
+static const float *make_map(const Comparison *c, ShotKind kind, Arena *arena, Shot *out) {
     bool has_p = c->has_stat && c->stat.block_p && c->stat.block_side >= 1;
     bool is_frame = c->reference.kind == INPUT_FRAME;
     switch (kind) {
@@ -355,8 +333,7 @@ static const float *make_map(const Comparison *c, ShotKind kind, Arena *arena, S
     }
 }
 
-bool shot_make(const Comparison *c, ShotKind kind, int factor, Arena *arena, Shot *out)
-{
+bool shot_make(const Comparison *c, ShotKind kind, int factor, Arena *arena, Shot *out) {
     *out = (Shot){.kind = kind};
     if (kind == SHOT_REFERENCE || kind == SHOT_TEST) {
         make_side(c, kind, factor, arena, out);

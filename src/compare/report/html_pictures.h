@@ -10,25 +10,31 @@
 #include "text/text.h"
 
 typedef enum ShotKind {
-    SHOT_REFERENCE, SHOT_TEST, SHOT_DIFFERENCE, SHOT_BLOCKS, SHOT_P_VALUE, SHOT_FLIP,
-    SHOT_DELTAE, SHOT_COUNT
+    SHOT_REFERENCE,
+    SHOT_TEST,
+    SHOT_DIFFERENCE,
+    SHOT_BLOCKS,
+    SHOT_P_VALUE,
+    SHOT_FLIP,
+    SHOT_DELTAE,
+    SHOT_COUNT
 } ShotKind;
 
 /* The colour scale of a map: low at the left end of the ramp, high at the right. */
 typedef struct ShotScale {
-    bool        is_signed; /* the ramp with a neutral middle */
-    double      low, high;
-    const char *unit;      /* "" none */
-    const char *ticks[5];  /* evenly spaced along the ramp */
-    const char *also;      /* the same scale in another unit; NULL: none */
+    bool is_signed; /* the ramp with a neutral middle */
+    double low, high;
+    const char *unit;     /* "" none */
+    const char *ticks[5]; /* evenly spaced along the ramp */
+    const char *also;     /* the same scale in another unit; NULL: none */
 } ShotScale;
 
 typedef struct Shot {
-    ShotKind    kind;
+    ShotKind kind;
     const char *title, *caption;
-    bool        has_scale;
-    ShotScale   scale;
-    Picture     picture;
+    bool has_scale;
+    ShotScale scale;
+    Picture picture;
 } Shot;
 
 /* False when this comparison has no such picture. factor: this many pixels along a side become

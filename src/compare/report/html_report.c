@@ -22,26 +22,25 @@
 #define FRAME_BYTES ((size_t)1 << 28) /* for what stands around the pairs */
 
 /* The index and the pairs grow side by side, each in an arena of its own. */
-void html_report_start(HtmlReport *report, bool is_folder)
-{
+void html_report_start(HtmlReport *report, bool is_folder) {
     *report = (HtmlReport){.is_folder = is_folder};
     for (int i = 0; i < 2; i++) report->own[i] = arena_reserve(MOST_BYTES);
     report->index.arena = &report->own[0];
     report->pairs.arena = &report->own[1];
 }
 
-void html_report_release(HtmlReport *report)
-{
+void html_report_release(HtmlReport *report) {
     for (int i = 0; i < 2; i++) arena_release(&report->own[i]);
     *report = (HtmlReport){0};
 }
 
-bool html_report_check_name(const char *path, Error *err)
-{
+bool html_report_check_name(const char *path, Error *err) {
     const char *ending = path_ending(path);
     if (!strcasecmp(ending, ".html") || !strcasecmp(ending, ".htm")) return true;
-    return error_set(err, ERROR_USAGE, "--report %s: required: a name that ends in "
-                                       ".html", path);
+    return error_set(err, ERROR_USAGE,
+                     "--report %s: required: a name that ends in "
+                     ".html",
+                     path);
 }
 
 /* ---- metrics ----------------------------------------------------------------------------- */
@@ -49,11 +48,10 @@ bool html_report_check_name(const char *path, Error *err)
 #define KEYS_OF_DISPLAYS 6
 
 /* A metric as people read it: "0.0123", "1.2 %", "12.3 cd/m²". */
-static const char *value_text(const Comparison *c, Metric metric, double value, char text[64])
-{
+static const char *value_text(const Comparison *c, Metric metric, double value, char text[64]) {
     const MetricInfo *info = metric_info(metric);
-    bool              is_frame = c->reference.kind == INPUT_FRAME;
-    const char       *sign = info->is_change && value > 0 ? "+" : "";
+    bool is_frame = c->reference.kind == INPUT_FRAME;
+    const char *sign = info->is_change && value > 0 ? "+" : "";
     if (isnan(value)) snprintf(text, 64, "–");
     else if (isinf(value)) snprintf(text, 64, "∞");
     else if (metric == METRIC_P_VALUE) snprintf(text, 64, "%.2g", value);
@@ -66,8 +64,7 @@ static const char *value_text(const Comparison *c, Metric metric, double value, 
     return text;
 }
 
-static const Threshold *limit_of(const CompareOptions *options, Metric metric)
-{
+static const Threshold *limit_of(const CompareOptions *options, Metric metric) {
     for (int i = 0; i < options->threshold_count; i++)
         if (options->thresholds[i].metric == metric) return &options->thresholds[i];
     return NULL;
@@ -75,12 +72,11 @@ static const Threshold *limit_of(const CompareOptions *options, Metric metric)
 
 /* Nothing of one that was not computed, unless it has a limit. */
 static void add_metric(json_t *list, const Comparison *c, const CompareOptions *options,
-                       Metric metric)
-{
-    char              text[64];
-    const Threshold  *limit = limit_of(options, metric);
+                       Metric metric) {
+    char text[64];
+    const Threshold *limit = limit_of(options, metric);
     const MetricInfo *info = metric_info(metric);
-    double            value = c->value[metric];
+    double value = c->value[metric];
     if (isnan(value) && !limit) return;
     json_t *to = page_add(list);
     page_set(to, "label", info->label);
@@ -91,8 +87,7 @@ static void add_metric(json_t *list, const Comparison *c, const CompareOptions *
 }
 
 /* All of them, and the few that are looked at first. */
-static void set_metrics(json_t *to, const Comparison *c, const CompareOptions *options)
-{
+static void set_metrics(json_t *to, const Comparison *c, const CompareOptions *options) {
     static const Metric KEYS[] = {METRIC_MEAN_SHIFT,  METRIC_P_VALUE, METRIC_FLIP,
                                   METRIC_DELTAE_MEAN, METRIC_PSNR,    METRIC_SSIM};
     json_t *keys = json_array(), *rows = json_array();
@@ -102,21 +97,19 @@ static void set_metrics(json_t *to, const Comparison *c, const CompareOptions *o
     json_object_set_new(to, "metric_rows", rows);
 }
 
-static void change_text(Measured ratio, char text[64])
-{
+static void change_text(Measured ratio, char text[64]) {
     double change = 100 * (ratio.value - 1);
     if (!isfinite(ratio.low)) snprintf(text, 64, "%+.3g %%", change);
     else snprintf(text, 64, "%+.3g ± %.2g %%", change, 100 * measured_half_width(ratio));
 }
 
-static void set_contrasts(json_t *to, const Comparison *c, const CompareOptions *options)
-{
+static void set_contrasts(json_t *to, const Comparison *c, const CompareOptions *options) {
     const Threshold *limit = limit_of(options, METRIC_CONTRAST_CHANGE);
-    json_t          *list = json_array();
+    json_t *list = json_array();
     for (int i = 0; i < c->contrast_count; i++) {
-        char                  change[64];
+        char change[64];
         const ContrastChange *d = &c->contrasts[i];
-        bool    is_over = limit && !threshold_holds(*limit, d->ratio.value - 1);
+        bool is_over = limit && !threshold_holds(*limit, d->ratio.value - 1);
         json_t *item = page_add(list);
         change_text(d->ratio, change);
         page_set(item, "display", d->display);
@@ -133,19 +126,17 @@ static void set_contrasts(json_t *to, const Comparison *c, const CompareOptions 
 }
 
 /* Half a 95 % interval is 1.96 standard errors. */
-static void set_change(json_t *to, const char *name, double change, double sigma)
-{
+static void set_change(json_t *to, const char *name, double change, double sigma) {
     char text[64];
     snprintf(text, sizeof text, "%+.2g ± %.2g %%", 100 * change, 196 * sigma);
     page_set(to, name, text);
 }
 
-static void set_regions(json_t *to, const StatisticResult *s)
-{
+static void set_regions(json_t *to, const StatisticResult *s) {
     json_t *list = json_array();
     for (int i = 0; i < s->region_count; i++) {
         const StatisticRegion *r = &s->regions[i];
-        json_t                *item = page_add(list);
+        json_t *item = page_add(list);
         page_set(item, "name", r->name);
         json_object_set_new(item, "reference", json_figure(r->reference));
         json_object_set_new(item, "test", json_figure(r->test));
@@ -158,8 +149,7 @@ static void set_regions(json_t *to, const StatisticResult *s)
     page_set_flag(to, "has_regions", s->region_count > 0);
 }
 
-static void set_channels(json_t *to, const ChannelDifferences *channels)
-{
+static void set_channels(json_t *to, const ChannelDifferences *channels) {
     json_t *list = json_object_get(to, "channels");
     for (int i = 0; i < channels->count; i++) {
         const ChannelDifference *c = &channels->list[i];
@@ -171,11 +161,10 @@ static void set_channels(json_t *to, const ChannelDifferences *channels)
 /* ---- notes and metadata ------------------------------------------------------------------ */
 
 /* What differs is in the answer already; what does not is folded. */
-static void set_notes(json_t *to, const Comparison *c)
-{
+static void set_notes(json_t *to, const Comparison *c) {
     const Structure *structure = &c->structure;
-    json_t          *alike = json_array(), *row;
-    size_t           i;
+    json_t *alike = json_array(), *row;
+    size_t i;
     json_array_foreach(json_object_get(to, "metadata"), i, row) {
         const char *name = json_string_value(json_object_get(row, "name"));
         if (!strncmp(name, "parhelion:", 10)) page_set(row, "name", name + 10);
@@ -199,26 +188,24 @@ static void set_notes(json_t *to, const Comparison *c)
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
-static json_t *scale_values(const ShotScale *scale, Arena scratch)
-{
-    Text        gradient = {.arena = &scratch};
+static json_t *scale_values(const ShotScale *scale, Arena scratch) {
+    Text gradient = {.arena = &scratch};
     const char *ticks[5];
-    bool        names_unit = scale->is_signed && scale->unit[0];
+    bool names_unit = scale->is_signed && scale->unit[0];
     shot_ramp_gradient(&gradient, scale->is_signed);
     for (int i = 0; i < 5; i++)
         ticks[i] = i == 4 && names_unit
                        ? arena_format(&scratch, "%s %s", scale->ticks[i], scale->unit)
                        : scale->ticks[i];
-    json_t *to = json_pack("{s:b, s:f, s:f, s:o}", "is_signed", scale->is_signed, "low",
-                           scale->low, "high", scale->high, "ticks", json_texts(ticks, 5));
+    json_t *to = json_pack("{s:b, s:f, s:f, s:o}", "is_signed", scale->is_signed, "low", scale->low,
+                           "high", scale->high, "ticks", json_texts(ticks, 5));
     page_set(to, "unit", scale->unit);
     page_set(to, "also", scale->also);
     page_set(to, "gradient", gradient.data);
     return to;
 }
 
-static bool add_shot(json_t *list, const Shot *shot, Arena scratch, Error *err)
-{
+static bool add_shot(json_t *list, const Shot *shot, Arena scratch, Error *err) {
     static const char *const KINDS[SHOT_COUNT] = {
         [SHOT_REFERENCE] = "reference", [SHOT_TEST] = "test", [SHOT_DIFFERENCE] = "difference",
         [SHOT_BLOCKS] = "blocks",       [SHOT_P_VALUE] = "p", [SHOT_FLIP] = "flip",
@@ -233,29 +220,27 @@ static bool add_shot(json_t *list, const Shot *shot, Arena scratch, Error *err)
     return picture && !json_object_set_new(to, "picture", picture);
 }
 
-static bool has_planes(const Comparison *c)
-{
+static bool has_planes(const Comparison *c) {
     return !input_is_packed(&c->reference) && !input_is_packed(&c->test);
 }
 
 /* Sides that have no pixels in common are shown all the same, for those who wonder why. */
 static bool set_shots(json_t *to, const Comparison *c, long most_pixels, Arena scratch,
-                      Error *err)
-{
+                      Error *err) {
     json_t *list = json_array();
-    bool    is_common = c->has_pixels && has_planes(c);
-    int     common = is_common ? shot_factor(&c->light[0], most_pixels) : 0;
-    int     kinds = !has_planes(c) ? 0 : c->has_pixels ? SHOT_COUNT : SHOT_TEST + 1;
-    bool    ok = true;
+    bool is_common = c->has_pixels && has_planes(c);
+    int common = is_common ? shot_factor(&c->light[0], most_pixels) : 0;
+    int kinds = !has_planes(c) ? 0 : c->has_pixels ? SHOT_COUNT : SHOT_TEST + 1;
+    bool ok = true;
     json_object_set_new(to, "shots", list);
     page_set_flag(to, "is_packed", !has_planes(c));
     page_set_count(to, "factor", common);
     page_set_flag(to, "is_reduced", common > 1);
     for (int kind = 0; kind < kinds && ok; kind++) {
-        Shot          shot;
-        Arena         arena = scratch;
+        Shot shot;
+        Arena arena = scratch;
         const Planes *codes = kind == SHOT_TEST ? &c->test.codes : &c->reference.codes;
-        int           factor = common ? common : shot_factor(codes, most_pixels);
+        int factor = common ? common : shot_factor(codes, most_pixels);
         if (shot_make(c, (ShotKind)kind, factor, &arena, &shot))
             ok = add_shot(list, &shot, arena, err);
     }
@@ -265,9 +250,8 @@ static bool set_shots(json_t *to, const Comparison *c, long most_pixels, Arena s
 /* ---- a pair ------------------------------------------------------------------------------ */
 
 static json_t *pair_values(const HtmlReport *report, const char *name, const Comparison *c,
-                           const CompareOptions *options)
-{
-    char    id[32];
+                           const CompareOptions *options) {
+    char id[32];
     json_t *to = comparison_json(c, options);
     snprintf(id, sizeof id, "pair-%d", report->count);
     page_set(to, "id", id);
@@ -288,8 +272,7 @@ static json_t *pair_values(const HtmlReport *report, const char *name, const Com
 
 /* In the index of a folder. */
 static bool add_card(HtmlReport *report, json_t *values, const Comparison *c, Arena scratch,
-                     Error *err)
-{
+                     Error *err) {
     ShotKind kind = c->same ? SHOT_REFERENCE : SHOT_TEST;
     json_object_set_new(values, "flip", json_figure(c->value[METRIC_FLIP]));
     if (has_planes(c)) {
@@ -302,15 +285,13 @@ static bool add_card(HtmlReport *report, json_t *values, const Comparison *c, Ar
 }
 
 bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
-                     const CompareOptions *options, Arena scratch, Error *err)
-{
+                     const CompareOptions *options, Arena scratch, Error *err) {
     json_t *values = pair_values(report, name, c, options);
-    bool    is_shown = !report->is_folder || !c->same;
-    long    most = report->is_folder ? FOLDER_PIXELS : PAIR_PIXELS;
-    bool    ok = (!report->is_folder || add_card(report, values, c, scratch, err)) &&
-              (!is_shown ||
-               (set_shots(values, c, most, scratch, err) &&
-                page_render(&report->pairs, "pair.html", values, NULL, scratch, err)));
+    bool is_shown = !report->is_folder || !c->same;
+    long most = report->is_folder ? FOLDER_PIXELS : PAIR_PIXELS;
+    bool ok = (!report->is_folder || add_card(report, values, c, scratch, err)) &&
+              (!is_shown || (set_shots(values, c, most, scratch, err) &&
+                             page_render(&report->pairs, "pair.html", values, NULL, scratch, err)));
     json_decref(values);
     report->shown += is_shown;
     report->count++;
@@ -318,10 +299,9 @@ bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
     return ok;
 }
 
-void html_report_add_failure(HtmlReport *report, const char *name, const char *why)
-{
-    char    id[32];
-    Error   none; /* its template has no format that could fail */
+void html_report_add_failure(HtmlReport *report, const char *name, const char *why) {
+    char id[32];
+    Error none; /* its template has no format that could fail */
     json_t *values = json_object();
     snprintf(id, sizeof id, "pair-%d", report->count++);
     report->different++;
@@ -339,12 +319,10 @@ void html_report_add_failure(HtmlReport *report, const char *name, const char *w
 #define CARDS "<!-- cards -->"
 #define PAIRS "<!-- pairs -->"
 
-static bool set_page(json_t *to, const HtmlReport *report, const char *reference,
-                     const char *test, Arena *arena, Error *err)
-{
-    Text    ramps[2] = {{.arena = arena}, {.arena = arena}};
-    const char *title = arena_format(arena, "%s against %s", path_name(test),
-                                     path_name(reference));
+static bool set_page(json_t *to, const HtmlReport *report, const char *reference, const char *test,
+                     Arena *arena, Error *err) {
+    Text ramps[2] = {{.arena = arena}, {.arena = arena}};
+    const char *title = arena_format(arena, "%s against %s", path_name(test), path_name(reference));
     for (int i = 0; i < 2; i++) shot_ramp_digits(&ramps[i], i == 1);
     page_set(to, "reference", reference);
     page_set(to, "test", test);
@@ -360,8 +338,7 @@ static bool set_page(json_t *to, const HtmlReport *report, const char *reference
 }
 
 /* Cuts off what stands before the mark. */
-static Text cut_at(const char **rest, const char *mark)
-{
+static Text cut_at(const char **rest, const char *mark) {
     const char *at = *rest, *end = strstr(at, mark);
     if (!end) return (Text){0};
     *rest = end + strlen(mark);
@@ -369,19 +346,19 @@ static Text cut_at(const char **rest, const char *mark)
 }
 
 bool html_report_write(const HtmlReport *report, const char *reference, const char *test,
-                       const char *path, Error *err)
-{
-    Arena   arena = arena_reserve(FRAME_BYTES), scratch = arena_reserve(FRAME_BYTES);
-    Text    page = {.arena = &arena};
+                       const char *path, Error *err) {
+    Arena arena = arena_reserve(FRAME_BYTES), scratch = arena_reserve(FRAME_BYTES);
+    Text page = {.arena = &arena};
     json_t *values = json_object();
-    bool    ok = set_page(values, report, reference, test, &scratch, err) &&
+    bool ok = set_page(values, report, reference, test, &scratch, err) &&
               page_render(&page, "compare.html", values, NULL, scratch, err);
     if (ok) {
         const char *rest = page.data;
-        Text        begin = cut_at(&rest, CARDS), between = cut_at(&rest, PAIRS);
-        Text        end = {.data = (char *)(size_t)rest, .size = strlen(rest)};
-        ok = page_write((const Text *const[]){&begin, &report->index, &between, &report->pairs,
-                                              &end}, 5, path, err);
+        Text begin = cut_at(&rest, CARDS), between = cut_at(&rest, PAIRS);
+        Text end = {.data = (char *)(size_t)rest, .size = strlen(rest)};
+        ok = page_write(
+            (const Text *const[]){&begin, &report->index, &between, &report->pairs, &end}, 5, path,
+            err);
     }
     json_decref(values);
     arena_release(&scratch);

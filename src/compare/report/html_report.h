@@ -13,10 +13,10 @@
 #include "text/text.h"
 
 typedef struct HtmlReport {
-    bool  is_folder;
-    Arena own[2];       /* of the two texts */
-    Text  index, pairs; /* cards, and what stands below them */
-    int   count, different, shown; /* pairs; of these, below the index */
+    bool is_folder;
+    Arena own[2];                /* of the two texts */
+    Text index, pairs;           /* cards, and what stands below them */
+    int count, different, shown; /* pairs; of these, below the index */
 } HtmlReport;
 
 /* The report must stay where it is until it is released. */

@@ -6,19 +6,16 @@
 #include "page/page.h"
 #include "text/json_text.h"
 
-void junit_start(Junit *junit)
-{
+void junit_start(Junit *junit) {
     *junit = (Junit){.cases = json_array()};
 }
 
-void junit_release(Junit *junit)
-{
+void junit_release(Junit *junit) {
     json_decref(junit->cases);
     *junit = (Junit){0};
 }
 
-static json_t *add_case(Junit *junit, const char *name, double seconds)
-{
+static json_t *add_case(Junit *junit, const char *name, double seconds) {
     json_t *to = page_add(junit->cases);
     page_set(to, "name", name);
     json_object_set_new(to, "time", json_real(seconds));
@@ -26,19 +23,17 @@ static json_t *add_case(Junit *junit, const char *name, double seconds)
     return to;
 }
 
-static json_t *metrics_values(const Comparison *c)
-{
+static json_t *metrics_values(const Comparison *c) {
     json_t *list = json_array();
     for (int i = 0; i < METRIC_COUNT; i++)
         if (isfinite(c->value[i]))
-            json_array_append_new(list, json_pack("{s:s, s:f}", "metric",
-                                                  metric_info((Metric)i)->name, "value",
-                                                  c->value[i]));
+            json_array_append_new(list,
+                                  json_pack("{s:s, s:f}", "metric", metric_info((Metric)i)->name,
+                                            "value", c->value[i]));
     return list;
 }
 
-void junit_add(Junit *junit, const char *name, const Comparison *c)
-{
+void junit_add(Junit *junit, const char *name, const Comparison *c) {
     json_t *to = add_case(junit, name, c->seconds);
     junit->failures += !c->same;
     page_set(to, "verdict", c->verdict);
@@ -51,15 +46,13 @@ void junit_add(Junit *junit, const char *name, const Comparison *c)
     json_object_set_new(to, "notes", json_texts(c->notes.list, c->notes.count));
 }
 
-void junit_add_failure(Junit *junit, const char *name, const char *why, bool is_error)
-{
+void junit_add_failure(Junit *junit, const char *name, const char *why, bool is_error) {
     page_set(add_case(junit, name, 0), is_error ? "unreadable" : "missing", why);
     junit->errors += is_error;
     junit->failures += !is_error;
 }
 
-bool junit_write(const Junit *junit, const char *suite, const char *path, Error *err)
-{
+bool junit_write(const Junit *junit, const char *suite, const char *path, Error *err) {
     json_t *values = json_pack("{s:i, s:i, s:f, s:O?}", "failures", junit->failures, "errors",
                                junit->errors, "seconds", junit->seconds, "cases", junit->cases);
     page_set(values, "version", PARHELION_VERSION);

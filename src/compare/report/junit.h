@@ -13,8 +13,8 @@
 
 typedef struct Junit {
     json_t *cases;
-    int     failures, errors;
-    double  seconds;
+    int failures, errors;
+    double seconds;
 } Junit;
 
 void junit_start(Junit *junit);

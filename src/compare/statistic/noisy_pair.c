@@ -15,50 +15,43 @@
 
 /* ---- opening ----------------------------------------------------------------------------- */
 
-static void read_layer(const FrameImage *frame, const char *layer, const float *rgb[3])
-{
+static void read_layer(const FrameImage *frame, const char *layer, const float *rgb[3]) {
     if (!frame_rgb(frame, layer, rgb)) rgb[0] = rgb[1] = rgb[2] = NULL;
 }
 
 /* "parhelion:samples" is "A:B", half-open. */
-static double stated_samples(const FrameImage *frame)
-{
+static double stated_samples(const FrameImage *frame) {
     const char *text = frame_string(frame, "parhelion:samples");
-    char       *end = NULL;
-    double      first = text ? strtod(text, &end) : 0;
-    double      last = end && *end == ':' ? strtod(end + 1, NULL) : 0;
+    char *end = NULL;
+    double first = text ? strtod(text, &end) : 0;
+    double last = end && *end == ':' ? strtod(end + 1, NULL) : 0;
     return last > first ? last - first : (double)NAN;
 }
 
-static bool open_side(const FrameImage *frame, const char *name, NoisySide *out, Error *err)
-{
+static bool open_side(const FrameImage *frame, const char *name, NoisySide *out, Error *err) {
     read_layer(frame, "", out->light);
     read_layer(frame, "variance", out->variance);
     read_layer(frame, "halves", out->halves);
     read_layer(frame, "display.reflected", out->reflected);
     out->samples = frame_channel(frame, "samples.N");
     out->samples_of_all = stated_samples(frame);
-    if (!out->light[0])
-        return error_at(err, ERROR_INPUT, name, "", "has no channels R, G, B");
+    if (!out->light[0]) return error_at(err, ERROR_INPUT, name, "", "has no channels R, G, B");
     if (out->variance[0] || out->halves[0]) return true;
     return error_at(err, ERROR_INPUT, name, "",
                     "has neither layer variance nor halves, which tell its noise; render it "
                     "with " LAYERS_WANTED);
 }
 
-static double samples_at(const NoisySide *side, size_t i)
-{
+static double samples_at(const NoisySide *side, size_t i) {
     return side->samples ? (double)side->samples[i] : side->samples_of_all;
 }
 
-static size_t pixels_of(const NoisyPair *pair)
-{
+static size_t pixels_of(const NoisyPair *pair) {
     return (size_t)(pair->data.x1 - pair->data.x0) * (size_t)(pair->data.y1 - pair->data.y0);
 }
 
 /* Whether all but a hundredth of the pixels have as many samples in both. */
-static bool has_one_count(const NoisyPair *pair)
-{
+static bool has_one_count(const NoisyPair *pair) {
     size_t count = pixels_of(pair), odd = 0;
     for (size_t i = 0; i < count; i++) {
         double a = samples_at(&pair->side[0], i), b = samples_at(&pair->side[1], i);
@@ -69,8 +62,7 @@ static bool has_one_count(const NoisyPair *pair)
 
 /* Whether the noise is about as strong in both: a program that got better at finding light
  * makes another noise of the same mean. */
-static bool has_one_size(const NoisyPair *pair)
-{
+static bool has_one_size(const NoisyPair *pair) {
     double more = 0, less = 0;
     for (size_t i = 0; pair->has_variance && i < pixels_of(pair); i++) {
         float a = pair->side[0].variance[1][i], b = pair->side[1].variance[1][i];
@@ -81,35 +73,30 @@ static bool has_one_size(const NoisyPair *pair)
     return share <= fmax(ONE_SIZE * all, ONE_SIZE_ERRORS * 0.5 * sqrt(all));
 }
 
-static bool same_text(const FrameImage *a, const FrameImage *b, const char *name)
-{
+static bool same_text(const FrameImage *a, const FrameImage *b, const char *name) {
     const char *one = frame_string(a, name), *other = frame_string(b, name);
     return one && other && !strcmp(one, other);
 }
 
-bool noisy_pair_shares_noise(const FrameImage *reference, const FrameImage *test)
-{
+bool noisy_pair_shares_noise(const FrameImage *reference, const FrameImage *test) {
     return same_text(reference, test, "parhelion:seed") &&
            same_text(reference, test, "parhelion:samples");
 }
 
 static bool check_windows(const FrameImage *reference, const FrameImage *test,
-                          const StatisticOptions *options, Error *err)
-{
+                          const StatisticOptions *options, Error *err) {
     const ExrWindow a = reference->data, b = test->data;
-    if (!memcmp(&a, &b, sizeof a) &&
-        !memcmp(&reference->display, &test->display, sizeof a))
+    if (!memcmp(&a, &b, sizeof a) && !memcmp(&reference->display, &test->display, sizeof a))
         return true;
     return error_at(err, ERROR_INPUT, options->test_name, "",
-                    "holds pixels %d,%d,%d,%d, the reference %d,%d,%d,%d: required: the same",
-                    b.x0, b.y0, b.x1, b.y1, a.x0, a.y0, a.x1, a.y1);
+                    "holds pixels %d,%d,%d,%d, the reference %d,%d,%d,%d: required: the same", b.x0,
+                    b.y0, b.x1, b.y1, a.x0, a.y0, a.x1, a.y1);
 }
 
 bool noisy_pair_open(const FrameImage *reference, const FrameImage *test,
-                     const StatisticOptions *options, NoisyPair *out, Error *err)
-{
-    NoisyPair  pair = {.data = reference->data, .display_window = reference->display,
-                       .mask = options->mask};
+                     const StatisticOptions *options, NoisyPair *out, Error *err) {
+    NoisyPair pair = {
+        .data = reference->data, .display_window = reference->display, .mask = options->mask};
     NoisySide *a = &pair.side[0], *b = &pair.side[1];
     if (!open_side(reference, options->reference_name, a, err) ||
         !open_side(test, options->test_name, b, err) ||
@@ -119,11 +106,11 @@ bool noisy_pair_open(const FrameImage *reference, const FrameImage *test,
     pair.has_reflected = pair.display && a->reflected[0] && b->reflected[0];
     pair.has_variance = a->variance[0] && b->variance[0];
     pair.has_halves = a->halves[0] && b->halves[0];
-    pair.knows_samples = (a->samples || a->samples_of_all > 0) &&
-                         (b->samples || b->samples_of_all > 0);
+    pair.knows_samples =
+        (a->samples || a->samples_of_all > 0) && (b->samples || b->samples_of_all > 0);
     pair.shares_noise = noisy_pair_shares_noise(reference, test);
-    pair.law.is_same = pair.knows_samples && has_one_count(&pair) &&
-                       (pair.shares_noise || has_one_size(&pair));
+    pair.law.is_same =
+        pair.knows_samples && has_one_count(&pair) && (pair.shares_noise || has_one_size(&pair));
     pair.law.has_variance = pair.has_variance && pair.knows_samples;
     pair.law.has_halves = pair.has_halves;
     *out = pair;
@@ -132,8 +119,7 @@ bool noisy_pair_open(const FrameImage *reference, const FrameImage *test,
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-bool noisy_pair_counts(const NoisyPair *pair, int x, int y)
-{
+bool noisy_pair_counts(const NoisyPair *pair, int x, int y) {
     const ExrWindow w = pair->display_window;
     int column = x + pair->data.x0 - w.x0, row = y + pair->data.y0 - w.y0;
     if (column < 0 || row < 0 || column >= w.x1 - w.x0 || row >= w.y1 - w.y0) return false;
@@ -146,27 +132,23 @@ bool noisy_pair_counts(const NoisyPair *pair, int x, int y)
     return true;
 }
 
-static double luminance_of(const float *const rgb[3], size_t i)
-{
+static double luminance_of(const float *const rgb[3], size_t i) {
     return 0.2126 * (double)rgb[0][i] + 0.7152 * (double)rgb[1][i] + 0.0722 * (double)rgb[2][i];
 }
 
-double noisy_pair_luminance(const NoisyPair *pair, int side, size_t i, NoisyChannel channel)
-{
+double noisy_pair_luminance(const NoisyPair *pair, int side, size_t i, NoisyChannel channel) {
     const NoisySide *s = &pair->side[side];
     return luminance_of(channel == NOISY_REFLECTED ? s->reflected : s->light, i);
 }
 
-static double value_of(const NoisyPair *pair, int side, size_t i, NoisyChannel channel)
-{
+static double value_of(const NoisyPair *pair, int side, size_t i, NoisyChannel channel) {
     return channel < NOISY_LUMINANCE ? (double)pair->side[side].light[channel][i]
                                      : noisy_pair_luminance(pair, side, i, channel);
 }
 
 /* From the frame's own layer. R, G and B count as fully correlated, which gives the greatest
  * variance that the luminance can have. */
-static double stated_variance(const NoisySide *side, size_t i, NoisyChannel channel)
-{
+static double stated_variance(const NoisySide *side, size_t i, NoisyChannel channel) {
     if (channel < NOISY_LUMINANCE) return (double)side->variance[channel][i];
     double sigma = 0.2126 * sqrt((double)side->variance[0][i]) +
                    0.7152 * sqrt((double)side->variance[1][i]) +
@@ -174,23 +156,20 @@ static double stated_variance(const NoisySide *side, size_t i, NoisyChannel chan
     return sigma * sigma;
 }
 
-static double halves_variance(const NoisySide *side, size_t i, NoisyChannel channel)
-{
+static double halves_variance(const NoisySide *side, size_t i, NoisyChannel channel) {
     double h = channel < NOISY_LUMINANCE ? (double)side->halves[channel][i]
                                          : luminance_of(side->halves, i);
     return h * h;
 }
 
 /* The sum of squares about a mean of `count` samples, from that mean's variance. */
-static double squares_of(double variance, double count)
-{
+static double squares_of(double variance, double count) {
     return count > 1 ? count * (count - 1) * variance : 0;
 }
 
 /* Variance of the difference of two means of a and b samples of one kind: the squares of all
  * samples about their common mean, shared out over a + b - 1 of them. stated: of each mean. */
-static double common_variance(const double stated[2], double difference, double a, double b)
-{
+static double common_variance(const double stated[2], double difference, double a, double b) {
     double squares = squares_of(stated[0], a) + squares_of(stated[1], b) +
                      a * b / (a + b) * difference * difference;
     double common = squares / (a + b - 1) * (1 / a + 1 / b), own = stated[0] + stated[1];
@@ -198,28 +177,28 @@ static double common_variance(const double stated[2], double difference, double 
 }
 
 bool noisy_pair_number(const NoisyPair *pair, size_t i, NoisyChannel channel, double scale,
-                       NoisyNumber *out)
-{
+                       NoisyNumber *out) {
     const NoisySide *a = &pair->side[0], *b = &pair->side[1];
     double reference = scale * value_of(pair, 0, i, channel);
     double test = value_of(pair, 1, i, channel), square = scale * scale;
     if (!isfinite(reference) || !isfinite(test)) return false;
-    *out = (NoisyNumber){.difference = test - reference, .mean = 0.5 * (test + reference),
-                         .variance = NAN, .stated = NAN, .halves = NAN};
+    *out = (NoisyNumber){.difference = test - reference,
+                         .mean = 0.5 * (test + reference),
+                         .variance = NAN,
+                         .stated = NAN,
+                         .halves = NAN};
     if (pair->has_halves)
         out->halves = square * halves_variance(a, i, channel) + halves_variance(b, i, channel);
     if (!pair->has_variance) return true;
-    double stated[2] = {square * stated_variance(a, i, channel),
-                        stated_variance(b, i, channel)};
+    double stated[2] = {square * stated_variance(a, i, channel), stated_variance(b, i, channel)};
     out->stated = stated[0] + stated[1];
     if (pair->knows_samples)
-        out->variance = common_variance(stated, out->difference, samples_at(a, i),
-                                        samples_at(b, i));
+        out->variance =
+            common_variance(stated, out->difference, samples_at(a, i), samples_at(b, i));
     return true;
 }
 
-bool noisy_pair_differs(const NoisyPair *pair, size_t i)
-{
+bool noisy_pair_differs(const NoisyPair *pair, size_t i) {
     for (int c = 0; c < 3; c++) {
         double a = (double)pair->side[0].light[c][i], b = (double)pair->side[1].light[c][i];
         if (fabs(a - b) > SIGN_FLIP_ROUNDING * fmax(fabs(a), fabs(b))) return true;

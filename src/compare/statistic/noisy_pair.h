@@ -13,21 +13,24 @@
 #include "image/frame.h"
 
 typedef struct StatisticOptions {
-    double level;       /* of the whole verdict: the share of false alarms; 0: 0.01 */
-    PixelMask mask;     /* over the display window; NULL: every pixel */
+    double level;   /* of the whole verdict: the share of false alarms; 0: 0.01 */
+    PixelMask mask; /* over the display window; NULL: every pixel */
     const char *reference_name, *test_name; /* for messages */
 } StatisticOptions;
 
 typedef enum NoisyChannel {
-    NOISY_R, NOISY_G, NOISY_B, NOISY_LUMINANCE,
+    NOISY_R,
+    NOISY_G,
+    NOISY_B,
+    NOISY_LUMINANCE,
     NOISY_REFLECTED /* luminance of display.reflected: noise of the whole pixel, as what a
                        display emits has hardly any */
 } NoisyChannel;
 
 typedef struct NoisySide {
     const float *light[3], *reflected[3], *variance[3], *halves[3];
-    const float *samples; /* NULL: samples_of_all */
-    double       samples_of_all; /* a pixel; NaN: not known */
+    const float *samples;  /* NULL: samples_of_all */
+    double samples_of_all; /* a pixel; NaN: not known */
 } NoisySide;
 
 typedef struct NoisyPair {
@@ -35,9 +38,9 @@ typedef struct NoisyPair {
     ExrWindow data, display_window;
     PixelMask mask;
     const float *display; /* ids of the reference; NULL: none */
-    bool      has_reflected, has_variance, has_halves, knows_samples;
-    NoiseLaw  law;
-    bool      shares_noise;
+    bool has_reflected, has_variance, has_halves, knows_samples;
+    NoiseLaw law;
+    bool shares_noise;
 } NoisyPair;
 
 /* Whether both state one seed and the same samples. */
@@ -51,8 +54,7 @@ bool noisy_pair_open(const FrameImage *reference, const FrameImage *test,
 bool noisy_pair_counts(const NoisyPair *pair, int x, int y);
 
 /* Index of a pixel of the data window. */
-static inline size_t noisy_pair_index(const NoisyPair *pair, int x, int y)
-{
+static inline size_t noisy_pair_index(const NoisyPair *pair, int x, int y) {
     return (size_t)y * (size_t)(pair->data.x1 - pair->data.x0) + (size_t)x;
 }
 

@@ -13,22 +13,22 @@
 
 /* One part of the frame whose mean is tested for itself. */
 typedef struct StatisticRegion {
-    const char *name;      /* "frame", a display's in the reference, "cluster reflected" */
-    long    pixels;
-    double  reference, test; /* mean luminance, cd m^-2; of a display over its own area */
-    double  shift;         /* test / reference - 1; NaN for a black reference */
-    double  shift_sigma;   /* its standard error */
-    double  change;        /* the best estimate of a change in proportion, and its error: the */
-    double  change_sigma;  /* surer pixels count more; NaN: it is no proportion */
-    double  p_value;       /* two-sided */
-    bool    moved;         /* after the correction for how many are tested */
+    const char *name; /* "frame", a display's in the reference, "cluster reflected" */
+    long pixels;
+    double reference, test; /* mean luminance, cd m^-2; of a display over its own area */
+    double shift;           /* test / reference - 1; NaN for a black reference */
+    double shift_sigma;     /* its standard error */
+    double change;          /* the best estimate of a change in proportion, and its error: the */
+    double change_sigma;    /* surer pixels count more; NaN: it is no proportion */
+    double p_value;         /* two-sided */
+    bool moved;             /* after the correction for how many are tested */
 } StatisticRegion;
 
 typedef struct RegionFindings {
     StatisticRegion *list; /* those with pixels; the frame first */
-    int    count;
-    double p;              /* of the family; 1 without regions */
-    double mean_shift;     /* of the frame; NaN without regions */
+    int count;
+    double p;          /* of the family; 1 without regions */
+    double mean_shift; /* of the frame; NaN without regions */
 } RegionFindings;
 
 /* frames: reference, test; level: the family's. */

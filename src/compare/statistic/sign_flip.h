@@ -20,13 +20,13 @@ typedef struct NoisyNumber {
 } NoisyNumber;
 
 typedef struct SignFlipSum {
-    long   count;    /* of pixels */
+    long count;      /* of pixels */
     double sum;      /* of c d */
     double square;   /* of (c d)^2 */
     double fourth;   /* of (c d)^4 */
     double variance; /* of c^2 times NoisyNumber's variance, stated, halves */
     double stated, halves;
-    double light;    /* of c times the size of the mean */
+    double light; /* of c times the size of the mean */
 } SignFlipSum;
 
 /* Properties of the two frames' noise together. */

@@ -21,13 +21,13 @@
 
 /* Blocks of one size over the data window. */
 typedef struct BlockGrid {
-    int side;   /* pixels */
+    int side; /* pixels */
     int columns, rows;
     SignFlipSum (*sums)[3]; /* R, G, B; a count of 0: nothing of it counts */
 } BlockGrid;
 
 typedef struct BlockFinding {
-    int    grid, index, channel; /* of the least p */
+    int grid, index, channel; /* of the least p */
     double least;
     double tests, failed; /* blocks x channels, those beyond the corrected level */
     double p_least;       /* after Sidak */
@@ -35,21 +35,18 @@ typedef struct BlockFinding {
     double mean_square;   /* over the small blocks' quotients */
 } BlockFinding;
 
-static BlockGrid make_grid(int width, int height, int side, Arena *arena)
-{
+static BlockGrid make_grid(int width, int height, int side, Arena *arena) {
     BlockGrid grid = {side, (width + side - 1) / side, (height + side - 1) / side, NULL};
     grid.sums = arena_alloc(arena, sizeof *grid.sums, _Alignof(SignFlipSum),
                             (size_t)grid.columns * (size_t)grid.rows);
     return grid;
 }
 
-static size_t block_count(const BlockGrid *grid)
-{
+static size_t block_count(const BlockGrid *grid) {
     return (size_t)grid->columns * (size_t)grid->rows;
 }
 
-static void add_to_block(const NoisyPair *pair, int x, int y, SignFlipSum sums[3])
-{
+static void add_to_block(const NoisyPair *pair, int x, int y, SignFlipSum sums[3]) {
     if (!noisy_pair_counts(pair, x, y)) return;
     for (int c = 0; c < 3; c++) {
         NoisyNumber number;
@@ -58,17 +55,14 @@ static void add_to_block(const NoisyPair *pair, int x, int y, SignFlipSum sums[3
     }
 }
 
-static void add_to_blocks(const NoisyPair *pair, int width, int height, BlockGrid *grid)
-{
+static void add_to_blocks(const NoisyPair *pair, int width, int height, BlockGrid *grid) {
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++)
-            add_to_block(pair, x, y,
-                         grid->sums[y / grid->side * grid->columns + x / grid->side]);
+            add_to_block(pair, x, y, grid->sums[y / grid->side * grid->columns + x / grid->side]);
 }
 
 /* grids: small blocks and wide ones. */
-static void statistic_blocks(const NoisyPair *pair, Arena *arena, BlockGrid grids[2])
-{
+static void statistic_blocks(const NoisyPair *pair, Arena *arena, BlockGrid grids[2]) {
     int width = pair->data.x1 - pair->data.x0, height = pair->data.y1 - pair->data.y0;
     grids[0] = make_grid(width, height, BLOCK_SIDE, arena);
     grids[1] = make_grid(width, height, BLOCK_SIDE * WIDE_BLOCK, arena);
@@ -84,15 +78,13 @@ static void statistic_blocks(const NoisyPair *pair, Arena *arena, BlockGrid grid
 /* ---- single blocks ----------------------------------------------------------------------- */
 
 /* The least p of a block's channels; NaN where nothing counts. */
-static float statistic_block_p(const BlockGrid *grid, int index, NoiseLaw law)
-{
+static float statistic_block_p(const BlockGrid *grid, int index, NoiseLaw law) {
     double least = 1;
     for (int c = 0; c < 3; c++) least = fmin(least, sign_flip_p(&grid->sums[index][c], law));
     return grid->sums[index][0].count ? (float)least : NAN;
 }
 
-static void find_least(const BlockGrid grids[2], NoiseLaw law, BlockFinding *out)
-{
+static void find_least(const BlockGrid grids[2], NoiseLaw law, BlockFinding *out) {
     out->least = 2;
     for (int g = 0; g < 2; g++)
         for (size_t i = 0; i < block_count(&grids[g]); i++)
@@ -108,13 +100,11 @@ static void find_least(const BlockGrid grids[2], NoiseLaw law, BlockFinding *out
             }
 }
 
-static double count_failed(const BlockGrid grids[2], NoiseLaw law, double level)
-{
+static double count_failed(const BlockGrid grids[2], NoiseLaw law, double level) {
     double failed = 0;
     for (int g = 0; g < 2; g++)
         for (size_t i = 0; i < block_count(&grids[g]); i++)
-            for (int c = 0; c < 3; c++)
-                failed += sign_flip_p(&grids[g].sums[i][c], law) < level;
+            for (int c = 0; c < 3; c++) failed += sign_flip_p(&grids[g].sums[i][c], law) < level;
     return failed;
 }
 
@@ -126,8 +116,7 @@ typedef struct Squares {
     double blocks, sum, variance;
 } Squares;
 
-static void add_squares(const SignFlipSum sums[3], NoiseLaw law, Squares *to)
-{
+static void add_squares(const SignFlipSum sums[3], NoiseLaw law, Squares *to) {
     double squares = 0, variance = 0, channels = 0;
     for (int c = 0; c < 3; c++) {
         if (!(sums[c].square > 0)) continue;
@@ -142,28 +131,23 @@ static void add_squares(const SignFlipSum sums[3], NoiseLaw law, Squares *to)
     to->variance += variance;
 }
 
-static Squares squares_of_grid(const BlockGrid *grid, NoiseLaw law)
-{
+static Squares squares_of_grid(const BlockGrid *grid, NoiseLaw law) {
     Squares out = {0, 0, 0};
     for (size_t i = 0; i < block_count(grid); i++) add_squares(grid->sums[i], law, &out);
     return out;
 }
 
-static double p_of_squares(Squares squares)
-{
+static double p_of_squares(Squares squares) {
     return gamma_tail(squares.sum, squares.blocks, squares.variance);
 }
 
-static BlockFinding statistic_block_finding(const BlockGrid grids[2], NoiseLaw law,
-                                            double level)
-{
+static BlockFinding statistic_block_finding(const BlockGrid grids[2], NoiseLaw law, double level) {
     BlockFinding out = {.mean_square = NAN};
-    Squares      small = squares_of_grid(&grids[0], law);
-    double       least = p_of_squares(small);
+    Squares small = squares_of_grid(&grids[0], law);
+    double least = p_of_squares(small);
     find_least(grids, law, &out);
     out.p_least = out.tests > 0 ? sidak_p(out.least, out.tests) : 1;
-    if (out.tests > 0)
-        out.failed = count_failed(grids, law, sidak_level(level, out.tests));
+    if (out.tests > 0) out.failed = count_failed(grids, law, sidak_level(level, out.tests));
     if (small.blocks > 0) out.mean_square = small.sum / small.blocks;
     least = fmin(least, p_of_squares(squares_of_grid(&grids[1], law)));
     out.p_squares = sidak_p(least, 2);
@@ -177,9 +161,8 @@ static const char *const CHANNELS[3] = {"red", "green", "blue"};
 static void append(char *text, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-static void append(char *text, size_t size, const char *format, ...)
-{
-    size_t  length = strlen(text);
+static void append(char *text, size_t size, const char *format, ...) {
+    size_t length = strlen(text);
     va_list args;
     va_start(args, format);
     vsnprintf(text + length, size - length, format, args);
@@ -187,8 +170,7 @@ static void append(char *text, size_t size, const char *format, ...)
 }
 
 /* The surest region of displays that moved, since people look for them; else of all. */
-static const StatisticRegion *surest_region(const StatisticResult *r)
-{
+static const StatisticRegion *surest_region(const StatisticResult *r) {
     const StatisticRegion *best = &r->regions[0];
     for (int i = 1; i < r->region_count; i++) {
         bool is_first_display = r->regions[i].moved && best == &r->regions[0];
@@ -198,8 +180,7 @@ static const StatisticRegion *surest_region(const StatisticResult *r)
 }
 
 /* Whether the change in proportion agrees with the plain mean's. */
-static bool is_proportional(const StatisticRegion *region)
-{
+static bool is_proportional(const StatisticRegion *region) {
     double apart = fabs(region->change - region->shift);
     return apart < 3 * (region->shift_sigma + region->change_sigma); /* false for NaN */
 }
@@ -207,12 +188,10 @@ static bool is_proportional(const StatisticRegion *region)
 /* Intervals are of 95 %, as those of every answer. */
 #define INTERVAL_PERCENT 196
 
-static void append_shift(const StatisticRegion *region, char *text, size_t size)
-{
-    bool is_surer = fabs(region->change) / region->change_sigma >
-                    fabs(region->shift) / region->shift_sigma;
-    if (isnan(region->shift))
-        append(text, size, "%.3g cd/m2 instead of 0", region->test);
+static void append_shift(const StatisticRegion *region, char *text, size_t size) {
+    bool is_surer =
+        fabs(region->change) / region->change_sigma > fabs(region->shift) / region->shift_sigma;
+    if (isnan(region->shift)) append(text, size, "%.3g cd/m2 instead of 0", region->test);
     else
         append(text, size, "%+.3g +- %.2g %%", 100 * region->shift,
                INTERVAL_PERCENT * region->shift_sigma);
@@ -222,56 +201,49 @@ static void append_shift(const StatisticRegion *region, char *text, size_t size)
 }
 
 /* "display 'cluster': reflected light +1.02 +- 0.21 %" */
-static void append_region(const StatisticRegion *region, bool is_frame, char *text, size_t size)
-{
+static void append_region(const StatisticRegion *region, bool is_frame, char *text, size_t size) {
     static const char REFLECTED[] = " reflected";
     size_t length = strlen(region->name), tail = sizeof REFLECTED - 1;
-    bool   is_reflected = !is_frame && length > tail &&
-                        !strcmp(region->name + length - tail, REFLECTED);
+    bool is_reflected =
+        !is_frame && length > tail && !strcmp(region->name + length - tail, REFLECTED);
     if (is_reflected) length -= tail;
-    if (is_frame)
-        append(text, size, "the frame");
-    else
-        append(text, size, "display '%.*s'", (int)(length < 60 ? length : 60), region->name);
+    if (is_frame) append(text, size, "the frame");
+    else append(text, size, "display '%.*s'", (int)(length < 60 ? length : 60), region->name);
     append(text, size, ": %s ", is_reflected ? "reflected light" : "mean luminance");
     append_shift(region, text, size);
 }
 
 /* "block at x 120..128, y 40..48: green -12.1 %" in pixels of the display window. */
-static void append_block(const NoisyPair *pair, const BlockGrid *grid,
-                         const BlockFinding *found, char *text, size_t size)
-{
-    const ExrWindow    d = pair->data, w = pair->display_window;
+static void append_block(const NoisyPair *pair, const BlockGrid *grid, const BlockFinding *found,
+                         char *text, size_t size) {
+    const ExrWindow d = pair->data, w = pair->display_window;
     const SignFlipSum *sum = &grid->sums[found->index][found->channel];
-    int                x = d.x0 - w.x0 + found->index % grid->columns * grid->side;
-    int                y = d.y0 - w.y0 + found->index / grid->columns * grid->side;
-    int                right = d.x1 - w.x0, bottom = d.y1 - w.y0;
-    double             change = sum->light > 0 ? sum->sum / (sum->light - 0.5 * sum->sum) : 0;
+    int x = d.x0 - w.x0 + found->index % grid->columns * grid->side;
+    int y = d.y0 - w.y0 + found->index / grid->columns * grid->side;
+    int right = d.x1 - w.x0, bottom = d.y1 - w.y0;
+    double change = sum->light > 0 ? sum->sum / (sum->light - 0.5 * sum->sum) : 0;
     append(text, size, "block at x %d..%d, y %d..%d: %s ", x,
            x + grid->side < right ? x + grid->side : right, y,
            y + grid->side < bottom ? y + grid->side : bottom, CHANNELS[found->channel]);
-    if (fabs(change) < 10)
-        append(text, size, "%+.3g %%", 100 * change);
-    else
-        append(text, size, "%+.3g cd/m2", sum->sum / (double)sum->count);
+    if (fabs(change) < 10) append(text, size, "%+.3g %%", 100 * change);
+    else append(text, size, "%+.3g cd/m2", sum->sum / (double)sum->count);
 }
 
-static void append_shared(const StatisticResult *r, char *text, size_t size)
-{
+static void append_shared(const StatisticResult *r, char *text, size_t size) {
     append(text, size, "one seed and the same samples: %ld of %ld pixels differ", r->differing,
            r->pixels);
     if (r->verdict != STATISTIC_DIFFERENT)
-        append(text, size, r->differing ? ", the mean did not move (p = %.2g)"
-                                        : " by more than rounding (p = %.2g)", r->p_value);
-    else
-        append(text, size, "; ");
+        append(text, size,
+               r->differing ? ", the mean did not move (p = %.2g)"
+                            : " by more than rounding (p = %.2g)",
+               r->p_value);
+    else append(text, size, "; ");
 }
 
 /* Fills `reason` of a result that is otherwise complete. */
 static void statistic_reason(const NoisyPair *pair, const BlockGrid grids[2],
-                             const BlockFinding *found, double level, StatisticResult *out)
-{
-    char  *text = out->reason;
+                             const BlockFinding *found, double level, StatisticResult *out) {
+    char *text = out->reason;
     size_t size = sizeof out->reason;
     text[0] = '\0';
     if (out->verdict == STATISTIC_EQUAL || out->region_count == 0) return;
@@ -279,18 +251,19 @@ static void statistic_reason(const NoisyPair *pair, const BlockGrid grids[2],
     if (out->verdict != STATISTIC_DIFFERENT) return;
     const StatisticRegion *region = surest_region(out);
     double family_level = sidak_level(level, 3);
-    bool   has_region = out->p_regions < family_level;
-    bool   has_block = out->p_blocks < family_level;
+    bool has_region = out->p_regions < family_level;
+    bool has_block = out->p_blocks < family_level;
     if (has_region) append_region(region, region == &out->regions[0], text, size);
     if (has_region && has_block) append(text, size, "; ");
     if (has_block) append_block(pair, &grids[found->grid], found, text, size);
     if (!has_region && !has_block)
-        append(text, size, "small changes all over the frame: the blocks' squared deviations "
-               "are %.3g of what noise makes (p = %.2g)", out->mean_square, out->p_histogram);
+        append(text, size,
+               "small changes all over the frame: the blocks' squared deviations "
+               "are %.3g of what noise makes (p = %.2g)",
+               out->mean_square, out->p_histogram);
 }
 
-static void count_pixels(const NoisyPair *pair, StatisticResult *out, bool *is_equal)
-{
+static void count_pixels(const NoisyPair *pair, StatisticResult *out, bool *is_equal) {
     int width = pair->data.x1 - pair->data.x0, height = pair->data.y1 - pair->data.y0;
     *is_equal = true;
     for (int y = 0; y < height; y++)
@@ -300,14 +273,13 @@ static void count_pixels(const NoisyPair *pair, StatisticResult *out, bool *is_e
             out->pixels++;
             out->differing += noisy_pair_differs(pair, i);
             for (int c = 0; c < 3; c++)
-                if (memcmp(&pair->side[0].light[c][i], &pair->side[1].light[c][i],
-                           sizeof(float)) != 0)
+                if (memcmp(&pair->side[0].light[c][i], &pair->side[1].light[c][i], sizeof(float)) !=
+                    0)
                     *is_equal = false;
         }
 }
 
-static void make_map(const BlockGrid *grid, NoiseLaw law, Arena *arena, StatisticResult *out)
-{
+static void make_map(const BlockGrid *grid, NoiseLaw law, Arena *arena, StatisticResult *out) {
     int count = grid->columns * grid->rows;
     out->block_side = grid->side;
     out->blocks_x = grid->columns;
@@ -317,35 +289,36 @@ static void make_map(const BlockGrid *grid, NoiseLaw law, Arena *arena, Statisti
 }
 
 /* Names the layers that would make the test more sensitive. */
-static void take_note(const NoisyPair *pair, char *note, size_t size)
-{
+static void take_note(const NoisyPair *pair, char *note, size_t size) {
     if (!pair->knows_samples)
-        snprintf(note, size, "the frames do not say how many samples they have: their noise is "
-                             "taken to be of two shapes; --layers samples tells");
+        snprintf(note, size,
+                 "the frames do not say how many samples they have: their noise is "
+                 "taken to be of two shapes; --layers samples tells");
     else if (!pair->law.is_same && !pair->law.has_variance)
-        snprintf(note, size, "the frames have different sample counts and no layer variance: "
-                             "what few samples missed is not known; --layers variance tells");
+        snprintf(note, size,
+                 "the frames have different sample counts and no layer variance: "
+                 "what few samples missed is not known; --layers variance tells");
     else if (!pair->law.is_same && !pair->has_halves)
-        snprintf(note, size, "the frames have different sample counts and no layer halves: "
-                             "their noise is taken to be that of independent samples, which is "
-                             "more than it is; --layers halves tells");
+        snprintf(note, size,
+                 "the frames have different sample counts and no layer halves: "
+                 "their noise is taken to be that of independent samples, which is "
+                 "more than it is; --layers halves tells");
 }
 
 bool statistic_compare(const FrameImage *reference, const FrameImage *test,
                        const StatisticOptions *options, Arena *arena, StatisticResult *out,
-                       Error *err)
-{
-    double          level = options->level > 0 ? options->level : LEVEL;
-    double          family_level = sidak_level(level, FAMILIES);
+                       Error *err) {
+    double level = options->level > 0 ? options->level : LEVEL;
+    double family_level = sidak_level(level, FAMILIES);
     StatisticResult result = {.verdict = STATISTIC_SAME};
-    NoisyPair       pair;
-    BlockGrid       grids[2];
-    bool            is_equal;
+    NoisyPair pair;
+    BlockGrid grids[2];
+    bool is_equal;
     if (!noisy_pair_open(reference, test, options, &pair, err)) return false;
     result.shares_noise = pair.shares_noise;
     count_pixels(&pair, &result, &is_equal);
-    RegionFindings regions = regions_measure(&pair, (const FrameImage *[2]){reference, test},
-                                             family_level, arena);
+    RegionFindings regions =
+        regions_measure(&pair, (const FrameImage *[2]){reference, test}, family_level, arena);
     result.regions = regions.list;
     result.region_count = regions.count;
     result.p_regions = regions.p;
@@ -358,12 +331,10 @@ bool statistic_compare(const FrameImage *reference, const FrameImage *test,
     result.p_histogram = found.p_squares;
     result.mean_square = found.mean_square;
     result.fraction_failed = found.tests > 0 ? found.failed / found.tests : 0;
-    result.p_value = sidak_p(fmin(fmin(result.p_blocks, result.p_histogram), result.p_regions),
-                             FAMILIES);
-    if (is_equal)
-        result.verdict = STATISTIC_EQUAL;
-    else if (result.p_value < level)
-        result.verdict = STATISTIC_DIFFERENT;
+    result.p_value =
+        sidak_p(fmin(fmin(result.p_blocks, result.p_histogram), result.p_regions), FAMILIES);
+    if (is_equal) result.verdict = STATISTIC_EQUAL;
+    else if (result.p_value < level) result.verdict = STATISTIC_DIFFERENT;
     statistic_reason(&pair, grids, &found, level, &result);
     *out = result;
     return true;

@@ -42,23 +42,23 @@ typedef enum StatisticVerdict {
 
 typedef struct StatisticResult {
     StatisticVerdict verdict;
-    double p_value;         /* of the whole: small is different */
-    double fraction_failed; /* of blocks x channels beyond the corrected level */
-    double mean_shift;      /* of the frame's mean luminance, a ratio minus 1 */
+    double p_value;                          /* of the whole: small is different */
+    double fraction_failed;                  /* of blocks x channels beyond the corrected level */
+    double mean_shift;                       /* of the frame's mean luminance, a ratio minus 1 */
     double p_blocks, p_histogram, p_regions; /* the three parts that p_value is made of */
     double mean_square;     /* of the blocks' quotients: 1 when only the noise differs */
-    long   pixels;          /* that were looked at */
-    long   differing;       /* of these, beyond rounding (1e-5) in some channel */
-    bool   shares_noise;    /* one seed: see above */
-    int    block_side;      /* pixels */
-    int    blocks_x, blocks_y; /* from the data window's corner */
+    long pixels;            /* that were looked at */
+    long differing;         /* of these, beyond rounding (1e-5) in some channel */
+    bool shares_noise;      /* one seed: see above */
+    int block_side;         /* pixels */
+    int blocks_x, blocks_y; /* from the data window's corner */
     float *block_p;         /* blocks_x * blocks_y: the least p of the block's channels; NaN
                                where the mask leaves nothing */
     StatisticRegion *regions;
-    int    region_count;
-    char   reason[256];     /* in words, where it moved and how much; without a move, what
-                               differs between frames that share their noise, or "" */
-    char   note[256];       /* what makes the test weaker than it could be, or "" */
+    int region_count;
+    char reason[256]; /* in words, where it moved and how much; without a move, what
+                         differs between frames that share their noise, or "" */
+    char note[256];   /* what makes the test weaker than it could be, or "" */
 } StatisticResult;
 
 bool statistic_compare(const FrameImage *reference, const FrameImage *test,

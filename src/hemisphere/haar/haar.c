@@ -8,12 +8,11 @@ typedef struct AreaPyramid {
     double *areas[GEODESIC_MAX_LEVEL + 1];
 } AreaPyramid;
 
-static AreaPyramid area_pyramid(int level, Arena *arena)
-{
+static AreaPyramid area_pyramid(int level, Arena *arena) {
     AreaPyramid pyramid = {{0}};
     for (int i = level; i >= 0; i--) {
         uint32_t count = 1u << 2 * i;
-        double  *areas = pyramid.areas[i] = ARENA_NEW(arena, double, count);
+        double *areas = pyramid.areas[i] = ARENA_NEW(arena, double, count);
         if (i == level) {
             geodesic_areas(level, areas);
             continue;
@@ -32,12 +31,11 @@ typedef struct Family {
 } Family;
 
 static Family family_of(const HaarShape *shape, const AreaPyramid *pyramid, float *values,
-                        int level, uint32_t node)
-{
-    size_t        step = (size_t)shape->components << 2 * (shape->level - level - 1);
-    uint32_t      in_octant = node & ((1u << 2 * level) - 1);
+                        int level, uint32_t node) {
+    size_t step = (size_t)shape->components << 2 * (shape->level - level - 1);
+    uint32_t in_octant = node & ((1u << 2 * level) - 1);
     const double *area = &pyramid->areas[level + 1][4 * in_octant];
-    Family        family;
+    Family family;
     for (int i = 0; i < 4; i++) {
         family.value[i] = values + ((size_t)node * 4 + (size_t)i) * step;
         family.area[i] = shape->weights == HAAR_AREA ? area[i] : 1.0;
@@ -45,8 +43,7 @@ static Family family_of(const HaarShape *shape, const AreaPyramid *pyramid, floa
     return family;
 }
 
-static void forward_family(const Family *f, int components)
-{
+static void forward_family(const Family *f, int components) {
     double total = f->area[0] + f->area[1] + f->area[2] + f->area[3];
     for (int c = 0; c < components; c++) {
         double mean = 0;
@@ -57,8 +54,7 @@ static void forward_family(const Family *f, int components)
     }
 }
 
-static void inverse_family(const Family *f, int components)
-{
+static void inverse_family(const Family *f, int components) {
     for (int c = 0; c < components; c++) {
         double mean = (double)f->value[0][c], rest = 0;
         for (int i = 1; i < 4; i++) {
@@ -69,8 +65,7 @@ static void inverse_family(const Family *f, int components)
     }
 }
 
-void haar_forward(const HaarShape *shape, float *values, Arena scratch)
-{
+void haar_forward(const HaarShape *shape, float *values, Arena scratch) {
     AreaPyramid pyramid = area_pyramid(shape->level, &scratch);
     for (int level = shape->level - 1; level >= 0; level--)
         for (uint32_t n = 0; n < (uint32_t)shape->octants << 2 * level; n++) {
@@ -79,8 +74,7 @@ void haar_forward(const HaarShape *shape, float *values, Arena scratch)
         }
 }
 
-void haar_inverse(const HaarShape *shape, float *values, Arena scratch)
-{
+void haar_inverse(const HaarShape *shape, float *values, Arena scratch) {
     AreaPyramid pyramid = area_pyramid(shape->level, &scratch);
     for (int level = 0; level < shape->level; level++)
         for (uint32_t n = 0; n < (uint32_t)shape->octants << 2 * level; n++) {
@@ -89,24 +83,21 @@ void haar_inverse(const HaarShape *shape, float *values, Arena scratch)
         }
 }
 
-static void octant_norms(const HaarShape *shape, const AreaPyramid *pyramid, float *norms)
-{
+static void octant_norms(const HaarShape *shape, const AreaPyramid *pyramid, float *norms) {
     norms[0] = (float)sqrt(pyramid->areas[0][0]);
     for (int level = 0; level < shape->level; level++) {
         size_t step = (size_t)1 << 2 * (shape->level - level - 1);
         for (size_t n = 0; n < (size_t)1 << 2 * level; n++) {
             const double *area = &pyramid->areas[level + 1][4 * n];
             for (size_t i = 1; i < 4; i++) {
-                double echo =
-                    shape->weights == HAAR_AREA ? area[i] * area[i] / area[0] : area[0];
+                double echo = shape->weights == HAAR_AREA ? area[i] * area[i] / area[0] : area[0];
                 norms[(4 * n + i) * step] = (float)sqrt(area[i] + echo);
             }
         }
     }
 }
 
-void haar_norms(const HaarShape *shape, float *norms, Arena scratch)
-{
+void haar_norms(const HaarShape *shape, float *norms, Arena scratch) {
     AreaPyramid pyramid = area_pyramid(shape->level, &scratch);
     for (int octant = 0; octant < shape->octants; octant++)
         octant_norms(shape, &pyramid, norms + ((size_t)octant << 2 * shape->level));

@@ -20,15 +20,14 @@
 typedef enum HaarWeights { HAAR_EQUAL = 0, HAAR_AREA = 1 } HaarWeights;
 
 typedef struct HaarShape {
-    int         level;      /* of the leaves, 0..GEODESIC_MAX_LEVEL */
-    int         octants;    /* 4, or 2 for functions that are mirror-symmetric in y */
-    int         components; /* values per leaf, at least 1 */
+    int level;      /* of the leaves, 0..GEODESIC_MAX_LEVEL */
+    int octants;    /* 4, or 2 for functions that are mirror-symmetric in y */
+    int components; /* values per leaf, at least 1 */
     HaarWeights weights;
 } HaarShape;
 
 /* Leaves of a shape: octants * 4^level. */
-static inline uint32_t haar_leaf_count(const HaarShape *shape)
-{
+static inline uint32_t haar_leaf_count(const HaarShape *shape) {
     return (uint32_t)shape->octants << 2 * shape->level;
 }
 

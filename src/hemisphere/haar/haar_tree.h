@@ -13,9 +13,9 @@
 
 /* Lossless: keep_share 1 and TREE_ROWS_FLOAT; leaves come back to the rounding of float32. */
 typedef struct HaarTreeOptions {
-    HaarShape     shape;
-    float         keep_share; /* stored rows (octant means included) over leaves, (0, 1] */
-    const float  *component_scale; /* what a component's error is worth; NULL: all 1 */
+    HaarShape shape;
+    float keep_share;             /* stored rows (octant means included) over leaves, (0, 1] */
+    const float *component_scale; /* what a component's error is worth; NULL: all 1 */
     TreeRowFormat rows;
 } HaarTreeOptions;
 

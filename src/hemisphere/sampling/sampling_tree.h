@@ -24,7 +24,6 @@
 #include "base/error.h"
 #include "hemisphere/geodesic.h"
 
-
 #define SAMPLING_MAGIC 0x504d4153u /* "SAMP" */
 #define SAMPLING_VERSION 2u
 #define SAMPLING_FUNCTIONS_MAX 1024
@@ -33,7 +32,7 @@
 
 typedef struct SamplingHeader {
     uint32_t magic;
-    uint8_t  version, level, octants, reserved;
+    uint8_t version, level, octants, reserved;
     uint16_t functions, splits; /* split triangles: cells are octants + 3 * splits */
     uint32_t size;              /* bytes, this header included */
 } SamplingHeader;
@@ -52,27 +51,27 @@ typedef struct SamplingNode {
 #define SAMPLING_CELL 0x80000000u
 
 typedef struct SamplingTree {
-    const Geodesic        *geodesic;
-    const SamplingNode    *nodes;
-    const SamplingChoice  *choices; /* [function][node] */
+    const Geodesic *geodesic;
+    const SamplingNode *nodes;
+    const SamplingChoice *choices; /* [function][node] */
     const GeodesicSampler *cells;
-    const float           *density; /* [cell][function], sr^-1, over all 4 octants */
-    int                    level, octants, functions;
-    uint32_t               node_count, cell_count;
+    const float *density; /* [cell][function], sr^-1, over all 4 octants */
+    int level, octants, functions;
+    uint32_t node_count, cell_count;
 } SamplingTree;
 
 /* Which functions are mixed; weights at least 0, their sum 1. */
 #define SAMPLING_MIX_MAX 4
 typedef struct SamplingMix {
-    int   count;
-    int   function[SAMPLING_MIX_MAX];
+    int count;
+    int function[SAMPLING_MIX_MAX];
     float weight[SAMPLING_MIX_MAX];
 } SamplingMix;
 
 typedef struct SamplingResult {
-    Vec3  direction; /* unit */
-    float pdf;       /* sr^-1; what sampling_tree_pdf gives for this direction, bit for bit */
-    float margin;    /* how far inside its cell: least barycentric weight, 0 on an edge */
+    Vec3 direction; /* unit */
+    float pdf;      /* sr^-1; what sampling_tree_pdf gives for this direction, bit for bit */
+    float margin;   /* how far inside its cell: least barycentric weight, 0 on an edge */
 } SamplingResult;
 
 /* u in [0, 1)^3; u[2] chooses the function. */

@@ -8,12 +8,12 @@
 #include "hemisphere/sampling/sampling_tree.h"
 
 typedef struct SamplingOptions {
-    int   level;     /* of the leaf integrals */
-    int   octants;   /* 4, or 2: mirror-symmetric in y, sampled over all 4 */
-    int   functions; /* 1..SAMPLING_FUNCTIONS_MAX */
-    int   cells;     /* at most this many cells (of the octants stored), at least `octants` */
-    float variance;  /* fewer cells where no function's weights vary more than this, relative
-                        to their squared mean; 0: all that `cells` allows */
+    int level;           /* of the leaf integrals */
+    int octants;         /* 4, or 2: mirror-symmetric in y, sampled over all 4 */
+    int functions;       /* 1..SAMPLING_FUNCTIONS_MAX */
+    int cells;           /* at most this many cells (of the octants stored), at least `octants` */
+    float variance;      /* fewer cells where no function's weights vary more than this, relative
+                            to their squared mean; 0: all that `cells` allows */
     float uniform_share; /* part of the samples that ignores the function, [0, 1]: makes the
                             density positive everywhere; 0: only where the integral is */
 } SamplingOptions;

@@ -8,15 +8,13 @@
 #include "hemisphere/vertex/vertex.h"
 #include "hemisphere/vertex/vertex_open.h"
 
-static float integer_at(const char *from, bool is_byte, size_t index)
-{
+static float integer_at(const char *from, bool is_byte, size_t index) {
     return is_byte ? ((const int8_t *)(const void *)from)[index]
                    : ((const int16_t *)(const void *)from)[index];
 }
 
-static void place_row(const Tree *tree, uint32_t row, int level, float *to)
-{
-    size_t       components = (size_t)tree->components;
+static void place_row(const Tree *tree, uint32_t row, int level, float *to) {
+    size_t components = (size_t)tree->components;
     const float *scale = tree->scales ? tree->scales + level * tree->components : NULL;
     if (tree->format == TREE_ROWS_FLOAT) {
         memcpy(to, (const float *)tree->rows + row * components, components * sizeof(float));
@@ -28,10 +26,9 @@ static void place_row(const Tree *tree, uint32_t row, int level, float *to)
 }
 
 /* Details to their places in haar.h's layout. ids: of each node's triangle on its level. */
-static void place_rows(const Tree *tree, float *leaves, uint32_t *ids)
-{
+static void place_rows(const Tree *tree, float *leaves, uint32_t *ids) {
     uint32_t level_end = (uint32_t)tree->octants, next = level_end, row = 0;
-    int      level = 0;
+    int level = 0;
     for (uint32_t i = 0; i < tree->node_count; i++) {
         if (i < (uint32_t)tree->octants) ids[i] = i;
         if (i == level_end) {
@@ -48,11 +45,10 @@ static void place_rows(const Tree *tree, float *leaves, uint32_t *ids)
     }
 }
 
-void tree_expand(const Tree *tree, float *leaves, Arena scratch)
-{
+void tree_expand(const Tree *tree, float *leaves, Arena scratch) {
     HaarShape shape = {tree->level, tree->octants, tree->components,
                        tree->has_area_weights ? HAAR_AREA : HAAR_EQUAL};
-    size_t    components = (size_t)tree->components;
+    size_t components = (size_t)tree->components;
     if (tree->basis == TREE_VERTEX) {
         for (uint32_t i = 0; i < haar_leaf_count(&shape); i++)
             tree_interpolate(tree, geodesic_center(tree->level, i), leaves + i * components);
@@ -60,21 +56,19 @@ void tree_expand(const Tree *tree, float *leaves, Arena scratch)
     }
     memset(leaves, 0, haar_leaf_count(&shape) * components * sizeof(float));
     for (size_t q = 0; q < (size_t)tree->octants; q++)
-        memcpy(leaves + (q << 2 * tree->level) * components,
-               tree->means + q * components, components * sizeof(float));
+        memcpy(leaves + (q << 2 * tree->level) * components, tree->means + q * components,
+               components * sizeof(float));
     place_rows(tree, leaves, ARENA_NEW(&scratch, uint32_t, tree->node_count));
     haar_inverse(&shape, leaves, scratch);
 }
 
-uint32_t tree_point_count(const Tree *tree)
-{
+uint32_t tree_point_count(const Tree *tree) {
     if (tree->basis == TREE_VERTEX)
         return vertex_count((VertexLattice){tree->level, tree->octants});
     return (uint32_t)tree->octants << 2 * tree->level;
 }
 
-void tree_expand_points(const Tree *tree, int level, float *out)
-{
+void tree_expand_points(const Tree *tree, int level, float *out) {
     if (tree->basis == TREE_VERTEX) {
         vertex_tree_expand_level(tree, level, out);
         return;

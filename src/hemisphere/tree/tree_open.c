@@ -12,32 +12,26 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "blobs are little-endian in place");
 _Static_assert(sizeof(TreeHeader) == 56 && sizeof(TreeNode) == 8, "the blob's layout");
 
-size_t tree_size(const void *blob)
-{
+size_t tree_size(const void *blob) {
     uint32_t magic = *(const uint32_t *)blob;
-    if (magic == VERTEX_MAGIC || magic == VERTEX_PACKED)
-        return ((const VertexHeader *)blob)->size;
+    if (magic == VERTEX_MAGIC || magic == VERTEX_PACKED) return ((const VertexHeader *)blob)->size;
     return ((const TreeHeader *)blob)->size;
 }
 
-static bool refuse(Error *err, const char *what, double found, double wanted)
-{
+static bool refuse(Error *err, const char *what, double found, double wanted) {
     return error_set(err, ERROR_INPUT, "tree: %s is %.9g, required: %.9g", what, found, wanted);
 }
 
-static bool check_header(const TreeHeader *h, size_t size, Error *err)
-{
+static bool check_header(const TreeHeader *h, size_t size, Error *err) {
     if (h->magic != TREE_MAGIC) return refuse(err, "magic number", h->magic, TREE_MAGIC);
     if (h->version != TREE_VERSION) return refuse(err, "version", h->version, TREE_VERSION);
     if (h->size > size)
         return error_set(err, ERROR_INPUT, "tree: %zu bytes are there, required: %llu", size,
                          (unsigned long long)h->size);
-    if (h->level > GEODESIC_MAX_LEVEL)
-        return refuse(err, "level", h->level, GEODESIC_MAX_LEVEL);
+    if (h->level > GEODESIC_MAX_LEVEL) return refuse(err, "level", h->level, GEODESIC_MAX_LEVEL);
     if (h->octants != 2 && h->octants != 4) return refuse(err, "octant count", h->octants, 4);
     if (h->weights > 1) return refuse(err, "weight kind", h->weights, 1);
-    if (h->rows > TREE_ROWS_INT16)
-        return refuse(err, "row format", h->rows, TREE_ROWS_INT16);
+    if (h->rows > TREE_ROWS_INT16) return refuse(err, "row format", h->rows, TREE_ROWS_INT16);
     if (h->components < 1 || h->components > TREE_MAX_COMPONENTS)
         return refuse(err, "component count", h->components, TREE_MAX_COMPONENTS);
     if (h->byte_level != 0 && (h->byte_level >= h->level || h->rows == TREE_ROWS_FLOAT))
@@ -47,8 +41,7 @@ static bool check_header(const TreeHeader *h, size_t size, Error *err)
 
 /* The header's offsets are a function of its counts; anything else is no tree of ours. Counts
  * are limited by the leaves, so that no sum of sizes can overflow. */
-static bool check_offsets(const TreeHeader *h, Error *err)
-{
+static bool check_offsets(const TreeHeader *h, Error *err) {
     uint64_t leaves = (uint64_t)h->octants << 2 * h->level;
     if (h->node_count < h->octants || h->node_count > 2 * leaves)
         return refuse(err, "node count", h->node_count, h->octants);
@@ -70,8 +63,7 @@ static bool check_offsets(const TreeHeader *h, Error *err)
 }
 
 /* The nodes determine how many rows have 8 bits, and so how long the rows are. */
-static bool check_size(const TreeHeader *h, const Tree *tree, Error *err)
-{
+static bool check_size(const TreeHeader *h, const Tree *tree, Error *err) {
     uint64_t bytes = 4ull * h->components * h->row_count;
     if (tree->format == TREE_ROWS_INT16) bytes = tree_row_offset(tree, h->row_count);
     uint64_t size = (h->rows_offset + bytes + 7) / 8 * 8;
@@ -81,10 +73,9 @@ static bool check_size(const TreeHeader *h, const Tree *tree, Error *err)
 
 /* Nodes stand level by level, children and rows in order: each index must continue the last.
  * Finds the first row of byte_level. */
-static bool check_nodes(Tree *tree, uint32_t byte_level, Error *err)
-{
+static bool check_nodes(Tree *tree, uint32_t byte_level, Error *err) {
     uint32_t next_node = (uint32_t)tree->octants, next_row = 0, level_end = next_node;
-    int      level = 0;
+    int level = 0;
     for (uint32_t i = 0; i < tree->node_count; i++) {
         TreeNode node = tree->nodes[i];
         if (i == level_end) {
@@ -93,9 +84,10 @@ static bool check_nodes(Tree *tree, uint32_t byte_level, Error *err)
             if (level == (int)byte_level) tree->byte_row = next_row;
         }
         if (node.children >> 4 != next_node || node.rows >> 3 != next_row)
-            return error_set(err, ERROR_INPUT, "tree: node %u points to node %u and row %u, "
-                             "required: %u and %u", i, node.children >> 4, node.rows >> 3,
-                             next_node, next_row);
+            return error_set(err, ERROR_INPUT,
+                             "tree: node %u points to node %u and row %u, "
+                             "required: %u and %u",
+                             i, node.children >> 4, node.rows >> 3, next_node, next_row);
         next_node += (uint32_t)__builtin_popcount(node.children & 15);
         next_row += (uint32_t)__builtin_popcount(node.rows & 7);
         if (next_node > tree->node_count || next_row > tree->row_count)
@@ -104,8 +96,10 @@ static bool check_nodes(Tree *tree, uint32_t byte_level, Error *err)
                              "of %u",
                              i, next_node, tree->node_count, next_row, tree->row_count);
         if (level >= tree->level && (node.children & 15 || node.rows & 7))
-            return error_set(err, ERROR_INPUT, "tree: node %u has children below the leaves' "
-                             "level %d", i, tree->level);
+            return error_set(err, ERROR_INPUT,
+                             "tree: node %u has children below the leaves' "
+                             "level %d",
+                             i, tree->level);
     }
     if (next_node != tree->node_count)
         return refuse(err, "node count", tree->node_count, next_node);
@@ -113,8 +107,7 @@ static bool check_nodes(Tree *tree, uint32_t byte_level, Error *err)
     return true;
 }
 
-static bool check_finite(const float *values, size_t count, const char *what, Error *err)
-{
+static bool check_finite(const float *values, size_t count, const char *what, Error *err) {
     for (size_t i = 0; i < count; i++)
         if (!isfinite(values[i]))
             return error_set(err, ERROR_INPUT, "tree: %s %zu is %g, required: a finite number",
@@ -122,8 +115,7 @@ static bool check_finite(const float *values, size_t count, const char *what, Er
     return true;
 }
 
-static bool check_values(const Tree *tree, Error *err)
-{
+static bool check_values(const Tree *tree, Error *err) {
     size_t row = (size_t)tree->components;
     if (!check_finite(tree->means, row * (size_t)tree->octants, "mean", err)) return false;
     if (tree->format != TREE_ROWS_FLOAT)
@@ -131,10 +123,9 @@ static bool check_values(const Tree *tree, Error *err)
     return check_finite(tree->rows, row * tree->row_count, "detail", err);
 }
 
-static Tree view(const char *blob, const Geodesic *geodesic)
-{
+static Tree view(const char *blob, const Geodesic *geodesic) {
     const TreeHeader *h = (const TreeHeader *)(const void *)blob;
-    const char       *rows = blob + h->rows_offset;
+    const char *rows = blob + h->rows_offset;
     const char *scales = h->rows == TREE_ROWS_FLOAT ? NULL : blob + h->scales_offset;
     return (Tree){.geodesic = geodesic,
                   .nodes = (const TreeNode *)(const void *)(blob + h->nodes_offset),
@@ -151,11 +142,9 @@ static Tree view(const char *blob, const Geodesic *geodesic)
                   .byte_row = h->row_count};
 }
 
-bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err)
-{
+bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err) {
     if ((uintptr_t)blob % 8 != 0)
-        return error_set(err, ERROR_INPUT,
-                         "tree: stands at an address that is no multiple of 8");
+        return error_set(err, ERROR_INPUT, "tree: stands at an address that is no multiple of 8");
     if (size >= sizeof(uint32_t) && *(const uint32_t *)blob == VERTEX_MAGIC)
         return vertex_tree_open(blob, size, geodesic, out, err);
     if (size < sizeof(TreeHeader))
@@ -172,7 +161,6 @@ bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *ou
     return true;
 }
 
-void tree_unpack(Tree *tree, Arena *arena)
-{
+void tree_unpack(Tree *tree, Arena *arena) {
     if (tree->basis == TREE_VERTEX) vertex_tree_unpack(tree, arena);
 }

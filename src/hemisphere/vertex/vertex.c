@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "hemisphere/vertex/vertex.h"
 
-
 #include <stdlib.h>
 
 /* ---- directions -------------------------------------------------------------------------- */
@@ -9,20 +8,16 @@
 /* A point of the lattice's plane on its way down octant 0: (x, y) relative to the corner c of
  * its triangle, in the triangle's own directions, where the triangle has `size`. */
 typedef struct Descent {
-    int      x, y, size;
+    int x, y, size;
     uint32_t id;
 } Descent;
 
 /* The children of x, y >= 0, x + y <= size: geodesic.h's numbering. */
-static void step_down(Descent *d)
-{
+static void step_down(Descent *d) {
     int half = d->size / 2, child = 0;
-    if (d->x >= half)
-        child = 1;
-    else if (d->y >= half)
-        child = 2;
-    else if (d->x + d->y <= half)
-        child = 3;
+    if (d->x >= half) child = 1;
+    else if (d->y >= half) child = 2;
+    else if (d->x + d->y <= half) child = 3;
     if (child == 0) { /* turned around: its corner c is the midpoint of (a, b) */
         d->x = half - d->x;
         d->y = half - d->y;
@@ -34,9 +29,8 @@ static void step_down(Descent *d)
 }
 
 /* The direction of the point (x, y) of octant 0, x + y <= 2^level. */
-static Vec3 direction_in_octant(int level, int x, int y)
-{
-    int     plane = vertex_plane_level(level);
+static Vec3 direction_in_octant(int level, int x, int y) {
+    int plane = vertex_plane_level(level);
     Descent d = {x, y, 1 << level, 0};
     for (int i = 0; i < plane; i++) step_down(&d);
     GeodesicTriangle t = geodesic_triangle(plane, d.id);
@@ -51,14 +45,12 @@ static Vec3 direction_in_octant(int level, int x, int y)
     return vec3((float)(sum[0] * scale), (float)(sum[1] * scale), (float)(sum[2] * scale));
 }
 
-Vec3 vertex_direction(VertexLattice lattice, int x, int y)
-{
+Vec3 vertex_direction(VertexLattice lattice, int x, int y) {
     Vec3 d = direction_in_octant(lattice.level, abs(x), abs(y));
     return vec3(x < 0 ? -d.x : d.x, y < 0 ? -d.y : d.y, d.z);
 }
 
-void vertex_directions(VertexLattice lattice, Vec3 *direction)
-{
+void vertex_directions(VertexLattice lattice, Vec3 *direction) {
     int n = 1 << lattice.level;
     for (int y = 0; y <= n; y++)
         for (int x = 0; x <= n - y; x++) {
@@ -73,9 +65,8 @@ void vertex_directions(VertexLattice lattice, Vec3 *direction)
 
 /* ---- edges ------------------------------------------------------------------------------- */
 
-uint32_t vertex_edges(VertexLattice lattice, int level, VertexEdge *edges)
-{
-    int      n = 1 << lattice.level, half = n >> (level + 1);
+uint32_t vertex_edges(VertexLattice lattice, int level, VertexEdge *edges) {
+    int n = 1 << lattice.level, half = n >> (level + 1);
     uint32_t count = 0;
     for (int y = lattice.octants == 2 ? 0 : -n; y <= n; y += half)
         for (int x = abs(y) - n; x <= n - abs(y); x += half) {
@@ -84,10 +75,12 @@ uint32_t vertex_edges(VertexLattice lattice, int level, VertexEdge *edges)
             uint32_t cell_edge = dx && dy ? 2u : dx ? 0u : 1u;
             if (cell_edge == 2 && (x < 0) == (y < 0)) dy = -dy;
             if (edges)
-                edges[count] = (VertexEdge){x, y, vertex_index(lattice, x, y),
-                                            {vertex_index(lattice, x - dx, y - dy),
-                                             vertex_index(lattice, x + dx, y + dy)},
-                                            cell_edge};
+                edges[count] = (VertexEdge){
+                    x,
+                    y,
+                    vertex_index(lattice, x, y),
+                    {vertex_index(lattice, x - dx, y - dy), vertex_index(lattice, x + dx, y + dy)},
+                    cell_edge};
             count++;
         }
     return count;

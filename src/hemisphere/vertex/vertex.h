@@ -30,8 +30,7 @@ typedef struct VertexLattice {
 } VertexLattice;
 
 /* Vertices of the lattice: 2n(n+1)+1 or (n+1)^2 with n = 2^level. */
-static inline uint32_t vertex_count(VertexLattice lattice)
-{
+static inline uint32_t vertex_count(VertexLattice lattice) {
     uint32_t n = 1u << lattice.level;
     return lattice.octants == 2 ? (n + 1) * (n + 1) : 2 * n * (n + 1) + 1;
 }
@@ -39,8 +38,7 @@ static inline uint32_t vertex_count(VertexLattice lattice)
 /* Index of a lattice point (row by row in y, then x), 0 .. vertex_count - 1. Below the x axis
  * t^2 points stand before the row that is t rows from the lattice's end, and t before its
  * middle; above the axis it is the same from the other end. */
-static inline uint32_t vertex_index(VertexLattice lattice, int x, int y)
-{
+static inline uint32_t vertex_index(VertexLattice lattice, int x, int y) {
     int n = 1 << lattice.level, half = lattice.octants == 2, below = y >> 31;
     int t = n - ((y ^ below) - below), before = t * t + t;
     int last = 2 * n * (n + 1) - half * n * n;
@@ -55,12 +53,11 @@ void vertex_directions(VertexLattice lattice, Vec3 *direction);
 /* HOT. A direction's place in its octant: the x axis is at (1, 0), the y axis at (0, 1), the
  * pole at (0, 0). x, y >= 0; x + y <= 1 but for rounding. z < 0 counts as 0. */
 typedef struct VertexPlace {
-    float    x, y;
+    float x, y;
     uint32_t octant; /* as geodesic.h's */
 } VertexPlace;
 
-static inline int vertex_plane_level(int level)
-{
+static inline int vertex_plane_level(int level) {
     return level < VERTEX_PLANE_LEVEL ? level : VERTEX_PLANE_LEVEL;
 }
 
@@ -68,15 +65,15 @@ static inline int vertex_plane_level(int level)
  * 1). With octants = 2, y counts as |y|. */
 typedef struct VertexPoint {
     uint32_t vertex[3];
-    float    weight[3];
+    float weight[3];
 } VertexPoint;
 
 /* ---- edges ------------------------------------------------------------------------------ */
 
 /* The new vertices of a level, as edges of the next coarser one. */
 typedef struct VertexEdge {
-    int      x, y;     /* of the lattice's finest level */
-    uint32_t vertex;   /* index in it */
+    int x, y;        /* of the lattice's finest level */
+    uint32_t vertex; /* index in it */
     uint32_t end[2];
     uint32_t cell_edge; /* 0 along x, 1 along y, 2 diagonal */
 } VertexEdge;
@@ -90,10 +87,9 @@ uint32_t vertex_edges(VertexLattice lattice, int level, VertexEdge *edges);
  * turned around (corners a and b towards -x and -y of c) when `turned` is -1, else 0. The
  * bits of 3 and 5 mark the children, 0..3, that have c in the middle of (c, a) or (a, b), and
  * of (b, c) or (a, b). */
-static inline VertexPlace map_place(const Geodesic *geodesic, int plane_level, Vec3 direction)
-{
+static inline VertexPlace map_place(const Geodesic *geodesic, int plane_level, Vec3 direction) {
     GeodesicWalk walk = geodesic_walk_start(direction);
-    int          x = 0, y = 0, turned = 0;
+    int x = 0, y = 0, turned = 0;
     for (int i = 0; i < plane_level; i++) {
         uint32_t child = geodesic_walk_down(geodesic, i, &walk);
         x = 2 * x + ((int)(3u >> child & 1) ^ turned) - turned;
@@ -109,15 +105,14 @@ static inline VertexPlace map_place(const Geodesic *geodesic, int plane_level, V
 
 /* The half of a cell that holds the place: 0 towards the pole, 1 the other one, which cells on
  * the horizon do not have. Either is as likely, so there are no branches. */
-static inline VertexPoint map_point(VertexLattice lattice, VertexPlace place)
-{
-    int   n = 1 << lattice.level;
+static inline VertexPoint map_point(VertexLattice lattice, VertexPlace place) {
+    int n = 1 << lattice.level;
     float x = place.x * (float)n, y = place.y * (float)n;
-    int   cx = (int)x, cy = (int)y;
+    int cx = (int)x, cy = (int)y;
     cx = cx < n ? cx : n - 1;
     cy = cy < n - cx ? cy : n - 1 - cx;
     float u = x - (float)cx, v = y - (float)cy;
-    int   upper = (u + v > 1) & (cx + cy + 1 < n), step = 1 - 2 * upper;
+    int upper = (u + v > 1) & (cx + cy + 1 < n), step = 1 - 2 * upper;
     u = fabsf((float)upper - u);
     v = fabsf((float)upper - v);
     float most = 1 - u; /* less than v by rounding at the horizon only */
@@ -135,8 +130,7 @@ static inline VertexPoint map_point(VertexLattice lattice, VertexPlace place)
 
 /* Both together. */
 static inline VertexPoint vertex_find(const Geodesic *geodesic, VertexLattice lattice,
-                                      Vec3 direction)
-{
+                                      Vec3 direction) {
     int level = vertex_plane_level(lattice.level);
     return map_point(lattice, map_place(geodesic, level, direction));
 }

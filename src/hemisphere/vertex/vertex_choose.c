@@ -18,39 +18,34 @@
 
 /* ---- what the caller accepts ------------------------------------------------------------- */
 
-static float distance(const VertexJudge *judge, uint32_t vertex, const float *row)
-{
+static float distance(const VertexJudge *judge, uint32_t vertex, const float *row) {
     const float *value = judge->values + (size_t)vertex * (size_t)judge->options->components;
-    float        most = 0;
+    float most = 0;
     for (int i = 0; i < judge->options->components; i++)
         most = fmaxf(most, fabsf(row[i] - value[i]) / judge->unit[i]);
     return most;
 }
 
 static void go_beyond(const VertexJudge *judge, uint32_t vertex, const float *row, float factor,
-                      float *farther)
-{
+                      float *farther) {
     const float *value = judge->values + (size_t)vertex * (size_t)judge->options->components;
     for (int i = 0; i < judge->options->components; i++)
         farther[i] = value[i] + factor * (row[i] - value[i]);
 }
 
-static bool row_passes(const VertexJudge *judge, uint32_t vertex, const float *row)
-{
+static bool row_passes(const VertexJudge *judge, uint32_t vertex, const float *row) {
     return judge->options->accepts(judge->options->context, vertex, row);
 }
 
 /* Queries add up in another order than the coder: what is near the bound is refused where that
  * happened to matter. */
-static bool judge_strictly(const VertexJudge *judge, uint32_t vertex, const float *row)
-{
+static bool judge_strictly(const VertexJudge *judge, uint32_t vertex, const float *row) {
     float farther[TREE_MAX_COMPONENTS];
     go_beyond(judge, vertex, row, 1.001f, farther);
     return row_passes(judge, vertex, row) && row_passes(judge, vertex, farther);
 }
 
-bool vertex_accepts(VertexJudge *judge, uint32_t vertex, const float *row)
-{
+bool vertex_accepts(VertexJudge *judge, uint32_t vertex, const float *row) {
     if (judge->safe[vertex] < 0) return judge_strictly(judge, vertex, row);
     if (judge->is_exact) return row_passes(judge, vertex, row);
     float reach = distance(judge, vertex, row);
@@ -61,8 +56,7 @@ bool vertex_accepts(VertexJudge *judge, uint32_t vertex, const float *row)
 }
 
 /* The same for value + factor * (row - value). */
-static bool accepts_beyond(VertexJudge *judge, uint32_t vertex, const float *row, float factor)
-{
+static bool accepts_beyond(VertexJudge *judge, uint32_t vertex, const float *row, float factor) {
     float farther[TREE_MAX_COMPONENTS];
     go_beyond(judge, vertex, row, factor, farther);
     return vertex_accepts(judge, vertex, farther);
@@ -85,25 +79,24 @@ typedef struct Group {
 
 typedef struct Chooser {
     const VertexTreeOptions *options;
-    const float             *values, *unit; /* the judge's */
-    VertexJudge             *judge;
-    int                      base_level, k, group_count;
-    uint32_t                 count;
-    VertexEdge              *edges[GEODESIC_MAX_LEVEL];
-    uint32_t                 edge_count[GEODESIC_MAX_LEVEL];
-    bool                    *chosen; /* base vertices and stored details */
-    bool                    *missed; /* not accepted now */
-    uint32_t                *list; /* the chosen ones, while fitting */
-    uint32_t                 list_count;
-    float                   *weight, *diagonal;
-    Group                   *group;
+    const float *values, *unit; /* the judge's */
+    VertexJudge *judge;
+    int base_level, k, group_count;
+    uint32_t count;
+    VertexEdge *edges[GEODESIC_MAX_LEVEL];
+    uint32_t edge_count[GEODESIC_MAX_LEVEL];
+    bool *chosen;   /* base vertices and stored details */
+    bool *missed;   /* not accepted now */
+    uint32_t *list; /* the chosen ones, while fitting */
+    uint32_t list_count;
+    float *weight, *diagonal;
+    Group *group;
 } Chooser;
 
 /* ---- the hierarchy above the base level -------------------------------------------------- */
 
 /* Details (base vertices: values) to values, in place. */
-static void synthesise(const Chooser *c, Four *row)
-{
+static void synthesise(const Chooser *c, Four *row) {
     for (int i = c->base_level; i < c->options->lattice.level; i++)
         for (uint32_t e = 0; e < c->edge_count[i]; e++) {
             const VertexEdge *edge = &c->edges[i][e];
@@ -112,8 +105,7 @@ static void synthesise(const Chooser *c, Four *row)
 }
 
 /* The transpose. */
-static void gather(const Chooser *c, Four *row)
-{
+static void gather(const Chooser *c, Four *row) {
     for (int i = c->options->lattice.level - 1; i >= c->base_level; i--)
         for (uint32_t e = 0; e < c->edge_count[i]; e++) {
             const VertexEdge *edge = &c->edges[i][e];
@@ -124,8 +116,7 @@ static void gather(const Chooser *c, Four *row)
 }
 
 /* The diagonal of S^T w S, with the squares of the hats taken as the hats. */
-static void find_diagonal(Chooser *c)
-{
+static void find_diagonal(Chooser *c) {
     memcpy(c->diagonal, c->weight, c->count * sizeof *c->weight);
     for (int i = c->options->lattice.level - 1; i >= c->base_level; i--)
         for (uint32_t e = 0; e < c->edge_count[i]; e++) {
@@ -139,8 +130,7 @@ static void find_diagonal(Chooser *c)
 /* ---- least squares ----------------------------------------------------------------------- */
 
 /* gradient = S^T w (value - S detail), of all vertices. */
-static void find_gradient(const Chooser *c, const Group *g)
-{
+static void find_gradient(const Chooser *c, const Group *g) {
     memcpy(g->fitted, g->detail, c->count * sizeof *g->fitted);
     synthesise(c, g->fitted);
     for (size_t v = 0; v < c->count; v++)
@@ -149,8 +139,7 @@ static void find_gradient(const Chooser *c, const Group *g)
 }
 
 /* product = S^T w S direction, of chosen vertices. */
-static void multiply(const Chooser *c, const Group *g)
-{
+static void multiply(const Chooser *c, const Group *g) {
     memcpy(g->product, g->direction, c->count * sizeof *g->product);
     synthesise(c, g->product);
     for (size_t v = 0; v < c->count; v++) g->product[v] *= c->weight[v];
@@ -159,8 +148,7 @@ static void multiply(const Chooser *c, const Group *g)
 
 /* For every component: the sum over chosen vertices of rest^2 / diagonal, and of direction
  * times product. */
-static void find_steps(const Chooser *c, const Group *g, double rho[4], double curvature[4])
-{
+static void find_steps(const Chooser *c, const Group *g, double rho[4], double curvature[4]) {
     for (int j = 0; j < 4; j++) rho[j] = curvature[j] = 0;
     for (uint32_t i = 0; i < c->list_count; i++) {
         uint32_t v = c->list[i];
@@ -173,10 +161,9 @@ static void find_steps(const Chooser *c, const Group *g, double rho[4], double c
 }
 
 /* Conjugate gradients from the details that are there, for four components. */
-static void fit_group(void *context, int item, int worker)
-{
+static void fit_group(void *context, int item, int worker) {
     const Chooser *c = context;
-    const Group   *g = &c->group[item];
+    const Group *g = &c->group[item];
     double rho[4], next[4], curvature[4];
     (void)worker;
     find_gradient(c, g);
@@ -190,8 +177,7 @@ static void fit_group(void *context, int item, int worker)
         Four a, b;
         multiply(c, g);
         find_steps(c, g, rho, curvature);
-        for (int j = 0; j < 4; j++)
-            a[j] = curvature[j] > 0 ? (float)(rho[j] / curvature[j]) : 0.0f;
+        for (int j = 0; j < 4; j++) a[j] = curvature[j] > 0 ? (float)(rho[j] / curvature[j]) : 0.0f;
         for (uint32_t i = 0; i < c->list_count; i++) {
             g->detail[c->list[i]] += a * g->direction[c->list[i]];
             g->rest[c->list[i]] -= a * g->product[c->list[i]];
@@ -206,42 +192,36 @@ static void fit_group(void *context, int item, int worker)
     find_gradient(c, g);
 }
 
-static void fit(Chooser *c)
-{
+static void fit(Chooser *c) {
     c->list_count = 0;
     for (uint32_t v = 0; v < c->count; v++)
         if (c->chosen[v]) c->list[c->list_count++] = v;
     find_diagonal(c);
-    parallel_for(c->options->threads > 1 ? c->options->threads : 1, c->group_count, fit_group,
-                 c);
+    parallel_for(c->options->threads > 1 ? c->options->threads : 1, c->group_count, fit_group, c);
 }
 
-static uint32_t count_chosen(const Chooser *c)
-{
+static uint32_t count_chosen(const Chooser *c) {
     uint32_t sum = 0;
     for (uint32_t v = 0; v < c->count; v++) sum += c->chosen[v];
     return sum;
 }
 
 /* One component of a vertex. */
-static float *component(Four *row, uint32_t vertex, int j)
-{
+static float *component(Four *row, uint32_t vertex, int j) {
     return (float *)&row[vertex] + j % 4;
 }
 
 /* The tree's current values at a vertex. */
-static void fitted_row(const Chooser *c, uint32_t vertex, float *row)
-{
+static void fitted_row(const Chooser *c, uint32_t vertex, float *row) {
     for (int j = 0; j < c->k; j++) row[j] = *component(c->group[j / 4].fitted, vertex, j);
 }
 
 /* ---- what is missed ---------------------------------------------------------------------- */
 
 /* Marks vertices not accepted with the slack and raises their weights; returns how many. */
-static uint32_t find_missed(Chooser *c)
-{
+static uint32_t find_missed(Chooser *c) {
     uint32_t missed = 0;
-    float    row[TREE_MAX_COMPONENTS];
+    float row[TREE_MAX_COMPONENTS];
     for (uint32_t v = 0; v < c->count; v++) {
         fitted_row(c, v, row);
         c->missed[v] = !accepts_beyond(c->judge, v, row, 1 / SLACK);
@@ -252,8 +232,7 @@ static uint32_t find_missed(Chooser *c)
 }
 
 /* By how much a vertex's detail would reduce the weighted squares. */
-static float gain_of(const Chooser *c, uint32_t vertex)
-{
+static float gain_of(const Chooser *c, uint32_t vertex) {
     float sum = 0;
     for (int j = 0; j < c->k; j++) {
         float g = *component(c->group[j / 4].gradient, vertex, j) / c->unit[j];
@@ -264,8 +243,7 @@ static float gain_of(const Chooser *c, uint32_t vertex)
 
 /* The new vertices of level i around a lattice point: the midpoints of the edges of the
  * triangle that holds it (other than those that do not reach it). */
-static int vertices_around(VertexLattice lattice, int x, int y, int level, uint32_t vertex[3])
-{
+static int vertices_around(VertexLattice lattice, int x, int y, int level, uint32_t vertex[3]) {
     int shift = lattice.level - level, size = 1 << shift, half = size / 2;
     int sx = x < 0 ? -1 : 1, sy = y < 0 ? -1 : 1, ax = abs(x), ay = abs(y);
     int cx = ax >> shift, cy = ay >> shift, u = ax - cx * size, v = ay - cy * size, count = 0;
@@ -279,24 +257,22 @@ static int vertices_around(VertexLattice lattice, int x, int y, int level, uint3
         vertex[count++] = vertex_index(lattice, sx * mx, sy * (cy + upper) * size);
     if (v > 0 && w > 0 && u < half)
         vertex[count++] = vertex_index(lattice, sx * (cx + upper) * size, sy * my);
-    if (u > 0 && v > 0 && w < half)
-        vertex[count++] = vertex_index(lattice, sx * mx, sy * my);
+    if (u > 0 && v > 0 && w < half) vertex[count++] = vertex_index(lattice, sx * mx, sy * my);
     return count;
 }
 
 /* A missed vertex and the detail that gains most there. */
 typedef struct Wish {
     const VertexEdge *at;
-    uint32_t          vertex;
-    int               level; /* on whose edges the detail is new */
-    float             gain;
+    uint32_t vertex;
+    int level; /* on whose edges the detail is new */
+    float gain;
 } Wish;
 
 /* The best detail of levels first .. last - 1 around a vertex, or its own (of level `own`). */
-static Wish best_around(const Chooser *c, const VertexEdge *at, int own, int first, int last)
-{
+static Wish best_around(const Chooser *c, const VertexEdge *at, int own, int first, int last) {
     uint32_t around[3];
-    Wish     wish = {at, at->vertex, own, c->chosen[at->vertex] ? -1 : gain_of(c, at->vertex)};
+    Wish wish = {at, at->vertex, own, c->chosen[at->vertex] ? -1 : gain_of(c, at->vertex)};
     for (int i = first; i < last; i++) {
         int count = vertices_around(c->options->lattice, at->x, at->y, i, around);
         for (int j = 0; j < count; j++) {
@@ -308,16 +284,14 @@ static Wish best_around(const Chooser *c, const VertexEdge *at, int own, int fir
     return wish;
 }
 
-static int by_gain(const void *a, const void *b)
-{
+static int by_gain(const void *a, const void *b) {
     const Wish *x = a, *y = b;
     if (x->gain != y->gain) return x->gain > y->gain ? -1 : 1;
     return x->at->vertex < y->at->vertex ? -1 : x->at->vertex > y->at->vertex;
 }
 
 /* Grants a wish: nothing else is added this round for the vertices close by. */
-static void grant(Chooser *c, const Wish *wish)
-{
+static void grant(Chooser *c, const Wish *wish) {
     VertexLattice lattice = c->options->lattice;
     int n = 1 << lattice.level, reach = n >> (wish->level + 2);
     c->chosen[wish->vertex] = true;
@@ -329,9 +303,8 @@ static void grant(Chooser *c, const Wish *wish)
 }
 
 /* Adds details for the missed vertices, those that gain most first. */
-static void add_for_missed(Chooser *c, int first, int last, Arena scratch)
-{
-    Wish    *wishes = ARENA_NEW(&scratch, Wish, c->count);
+static void add_for_missed(Chooser *c, int first, int last, Arena scratch) {
+    Wish *wishes = ARENA_NEW(&scratch, Wish, c->count);
     uint32_t count = 0;
     for (int i = c->base_level; i < c->options->lattice.level; i++)
         for (uint32_t e = 0; e < c->edge_count[i]; e++)
@@ -346,8 +319,7 @@ static void add_for_missed(Chooser *c, int first, int last, Arena scratch)
 
 /* Adds details until nearly all is accepted: the coder corrects the rest with details of its
  * own. Returns about how many details that makes. */
-static uint32_t mend(Chooser *c, Arena scratch)
-{
+static uint32_t mend(Chooser *c, Arena scratch) {
     uint32_t missed = 0;
     for (int round = 0; round < MENDS; round++) {
         fit(c);
@@ -363,25 +335,23 @@ static uint32_t mend(Chooser *c, Arena scratch)
 
 typedef struct Loss {
     uint32_t vertex;
-    float    loss;
+    float loss;
 } Loss;
 
-static int by_loss(const void *a, const void *b)
-{
+static int by_loss(const void *a, const void *b) {
     const Loss *x = a, *y = b;
     if (x->loss != y->loss) return x->loss < y->loss ? -1 : 1;
     return x->vertex < y->vertex ? -1 : 1;
 }
 
 /* Drops the share of the chosen details that cost the least. */
-static void drop_least(Chooser *c, float share, Arena scratch)
-{
-    Loss    *loss = ARENA_NEW(&scratch, Loss, c->count);
+static void drop_least(Chooser *c, float share, Arena scratch) {
+    Loss *loss = ARENA_NEW(&scratch, Loss, c->count);
     uint32_t count = 0;
     for (int i = c->base_level; i < c->options->lattice.level; i++)
         for (uint32_t e = 0; e < c->edge_count[i]; e++) {
             uint32_t v = c->edges[i][e].vertex;
-            float    sum = 0;
+            float sum = 0;
             if (!c->chosen[v]) continue;
             for (int j = 0; j < c->k; j++) {
                 float d = *component(c->group[j / 4].detail, v, j) / c->unit[j];
@@ -397,10 +367,9 @@ static void drop_least(Chooser *c, float share, Arena scratch)
     }
 }
 
-static Chooser start(VertexJudge *judge, int base_level, Arena *arena)
-{
+static Chooser start(VertexJudge *judge, int base_level, Arena *arena) {
     const VertexTreeOptions *options = judge->options;
-    size_t  n = vertex_count(options->lattice), k = (size_t)options->components;
+    size_t n = vertex_count(options->lattice), k = (size_t)options->components;
     Chooser c = {.options = options,
                  .values = judge->values,
                  .unit = judge->unit,
@@ -422,8 +391,8 @@ static Chooser start(VertexJudge *judge, int base_level, Arena *arena)
     c.group = ARENA_NEW(arena, Group, c.group_count);
     for (int i = 0; i < c.group_count; i++) {
         Group *g = &c.group[i];
-        Four **rows[] = {&g->value, &g->detail, &g->fitted, &g->rest, &g->direction,
-                         &g->product, &g->gradient};
+        Four **rows[] = {&g->value,     &g->detail,  &g->fitted,  &g->rest,
+                         &g->direction, &g->product, &g->gradient};
         for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
             *rows[r] = arena_alloc(arena, sizeof(Four), sizeof(Four), n);
     }
@@ -442,8 +411,7 @@ static Chooser start(VertexJudge *judge, int base_level, Arena *arena)
 }
 
 /* Saves a round's choice to return to. Missed vertices keep their own values. */
-static void keep(const Chooser *c, VertexChoice *out)
-{
+static void keep(const Chooser *c, VertexChoice *out) {
     size_t k = (size_t)c->k;
     memcpy(out->chosen, c->chosen, c->count * sizeof *out->chosen);
     for (size_t v = 0; v < c->count; v++)
@@ -451,8 +419,7 @@ static void keep(const Chooser *c, VertexChoice *out)
         else fitted_row(c, (uint32_t)v, out->target + v * k);
 }
 
-void vertex_choose(VertexJudge *judge, int base_level, Arena scratch, VertexChoice *out)
-{
+void vertex_choose(VertexJudge *judge, int base_level, Arena scratch, VertexChoice *out) {
     Chooser c = start(judge, base_level, &scratch);
     for (int i = base_level; i < judge->options->lattice.level; i++) {
         fit(&c);

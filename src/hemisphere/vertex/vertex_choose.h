@@ -13,18 +13,18 @@
  * without that. */
 typedef struct VertexJudge {
     const VertexTreeOptions *options;
-    const float             *values; /* vertices x components */
-    const float             *unit;   /* what an error of each component counts in, > 0 */
-    float                   *safe;   /* of vertices: the largest accepted distance, in units;
-                                        below 0: never taken as accepted */
-    bool                     is_exact; /* does not use what it remembers */
+    const float *values; /* vertices x components */
+    const float *unit;   /* what an error of each component counts in, > 0 */
+    float *safe;         /* of vertices: the largest accepted distance, in units;
+                            below 0: never taken as accepted */
+    bool is_exact;       /* does not use what it remembers */
 } VertexJudge;
 
 bool vertex_accepts(VertexJudge *judge, uint32_t vertex, const float *row);
 
 /* Vertices to store (the base's included) and the values that the tree should have. */
 typedef struct VertexChoice {
-    bool  *chosen; /* of vertices */
+    bool *chosen;  /* of vertices */
     float *target; /* vertices x components, of all vertices */
 } VertexChoice;
 

@@ -11,16 +11,16 @@
  * component by itself but all in one pass; in double precision, since the penalties are many
  * powers of ten below the data. */
 typedef struct LeastSquares {
-    VertexLattice      lattice;
-    int                components;
-    size_t             numbers; /* vertices x components */
-    const VertexEdge  *edges;   /* of all levels, from the coarsest */
-    uint32_t           edge_count;
-    uint32_t           pole, corner[4]; /* corners on the horizon */
+    VertexLattice lattice;
+    int components;
+    size_t numbers;          /* vertices x components */
+    const VertexEdge *edges; /* of all levels, from the coarsest */
+    uint32_t edge_count;
+    uint32_t pole, corner[4]; /* corners on the horizon */
     const VertexPoint *points;
-    const double      *weight; /* of samples, over their sum */
-    int                samples;
-    const double      *penalty, *inverse_diagonal; /* of vertices */
+    const double *weight; /* of samples, over their sum */
+    int samples;
+    const double *penalty, *inverse_diagonal; /* of vertices */
 } LeastSquares;
 
 #define MAX_ITERATIONS 1000
@@ -28,34 +28,28 @@ typedef struct LeastSquares {
 
 /* ---- details to values and back ---------------------------------------------------------- */
 
-static int corner_count(const LeastSquares *p)
-{
+static int corner_count(const LeastSquares *p) {
     return p->lattice.octants == 2 ? 3 : 4;
 }
 
 static void add_row(const LeastSquares *p, uint32_t to, uint32_t from, double factor,
-                    double *rows)
-{
-    size_t  k = (size_t)p->components;
+                    double *rows) {
+    size_t k = (size_t)p->components;
     double *a = rows + to * k, *b = rows + from * k;
     for (size_t c = 0; c < k; c++) a[c] += factor * b[c];
 }
 
 /* h to S h, in place. Corners on the horizon are relative to the pole. */
-static void synthesise(const LeastSquares *p, double *rows)
-{
+static void synthesise(const LeastSquares *p, double *rows) {
     for (int i = 0; i < corner_count(p); i++) add_row(p, p->corner[i], p->pole, 1, rows);
     for (uint32_t e = 0; e < p->edge_count; e++)
-        for (int i = 0; i < 2; i++)
-            add_row(p, p->edges[e].vertex, p->edges[e].end[i], 0.5, rows);
+        for (int i = 0; i < 2; i++) add_row(p, p->edges[e].vertex, p->edges[e].end[i], 0.5, rows);
 }
 
 /* x to S^T x, in place. */
-static void transpose(const LeastSquares *p, double *rows)
-{
+static void transpose(const LeastSquares *p, double *rows) {
     for (uint32_t e = p->edge_count; e-- > 0;)
-        for (int i = 0; i < 2; i++)
-            add_row(p, p->edges[e].end[i], p->edges[e].vertex, 0.5, rows);
+        for (int i = 0; i < 2; i++) add_row(p, p->edges[e].end[i], p->edges[e].vertex, 0.5, rows);
     for (int i = 0; i < corner_count(p); i++) add_row(p, p->pole, p->corner[i], 1, rows);
 }
 
@@ -63,16 +57,14 @@ static void transpose(const LeastSquares *p, double *rows)
 
 /* out += A^T w (A values - y), y NULL: 0. */
 static void add_data_gradient(const LeastSquares *p, const double *values, const float *y,
-                              double *out)
-{
+                              double *out) {
     size_t k = (size_t)p->components;
     for (int s = 0; s < p->samples; s++) {
         const VertexPoint *at = &p->points[s];
         if (p->weight[s] == 0) continue;
         for (size_t c = 0; c < k; c++) {
             double f = 0;
-            for (int i = 0; i < 3; i++)
-                f += (double)at->weight[i] * values[at->vertex[i] * k + c];
+            for (int i = 0; i < 3; i++) f += (double)at->weight[i] * values[at->vertex[i] * k + c];
             if (y) f -= (double)y[(size_t)s * k + c];
             for (int i = 0; i < 3; i++)
                 out[at->vertex[i] * k + c] += p->weight[s] * (double)at->weight[i] * f;
@@ -81,8 +73,7 @@ static void add_data_gradient(const LeastSquares *p, const double *values, const
 }
 
 /* out = (S^T A^T w A S + penalty) h; values: room for S h. */
-static void apply(const LeastSquares *p, const double *h, double *values, double *out)
-{
+static void apply(const LeastSquares *p, const double *h, double *values, double *out) {
     size_t k = (size_t)p->components;
     memcpy(values, h, p->numbers * sizeof *h);
     synthesise(p, values);
@@ -93,8 +84,7 @@ static void apply(const LeastSquares *p, const double *h, double *values, double
 }
 
 /* a . b, of every component. */
-static void dots(const LeastSquares *p, const double *a, const double *b, double *dot)
-{
+static void dots(const LeastSquares *p, const double *a, const double *b, double *dot) {
     size_t k = (size_t)p->components;
     for (size_t c = 0; c < k; c++) dot[c] = 0;
     for (size_t i = 0; i < p->numbers; i += k)
@@ -107,21 +97,19 @@ typedef struct FitWork {
     double *rho, *rho_first, *next;
 } FitWork;
 
-static void precondition(const LeastSquares *p, const double *r, double *z)
-{
+static void precondition(const LeastSquares *p, const double *r, double *z) {
     size_t k = (size_t)p->components;
     for (size_t i = 0; i < p->numbers; i++) z[i] = p->inverse_diagonal[i / k] * r[i];
 }
 
 /* One step for every component that has not converged; how many those were. */
-static int iterate(const LeastSquares *p, FitWork *w)
-{
+static int iterate(const LeastSquares *p, FitWork *w) {
     size_t k = (size_t)p->components;
-    int    active = 0;
+    int active = 0;
     apply(p, w->d, w->values, w->q);
     dots(p, w->d, w->q, w->next);
     for (size_t c = 0; c < k; c++) {
-        bool   done = !(w->rho[c] > TOLERANCE * TOLERANCE * w->rho_first[c]);
+        bool done = !(w->rho[c] > TOLERANCE * TOLERANCE * w->rho_first[c]);
         double step = done || !(w->next[c] > 0) ? 0 : w->rho[c] / w->next[c];
         active += !done;
         for (size_t i = c; i < p->numbers; i += k) {
@@ -140,8 +128,7 @@ static int iterate(const LeastSquares *p, FitWork *w)
 }
 
 /* x: details that solve the problem; starts from 0. */
-static void solve(const LeastSquares *p, const float *y, FitWork *w)
-{
+static void solve(const LeastSquares *p, const float *y, FitWork *w) {
     add_data_gradient(p, w->x, y, w->r);
     transpose(p, w->r);
     for (size_t i = 0; i < p->numbers; i++) w->r[i] = -w->r[i];
@@ -154,17 +141,15 @@ static void solve(const LeastSquares *p, const float *y, FitWork *w)
 /* ---- setting up -------------------------------------------------------------------------- */
 
 /* The level on which a lattice point is new; 0: a corner on the horizon, -1: the pole. */
-static int level_of(VertexLattice lattice, int x, int y)
-{
+static int level_of(VertexLattice lattice, int x, int y) {
     int n = 1 << lattice.level, bits = x | y;
     if (bits == 0) return -1;
     int level = lattice.level - __builtin_ctz((unsigned)bits);
     return level < 0 || abs(x) == n || abs(y) == n ? 0 : level;
 }
 
-static double *make_penalty(VertexLattice lattice, double ridge, Arena *arena)
-{
-    int     n = 1 << lattice.level;
+static double *make_penalty(VertexLattice lattice, double ridge, Arena *arena) {
+    int n = 1 << lattice.level;
     double *penalty = ARENA_NEW(arena, double, vertex_count(lattice));
     for (int y = lattice.octants == 2 ? 0 : -n; y <= n; y++)
         for (int x = abs(y) - n; x <= n - abs(y); x++) {
@@ -177,11 +162,10 @@ static double *make_penalty(VertexLattice lattice, double ridge, Arena *arena)
 
 /* The diagonal of S^T A^T w A S + penalty, with the off-diagonal part of the data's term
  * summed into it: sum over samples of w times the hat function. */
-static double *make_inverse_diagonal(const LeastSquares *p, Arena *arena)
-{
+static double *make_inverse_diagonal(const LeastSquares *p, Arena *arena) {
     uint32_t count = vertex_count(p->lattice);
-    LeastSquares  one = *p;
-    double  *diagonal = ARENA_NEW(arena, double, count);
+    LeastSquares one = *p;
+    double *diagonal = ARENA_NEW(arena, double, count);
     one.components = 1;
     for (int s = 0; s < p->samples; s++)
         for (int i = 0; i < 3; i++)
@@ -194,10 +178,9 @@ static double *make_inverse_diagonal(const LeastSquares *p, Arena *arena)
     return diagonal;
 }
 
-static void make_hierarchy(LeastSquares *p, Arena *arena)
-{
-    int         n = 1 << p->lattice.level, levels = p->lattice.level;
-    const int   at[4][2] = {{n, 0}, {-n, 0}, {0, n}, {0, -n}};
+static void make_hierarchy(LeastSquares *p, Arena *arena) {
+    int n = 1 << p->lattice.level, levels = p->lattice.level;
+    const int at[4][2] = {{n, 0}, {-n, 0}, {0, n}, {0, -n}};
     VertexEdge *edges = ARENA_NEW(arena, VertexEdge, vertex_count(p->lattice));
     for (int i = 0; i < levels; i++)
         p->edge_count += vertex_edges(p->lattice, i, edges + p->edge_count);
@@ -208,13 +191,13 @@ static void make_hierarchy(LeastSquares *p, Arena *arena)
 }
 
 /* Weights over their sum. */
-static bool make_weights(const VertexSamples *samples, double *weight, Error *err)
-{
+static bool make_weights(const VertexSamples *samples, double *weight, Error *err) {
     double sum = 0;
     for (int s = 0; s < samples->count; s++) {
         float w = samples->weight ? samples->weight[s] : 1.0f;
         if (!(w >= 0) || !isfinite(w))
-            return error_set(err, ERROR_INPUT, "sample %d has the weight %g, required: 0 or "
+            return error_set(err, ERROR_INPUT,
+                             "sample %d has the weight %g, required: 0 or "
                              "more",
                              s, (double)w);
         sum += (double)w;
@@ -227,19 +210,17 @@ static bool make_weights(const VertexSamples *samples, double *weight, Error *er
     return true;
 }
 
-static bool check_samples(const VertexSamples *samples, Error *err)
-{
+static bool check_samples(const VertexSamples *samples, Error *err) {
     size_t k = (size_t)samples->components;
     for (size_t i = 0; i < k * (size_t)samples->count; i++)
         if (!isfinite(samples->value[i]))
-            return error_set(err, ERROR_INPUT, "sample %zu is %g, required: a finite number",
-                             i / k, (double)samples->value[i]);
+            return error_set(err, ERROR_INPUT, "sample %zu is %g, required: a finite number", i / k,
+                             (double)samples->value[i]);
     return true;
 }
 
-static FitWork make_work(const LeastSquares *p, Arena *arena)
-{
-    FitWork     w;
+static FitWork make_work(const LeastSquares *p, Arena *arena) {
+    FitWork w;
     double **rows[] = {&w.x, &w.r, &w.z, &w.d, &w.q, &w.values};
     double **numbers[] = {&w.rho, &w.rho_first, &w.next};
     for (int i = 0; i < 6; i++) *rows[i] = ARENA_NEW(arena, double, p->numbers);
@@ -247,23 +228,22 @@ static FitWork make_work(const LeastSquares *p, Arena *arena)
     return w;
 }
 
-bool vertex_fit(VertexLattice lattice, const VertexSamples *samples, double ridge,
-                Arena *scratch, float *values, Error *err)
-{
-    Arena           arena = *scratch;
+bool vertex_fit(VertexLattice lattice, const VertexSamples *samples, double ridge, Arena *scratch,
+                float *values, Error *err) {
+    Arena arena = *scratch;
     const Geodesic *geodesic = geodesic_create(vertex_plane_level(lattice.level), &arena);
-    VertexPoint    *points = ARENA_NEW(&arena, VertexPoint, samples->count);
-    double         *weight = ARENA_NEW(&arena, double, samples->count);
+    VertexPoint *points = ARENA_NEW(&arena, VertexPoint, samples->count);
+    double *weight = ARENA_NEW(&arena, double, samples->count);
     if (!check_samples(samples, err) || !make_weights(samples, weight, err)) return false;
     for (int s = 0; s < samples->count; s++)
         points[s] = vertex_find(geodesic, lattice, samples->direction[s]);
     LeastSquares p = {.lattice = lattice,
-                 .components = samples->components,
-                 .numbers = vertex_count(lattice) * (size_t)samples->components,
-                 .points = points,
-                 .weight = weight,
-                 .samples = samples->count,
-                 .penalty = make_penalty(lattice, ridge, &arena)};
+                      .components = samples->components,
+                      .numbers = vertex_count(lattice) * (size_t)samples->components,
+                      .points = points,
+                      .weight = weight,
+                      .samples = samples->count,
+                      .penalty = make_penalty(lattice, ridge, &arena)};
     make_hierarchy(&p, &arena);
     p.inverse_diagonal = make_inverse_diagonal(&p, &arena);
     FitWork work = make_work(&p, &arena);

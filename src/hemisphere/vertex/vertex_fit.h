@@ -8,8 +8,8 @@
 #include "hemisphere/vertex/vertex.h"
 
 typedef struct VertexSamples {
-    int          count, components;
-    const Vec3  *direction;
+    int count, components;
+    const Vec3 *direction;
     const float *value;  /* count x components */
     const float *weight; /* count, >= 0; NULL: all 1 */
 } VertexSamples;
@@ -20,5 +20,5 @@ typedef struct VertexSamples {
  * horizon, i = 0, less the pole), relative to the samples' total weight. What no sample reaches
  * stays smooth. Solved by conjugate gradients over the details, for all components at once.
  * Fails (ERROR_INPUT) on numbers that are not finite and when no sample has a weight. */
-bool vertex_fit(VertexLattice lattice, const VertexSamples *samples, double ridge,
-                Arena *scratch, float *values, Error *err);
+bool vertex_fit(VertexLattice lattice, const VertexSamples *samples, double ridge, Arena *scratch,
+                float *values, Error *err);

@@ -9,20 +9,17 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "blobs are little-endian in place");
 _Static_assert(sizeof(VertexHeader) == 32 && sizeof(VertexLevel) == 16, "the blob's layout");
 
-static bool refuse(Error *err, const char *what, double found, double wanted)
-{
+static bool refuse(Error *err, const char *what, double found, double wanted) {
     return error_set(err, ERROR_INPUT, "vertex tree: %s is %.9g, required: %.9g", what, found,
                      wanted);
 }
 
-static bool refuse_level(Error *err, int level, const char *what, double found, double wanted)
-{
+static bool refuse_level(Error *err, int level, const char *what, double found, double wanted) {
     refuse(err, what, found, wanted);
     return error_prefix(err, "level %d", level);
 }
 
-static bool check_header(const VertexHeader *h, size_t size, Error *err)
-{
+static bool check_header(const VertexHeader *h, size_t size, Error *err) {
     if (h->version != VERTEX_VERSION) return refuse(err, "version", h->version, VERTEX_VERSION);
     if (h->level >= GEODESIC_MAX_LEVEL)
         return refuse(err, "level", h->level, GEODESIC_MAX_LEVEL - 1);
@@ -39,16 +36,14 @@ static bool check_header(const VertexHeader *h, size_t size, Error *err)
     if (h->base_exponent < -VERTEX_MAX_EXPONENT || h->base_exponent > VERTEX_MAX_EXPONENT)
         return refuse(err, "exponent of the base", h->base_exponent, 0);
     VertexParts parts = vertex_parts(h);
-    if (h->size != parts.size)
-        return refuse(err, "size", (double)h->size, (double)parts.size);
+    if (h->size != parts.size) return refuse(err, "size", (double)h->size, (double)parts.size);
     if (h->size > size)
-        return error_set(err, ERROR_INPUT, "vertex tree: %zu bytes are there, required: %llu",
-                         size, (unsigned long long)h->size);
+        return error_set(err, ERROR_INPUT, "vertex tree: %zu bytes are there, required: %llu", size,
+                         (unsigned long long)h->size);
     return true;
 }
 
-static bool check_formats(const Tree *tree, const VertexHeader *h, Error *err)
-{
+static bool check_formats(const Tree *tree, const VertexHeader *h, Error *err) {
     if (h->format_count < 1) return refuse(err, "number of formats", h->format_count, 1);
     for (int i = 0; i < h->format_count; i++) {
         int most = (h->components + 1) / 2;
@@ -69,10 +64,9 @@ typedef struct Place {
     uint32_t word, block, byte;
 } Place;
 
-static bool check_level_numbers(const Tree *tree, int l, Place at, Error *err)
-{
+static bool check_level_numbers(const Tree *tree, int l, Place at, Error *err) {
     const VertexLevel *level = &tree->levels[l];
-    int                side = 1 << (tree->base_level + l);
+    int side = 1 << (tree->base_level + l);
     if (level->x < -side || level->x > side)
         return refuse_level(err, l, "window's column", level->x, -side);
     if (level->y < -side || level->y > side)
@@ -91,43 +85,38 @@ static bool check_level_numbers(const Tree *tree, int l, Place at, Error *err)
 }
 
 /* Words of a level's directory; one at least, so that a query always has one to read. */
-static uint32_t words_of(const VertexLevel *level)
-{
+static uint32_t words_of(const VertexLevel *level) {
     uint32_t blocks = (uint32_t)level->width * level->height;
     return blocks ? (blocks + 31) / 32 : 1;
 }
 
 /* The level's blocks: each one's rows start where the last one's end, rounded up. */
-static bool check_blocks(const Tree *tree, const VertexHeader *h, int l, uint32_t count,
-                         Place *at, Error *err)
-{
+static bool check_blocks(const Tree *tree, const VertexHeader *h, int l, uint32_t count, Place *at,
+                         Error *err) {
     const VertexLevel *level = &tree->levels[l];
-    uint32_t           end = 0, unit = 1u << level->shift;
+    uint32_t end = 0, unit = 1u << level->shift;
     if (count > h->block_count - at->block)
         return refuse_level(err, l, "blocks", count, h->block_count - at->block);
     for (uint32_t b = at->block; b < at->block + count; b++) {
         uint64_t bits = tree->blocks[b], rows = bits & ((1ull << VERTEX_BLOCK_BITS) - 1);
         uint32_t start = (end + unit - 1) / unit;
         if (bits >> VERTEX_BLOCK_BITS != start)
-            return refuse_level(err, l, "start of a block",
-                                (double)(bits >> VERTEX_BLOCK_BITS), start);
-        end = start * unit + vertex_count_bits(rows) *
-                                 vertex_format_bytes(tree->formats[tree->block_formats[b]]);
+            return refuse_level(err, l, "start of a block", (double)(bits >> VERTEX_BLOCK_BITS),
+                                start);
+        end = start * unit +
+              vertex_count_bits(rows) * vertex_format_bytes(tree->formats[tree->block_formats[b]]);
     }
     at->block += count;
     at->byte += end;
-    if (at->byte > h->row_bytes)
-        return refuse_level(err, l, "rows' bytes", at->byte, h->row_bytes);
+    if (at->byte > h->row_bytes) return refuse_level(err, l, "rows' bytes", at->byte, h->row_bytes);
     return true;
 }
 
 /* The level's directory: every rank continues the last. */
-static bool check_directory(const Tree *tree, const VertexHeader *h, int l, Place *at,
-                            Error *err)
-{
+static bool check_directory(const Tree *tree, const VertexHeader *h, int l, Place *at, Error *err) {
     const VertexLevel *level = &tree->levels[l];
-    uint32_t           words = words_of(level), blocks = 0;
-    uint32_t           spare = words * 32 - (uint32_t)level->width * level->height;
+    uint32_t words = words_of(level), blocks = 0;
+    uint32_t spare = words * 32 - (uint32_t)level->width * level->height;
     if (words > h->word_count - at->word)
         return refuse_level(err, l, "directory's words", words, h->word_count - at->word);
     for (uint32_t w = 0; w < words; w++) {
@@ -143,24 +132,20 @@ static bool check_directory(const Tree *tree, const VertexHeader *h, int l, Plac
     return check_blocks(tree, h, l, blocks, at, err);
 }
 
-static bool check_levels(const Tree *tree, const VertexHeader *h, Error *err)
-{
+static bool check_levels(const Tree *tree, const VertexHeader *h, Error *err) {
     VertexLattice base = {tree->base_level, tree->octants};
-    Place         at = {0, 0, vertex_count(base) * tree->base_bytes};
+    Place at = {0, 0, vertex_count(base) * tree->base_bytes};
     for (int l = 0; l < tree->level_count; l++)
-        if (!check_level_numbers(tree, l, at, err) ||
-            !check_directory(tree, h, l, &at, err))
+        if (!check_level_numbers(tree, l, at, err) || !check_directory(tree, h, l, &at, err))
             return false;
     if (at.word != h->word_count) return refuse(err, "word count", h->word_count, at.word);
-    if (at.block != h->block_count)
-        return refuse(err, "block count", h->block_count, at.block);
+    if (at.block != h->block_count) return refuse(err, "block count", h->block_count, at.block);
     if (at.byte != h->row_bytes) return refuse(err, "bytes of rows", h->row_bytes, at.byte);
     return true;
 }
 
 /* Any integer times these is finite. */
-static bool check_scales(const Tree *tree, Error *err)
-{
+static bool check_scales(const Tree *tree, Error *err) {
     for (int c = 0; c < tree->components; c++)
         if (!(fabsf(tree->scale[c]) <= VERTEX_MAX_SCALE))
             return error_set(err, ERROR_INPUT,
@@ -169,21 +154,18 @@ static bool check_scales(const Tree *tree, Error *err)
     return true;
 }
 
-static bool check_depths(const Tree *tree, Error *err)
-{
+static bool check_depths(const Tree *tree, Error *err) {
     for (size_t i = 0; i < vertex_depth_cells(tree->octants, tree->depth_level) / 2; i++)
-        if ((tree->depths[i] & 15) > tree->level_count ||
-            tree->depths[i] >> 4 > tree->level_count)
+        if ((tree->depths[i] & 15) > tree->level_count || tree->depths[i] >> 4 > tree->level_count)
             return refuse(err, "depth", tree->depths[i] >> 4, tree->level_count);
     return true;
 }
 
-static Tree view(const char *blob, const Geodesic *geodesic)
-{
+static Tree view(const char *blob, const Geodesic *geodesic) {
     const VertexHeader *h = (const VertexHeader *)(const void *)blob;
-    VertexParts         parts = vertex_parts(h);
-    const uint8_t      *bytes = (const uint8_t *)blob;
-    const void         *at = blob;
+    VertexParts parts = vertex_parts(h);
+    const uint8_t *bytes = (const uint8_t *)blob;
+    const void *at = blob;
     return (Tree){.geodesic = geodesic,
                   .basis = TREE_VERTEX,
                   .level = h->level,
@@ -207,11 +189,9 @@ static Tree view(const char *blob, const Geodesic *geodesic)
 }
 
 bool vertex_tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out,
-                      Error *err)
-{
+                      Error *err) {
     const VertexHeader *header = blob;
-    if (size < sizeof *header)
-        return refuse(err, "number of bytes", (double)size, sizeof *header);
+    if (size < sizeof *header) return refuse(err, "number of bytes", (double)size, sizeof *header);
     if (!check_header(header, size, err)) return false;
     if (geodesic->level < vertex_plane_level(header->level))
         return refuse(err, "level of the geodesic", geodesic->level,
@@ -219,8 +199,7 @@ bool vertex_tree_open(const void *blob, size_t size, const Geodesic *geodesic, T
     Tree tree = view(blob, geodesic);
     if (!check_formats(&tree, header, err)) return false;
     tree.base_bytes = vertex_format_bytes(tree.formats[0]);
-    if (!check_levels(&tree, header, err) || !check_scales(&tree, err) ||
-        !check_depths(&tree, err))
+    if (!check_levels(&tree, header, err) || !check_scales(&tree, err) || !check_depths(&tree, err))
         return false;
     *out = tree;
     return true;
@@ -228,21 +207,19 @@ bool vertex_tree_open(const void *blob, size_t size, const Geodesic *geodesic, T
 
 /* ---- expansion --------------------------------------------------------------------------- */
 
-void vertex_tree_expand(const Tree *tree, float *values)
-{
+void vertex_tree_expand(const Tree *tree, float *values) {
     vertex_tree_expand_level(tree, tree->level, values);
 }
 
-void vertex_tree_expand_level(const Tree *tree, int level, float *values)
-{
+void vertex_tree_expand_level(const Tree *tree, int level, float *values) {
     VertexLattice lattice = {level, tree->octants};
-    int           n = 1 << level;
+    int n = 1 << level;
     for (int y = tree->octants == 2 ? 0 : -n; y <= n; y++)
         for (int x = (y < 0 ? -y : y) - n; x <= n - (y < 0 ? -y : y); x++) {
             VertexPlace place = {(float)(x < 0 ? -x : x) / (float)n,
                                  (float)(y < 0 ? -y : y) / (float)n,
                                  (x < 0 ? 1u : 0u) | (y < 0 ? 2u : 0u)};
-            TreeTaps    taps;
+            TreeTaps taps;
             vertex_tree_walk_place(tree, place, &taps);
             vertex_tree_sum(tree, &taps, 0, tree->components,
                             values + vertex_index(lattice, x, y) * (size_t)tree->components);

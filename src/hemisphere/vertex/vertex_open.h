@@ -17,13 +17,11 @@ typedef struct VertexParts {
 } VertexParts;
 
 /* Cells of a depth level: of the square around the lattice's plane, or of its half. */
-static inline size_t vertex_depth_cells(int octants, int depth_level)
-{
+static inline size_t vertex_depth_cells(int octants, int depth_level) {
     return (size_t)octants << 2 * depth_level;
 }
 
-static inline VertexParts vertex_parts(const VertexHeader *h)
-{
+static inline VertexParts vertex_parts(const VertexHeader *h) {
     VertexParts p = {.scale = sizeof *h};
     p.levels = p.scale + sizeof(float) * h->components;
     p.words = p.levels + sizeof(VertexLevel) * h->level_count;

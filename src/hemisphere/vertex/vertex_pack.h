@@ -17,17 +17,15 @@
 #include "hemisphere/vertex/vertex_tree.h"
 
 #define VERTEX_PACKED 0x50545256u /* "VRTP" */
-#define VERTEX_PACKED_LEVEL 8       /* at most */
+#define VERTEX_PACKED_LEVEL 8     /* at most */
 #define VERTEX_PACKED_COMPONENTS 32
 
-static inline bool vertex_is_packed(const void *bytes, size_t size)
-{
+static inline bool vertex_is_packed(const void *bytes, size_t size) {
     return size >= sizeof(VertexHeader) && *(const uint32_t *)bytes == VERTEX_PACKED;
 }
 
 /* Of a tree of either basis. */
-static inline bool vertex_can_pack(const void *blob)
-{
+static inline bool vertex_can_pack(const void *blob) {
     const VertexHeader *h = blob;
     return h->magic == VERTEX_MAGIC && h->level >= 1 && h->level <= VERTEX_PACKED_LEVEL &&
            h->components <= VERTEX_PACKED_COMPONENTS;

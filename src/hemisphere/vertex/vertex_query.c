@@ -6,10 +6,9 @@
 #include "hemisphere/vertex/vertex_tree.h"
 
 /* The base level's three rows. */
-static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps)
-{
+static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps) {
     VertexLattice lattice = {tree->base_level, tree->octants};
-    VertexPoint   point = map_point(lattice, place);
+    VertexPoint point = map_point(lattice, place);
     for (int i = 0; i < 3; i++) {
         taps->row[i] = point.vertex[i] * (tree->unpacked ? 1 : tree->base_bytes);
         taps->weight[i] = point.weight[i] * tree->base_factor;
@@ -27,34 +26,31 @@ static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps)
  * diagonal in row y. */
 typedef struct Edges {
     uint32_t x[3], y[3]; /* in order of the bits: along x, along y, diagonal */
-    float    weight[3];
+    float weight[3];
 } Edges;
 
-static inline float least(float a, float b)
-{
+static inline float least(float a, float b) {
     return a < b ? a : b;
 }
 
 /* A new vertex's hat function in a triangle whose corners have the coordinates a and b at the
  * edge's ends and c opposite: 2 b at a's end, 2 a at b's end, 1 - 2 c in the middle. */
-static inline float hat(float a, float b, float c)
-{
+static inline float hat(float a, float b, float c) {
     return 2 * least(least(a, b), 0.5f - c);
 }
 
 /* In the octant, the place lies in the cell (cx, cy), in its half towards the pole or the other
  * one; there (u, v, w) are the barycentric coordinates, u and v of the corners next to the
  * right angle. Mirrored, column cx is -1 - cx, and line cx is -cx. */
-static inline Edges edges_at(const VertexLevel *level, VertexPlace place, int number)
-{
+static inline Edges edges_at(const VertexLevel *level, VertexPlace place, int number) {
     float n = (float)(1 << number), x = place.x * n, y = place.y * n;
-    int   cx = (int)x, cy = (int)y;
+    int cx = (int)x, cy = (int)y;
     float u = x - (float)cx, v = y - (float)cy;
-    int   upper = u + v > 1;
+    int upper = u + v > 1;
     u = fabsf((float)upper - u); /* either half is as likely: no branch */
     v = fabsf((float)upper - v);
     float w = 1 - u - v, factor = float_from_bits((uint32_t)(127 + level->exponent) << 23);
-    int   mx = -(int)(place.octant & 1), my = -(int)(place.octant >> 1);
+    int mx = -(int)(place.octant & 1), my = -(int)(place.octant >> 1);
     uint32_t column = (uint32_t)((cx ^ mx) - level->x), row = (uint32_t)((cy ^ my) - level->y);
     uint32_t line_x = (uint32_t)(((cx + upper) ^ mx) - mx - level->x);
     uint32_t line_y = (uint32_t)(((cy + upper) ^ my) - my - level->y);
@@ -67,8 +63,7 @@ static inline Edges edges_at(const VertexLevel *level, VertexPlace place, int nu
 
 /* The block of a cell of the window. */
 static inline uint32_t find_block(const Tree *tree, const VertexLevel *level, uint32_t x,
-                                  uint32_t y)
-{
+                                  uint32_t y) {
     uint32_t bx = x / VERTEX_BLOCK_SIDE, by = y / VERTEX_BLOCK_SIDE;
     if (bx >= level->width || by >= level->height) return NO_BLOCK;
     uint32_t at = by * level->width + bx, index = level->first_word + at / 32;
@@ -81,36 +76,32 @@ static inline uint32_t find_block(const Tree *tree, const VertexLevel *level, ui
 typedef struct Block {
     uint64_t bits;
     uint32_t first, row_bytes; /* byte of the first row; of an unpacked tree index, and 1 */
-    uint8_t  format;
+    uint8_t format;
 } Block;
 
-static inline Block open_block(const Tree *tree, const VertexLevel *level, uint32_t index)
-{
+static inline Block open_block(const Tree *tree, const VertexLevel *level, uint32_t index) {
     uint64_t bits = tree->blocks[index];
     if (tree->unpacked) return (Block){bits, tree->unpacked_rows[index], 1, 0};
-    uint8_t  format = tree->block_formats[index];
+    uint8_t format = tree->block_formats[index];
     uint32_t start = (uint32_t)(bits >> VERTEX_BLOCK_BITS) << level->shift;
-    return (Block){bits, level->first_byte + start,
-                   vertex_format_bytes(tree->formats[format]), format};
+    return (Block){bits, level->first_byte + start, vertex_format_bytes(tree->formats[format]),
+                   format};
 }
 
 /* Writes a tap for edge i, and counts it if there is such a detail: that cannot be predicted,
  * so there is no branch. */
-static inline void put_detail(const Block *block, const Edges *e, uint32_t i, TreeTaps *taps)
-{
+static inline void put_detail(const Block *block, const Edges *e, uint32_t i, TreeTaps *taps) {
     uint32_t bit = e->y[i] % VERTEX_BLOCK_SIDE * 12 + e->x[i] % VERTEX_BLOCK_SIDE * 3 + i;
     uint32_t row = vertex_count_bits(block->bits & ((1ull << bit) - 1));
-    int      at = taps->count;
+    int at = taps->count;
     taps->row[at] = block->first + row * block->row_bytes;
     taps->weight[at] = e->weight[i];
     taps->level[at] = block->format;
-    taps->count =
-        at + (int)((uint32_t)(block->bits >> bit) & (uint32_t)(e->weight[i] > 0));
+    taps->count = at + (int)((uint32_t)(block->bits >> bit) & (uint32_t)(e->weight[i] > 0));
 }
 
-static inline void put_in(const Tree *tree, const VertexLevel *level, const Edges *e,
-                          uint32_t i, TreeTaps *taps)
-{
+static inline void put_in(const Tree *tree, const VertexLevel *level, const Edges *e, uint32_t i,
+                          TreeTaps *taps) {
     uint32_t index = find_block(tree, level, e->x[i], e->y[i]);
     if (index == NO_BLOCK) return;
     Block block = open_block(tree, level, index);
@@ -119,8 +110,7 @@ static inline void put_in(const Tree *tree, const VertexLevel *level, const Edge
 
 /* Mostly the three edges are in one block. Written out, so that they stay in registers. */
 static inline void put_level(const Tree *tree, const VertexLevel *level, VertexPlace place,
-                             int number, TreeTaps *taps)
-{
+                             int number, TreeTaps *taps) {
     Edges e = edges_at(level, place, number);
     if (((e.x[0] ^ e.x[1]) | (e.y[0] ^ e.y[1])) < VERTEX_BLOCK_SIDE) {
         uint32_t index = find_block(tree, level, e.x[0], e.y[1]);
@@ -139,19 +129,17 @@ static inline void put_level(const Tree *tree, const VertexLevel *level, VertexP
 /* ---- the walk ---------------------------------------------------------------------------- */
 
 /* How many levels have details around a place. */
-static inline int depth_at(const Tree *tree, VertexPlace place)
-{
-    int      side = 1 << tree->depth_level;
-    int      x = (int)(place.x * (float)side), y = (int)(place.y * (float)side);
+static inline int depth_at(const Tree *tree, VertexPlace place) {
+    int side = 1 << tree->depth_level;
+    int x = (int)(place.x * (float)side), y = (int)(place.y * (float)side);
     x = x < side ? x : side - 1;
     y = y < side ? y : side - 1;
-    int      cx = x ^ -(int)(place.octant & 1), cy = y ^ -(int)(place.octant >> 1);
+    int cx = x ^ -(int)(place.octant & 1), cy = y ^ -(int)(place.octant >> 1);
     uint32_t at = (uint32_t)((cy + (tree->octants / 4) * side) * 2 * side + cx + side);
     return tree->depths[at / 2] >> at % 2 * 4 & 15;
 }
 
-static inline void walk(const Tree *tree, VertexPlace place, TreeTaps *taps)
-{
+static inline void walk(const Tree *tree, VertexPlace place, TreeTaps *taps) {
     put_base(tree, place, taps);
     for (int q = 0; q < 4; q++) taps->mean_weight[q] = 0;
     int depth = depth_at(tree, place);
@@ -160,13 +148,11 @@ static inline void walk(const Tree *tree, VertexPlace place, TreeTaps *taps)
         put_level(tree, &tree->levels[l], place, tree->base_level + l, taps);
 }
 
-void vertex_tree_walk_place(const Tree *tree, VertexPlace place, TreeTaps *taps)
-{
+void vertex_tree_walk_place(const Tree *tree, VertexPlace place, TreeTaps *taps) {
     walk(tree, place, taps);
 }
 
-void vertex_tree_walk(const Tree *tree, Vec3 direction, TreeTaps *taps)
-{
+void vertex_tree_walk(const Tree *tree, Vec3 direction, TreeTaps *taps) {
     VertexPlace place = map_place(tree->geodesic, tree->plane_level, direction);
     place.octant &= (uint32_t)tree->octants - 1; /* 2 octants: y is folded */
     walk(tree, place, taps);
@@ -183,23 +169,20 @@ static const uint8_t KEEP_BYTES[16] = {255, 255, 255, 255, 255, 255, 255, 255};
 /* `wanted` (4 or 8) bytes of a plane of `pairs` bytes from byte `skip` on, 0 beyond its end;
  * each holds two components. Returns signed 4 bits in the upper halves of bytes, in order of
  * components. */
-static inline Byte16 load_plane(const uint8_t *from, int pairs, int skip, int wanted)
-{
+static inline Byte16 load_plane(const uint8_t *from, int pairs, int skip, int wanted) {
     uint64_t bits = 0, keep;
-    int      there = pairs > skip + 8 ? 8 : pairs > skip ? pairs - skip : 0;
+    int there = pairs > skip + 8 ? 8 : pairs > skip ? pairs - skip : 0;
     memcpy(&bits, from + (there ? skip : 0), (size_t)wanted);
     memcpy(&keep, KEEP_BYTES + 8 - there, 8);
     bits &= keep;
     UShort8 odd = (UShort8)(ULong2){bits, 0}, even = odd << 4;
-    Byte16  upper = {-16, -16, -16, -16, -16, -16, -16, -16,
-                     -16, -16, -16, -16, -16, -16, -16, -16};
-    return (Byte16)__builtin_shufflevector((Byte16)even & upper, (Byte16)odd & upper, 0, 16, 1,
-                                           17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+    Byte16 upper = {-16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16};
+    return (Byte16)__builtin_shufflevector((Byte16)even & upper, (Byte16)odd & upper, 0, 16, 1, 17,
+                                           2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
 }
 
 /* Adds 16^plane times signed 4 bits, which stand in the upper halves of bytes. */
-static inline void add_plane(Byte16 digits, int plane, Short8 *low, Short8 *high)
-{
+static inline void add_plane(Byte16 digits, int plane, Short8 *low, Short8 *high) {
     *low += plane < 3 ? lower_bytes(digits) >> (12 - 4 * plane) : lower_bytes(digits);
     *high += plane < 3 ? upper_bytes(digits) >> (12 - 4 * plane) : upper_bytes(digits);
 }
@@ -207,10 +190,9 @@ static inline void add_plane(Byte16 digits, int plane, Short8 *low, Short8 *high
 /* sum += weight * the 4 * quads components of a row from byte `skip` of its planes on. quads is
  * 2 or 4, a constant where inlined. */
 static inline void add_row(const uint8_t *from, VertexFormat format, int skip, Float4 weight,
-                           int quads, Float4 *sum)
-{
+                           int quads, Float4 *sum) {
     Short8 low = {0}, high = {0};
-    int    wanted = 2 * quads;
+    int wanted = 2 * quads;
     add_plane(load_plane(from, format.pairs[0], skip, wanted), 0, &low, &high);
     if (format.pairs[1]) {
         from += format.pairs[0];
@@ -231,8 +213,7 @@ static inline void add_row(const uint8_t *from, VertexFormat format, int skip, F
 
 /* 4 * quads components from 8 * eighth on. */
 static inline void sum_quads(const Tree *tree, const TreeTaps *taps, int eighth, int quads,
-                             Float4 *sum)
-{
+                             Float4 *sum) {
     for (int q = 0; q < quads; q++) sum[q] = all_lanes(0);
     for (int t = 0; t < taps->count; t++)
         add_row(tree->details + taps->row[t], tree->formats[taps->level[t]], 4 * eighth,
@@ -250,8 +231,7 @@ typedef struct Eight {
     Float8 all;
 } Eight;
 
-static inline void add_eight(Short8 numbers, float weight, Eight *sum)
-{
+static inline void add_eight(Short8 numbers, float weight, Eight *sum) {
     sum->all += weight * __builtin_convertvector(numbers, Float8);
 }
 #else
@@ -259,8 +239,7 @@ typedef struct Eight {
     Float4 low, high;
 } Eight;
 
-static inline void add_eight(Short8 numbers, float weight, Eight *sum)
-{
+static inline void add_eight(Short8 numbers, float weight, Eight *sum) {
     sum->low += weight * lower_shorts(numbers, 16);
     sum->high += weight * upper_shorts(numbers, 16);
 }
@@ -268,11 +247,10 @@ static inline void add_eight(Short8 numbers, float weight, Eight *sum)
 
 /* 8 * eighths components, a constant where inlined, from `first` on. */
 static inline void sum_eighths(const Tree *tree, const TreeTaps *taps, int first, int eighths,
-                               float *out)
-{
+                               float *out) {
     const int16_t *rows = tree->unpacked + first;
-    size_t         stride = (size_t)tree->unpacked_stride;
-    Eight          sum[4] = {0};
+    size_t stride = (size_t)tree->unpacked_stride;
+    Eight sum[4] = {0};
     for (int t = 0; t < taps->count; t++) {
         const int16_t *row = rows + taps->row[t] * stride;
         for (int e = 0; e < eighths; e++) {
@@ -295,11 +273,9 @@ static inline void sum_eighths(const Tree *tree, const TreeTaps *taps, int first
 }
 
 /* The last few of eight one by one. */
-static void sum_unpacked(const Tree *tree, const TreeTaps *taps, int first, int count,
-                         float *out)
-{
+static void sum_unpacked(const Tree *tree, const TreeTaps *taps, int first, int count, float *out) {
     float last[8];
-    int   i = 0, skipped = first % 8;
+    int i = 0, skipped = first % 8;
     if (skipped) {
         sum_eighths(tree, taps, first - skipped, 1, last);
         for (; i < count && skipped + i < 8; i++) out[i] = last[skipped + i];
@@ -311,14 +287,13 @@ static void sum_unpacked(const Tree *tree, const TreeTaps *taps, int first, int 
     for (int k = 0; i + k < count; k++) out[i + k] = last[k];
 }
 
-void vertex_tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out)
-{
+void vertex_tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out) {
     if (tree->unpacked) {
         sum_unpacked(tree, taps, first, count, out);
         return;
     }
     Float4 sum[TREE_MAX_COMPONENTS / 4 + 4];
-    int    start = first / 8, end = (first + count + 7) / 8, at = start;
+    int start = first / 8, end = (first + count + 7) / 8, at = start;
     for (; at + 2 <= end; at += 2) sum_quads(tree, taps, at, 4, sum + 2 * (at - start));
     if (at < end) sum_quads(tree, taps, at, 2, sum + 2 * (at - start));
     memcpy(out, (const float *)(const void *)sum + (first - 8 * start),

@@ -58,18 +58,18 @@ typedef struct VertexHeader {
     uint32_t magic;
     uint16_t version, components;
     uint64_t size; /* bytes of the whole blob */
-    uint8_t  level, octants, base_level, level_count, depth_level, format_count;
-    int8_t   base_exponent;
-    uint8_t  zero;
+    uint8_t level, octants, base_level, level_count, depth_level, format_count;
+    int8_t base_exponent;
+    uint8_t zero;
     uint16_t word_count, block_count; /* of all levels */
     uint32_t row_bytes;               /* of the base and all levels */
 } VertexHeader;
 
 typedef struct VertexLevel {
-    int16_t  x, y;          /* first cell of the window */
-    uint8_t  width, height; /* of the window in blocks */
-    uint8_t  shift;
-    int8_t   exponent;
+    int16_t x, y;          /* first cell of the window */
+    uint8_t width, height; /* of the window in blocks */
+    uint8_t shift;
+    int8_t exponent;
     uint16_t first_word, first_block;
     uint32_t first_byte; /* of the level's rows */
 } VertexLevel;
@@ -79,14 +79,12 @@ typedef struct VertexFormat {
     uint8_t pairs[VERTEX_PLANES];
 } VertexFormat;
 
-static inline uint32_t vertex_format_bytes(VertexFormat f)
-{
+static inline uint32_t vertex_format_bytes(VertexFormat f) {
     return (uint32_t)f.pairs[0] + f.pairs[1] + f.pairs[2] + f.pairs[3];
 }
 
 /* Bits that are set; exact whether the instruction set counts them or not. */
-static inline uint32_t vertex_count_bits(uint64_t bits)
-{
+static inline uint32_t vertex_count_bits(uint64_t bits) {
 #ifdef __POPCNT__
     return (uint32_t)__builtin_popcountll(bits);
 #else
@@ -104,12 +102,12 @@ static inline uint32_t vertex_count_bits(uint64_t bits)
 typedef bool VertexAccepts(const void *context, uint32_t vertex, const float *reconstructed);
 
 typedef struct VertexTreeOptions {
-    VertexLattice  lattice;    /* of the values */
-    int            components; /* 1..TREE_MAX_COMPONENTS; the largest first pack best */
+    VertexLattice lattice; /* of the values */
+    int components;        /* 1..TREE_MAX_COMPONENTS; the largest first pack best */
     VertexAccepts *accepts;
-    const void    *context;
+    const void *context;
     /* The coarsest step that the coder may use for each component, in its own unit, where
      * that matters beyond `accepts`; NULL: it chooses. */
-    const float   *coarsest_step;
-    int            threads; /* 0 and 1: the caller's alone; the bytes do not depend on it */
+    const float *coarsest_step;
+    int threads; /* 0 and 1: the caller's alone; the bytes do not depend on it */
 } VertexTreeOptions;

@@ -11,50 +11,46 @@
 /* A blob's parts while they are filled; room for all that a lattice can need. */
 typedef struct BlobWriter {
     const VertexCode *code;
-    VertexHeader      header;
-    VertexLevel       level[GEODESIC_MAX_LEVEL];
-    uint32_t         *words;
-    uint16_t         *ranks;
-    uint8_t          *depths; /* one a byte */
-    VertexFormat      formats[UINT8_MAX];
-    uint8_t          *block_formats;
-    uint64_t         *blocks;
-    uint8_t          *rows;
+    VertexHeader header;
+    VertexLevel level[GEODESIC_MAX_LEVEL];
+    uint32_t *words;
+    uint16_t *ranks;
+    uint8_t *depths; /* one a byte */
+    VertexFormat formats[UINT8_MAX];
+    uint8_t *block_formats;
+    uint64_t *blocks;
+    uint8_t *rows;
 } BlobWriter;
 
 /* One level's stored edges, sorted into cells. */
 typedef struct Filling {
-    uint32_t          count;
+    uint32_t count;
     const VertexEdge *edges;
-    int               shift; /* from the lattice's steps to cells */
+    int shift; /* from the lattice's steps to cells */
 } Filling;
 
 /* ---- rows -------------------------------------------------------------------------------- */
 
-static const int16_t *integers_of(const VertexCode *code, uint32_t vertex)
-{
+static const int16_t *integers_of(const VertexCode *code, uint32_t vertex) {
     return code->integers + vertex * (size_t)code->components;
 }
 
 /* The planes that an integer needs: what is left above each is a multiple of its 16. */
-static int planes_of(int value)
-{
+static int planes_of(int value) {
     int count = 0;
     for (; value != 0; count++) value = (value - (((value & 15) ^ 8) - 8)) / 16;
     return count;
 }
 
 /* Makes a format hold a row too. */
-static void widen(VertexFormat *format, const VertexCode *code, uint32_t vertex)
-{
+static void widen(VertexFormat *format, const VertexCode *code, uint32_t vertex) {
     const int16_t *row = integers_of(code, vertex);
     for (int c = 0; c < code->components; c++)
         for (int p = planes_of(row[c]) - 1; p >= 0; p--)
             if (format->pairs[p] < c / 2 + 1) format->pairs[p] = (uint8_t)(c / 2 + 1);
 }
 
-static bool holds(VertexFormat outer, VertexFormat inner)
-{
+static bool holds(VertexFormat outer, VertexFormat inner) {
     for (int p = 0; p < VERTEX_PLANES; p++)
         if (outer.pairs[p] < inner.pairs[p]) return false;
     return true;
@@ -62,8 +58,7 @@ static bool holds(VertexFormat outer, VertexFormat inner)
 
 /* The number of a format; when the table is full, of the shortest that is as wide. Format 1
  * is as wide as all (format 0 is the base's). */
-static uint8_t format_number(BlobWriter *w, VertexFormat format)
-{
+static uint8_t format_number(BlobWriter *w, VertexFormat format) {
     uint32_t best = 1;
     for (uint32_t i = 0; i < w->header.format_count; i++) {
         if (memcmp(&w->formats[i], &format, sizeof format) == 0) return (uint8_t)i;
@@ -76,13 +71,12 @@ static uint8_t format_number(BlobWriter *w, VertexFormat format)
     return w->header.format_count++;
 }
 
-static void put_row(BlobWriter *w, VertexFormat format, uint32_t vertex)
-{
+static void put_row(BlobWriter *w, VertexFormat format, uint32_t vertex) {
     const int16_t *row = integers_of(w->code, vertex);
-    uint8_t       *to = w->rows + w->header.row_bytes;
+    uint8_t *to = w->rows + w->header.row_bytes;
     w->header.row_bytes += vertex_format_bytes(format);
     for (int c = 0; c < w->code->components; c++) {
-        int      value = row[c];
+        int value = row[c];
         uint8_t *at = to + c / 2;
         for (int p = 0; p < VERTEX_PLANES && value != 0; p++) {
             int digit = ((value & 15) ^ 8) - 8;
@@ -96,8 +90,7 @@ static void put_row(BlobWriter *w, VertexFormat format, uint32_t vertex)
 /* ---- the directory ----------------------------------------------------------------------- */
 
 /* The smallest rectangle of cells around all stored edges, in whole blocks. */
-static void choose_window(const Filling *f, VertexLevel *level)
-{
+static void choose_window(const Filling *f, VertexLevel *level) {
     int low[2] = {0, 0}, high[2] = {-1, -1};
     for (uint32_t i = 0; i < f->count; i++) {
         const int cell[2] = {f->edges[i].x >> f->shift, f->edges[i].y >> f->shift};
@@ -114,8 +107,7 @@ static void choose_window(const Filling *f, VertexLevel *level)
 
 /* An edge's block in its level's window, and its bit there. */
 static uint32_t place_of(const Filling *f, const VertexLevel *level, const VertexEdge *edge,
-                         uint32_t *bit)
-{
+                         uint32_t *bit) {
     uint32_t x = (uint32_t)((edge->x >> f->shift) - level->x);
     uint32_t y = (uint32_t)((edge->y >> f->shift) - level->y);
     *bit = y % VERTEX_BLOCK_SIDE * 12 + x % VERTEX_BLOCK_SIDE * 3 + edge->cell_edge;
@@ -123,10 +115,9 @@ static uint32_t place_of(const Filling *f, const VertexLevel *level, const Verte
 }
 
 /* Edge by place: vertex + 1 for every bit of every block of the window. */
-static uint32_t *spread(const Filling *f, const VertexLevel *level, Arena *arena)
-{
-    size_t    blocks = (size_t)level->width * level->height;
-    uint32_t *vertex = ARENA_NEW(arena, uint32_t, blocks * VERTEX_BLOCK_BITS + 1);
+static uint32_t *spread(const Filling *f, const VertexLevel *level, Arena *arena) {
+    size_t blocks = (size_t)level->width * level->height;
+    uint32_t *vertex = ARENA_NEW(arena, uint32_t, blocks *VERTEX_BLOCK_BITS + 1);
     for (uint32_t i = 0; i < f->count; i++) {
         uint32_t bit, block = place_of(f, level, &f->edges[i], &bit);
         vertex[block * VERTEX_BLOCK_BITS + bit] = f->edges[i].vertex + 1;
@@ -135,9 +126,8 @@ static uint32_t *spread(const Filling *f, const VertexLevel *level, Arena *arena
 }
 
 /* One block's bits and rows; false: there are none. */
-static bool put_block(BlobWriter *w, const VertexLevel *level, const uint32_t *vertex)
-{
-    uint64_t     bits = 0;
+static bool put_block(BlobWriter *w, const VertexLevel *level, const uint32_t *vertex) {
+    uint64_t bits = 0;
     VertexFormat format = {{0}};
     for (uint32_t b = 0; b < VERTEX_BLOCK_BITS; b++) {
         if (vertex[b] == 0) continue;
@@ -147,7 +137,7 @@ static bool put_block(BlobWriter *w, const VertexLevel *level, const uint32_t *v
     if (bits == 0) return false;
     uint32_t unit = 1u << level->shift;
     uint32_t start = (w->header.row_bytes - level->first_byte + unit - 1) / unit;
-    uint8_t  number = format_number(w, format);
+    uint8_t number = format_number(w, format);
     w->header.row_bytes = level->first_byte + start * unit;
     w->block_formats[w->header.block_count] = number;
     w->blocks[w->header.block_count++] = bits | (uint64_t)start << VERTEX_BLOCK_BITS;
@@ -157,70 +147,62 @@ static bool put_block(BlobWriter *w, const VertexLevel *level, const uint32_t *v
 }
 
 /* A shift with which the starts of all blocks fit into 16 bits. */
-static uint8_t choose_shift(const BlobWriter *w, const Filling *f)
-{
+static uint8_t choose_shift(const BlobWriter *w, const Filling *f) {
     uint64_t most = (uint64_t)f->count * vertex_format_bytes(w->formats[1]);
-    uint8_t  shift = 0;
+    uint8_t shift = 0;
     while ((most >> shift) + UINT16_MAX / 8 > UINT16_MAX) shift++;
     return shift;
 }
 
-static void put_level(BlobWriter *w, const Filling *f, VertexLevel *level, Arena scratch)
-{
+static void put_level(BlobWriter *w, const Filling *f, VertexLevel *level, Arena scratch) {
     level->shift = choose_shift(w, f);
     level->first_word = w->header.word_count;
     level->first_block = w->header.block_count;
     level->first_byte = w->header.row_bytes;
     const uint32_t *vertex = spread(f, level, &scratch);
-    uint32_t        count = (uint32_t)level->width * level->height;
+    uint32_t count = (uint32_t)level->width * level->height;
     for (uint32_t b = 0; b < count || b == 0; b++) {
         if (b % 32 == 0)
             w->ranks[w->header.word_count++] =
                 (uint16_t)(w->header.block_count - level->first_block);
         uint32_t *word = &w->words[w->header.word_count - 1];
-        if (b < count && put_block(w, level, vertex + b * VERTEX_BLOCK_BITS))
-            *word |= 1u << b % 32;
+        if (b < count && put_block(w, level, vertex + b * VERTEX_BLOCK_BITS)) *word |= 1u << b % 32;
     }
 }
 
 /* ---- depths ------------------------------------------------------------------------------ */
 
 /* The depth level's cells that a detail's two triangles may touch. */
-static void mark_depth(BlobWriter *w, const VertexEdge *edge, int half, int depth)
-{
+static void mark_depth(BlobWriter *w, const VertexEdge *edge, int half, int depth) {
     int n = 1 << w->code->lattice.level, side = 1 << w->header.depth_level;
     int low = w->code->lattice.octants == 2 ? 0 : -side;
     for (int cy = low; cy < side; cy++)
         for (int cx = -side; cx < side; cx++) {
-            bool apart = (cx + 1) * n <= (edge->x - half) * side ||
-                         cx * n >= (edge->x + half) * side ||
-                         (cy + 1) * n <= (edge->y - half) * side ||
-                         cy * n >= (edge->y + half) * side;
+            bool apart =
+                (cx + 1) * n <= (edge->x - half) * side || cx * n >= (edge->x + half) * side ||
+                (cy + 1) * n <= (edge->y - half) * side || cy * n >= (edge->y + half) * side;
             uint8_t *at = &w->depths[(cy - low) * 2 * side + cx + side];
             if (!apart && *at < depth) *at = (uint8_t)depth;
         }
 }
 
-static uint32_t stored_edges(const VertexCode *code, int level, VertexEdge *edges)
-{
+static uint32_t stored_edges(const VertexCode *code, int level, VertexEdge *edges) {
     uint32_t all = vertex_edges(code->lattice, level, edges), count = 0;
     for (uint32_t i = 0; i < all; i++)
         if (code->stored[edges[i].vertex]) edges[count++] = edges[i];
     return count;
 }
 
-static void write_levels(BlobWriter *w, Arena scratch)
-{
+static void write_levels(BlobWriter *w, Arena scratch) {
     const VertexCode *code = w->code;
-    int               last = code->lattice.level - code->base_level;
+    int last = code->lattice.level - code->base_level;
     for (int l = 0; l < last; l++) {
-        Arena       inner = scratch;
-        int         level = code->base_level + l;
-        VertexEdge *edges = ARENA_NEW(&inner, VertexEdge,
-                                      vertex_edges(code->lattice, level, NULL));
-        Filling     f = {.count = stored_edges(code, level, edges),
-                         .edges = edges,
-                         .shift = code->lattice.level - level};
+        Arena inner = scratch;
+        int level = code->base_level + l;
+        VertexEdge *edges = ARENA_NEW(&inner, VertexEdge, vertex_edges(code->lattice, level, NULL));
+        Filling f = {.count = stored_edges(code, level, edges),
+                     .edges = edges,
+                     .shift = code->lattice.level - level};
         VertexLevel *out = &w->level[l];
         *out = (VertexLevel){.exponent = (int8_t)code->exponent[l]};
         choose_window(&f, out);
@@ -230,18 +212,15 @@ static void write_levels(BlobWriter *w, Arena scratch)
 }
 
 /* Levels after the last one with details are not stored: neither are their words. */
-static void drop_empty_levels(BlobWriter *w, int levels)
-{
-    w->header.word_count = (uint16_t)(w->header.word_count -
-                                      (levels - w->header.level_count));
+static void drop_empty_levels(BlobWriter *w, int levels) {
+    w->header.word_count = (uint16_t)(w->header.word_count - (levels - w->header.level_count));
 }
 
 /* The vertices of the base level in the code's lattice, in order; how many. */
-static uint32_t base_vertices(const VertexCode *code, uint32_t *vertex)
-{
+static uint32_t base_vertices(const VertexCode *code, uint32_t *vertex) {
     VertexLattice base = {code->base_level, code->lattice.octants};
-    int           n = 1 << base.level, scale = 1 << (code->lattice.level - base.level);
-    uint32_t      count = 0;
+    int n = 1 << base.level, scale = 1 << (code->lattice.level - base.level);
+    uint32_t count = 0;
     for (int y = base.octants == 2 ? 0 : -n; y <= n; y++)
         for (int x = abs(y) - n; x <= n - abs(y); x++)
             vertex[count++] = vertex_index(code->lattice, x * scale, y * scale);
@@ -249,12 +228,11 @@ static uint32_t base_vertices(const VertexCode *code, uint32_t *vertex)
 }
 
 /* Formats 0 (of the base) and 1 (of any detail), and the base's rows. */
-static void write_base(BlobWriter *w, Arena scratch)
-{
-    uint32_t  all = vertex_count(w->code->lattice);
+static void write_base(BlobWriter *w, Arena scratch) {
+    uint32_t all = vertex_count(w->code->lattice);
     uint32_t *vertex = ARENA_NEW(&scratch, uint32_t, all);
-    bool     *is_base = ARENA_NEW(&scratch, bool, all);
-    uint32_t  count = base_vertices(w->code, vertex);
+    bool *is_base = ARENA_NEW(&scratch, bool, all);
+    uint32_t count = base_vertices(w->code, vertex);
     for (uint32_t i = 0; i < count; i++) {
         is_base[vertex[i]] = true;
         widen(&w->formats[0], w->code, vertex[i]);
@@ -266,28 +244,25 @@ static void write_base(BlobWriter *w, Arena scratch)
 }
 
 /* Depths cost at most a fortieth of the rest. */
-static void write_depths(BlobWriter *w, Arena scratch)
-{
+static void write_depths(BlobWriter *w, Arena scratch) {
     const VertexCode *code = w->code;
-    size_t            rest = vertex_parts(&w->header).size;
+    size_t rest = vertex_parts(&w->header).size;
     while (w->header.depth_level < VERTEX_MAX_DEPTH_LEVEL &&
            vertex_depth_cells(w->header.octants, w->header.depth_level + 1) / 2 <= rest / 40)
         w->header.depth_level++;
     for (int l = 0; l < w->header.level_count; l++) {
-        Arena       inner = scratch;
-        int         level = code->base_level + l;
-        VertexEdge *edges =
-            ARENA_NEW(&inner, VertexEdge, vertex_edges(code->lattice, level, NULL));
-        uint32_t    count = stored_edges(code, level, edges);
+        Arena inner = scratch;
+        int level = code->base_level + l;
+        VertexEdge *edges = ARENA_NEW(&inner, VertexEdge, vertex_edges(code->lattice, level, NULL));
+        uint32_t count = stored_edges(code, level, edges);
         for (uint32_t i = 0; i < count; i++)
             mark_depth(w, &edges[i], 1 << (code->lattice.level - level - 1), l + 1);
     }
 }
 
-static const void *assemble(const BlobWriter *w, const VertexParts *p, Arena *arena)
-{
+static const void *assemble(const BlobWriter *w, const VertexParts *p, Arena *arena) {
     const VertexHeader *h = &w->header;
-    char               *blob = arena_alloc(arena, 1, 16, p->size);
+    char *blob = arena_alloc(arena, 1, 16, p->size);
     memcpy(blob, h, sizeof *h);
     memcpy(blob + p->scale, w->code->scale, sizeof(float) * h->components);
     memcpy(blob + p->levels, w->level, sizeof(VertexLevel) * h->level_count);
@@ -302,28 +277,26 @@ static const void *assemble(const BlobWriter *w, const VertexParts *p, Arena *ar
     return blob;
 }
 
-const void *vertex_code_write(const VertexCode *code, Arena *arena, size_t *size)
-{
+const void *vertex_code_write(const VertexCode *code, Arena *arena, size_t *size) {
     /* The blob's room first, so that the scratch is behind it. */
     size_t vertices = vertex_count(code->lattice), k = (size_t)code->components;
-    Arena  scratch = *arena;
+    Arena scratch = *arena;
     arena_alloc(&scratch, 1, 16, vertices * (2 * k + 16) + ((size_t)1 << 18));
-    BlobWriter w = {.code = code,
-                .header = {.magic = VERTEX_MAGIC,
-                           .version = VERTEX_VERSION,
-                           .components = (uint16_t)code->components,
-                           .level = (uint8_t)code->lattice.level,
-                           .octants = (uint8_t)code->lattice.octants,
-                           .base_level = (uint8_t)code->base_level,
-                           .base_exponent = (int8_t)code->base_exponent},
-                .words = ARENA_NEW(&scratch, uint32_t, 8192),
-                .ranks = ARENA_NEW(&scratch, uint16_t, 8192),
-                .depths = ARENA_NEW(&scratch, uint8_t,
-                                    vertex_depth_cells(4, VERTEX_MAX_DEPTH_LEVEL)),
-                .block_formats = ARENA_NEW(&scratch, uint8_t, UINT16_MAX),
-                .blocks = ARENA_NEW(&scratch, uint64_t, UINT16_MAX),
-                .rows = ARENA_NEW(&scratch, uint8_t,
-                                  vertices * (k * 2 + 2 + (1 << VERTEX_MAX_SHIFT) / 8))};
+    BlobWriter w = {
+        .code = code,
+        .header = {.magic = VERTEX_MAGIC,
+                   .version = VERTEX_VERSION,
+                   .components = (uint16_t)code->components,
+                   .level = (uint8_t)code->lattice.level,
+                   .octants = (uint8_t)code->lattice.octants,
+                   .base_level = (uint8_t)code->base_level,
+                   .base_exponent = (int8_t)code->base_exponent},
+        .words = ARENA_NEW(&scratch, uint32_t, 8192),
+        .ranks = ARENA_NEW(&scratch, uint16_t, 8192),
+        .depths = ARENA_NEW(&scratch, uint8_t, vertex_depth_cells(4, VERTEX_MAX_DEPTH_LEVEL)),
+        .block_formats = ARENA_NEW(&scratch, uint8_t, UINT16_MAX),
+        .blocks = ARENA_NEW(&scratch, uint64_t, UINT16_MAX),
+        .rows = ARENA_NEW(&scratch, uint8_t, vertices *(k * 2 + 2 + (1 << VERTEX_MAX_SHIFT) / 8))};
     write_base(&w, scratch);
     write_levels(&w, scratch);
     drop_empty_levels(&w, code->lattice.level - code->base_level);

@@ -9,12 +9,12 @@
 /* A coded function: integers for every vertex of the lattice. */
 typedef struct VertexCode {
     VertexLattice lattice;
-    int           components;
-    int           base_level, base_exponent;
-    int           exponent[GEODESIC_MAX_LEVEL]; /* of details of level base_level + l */
-    float        *scale;    /* of each component */
-    int16_t      *integers; /* vertices x components: base values, or details */
-    bool         *stored;   /* of vertices: base vertices and those with a detail */
+    int components;
+    int base_level, base_exponent;
+    int exponent[GEODESIC_MAX_LEVEL]; /* of details of level base_level + l */
+    float *scale;                     /* of each component */
+    int16_t *integers;                /* vertices x components: base values, or details */
+    bool *stored;                     /* of vertices: base vertices and those with a detail */
 } VertexCode;
 
 /* The blob; its bytes are in *size. */

@@ -9,16 +9,14 @@
 
 enum { TAGS_AT = 128, TAGS_MOST = 256 };
 
-static uint32_t number(const unsigned char *at, int width)
-{
+static uint32_t number(const unsigned char *at, int width) {
     uint32_t value = 0;
     for (int i = 0; i < width; i++) value = value << 8 | at[i];
     return value;
 }
 
 /* s15Fixed16Number */
-static double fixed(const unsigned char *at)
-{
+static double fixed(const unsigned char *at) {
     return (double)(int32_t)number(at, 4) / 65536;
 }
 
@@ -28,8 +26,7 @@ typedef struct IccData {
     size_t size;
 } IccData;
 
-static IccData find(const unsigned char *bytes, size_t size, const char *name, size_t least)
-{
+static IccData find(const unsigned char *bytes, size_t size, const char *name, size_t least) {
     uint32_t count = size < TAGS_AT + 4 ? 0 : number(bytes + TAGS_AT, 4);
     for (uint32_t i = 0; i < count && i < TAGS_MOST; i++) {
         size_t at = TAGS_AT + 4 + 12 * (size_t)i;
@@ -43,31 +40,28 @@ static IccData find(const unsigned char *bytes, size_t size, const char *name, s
 
 /* ---- curves ------------------------------------------------------------------------------ */
 
-static const CodeCurve SRGB_CURVE = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045, 0, 0,
-                                     NULL, 0};
+static const CodeCurve SRGB_CURVE = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045,
+                                     0,   0,         NULL,          0};
 
-static CodeCurve power(double gamma)
-{
+static CodeCurve power(double gamma) {
     return (CodeCurve){.gamma = gamma, .a = 1};
 }
 
-double code_curve_at(const CodeCurve *curve, double code)
-{
+double code_curve_at(const CodeCurve *curve, double code) {
     if (!curve->table) {
         double base = curve->a * code + curve->b;
         if (code < curve->d) return curve->c * code + curve->f;
         return (base > 0 ? pow(base, curve->gamma) : 0) + curve->e;
     }
-    double   place = code * (curve->count - 1);
+    double place = code * (curve->count - 1);
     uint32_t at = place < curve->count - 2 ? (uint32_t)place : curve->count - 2;
-    double   low = number(curve->table + 2 * (size_t)at, 2);
-    double   high = number(curve->table + 2 * (size_t)at + 2, 2);
+    double low = number(curve->table + 2 * (size_t)at, 2);
+    double high = number(curve->table + 2 * (size_t)at + 2, 2);
     return (low + (place - at) * (high - low)) / 65535;
 }
 
 /* curveType: no number, gamma, or a table. */
-static bool read_table(IccData data, CodeCurve *out)
-{
+static bool read_table(IccData data, CodeCurve *out) {
     uint32_t count = number(data.at + 8, 4);
     if (count > (data.size - 12) / 2) return false;
     *out = power(count == 1 ? number(data.at + 12, 2) / 256.0 : 1);
@@ -79,11 +73,10 @@ static bool read_table(IccData data, CodeCurve *out)
 
 /* parametricCurveType, the five functions of the standard's table 68: which number is which of
  * gamma, a, b, c, d, e, f. */
-static bool read_function(IccData data, CodeCurve *out)
-{
+static bool read_function(IccData data, CodeCurve *out) {
     static const int counts[5] = {1, 3, 4, 5, 7};
     unsigned kind = number(data.at + 8, 2);
-    double   p[7] = {0};
+    double p[7] = {0};
     if (kind > 4 || data.size < 12 + 4 * (size_t)counts[kind]) return false;
     for (int i = 0; i < counts[kind]; i++) p[i] = fixed(data.at + 12 + 4 * (size_t)i);
     *out = power(p[0]);
@@ -102,9 +95,7 @@ static bool read_function(IccData data, CodeCurve *out)
     return true;
 }
 
-static bool read_curve(const unsigned char *bytes, size_t size, const char *name,
-                       CodeCurve *out)
-{
+static bool read_curve(const unsigned char *bytes, size_t size, const char *name, CodeCurve *out) {
     IccData data = find(bytes, size, name, 12);
     if (!data.at) return false;
     if (!memcmp(data.at, "curv", 4)) return read_table(data, out);
@@ -114,15 +105,13 @@ static bool read_curve(const unsigned char *bytes, size_t size, const char *name
 /* ---- profiles ---------------------------------------------------------------------------- */
 
 /* From XYZ of D50 to Rec.709: the way back of its own adapted primaries. */
-static ColourMatrix rec709_from_d50(const ColourMatrix *d50)
-{
+static ColourMatrix rec709_from_d50(const ColourMatrix *d50) {
     ColourMatrix own = icc_d50_from_primaries(REC709_CHROMATICITIES);
     ColourMatrix back = colour_inverse(&own);
     return colour_product(&back, d50);
 }
 
-static bool read_matrix(const unsigned char *bytes, size_t size, ColourMatrix *out)
-{
+static bool read_matrix(const unsigned char *bytes, size_t size, ColourMatrix *out) {
     static const char *const names[3] = {"rXYZ", "gXYZ", "bXYZ"};
     ColourMatrix d50;
     for (int k = 0; k < 3; k++) {
@@ -134,11 +123,10 @@ static bool read_matrix(const unsigned char *bytes, size_t size, ColourMatrix *o
     return true;
 }
 
-bool icc_read(const unsigned char *bytes, size_t size, IccLight *out)
-{
+bool icc_read(const unsigned char *bytes, size_t size, IccLight *out) {
     static const char *const names[3] = {"rTRC", "gTRC", "bTRC"};
     IccLight made = {.rec709 = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
-    bool     is_grey = size > TAGS_AT && !memcmp(bytes + 16, "GRAY", 4);
+    bool is_grey = size > TAGS_AT && !memcmp(bytes + 16, "GRAY", 4);
     if (size <= TAGS_AT || (!is_grey && memcmp(bytes + 16, "RGB ", 4) != 0)) return false;
     if (!is_grey && !read_matrix(bytes, size, &made.rec709)) return false;
     for (int c = 0; c < 3; c++)
@@ -148,9 +136,8 @@ bool icc_read(const unsigned char *bytes, size_t size, IccLight *out)
 }
 
 /* Bytes that can be printed, of text in 8 or 16 bits; the rest is left out. */
-static const char *plain_text(IccData data, size_t from, Arena *arena)
-{
-    char  *text = ARENA_NEW(arena, char, 64);
+static const char *plain_text(IccData data, size_t from, Arena *arena) {
+    char *text = ARENA_NEW(arena, char, 64);
     size_t length = 0;
     for (size_t i = from; i < data.size && length < 60; i++)
         if (data.at[i] >= ' ' && data.at[i] < 127) text[length++] = (char)data.at[i];
@@ -159,8 +146,7 @@ static const char *plain_text(IccData data, size_t from, Arena *arena)
 
 /* textDescriptionType: a count, and as many letters. multiLocalizedUnicodeType: of its first
  * record the length and place of a text in 16 bits. */
-const char *icc_name(const unsigned char *bytes, size_t size, Arena *arena)
-{
+const char *icc_name(const unsigned char *bytes, size_t size, Arena *arena) {
     IccData data = find(bytes, size, "desc", 12);
     if (!data.at) return "without a name";
     if (!memcmp(data.at, "desc", 4)) {
@@ -175,19 +161,17 @@ const char *icc_name(const unsigned char *bytes, size_t size, Arena *arena)
     return plain_text(data, from, arena);
 }
 
-IccLight icc_light_of(const double chromaticities[8], double gamma)
-{
+IccLight icc_light_of(const double chromaticities[8], double gamma) {
     ColourMatrix d50 = icc_d50_from_primaries(chromaticities);
-    IccLight     out = {.rec709 = rec709_from_d50(&d50)};
+    IccLight out = {.rec709 = rec709_from_d50(&d50)};
     for (int c = 0; c < 3; c++) out.curve[c] = gamma > 0 ? power(gamma) : SRGB_CURVE;
     return out;
 }
 
 #define MATRIX_ROUNDING 0.002
-#define CURVE_ROUNDING  0.001 /* a quarter of a step of 8 bits */
+#define CURVE_ROUNDING 0.001 /* a quarter of a step of 8 bits */
 
-bool icc_light_is_srgb(const IccLight *light)
-{
+bool icc_light_is_srgb(const IccLight *light) {
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
             if (!(fabs(light->rec709.m[i][k] - (i == k)) <= MATRIX_ROUNDING)) return false;

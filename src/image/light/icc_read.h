@@ -21,7 +21,7 @@ typedef struct CodeCurve {
 
 typedef struct IccLight {
     ColourMatrix rec709; /* from the light of the picture's own primaries */
-    CodeCurve    curve[3];
+    CodeCurve curve[3];
 } IccLight;
 
 /* False for profiles of other kinds and damaged ones. */

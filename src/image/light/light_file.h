@@ -16,16 +16,12 @@
 #include "image/frame.h"
 #include "image/image.h"
 
-typedef enum LightFormat {
-    LIGHT_FILE_OPENEXR,
-    LIGHT_FILE_RADIANCE,
-    LIGHT_FILE_FLOATS
-} LightFormat;
+typedef enum LightFormat { LIGHT_FILE_OPENEXR, LIGHT_FILE_RADIANCE, LIGHT_FILE_FLOATS } LightFormat;
 
 typedef struct LightFile {
     LightFormat format;
-    FrameImage frame;      /* of a Radiance picture: R, G, B, and VIEW= as "VIEW" */
-    double     unit_cd_m2; /* luminance of a white whose stored values are 1 */
+    FrameImage frame;  /* of a Radiance picture: R, G, B, and VIEW= as "VIEW" */
+    double unit_cd_m2; /* luminance of a white whose stored values are 1 */
 } LightFile;
 
 bool light_file_read(const char *path, Arena *arena, Problems *problems, LightFile *out,

@@ -18,7 +18,7 @@
 #include "image/image.h"
 
 typedef struct LightPicture {
-    Image  image;      /* IMAGE_RGBA32F, finite, not negative */
+    Image image;       /* IMAGE_RGBA32F, finite, not negative */
     double unit_cd_m2; /* luminance of a white whose stored values are 1 */
 } LightPicture;
 

@@ -17,40 +17,37 @@ typedef struct Statements {
     int orientation;
     const unsigned char *icc;
     size_t icc_size;
-    bool   has_icc, has_srgb, has_primaries, has_cicp;
+    bool has_icc, has_srgb, has_primaries, has_cicp;
     double gamma, chromaticities[8];
     unsigned char cicp[4];
     Arena *arena;
 } Statements;
 
-static uint32_t u32_at(const unsigned char *p)
-{
+static uint32_t u32_at(const unsigned char *p) {
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
 /* ---- where it stands --------------------------------------------------------------------- */
 
-static void read_exif(const unsigned char *bytes, size_t size, Statements *out)
-{
+static void read_exif(const unsigned char *bytes, size_t size, Statements *out) {
     if (size < 8 || (memcmp(bytes, "II", 2) != 0 && memcmp(bytes, "MM", 2) != 0)) return;
-    Tiff     exif = tiff_open(bytes, size);
+    Tiff exif = tiff_open(bytes, size);
     TiffList list = tiff_list(&exif, 274);
     uint64_t found = list.count ? tiff_number(&exif, list.at, list.width) : 1;
     out->orientation = found >= 1 && found <= 8 ? (int)found : 1;
 }
 
 /* A name, a zero, the method 0, and the profile packed by zlib. */
-static void read_packed_profile(const unsigned char *data, size_t size, Statements *out)
-{
+static void read_packed_profile(const unsigned char *data, size_t size, Statements *out) {
     const unsigned char *end = memchr(data, 0, size < 80 ? size : 80);
     out->has_icc = true;
     if (!end || (size_t)(end - data) + 2 > size) return;
     for (size_t room = 1 << 16; room <= PROFILE_BYTES_MAX; room *= 4) {
-        Arena          kept = *out->arena;
+        Arena kept = *out->arena;
         unsigned char *profile = ARENA_NEW(&kept, unsigned char, room);
-        uLongf         length = room;
-        size_t         head = (size_t)(end - data) + 2;
-        int            done = uncompress(profile, &length, data + head, (uLong)(size - head));
+        uLongf length = room;
+        size_t head = (size_t)(end - data) + 2;
+        int done = uncompress(profile, &length, data + head, (uLong)(size - head));
         if (done == Z_BUF_ERROR && length == room) continue;
         if (done != Z_OK) return;
         *out->arena = kept;
@@ -61,17 +58,15 @@ static void read_packed_profile(const unsigned char *data, size_t size, Statemen
 }
 
 /* Order in the file: white, red, green, blue. */
-static void read_primaries(const unsigned char *data, Statements *out)
-{
+static void read_primaries(const unsigned char *data, Statements *out) {
     out->has_primaries = true;
     for (int i = 0; i < 8; i++)
         out->chromaticities[(i + 6) % 8] = u32_at(data + 4 * (size_t)i) / 1e5;
 }
 
-static void read_png(const unsigned char *bytes, size_t size, Statements *out)
-{
+static void read_png(const unsigned char *bytes, size_t size, Statements *out) {
     for (size_t at = 8; at + 12 <= size;) {
-        size_t               length = u32_at(bytes + at);
+        size_t length = u32_at(bytes + at);
         const unsigned char *name = bytes + at + 4, *data = name + 4;
         if (length > size - at - 12) return;
         if (!memcmp(name, "iCCP", 4)) read_packed_profile(data, length, out);
@@ -88,8 +83,7 @@ static void read_png(const unsigned char *bytes, size_t size, Statements *out)
 }
 
 /* Parts of a profile, each with its number: they are taken in the file's order. */
-static void add_profile(const unsigned char *data, size_t size, Statements *out)
-{
+static void add_profile(const unsigned char *data, size_t size, Statements *out) {
     unsigned char *whole = ARENA_NEW(out->arena, unsigned char, out->icc_size + size);
     if (out->icc_size) memcpy(whole, out->icc, out->icc_size);
     memcpy(whole + out->icc_size, data, size);
@@ -99,11 +93,10 @@ static void add_profile(const unsigned char *data, size_t size, Statements *out)
 }
 
 /* Segments up to the first pixels (ITU-T T.81, B.1.1). */
-static void read_jpeg(const unsigned char *bytes, size_t size, Statements *out)
-{
+static void read_jpeg(const unsigned char *bytes, size_t size, Statements *out) {
     for (size_t at = 2; at + 4 <= size && bytes[at] == 0xff;) {
-        unsigned             marker = bytes[at + 1];
-        size_t               length = (size_t)bytes[at + 2] << 8 | bytes[at + 3];
+        unsigned marker = bytes[at + 1];
+        size_t length = (size_t)bytes[at + 2] << 8 | bytes[at + 3];
         const unsigned char *data = bytes + at + 4;
         if (marker == 0xff) {
             at++;
@@ -118,9 +111,8 @@ static void read_jpeg(const unsigned char *bytes, size_t size, Statements *out)
     }
 }
 
-static void read_tiff(const unsigned char *bytes, size_t size, Statements *out)
-{
-    Tiff     tiff = tiff_open(bytes, size);
+static void read_tiff(const unsigned char *bytes, size_t size, Statements *out) {
+    Tiff tiff = tiff_open(bytes, size);
     TiffList profile = tiff_list(&tiff, 34675);
     read_exif(bytes, size, out);
     if (!profile.count) return;
@@ -131,10 +123,9 @@ static void read_tiff(const unsigned char *bytes, size_t size, Statements *out)
 }
 
 /* RIFF: a name, a length with the low byte first, data that ends evenly. */
-static void read_webp(const unsigned char *bytes, size_t size, Statements *out)
-{
+static void read_webp(const unsigned char *bytes, size_t size, Statements *out) {
     for (size_t at = 12; at + 8 <= size;) {
-        size_t               length = __builtin_bswap32(u32_at(bytes + at + 4));
+        size_t length = __builtin_bswap32(u32_at(bytes + at + 4));
         const unsigned char *data = bytes + at + 8;
         if (length > size - at - 8) return;
         if (!memcmp(bytes + at, "ICCP", 4)) add_profile(data, length, out);
@@ -146,8 +137,7 @@ static void read_webp(const unsigned char *bytes, size_t size, Statements *out)
     }
 }
 
-static Statements find_statements(const unsigned char *bytes, size_t size, Arena *arena)
-{
+static Statements find_statements(const unsigned char *bytes, size_t size, Arena *arena) {
     Statements out = {.orientation = 1, .arena = arena};
     if (size < 16) return out;
     if (!memcmp(bytes, "\x89PNG\r\n\x1a\n", 8)) read_png(bytes, size, &out);
@@ -162,7 +152,7 @@ static Statements find_statements(const unsigned char *bytes, size_t size, Arena
 
 /* ITU-T H.273, table 2; x, y of red, green, blue, white. */
 static const struct CicpPrimaries {
-    int    code;
+    int code;
     double chromaticities[8];
 } CICP_PRIMARIES[] = {
     {1, {0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290}},
@@ -180,10 +170,12 @@ static const struct CicpPrimaries {
 
 /* Table 3, as a display shows it: television's curves by BT.1886 with a black of 0. NaN: a
  * curve that is not read; 0: sRGB's. */
-static double cicp_gamma(int code)
-{
+static double cicp_gamma(int code) {
     switch (code) {
-    case 1: case 6: case 14: case 15: return 2.4;
+    case 1:
+    case 6:
+    case 14:
+    case 15: return 2.4;
     case 4: return 2.2;
     case 5: return 2.8;
     case 8: return 1;
@@ -193,8 +185,7 @@ static double cicp_gamma(int code)
 }
 
 /* Codes of red, green and blue themselves, over their full range. */
-static bool cicp_light(const unsigned char cicp[4], IccLight *out)
-{
+static bool cicp_light(const unsigned char cicp[4], IccLight *out) {
     double gamma = cicp_gamma(cicp[1]);
     if (isnan(gamma) || cicp[2] != 0 || cicp[3] != 1) return false;
     for (int i = 0; i < COUNT_OF(CICP_PRIMARIES); i++)
@@ -208,8 +199,7 @@ static bool cicp_light(const unsigned char cicp[4], IccLight *out)
 #define USUAL_GAMMA (1 / 2.2) /* of a PNG for sRGB; libpng takes 5 % for none */
 
 /* What gAMA and cHRM mean; without one of them it is sRGB's. */
-static bool plain_light(const Statements *in, IccLight *out)
-{
+static bool plain_light(const Statements *in, IccLight *out) {
     bool is_usual = in->gamma == 0 || fabs(in->gamma / USUAL_GAMMA - 1) < 0.05;
     const double *xy = in->has_primaries ? in->chromaticities : REC709_CHROMATICITIES;
     if (!(in->gamma >= 0) || !chromaticities_are_usable(xy)) return false;
@@ -217,12 +207,11 @@ static bool plain_light(const Statements *in, IccLight *out)
     return true;
 }
 
-PictureTags picture_tags_read(const void *bytes, size_t size, Arena *arena)
-{
+PictureTags picture_tags_read(const void *bytes, size_t size, Arena *arena) {
     const Statements in = find_statements(bytes, size, arena);
     const unsigned char *c = in.cicp;
-    PictureTags out = {.orientation = in.orientation, .words = "", .is_srgb = true,
-                       .is_known = true};
+    PictureTags out = {
+        .orientation = in.orientation, .words = "", .is_srgb = true, .is_known = true};
     if (in.has_cicp) {
         out.is_known = cicp_light(c, &out.light);
         out.words = arena_format(arena, "cICP %d/%d/%d/%d", c[0], c[1], c[2], c[3]);
@@ -239,44 +228,41 @@ PictureTags picture_tags_read(const void *bytes, size_t size, Arena *arena)
         return out;
     }
     out.digest = in.has_cicp ? XXH3_64bits(c, 4) + 1
-                 : in.icc    ? XXH3_64bits(in.icc, in.icc_size) + 1 : 1;
+                 : in.icc    ? XXH3_64bits(in.icc, in.icc_size) + 1
+                             : 1;
     out.is_srgb = out.is_known && icc_light_is_srgb(&out.light);
     if (out.is_srgb) out.words = "";
     return out;
 }
 
-const char *picture_tags_text(const PictureTags *tags, Arena *arena)
-{
+const char *picture_tags_text(const PictureTags *tags, Arena *arena) {
     if (tags->orientation == 1) return tags->words;
-    return arena_format(arena, "orientation %d%s%s", tags->orientation,
-                        tags->words[0] ? ", " : "", tags->words);
+    return arena_format(arena, "orientation %d%s%s", tags->orientation, tags->words[0] ? ", " : "",
+                        tags->words);
 }
 
 /* ---- orientation ------------------------------------------------------------------------- */
 
 /* Exif, table 6: which edges of the picture the first row and column are. From 5 on rows are
  * columns. */
-Image picture_upright(const Image *image, int orientation, Arena *arena)
-{
+Image picture_upright(const Image *image, int orientation, Arena *arena) {
     bool turns = orientation >= 5;
-    bool from_right = orientation == 2 || orientation == 3 || orientation == 6 ||
-                      orientation == 7;
-    bool from_below = orientation == 3 || orientation == 4 || orientation == 7 ||
-                      orientation == 8;
+    bool from_right = orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7;
+    bool from_below = orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8;
     size_t pixel = image->format == IMAGE_RGBA8 ? 4 : image->format == IMAGE_RGBA16 ? 8 : 16;
-    Image  out = *image;
+    Image out = *image;
     if (orientation == 1) return out;
     out.width = turns ? image->height : image->width;
     out.height = turns ? image->width : image->height;
     size_t count = (size_t)out.width * (size_t)out.height;
-    char  *to = arena_alloc(arena, pixel, 16, count);
+    char *to = arena_alloc(arena, pixel, 16, count);
     for (size_t i = 0; i < count; i++) {
         size_t row = i / (size_t)image->width, column = i % (size_t)image->width;
         size_t x = turns ? row : column, y = turns ? column : row;
         if (from_right) x = (size_t)out.width - 1 - x;
         if (from_below) y = (size_t)out.height - 1 - y;
-        memcpy(to + pixel * (y * (size_t)out.width + x),
-               (const char *)image->pixels + pixel * i, pixel);
+        memcpy(to + pixel * (y * (size_t)out.width + x), (const char *)image->pixels + pixel * i,
+               pixel);
     }
     out.pixels = to;
     return out;

@@ -16,12 +16,12 @@
 #include "image/image.h"
 
 typedef struct PictureTags {
-    int          orientation; /* as Exif has it, 1 to 8; 1 is upright */
-    const char  *words;       /* what is stated of colours, "" for sRGB and for nothing */
-    bool         is_srgb;     /* or states nothing */
-    uint64_t     digest;      /* of what is stated of colours, as it stands in the file */
-    bool         is_known;    /* sRGB, or by this: */
-    IccLight     light;
+    int orientation;   /* as Exif has it, 1 to 8; 1 is upright */
+    const char *words; /* what is stated of colours, "" for sRGB and for nothing */
+    bool is_srgb;      /* or states nothing */
+    uint64_t digest;   /* of what is stated of colours, as it stands in the file */
+    bool is_known;     /* sRGB, or by this: */
+    IccLight light;
 } PictureTags;
 
 PictureTags picture_tags_read(const void *bytes, size_t size, Arena *arena);

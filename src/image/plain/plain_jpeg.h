@@ -16,7 +16,7 @@
 typedef struct PlainJpeg {
     const unsigned char *bytes; /* the file */
     size_t size;
-    int    width, height; /* 1 to 65535 */
+    int width, height; /* 1 to 65535 */
 } PlainJpeg;
 
 /* False: not plain. */

@@ -21,7 +21,7 @@
 typedef struct PlainPng {
     const unsigned char *bytes; /* the file: whole, with the right checksums */
     size_t size;
-    int    width, height; /* 1 to 65536 */
+    int width, height; /* 1 to 65536 */
 } PlainPng;
 
 /* False: not plain. */

@@ -17,16 +17,14 @@
 #include "import/text/text_names.h"
 
 #define METRES_A_FOOT 0.3048
-#define SIZE_MOST 1000.0   /* feet or metres */
-#define FACTOR_MOST 10.0   /* of the ballast: a share */
+#define SIZE_MOST 1000.0 /* feet or metres */
+#define FACTOR_MOST 10.0 /* of the ballast: a share */
 
-static bool is_gap(char c)
-{
+static bool is_gap(char c) {
     return c == ' ' || c == '\t' || c == ',' || c == '\r';
 }
 
-static void begin_line(LuminaireScan *in, int line)
-{
+static void begin_line(LuminaireScan *in, int line) {
     in->line = line;
     if (line >= in->text.count) return;
     in->next = in->text.line[line].text;
@@ -34,8 +32,7 @@ static void begin_line(LuminaireScan *in, int line)
 }
 
 /* The next word of this or a later line; false at the end. */
-static bool find_word(LuminaireScan *in, TextCell *word)
-{
+static bool find_word(LuminaireScan *in, TextCell *word) {
     for (; in->line < in->text.count; begin_line(in, in->line + 1)) {
         while (in->next < in->end && is_gap(*in->next)) in->next++;
         if (in->next == in->end) continue;
@@ -47,12 +44,9 @@ static bool find_word(LuminaireScan *in, TextCell *word)
     return false;
 }
 
-static bool next_number(LuminaireScan *in, const char *what, double low, double high,
-                        double *out)
-{
+static bool next_number(LuminaireScan *in, const char *what, double low, double high, double *out) {
     TextCell word;
-    if (!find_word(in, &word))
-        return luminaire_scan_fail(in, "the file ends before %s", what);
+    if (!find_word(in, &word)) return luminaire_scan_fail(in, "the file ends before %s", what);
     if (text_number(word, '.', out) && *out >= low && *out <= high) return true;
     return luminaire_scan_fail(in, "%s is '%.*s', required: a number from %g to %g", what,
                                word.length < 40 ? word.length : 40, word.text, low, high);
@@ -60,8 +54,7 @@ static bool next_number(LuminaireScan *in, const char *what, double low, double 
 
 /* Numbers behind the last one belong nowhere; words are left out, and reported (unless
  * NULL). */
-static bool check_end(LuminaireScan *in, const char *table, Luminaire *out)
-{
+static bool check_end(LuminaireScan *in, const char *table, Luminaire *out) {
     TextCell word;
     if (!find_word(in, &word)) return true;
     int shown = word.length < 40 ? word.length : 40;
@@ -76,24 +69,22 @@ static bool check_end(LuminaireScan *in, const char *table, Luminaire *out)
 
 /* ---- decimal commas ---------------------------------------------------------------------- */
 
-static bool is_blank(char c)
-{
+static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
 /* A word of a line that has one comma, between digits, and no point: a list has more, or blanks
  * behind. */
-static bool has_decimal_comma(TextLine line, TextCell *word)
-{
+static bool has_decimal_comma(TextLine line, TextCell *word) {
     const char *at = line.text, *end = at + line.length;
     while (at < end) {
         const char *begin = at, *comma = NULL;
-        int         commas = 0;
+        int commas = 0;
         for (; at < end && !is_blank(*at); at++)
             if (*at == ',' || *at == '.') commas++, comma = *at == ',' ? at : comma;
         *word = (TextCell){begin, (int)(at - begin)};
-        if (commas == 1 && comma > begin && comma + 1 < at &&
-            isdigit((unsigned char)comma[-1]) && isdigit((unsigned char)comma[1]))
+        if (commas == 1 && comma > begin && comma + 1 < at && isdigit((unsigned char)comma[-1]) &&
+            isdigit((unsigned char)comma[1]))
             return true;
         at += at < end;
     }
@@ -102,15 +93,14 @@ static bool has_decimal_comma(TextLine line, TextCell *word)
 
 /* A comma parts numbers. Where they do not come out even, it may have been meant otherwise: the
  * error says so. Always false. */
-static bool hint_at_comma(const LuminaireScan *in)
-{
+static bool hint_at_comma(const LuminaireScan *in) {
     TextCell word;
     for (int i = in->first; i <= in->line && i < in->text.count; i++) {
         if (!has_decimal_comma(in->text.line[i], &word)) continue;
         size_t length = strlen(in->err->text);
         snprintf(in->err->text + length, sizeof in->err->text - length,
-                 " — line %d has '%.*s': if that is a decimal comma, required: a point",
-                 i + 1, word.length < 40 ? word.length : 40, word.text);
+                 " — line %d has '%.*s': if that is a decimal comma, required: a point", i + 1,
+                 word.length < 40 ? word.length : 40, word.text);
         return false;
     }
     return false;
@@ -118,25 +108,29 @@ static bool hint_at_comma(const LuminaireScan *in)
 
 /* ---- head -------------------------------------------------------------------------------- */
 
-static const char *keyword_value(const LuminaireScan *in, TextLine line, const char *keyword)
-{
+static const char *keyword_value(const LuminaireScan *in, TextLine line, const char *keyword) {
     int length = (int)strlen(keyword);
-    if (line.length <= length || strncasecmp(line.text, keyword, (size_t)length) != 0)
-        return NULL;
+    if (line.length <= length || strncasecmp(line.text, keyword, (size_t)length) != 0) return NULL;
     const char *begin = line.text + length, *end = line.text + line.length;
     while (begin < end && is_gap(*begin)) begin++;
     return begin < end ? arena_string(in->arena, begin, (size_t)(end - begin)) : NULL;
 }
 
 /* LM-63 has no keyword for the colour temperature; these are what files have. */
-static const char *const COLOUR_KEYWORDS[] = {
-    "[CCT]", "[_CCT]", "[COLORTEMP]", "[_COLORTEMP]", "[COLOR_TEMP]", "[_COLOR_TEMP]",
-    "[COLORTEMPERATURE]", "[_COLORTEMPERATURE]", "[COLOR_TEMPERATURE]", "[_COLOR_TEMPERATURE]"};
+static const char *const COLOUR_KEYWORDS[] = {"[CCT]",
+                                              "[_CCT]",
+                                              "[COLORTEMP]",
+                                              "[_COLORTEMP]",
+                                              "[COLOR_TEMP]",
+                                              "[_COLOR_TEMP]",
+                                              "[COLORTEMPERATURE]",
+                                              "[_COLORTEMPERATURE]",
+                                              "[COLOR_TEMPERATURE]",
+                                              "[_COLOR_TEMPERATURE]"};
 
 static const char *const LAMP_KEYWORDS[] = {"[LAMP]", "[LAMPCAT]"};
 
-static void find_cct(const LuminaireScan *in, TextLine line, CctSource source, Luminaire *out)
-{
+static void find_cct(const LuminaireScan *in, TextLine line, CctSource source, Luminaire *out) {
     const char *const *keyword = source == CCT_OF_LAMP ? LAMP_KEYWORDS : COLOUR_KEYWORDS;
     int count = source == CCT_OF_LAMP ? COUNT_OF(LAMP_KEYWORDS) : COUNT_OF(COLOUR_KEYWORDS);
     for (int i = 0; i < count; i++)
@@ -144,10 +138,9 @@ static void find_cct(const LuminaireScan *in, TextLine line, CctSource source, L
 }
 
 /* The edition in the first line, such as IESNA91 or IES:LM-63-2019; 1986 has none. */
-static int find_year(const LuminaireScan *in)
-{
+static int find_year(const LuminaireScan *in) {
     TextLine line = in->text.count ? in->text.line[0] : (TextLine){0};
-    int      digits = 0, year = 0;
+    int digits = 0, year = 0;
     if (line.length < 5 || strncasecmp(line.text, "IES", 3) != 0) return 1986;
     for (int i = line.length, unit = 1; i-- > 0 && digits < 4;) {
         if (line.text[i] < '0' || line.text[i] > '9') {
@@ -162,11 +155,10 @@ static int find_year(const LuminaireScan *in)
 }
 
 /* Keywords up to the line TILT=; the luminaire's name is one of them. */
-static bool read_keywords(LuminaireScan *in, Luminaire *out, const char **tilt)
-{
+static bool read_keywords(LuminaireScan *in, Luminaire *out, const char **tilt) {
     out->cct_text = "";
     for (int i = 0; i < in->text.count; i++) {
-        TextLine    line = in->text.line[i];
+        TextLine line = in->text.line[i];
         const char *value = keyword_value(in, line, "[LUMINAIRE]");
         if (value && !out->name) out->name = value;
         find_cct(in, line, CCT_OF_COLOUR, out);
@@ -181,8 +173,7 @@ static bool read_keywords(LuminaireScan *in, Luminaire *out, const char **tilt)
 }
 
 /* How the lamps lie, the number of angles, the angles, a factor for each. */
-static bool read_factors(LuminaireScan *in, LuminaireTilt *out)
-{
+static bool read_factors(LuminaireScan *in, LuminaireTilt *out) {
     static const double range[2] = {0, 180};
     LuminaireTilt tilt = {0};
     if (!luminaire_scan_count(in, "the lamp's geometry", 1, 3, &tilt.geometry) ||
@@ -196,14 +187,15 @@ static bool read_factors(LuminaireScan *in, LuminaireTilt *out)
         if (!next_number(in, "a tilt factor", 0, 1e3, &tilt.factor[i])) return false;
     double first = tilt.angle_deg[0], last = tilt.angle_deg[tilt.count - 1];
     if (first != 0 || (last != 90 && last != 180))
-        return luminaire_scan_fail(in, "the tilt angles go from %g to %g, required: 0 to 90 or "
-                                   "0 to 180 degrees", first, last);
+        return luminaire_scan_fail(in,
+                                   "the tilt angles go from %g to %g, required: 0 to 90 or "
+                                   "0 to 180 degrees",
+                                   first, last);
     *out = tilt;
     return true;
 }
 
-static bool read_tilt(LuminaireScan *in, const char *text, LuminaireTilt *out)
-{
+static bool read_tilt(LuminaireScan *in, const char *text, LuminaireTilt *out) {
     const char *begin = text, *end = text + strlen(text);
     while (begin < end && is_gap(*begin)) begin++;
     while (end > begin && is_gap(end[-1])) end--;
@@ -214,9 +206,8 @@ static bool read_tilt(LuminaireScan *in, const char *text, LuminaireTilt *out)
     return true;
 }
 
-bool ies_read_tilt(const char *file, const FileBytes *bytes, ImportSet *set,
-                   LuminaireTilt *out, Error *err)
-{
+bool ies_read_tilt(const char *file, const FileBytes *bytes, ImportSet *set, LuminaireTilt *out,
+                   Error *err) {
     LuminaireScan in;
     if (!luminaire_scan_open(file, bytes, next_number, set, &in, err)) return false;
     begin_line(&in, 0);
@@ -225,43 +216,40 @@ bool ies_read_tilt(const char *file, const FileBytes *bytes, ImportSet *set,
 }
 
 typedef struct IesHead {
-    int    lamps, gammas, planes, type, units;
+    int lamps, gammas, planes, type, units;
     double lumens, multiplier, size[3], ballast, lamp_factor, watts;
 } IesHead;
 
-static bool check_lumens(LuminaireScan *in, const IesHead *head)
-{
+static bool check_lumens(LuminaireScan *in, const IesHead *head) {
     return head->lumens >= 0 || head->lumens == -1 ||
-           luminaire_scan_fail(in, "the lumens a lamp are %g, required: 0 or more, or -1 "
-                               "(absolute)", head->lumens);
+           luminaire_scan_fail(in,
+                               "the lumens a lamp are %g, required: 0 or more, or -1 "
+                               "(absolute)",
+                               head->lumens);
 }
 
-static bool read_head(LuminaireScan *in, IesHead *head)
-{
+static bool read_head(LuminaireScan *in, IesHead *head) {
     return luminaire_scan_count(in, "the number of lamps", 0, 1000000, &head->lamps) &&
-           next_number(in, "the lumens a lamp", -1, 1e9, &head->lumens) &&
-           check_lumens(in, head) &&
+           next_number(in, "the lumens a lamp", -1, 1e9, &head->lumens) && check_lumens(in, head) &&
            next_number(in, "the candela multiplier", 1e-12, 1e9, &head->multiplier) &&
            luminaire_scan_count(in, "the number of vertical angles", 2, LUMINAIRE_ANGLES_MAX,
                                 &head->gammas) &&
-           luminaire_scan_count(in, "the number of horizontal angles", 1,
-                                LUMINAIRE_ANGLES_MAX, &head->planes) &&
+           luminaire_scan_count(in, "the number of horizontal angles", 1, LUMINAIRE_ANGLES_MAX,
+                                &head->planes) &&
            luminaire_scan_count(in, "the photometric type", 1, 3, &head->type) &&
            luminaire_scan_count(in, "the units of length", 1, 2, &head->units) &&
            next_number(in, "the width", -SIZE_MOST, SIZE_MOST, &head->size[0]) &&
            next_number(in, "the length", -SIZE_MOST, SIZE_MOST, &head->size[1]) &&
            next_number(in, "the height", -SIZE_MOST, SIZE_MOST, &head->size[2]) &&
            next_number(in, "the ballast factor", 1e-6, FACTOR_MOST, &head->ballast) &&
-           next_number(in, "the ballast-lamp factor", 1e-6, FACTOR_MOST,
-                       &head->lamp_factor) &&
+           next_number(in, "the ballast-lamp factor", 1e-6, FACTOR_MOST, &head->lamp_factor) &&
            next_number(in, "the watts", -1, 1e9, &head->watts);
 }
 
 /* ---- angles and intensities -------------------------------------------------------------- */
 
 /* The range of horizontal angles determines the symmetry. */
-static bool find_symmetry(LuminaireScan *in, Luminaire *out)
-{
+static bool find_symmetry(LuminaireScan *in, Luminaire *out) {
     double first = out->c_deg[0], last = out->c_deg[out->planes - 1];
     out->mirror_deg[0] = out->mirror_deg[1] = -1;
     out->is_round = out->planes == 1;
@@ -271,35 +259,33 @@ static bool find_symmetry(LuminaireScan *in, Luminaire *out)
     if (first == 90 && last == 270) out->mirror_deg[0] = 90;
     bool is_whole = first == 0 && last > 180; /* 345 or 360 */
     return out->mirror_deg[0] >= 0 || is_whole ||
-           luminaire_scan_fail(in, "horizontal angles go from %g to %g, required: 0, 0 to 90, "
-                                   "0 to 180, 90 to 270 or 0 to 360 degrees", first, last);
+           luminaire_scan_fail(in,
+                               "horizontal angles go from %g to %g, required: 0, 0 to 90, "
+                               "0 to 180, 90 to 270 or 0 to 360 degrees",
+                               first, last);
 }
 
-static bool read_type_c(LuminaireScan *in, const IesHead *head, double scale, Luminaire *out)
-{
+static bool read_type_c(LuminaireScan *in, const IesHead *head, double scale, Luminaire *out) {
     static const double to_180[2] = {0, 180}, to_360[2] = {0, 360};
     out->planes = head->planes;
     out->gammas = head->gammas;
     out->c_deg = ARENA_NEW(in->arena, double, head->planes);
     out->gamma_deg = ARENA_NEW(in->arena, double, head->gammas);
-    return luminaire_scan_angles(in, "the vertical angle", head->gammas, to_180,
-                                 out->gamma_deg) &&
-           luminaire_scan_angles(in, "the horizontal angle", head->planes, to_360,
-                                 out->c_deg) &&
+    return luminaire_scan_angles(in, "the vertical angle", head->gammas, to_180, out->gamma_deg) &&
+           luminaire_scan_angles(in, "the horizontal angle", head->planes, to_360, out->c_deg) &&
            find_symmetry(in, out) && luminaire_scan_intensities(in, scale, out);
 }
 
 /* Types A and B as they are stored: for every H the intensities at every V. */
 typedef struct TippedTable {
-    int     h_count, v_count;
-    double *h, *v;  /* degrees */
-    bool    is_mirrored; /* H from 0: the other side is the same */
+    int h_count, v_count;
+    double *h, *v;    /* degrees */
+    bool is_mirrored; /* H from 0: the other side is the same */
 } TippedTable;
 
 /* LM-63 has H from 0 (the sides are alike) or -90, V from -90. For V from 0 it leaves open
  * whether the lower half is dark or as the upper one. */
-static bool read_tipped_angles(LuminaireScan *in, TippedTable *table)
-{
+static bool read_tipped_angles(LuminaireScan *in, TippedTable *table) {
     static const double range[2] = {-90, 90};
     table->h = ARENA_NEW(in->arena, double, table->h_count);
     table->v = ARENA_NEW(in->arena, double, table->v_count);
@@ -310,20 +296,22 @@ static bool read_tipped_angles(LuminaireScan *in, TippedTable *table)
     table->is_mirrored = h0 == 0;
     if (table->h_count < 2)
         return luminaire_scan_fail(in, "photometry of types A and B has one horizontal angle, "
-                                   "required: 0 to 90 or -90 to 90 degrees");
+                                       "required: 0 to 90 or -90 to 90 degrees");
     if (h0 > 0)
-        return luminaire_scan_fail(in, "horizontal angles of types A and B go from %g to %g, "
-                                   "required: 0 to 90 or -90 to 90 degrees", h0,
-                                   table->h[table->h_count - 1]);
+        return luminaire_scan_fail(in,
+                                   "horizontal angles of types A and B go from %g to %g, "
+                                   "required: 0 to 90 or -90 to 90 degrees",
+                                   h0, table->h[table->h_count - 1]);
     return v0 < 0 ||
-           luminaire_scan_fail(in, "vertical angles of types A and B go from %g to %g: nothing "
+           luminaire_scan_fail(in,
+                               "vertical angles of types A and B go from %g to %g: nothing "
                                "says whether the half below is dark or the same, required: "
-                               "-90 to 90 degrees", v0, table->v[table->v_count - 1]);
+                               "-90 to 90 degrees",
+                               v0, table->v[table->v_count - 1]);
 }
 
 /* Row of the stored table that has H number i of all, and that H. */
-static int stored_row(const TippedTable *table, int i, double *h)
-{
+static int stored_row(const TippedTable *table, int i, double *h) {
     int row = table->is_mirrored ? abs(i - (table->h_count - 1)) : i;
     *h = table->is_mirrored && i < table->h_count - 1 ? -table->h[row] : table->h[row];
     return row;
@@ -331,22 +319,21 @@ static int stored_row(const TippedTable *table, int i, double *h)
 
 /* In type A the planes are H and gamma is V + 90, in type B the planes are V and gamma is
  * H + 90 (intensity_web.h). */
-static bool read_tipped(LuminaireScan *in, const IesHead *head, double scale, Luminaire *out)
-{
+static bool read_tipped(LuminaireScan *in, const IesHead *head, double scale, Luminaire *out) {
     TippedTable table = {.h_count = head->planes, .v_count = head->gammas};
-    Luminaire   stored = {.planes = head->planes, .gammas = head->gammas};
+    Luminaire stored = {.planes = head->planes, .gammas = head->gammas};
     if (!read_tipped_angles(in, &table) || !luminaire_scan_intensities(in, scale, &stored))
         return false;
-    int    v_count = table.v_count;
-    int    all = table.is_mirrored ? 2 * table.h_count - 1 : table.h_count;
-    bool   is_a = out->type == WEB_A;
+    int v_count = table.v_count;
+    int all = table.is_mirrored ? 2 * table.h_count - 1 : table.h_count;
+    bool is_a = out->type == WEB_A;
     double h;
     out->planes = is_a ? all : v_count;
     out->gammas = is_a ? v_count : all;
     out->mirror_deg[0] = out->mirror_deg[1] = -1;
     out->c_deg = ARENA_NEW(in->arena, double, out->planes);
     out->gamma_deg = ARENA_NEW(in->arena, double, out->gammas);
-    out->intensity_cd = ARENA_NEW(in->arena, double, (size_t)all * (size_t)v_count);
+    out->intensity_cd = ARENA_NEW(in->arena, double, (size_t)all *(size_t)v_count);
     for (int k = 0; k < v_count; k++)
         *(is_a ? &out->gamma_deg[k] : &out->c_deg[k]) = table.v[k] + (is_a ? 90 : 0);
     for (int i = 0; i < all; i++) {
@@ -359,43 +346,41 @@ static bool read_tipped(LuminaireScan *in, const IesHead *head, double scale, Lu
 }
 
 /* From 1995 on the ballast-lamp factor is 1; in 2019 its place holds the generation type. */
-static double intensity_scale(const IesHead *head, int year)
-{
+static double intensity_scale(const IesHead *head, int year) {
     return head->multiplier * head->ballast * (year >= 2019 ? 1 : head->lamp_factor);
 }
 
-static void find_opening(const IesHead *head, int year, Luminaire *out, ImportSet *set)
-{
+static void find_opening(const IesHead *head, int year, Luminaire *out, ImportSet *set) {
     double unit = head->units == 1 ? METRES_A_FOOT : 1;
     const double size[3] = {head->size[0] * unit, head->size[1] * unit, head->size[2] * unit};
     const char *fault = opening_of_ies(year, out->type, size, &out->opening);
     out->area_m2 = (double)opening_area(&out->opening, vec3(0, 0, -1));
     if (!fault) return;
-    luminaire_doubt(out, set->arena, "its opening of width %g, length %g, height %g is taken "
-                    "for a point: %s", head->size[0], head->size[1], head->size[2], fault);
+    luminaire_doubt(out, set->arena,
+                    "its opening of width %g, length %g, height %g is taken "
+                    "for a point: %s",
+                    head->size[0], head->size[1], head->size[2], fault);
 }
 
-static bool read_table(LuminaireScan *in, const IesHead *head, double scale, Luminaire *out)
-{
-    const char *table = arena_format(in->arena, "the table of %d x %d intensities",
-                                     head->planes, head->gammas);
+static bool read_table(LuminaireScan *in, const IesHead *head, double scale, Luminaire *out) {
+    const char *table =
+        arena_format(in->arena, "the table of %d x %d intensities", head->planes, head->gammas);
     return (out->type == WEB_C ? read_type_c : read_tipped)(in, head, scale, out) &&
            check_end(in, table, out);
 }
 
-bool ies_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set,
-                        Luminaire *result, Error *err)
-{
+bool ies_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set, Luminaire *result,
+                        Error *err) {
     static const WebType types[] = {WEB_C, WEB_C, WEB_B, WEB_A};
     LuminaireScan in;
-    IesHead       head = {0};
-    Luminaire     out = {.file = file};
-    const char   *tilt = "";
+    IesHead head = {0};
+    Luminaire out = {.file = file};
+    const char *tilt = "";
     if (!luminaire_scan_open(file, bytes, next_number, set, &in, err) ||
         !read_keywords(&in, &out, &tilt))
         return false;
     if (!read_tilt(&in, tilt, &out.tilt) || !read_head(&in, &head)) return hint_at_comma(&in);
-    int    year = find_year(&in);
+    int year = find_year(&in);
     double scale = intensity_scale(&head, year);
     out.type = types[head.type];
     if (!read_table(&in, &head, scale, &out)) return hint_at_comma(&in);
@@ -411,10 +396,9 @@ bool ies_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set
 }
 
 /* A panel is not tilted: what counts is the factor at 0. */
-static bool apply_tilt(Luminaire *luminaire, ImportSet *set, Error *err)
-{
+static bool apply_tilt(Luminaire *luminaire, ImportSet *set, Error *err) {
     LuminaireTilt *tilt = &luminaire->tilt;
-    const char    *name = path_name(luminaire->file);
+    const char *name = path_name(luminaire->file);
     if (tilt->file) {
         const char *path = path_beside(luminaire->file, tilt->file, set->arena);
         if (!file_exists(path)) {
@@ -431,15 +415,13 @@ static bool apply_tilt(Luminaire *luminaire, ImportSet *set, Error *err)
     return true;
 }
 
-static bool read_ies(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
-{
+static bool read_ies(const char *file, const ImportOptions *options, ImportSet *set, Error *err) {
     Luminaire luminaire;
     return ies_read_luminaire(file, NULL, set, &luminaire, err) &&
            apply_tilt(&luminaire, set, err) && luminaire_add(&luminaire, options, set, err);
 }
 
-static bool is_ies(const char *file, const char *head, size_t size)
-{
+static bool is_ies(const char *file, const char *head, size_t size) {
     TextLine text = {head, (int)size};
     return !strncasecmp(head, "IESNA", 5) || !strcasecmp(path_ending(file), ".ies") ||
            line_has(text, "\nTILT=");

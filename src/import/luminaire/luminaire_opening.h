@@ -12,8 +12,7 @@
  * the file's edition, which decides what both have and mean otherwise. In type A the length
  * runs along (0, 0) and the height along V = 90. NULL, or why it is a point although it has
  * sizes. */
-const char *opening_of_ies(int year, WebType type, const double size_m[3],
-                           LuminousOpening *out);
+const char *opening_of_ies(int year, WebType type, const double size_m[3], LuminousOpening *out);
 
 /* Sizes of EULUMDAT: length (along C = 90), width (along C = 0; 0: a circle of diameter
  * length), height. */

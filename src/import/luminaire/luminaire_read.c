@@ -7,14 +7,11 @@
 #include "import/luminaire/eulumdat.h"
 #include "import/luminaire/ies.h"
 
-bool luminaire_is_eulumdat(const char *file)
-{
+bool luminaire_is_eulumdat(const char *file) {
     return !strcasecmp(path_ending(file), ".ldt");
 }
 
-bool luminaire_read(const char *file, FileBytes bytes, ImportSet *set, Luminaire *out,
-                    Error *err)
-{
+bool luminaire_read(const char *file, FileBytes bytes, ImportSet *set, Luminaire *out, Error *err) {
     return luminaire_is_eulumdat(file) ? eulumdat_read_luminaire(file, &bytes, set, out, err)
                                        : ies_read_luminaire(file, &bytes, set, out, err);
 }

@@ -11,5 +11,4 @@
 bool luminaire_is_eulumdat(const char *file);
 
 /* The file's bytes; `file` names them. Notes on what was assumed or left out go to the set. */
-bool luminaire_read(const char *file, FileBytes bytes, ImportSet *set, Luminaire *out,
-                    Error *err);
+bool luminaire_read(const char *file, FileBytes bytes, ImportSet *set, Luminaire *out, Error *err);

@@ -17,14 +17,14 @@ typedef bool LuminaireNumber(LuminaireScan *scan, const char *what, double low, 
 
 struct LuminaireScan {
     LuminaireNumber *number;
-    TextFile         text;
-    int              line;       /* index of the line that is read; -1: none yet */
-    const char      *next, *end; /* in it: for a format whose numbers share lines */
-    int              first;      /* index of the line where its numbers begin */
-    int              comma, unit; /* first line that has a decimal comma, words behind its
-                                    number, which are read on over; -1: none */
-    Arena           *arena;
-    Error           *err;
+    TextFile text;
+    int line;               /* index of the line that is read; -1: none yet */
+    const char *next, *end; /* in it: for a format whose numbers share lines */
+    int first;              /* index of the line where its numbers begin */
+    int comma, unit;        /* first line that has a decimal comma, words behind its
+                              number, which are read on over; -1: none */
+    Arena *arena;
+    Error *err;
 };
 
 /* `bytes` are the file's where they are there already; NULL: it is read here. */
@@ -35,8 +35,8 @@ bool luminaire_scan_open(const char *file, const FileBytes *bytes, LuminaireNumb
 bool luminaire_scan_count(LuminaireScan *scan, const char *what, int low, int high, int *out);
 
 /* Rising angles, degrees, within range[0] to range[1]. */
-bool luminaire_scan_angles(LuminaireScan *scan, const char *what, int count,
-                           const double range[2], double *angle);
+bool luminaire_scan_angles(LuminaireScan *scan, const char *what, int count, const double range[2],
+                           double *angle);
 
 /* planes x gammas intensities, times `scale`. */
 bool luminaire_scan_intensities(LuminaireScan *scan, double scale, Luminaire *out);

@@ -25,21 +25,20 @@ typedef enum AstmColumn { THETA_I, PHI_I, THETA_S, PHI_S, ANGLES } AstmColumn;
 
 typedef struct Astm {
     WordScan scan;
-    int     columns, rows, stated_rows;
-    int     angle[ANGLES];        /* column of each, -1: none */
-    int     value[COLUMNS_MAX];   /* columns of the channels, in the order of the table */
-    int     channels;
-    float  *nm;                   /* NULL: not in the file */
-    bool    is_rgb, is_xyz;
+    int columns, rows, stated_rows;
+    int angle[ANGLES];      /* column of each, -1: none */
+    int value[COLUMNS_MAX]; /* columns of the channels, in the order of the table */
+    int channels;
+    float *nm; /* NULL: not in the file */
+    bool is_rgb, is_xyz;
     double *cell; /* rows x columns */
 } Astm;
 
 /* ---- header ------------------------------------------------------------------------------ */
 
 /* "465nm" or "465 nm". */
-static bool is_wavelength(const char *name, double *nm)
-{
-    char  *unit;
+static bool is_wavelength(const char *name, double *nm) {
+    char *unit;
     double value = strtod(name, &unit);
     while (*unit == ' ') unit++;
     if (unit == name || strcasecmp(unit, "nm") || !(value > 0)) return false;
@@ -47,8 +46,7 @@ static bool is_wavelength(const char *name, double *nm)
     return true;
 }
 
-static bool note_angle(Astm *in, const char *name, int column)
-{
+static bool note_angle(Astm *in, const char *name, int column) {
     static const char *const names[] = {"theta_i", "phi_i", "theta_s", "phi_s", NULL};
     int which = import_word_find(names, name);
     if (which >= 0) in->angle[which] = column;
@@ -56,8 +54,7 @@ static bool note_angle(Astm *in, const char *name, int column)
 }
 
 /* Wavelengths rise in a table: by insertion. */
-static void insert_channel(Astm *in, int column, float nm)
-{
+static void insert_channel(Astm *in, int column, float nm) {
     int at = in->channels++;
     for (; at > 0 && in->nm[at - 1] > nm; at--) {
         in->nm[at] = in->nm[at - 1];
@@ -67,15 +64,13 @@ static void insert_channel(Astm *in, int column, float nm)
     in->value[at] = column;
 }
 
-static bool is_triple(char *const *name, const char *letters)
-{
+static bool is_triple(char *const *name, const char *letters) {
     for (int i = 0; i < 3; i++)
         if (strlen(name[i]) != 1 || strncasecmp(name[i], letters + i, 1)) return false;
     return true;
 }
 
-static bool name_channels(Astm *in, char *const *name, const int *column, int count, Error *err)
-{
+static bool name_channels(Astm *in, char *const *name, const int *column, int count, Error *err) {
     double nm;
     if (count == 3 && is_triple(name, "RGB")) {
         in->is_rgb = true;
@@ -97,17 +92,18 @@ static bool name_channels(Astm *in, char *const *name, const int *column, int co
     in->nm = ARENA_NEW(in->scan.arena, float, count);
     for (int c = 0; c < count; c++) {
         if (!is_wavelength(name[c], &nm))
-            return scan_fail(&in->scan, err, "VARS names '%.40s', required: a wavelength like "
-                             "550nm, or R,G,B or X,Y,Z, or one column", name[c]);
+            return scan_fail(&in->scan, err,
+                             "VARS names '%.40s', required: a wavelength like "
+                             "550nm, or R,G,B or X,Y,Z, or one column",
+                             name[c]);
         insert_channel(in, column[c], (float)nm);
     }
     return true;
 }
 
-static bool read_names(Astm *in, char *text, Error *err)
-{
+static bool read_names(Astm *in, char *text, Error *err) {
     char *name[COLUMNS_MAX];
-    int   column[COLUMNS_MAX], others = 0;
+    int column[COLUMNS_MAX], others = 0;
     for (char *at = text, *word; (word = strtok_r(at, ",", &at)); in->columns++) {
         while (*word == ' ' || *word == '\t') word++;
         if (in->columns == COLUMNS_MAX)
@@ -123,8 +119,7 @@ static bool read_names(Astm *in, char *text, Error *err)
     return name_channels(in, name, column, others, err);
 }
 
-static bool read_header(Astm *in, Error *err)
-{
+static bool read_header(Astm *in, Error *err) {
     in->scan.comment = 0;
     for (int i = 0; i < ANGLES; i++) in->angle[i] = -1;
     for (const char *line; (line = scan_line(&in->scan));) {
@@ -144,8 +139,7 @@ static bool read_header(Astm *in, Error *err)
 /* ---- rows -------------------------------------------------------------------------------- */
 
 /* A file that was cut must show: NUM_POINTS, or else a line end after the last row. */
-static bool check_whole(const Astm *in, Error *err)
-{
+static bool check_whole(const Astm *in, Error *err) {
     if (in->stated_rows && in->rows != in->stated_rows)
         return scan_fail(&in->scan, err, "there are %d rows, and NUM_POINTS is %d", in->rows,
                          in->stated_rows);
@@ -153,14 +147,13 @@ static bool check_whole(const Astm *in, Error *err)
     return in->rows || scan_fail(&in->scan, err, "the file ends before its first row");
 }
 
-static bool read_rows(Astm *in, Error *err)
-{
+static bool read_rows(Astm *in, Error *err) {
     size_t columns = (size_t)in->columns;
-    int    most = scan_lines_left(&in->scan);
+    int most = scan_lines_left(&in->scan);
     if (columns > (size_t)(in->scan.end - in->scan.next) + 1)
         return scan_fail(&in->scan, err, "the file ends before its first row");
     in->scan.commas = true;
-    in->cell = ARENA_NEW(in->scan.arena, double, (size_t)most * columns);
+    in->cell = ARENA_NEW(in->scan.arena, double, (size_t)most *columns);
     while (scan_peek(&in->scan)) {
         if (in->rows == most)
             return scan_fail(&in->scan, err, "a line has more than %d numbers", in->columns);
@@ -169,8 +162,7 @@ static bool read_rows(Astm *in, Error *err)
             if (!scan_number(&in->scan, "a number of the row",
                              &in->cell[(size_t)in->rows * columns + c], err))
                 return false;
-            if (!c)
-                line = in->scan.line;
+            if (!c) line = in->scan.line;
             else if (in->scan.line != line)
                 return scan_fail(&in->scan, err, "the row before has fewer than %d numbers",
                                  in->columns);
@@ -181,8 +173,7 @@ static bool read_rows(Astm *in, Error *err)
 }
 
 /* Radians become degrees; a missing azimuth of the light is 180, of the leaving direction 0. */
-static bool convert_angles(Astm *in, ImportSet *set, Error *err)
-{
+static bool convert_angles(Astm *in, ImportSet *set, Error *err) {
     static const double most[ANGLES] = {THETA_RADIANS_MAX, PHI_RADIANS_MAX, THETA_RADIANS_MAX,
                                         PHI_RADIANS_MAX};
     static const double limit[ANGLES] = {90, 360, 180, 360};
@@ -197,8 +188,10 @@ static bool convert_angles(Astm *in, ImportSet *set, Error *err)
             double *one = &in->cell[i * in->columns + in->angle[a]];
             if (!is_degree) *one = degrees_from_radians(*one);
             if (!(fabs(*one) <= limit[a] + 1e-3))
-                return error_at(err, ERROR_INPUT, in->scan.file, "", "row %d has an angle of "
-                                "%g, required: at most %g degrees", i + 1, *one, limit[a]);
+                return error_at(err, ERROR_INPUT, in->scan.file, "",
+                                "row %d has an angle of "
+                                "%g, required: at most %g degrees",
+                                i + 1, *one, limit[a]);
         }
     import_note(set, "%s: angles are taken as %s", path_name(in->scan.file),
                 is_degree ? "degrees" : "radians");
@@ -207,13 +200,11 @@ static bool convert_angles(Astm *in, ImportSet *set, Error *err)
 
 /* ---- tables ------------------------------------------------------------------------------ */
 
-static double angle_of(const Astm *in, int row, AstmColumn which, double otherwise)
-{
+static double angle_of(const Astm *in, int row, AstmColumn which, double otherwise) {
     return in->angle[which] < 0 ? otherwise : in->cell[row * in->columns + in->angle[which]];
 }
 
-static ScatterLight light_of(const Astm *in, int row)
-{
+static ScatterLight light_of(const Astm *in, int row) {
     ScatterLight light = {angle_of(in, row, THETA_I, 0), angle_of(in, row, PHI_I, 180)};
     if (light.incidence_deg < 0) {
         light.incidence_deg = -light.incidence_deg;
@@ -222,34 +213,32 @@ static ScatterLight light_of(const Astm *in, int row)
     return light;
 }
 
-static bool same_light(ScatterLight a, ScatterLight b)
-{
+static bool same_light(ScatterLight a, ScatterLight b) {
     return fabs(a.incidence_deg - b.incidence_deg) < 1e-4 &&
            fabs(remainder(a.azimuth_deg - b.azimuth_deg, 360)) < 1e-4;
 }
 
-static void put_row(const Astm *in, int row, ScatterLight light, ImportRows *rows)
-{
+static void put_row(const Astm *in, int row, ScatterLight light, ImportRows *rows) {
     double value[MEASUREMENT_WAVELENGTHS_MAX];
     double theta = angle_of(in, row, THETA_S, 0), phi = angle_of(in, row, PHI_S, 0);
-    for (int c = 0; c < in->channels; c++)
-        value[c] = in->cell[row * in->columns + in->value[c]];
+    for (int c = 0; c < in->channels; c++) value[c] = in->cell[row * in->columns + in->value[c]];
     if (theta < 0) phi += 180;
     scatter_put_measured(rows, fabs(theta), phi + 180 - light.azimuth_deg, value);
 }
 
-static bool add_tables(const Astm *in, const float *nm, ImportSet *set, Error *err)
-{
-    int           count = 0, *group = ARENA_NEW(set->arena, int, in->rows);
+static bool add_tables(const Astm *in, const float *nm, ImportSet *set, Error *err) {
+    int count = 0, *group = ARENA_NEW(set->arena, int, in->rows);
     ScatterLight *light = ARENA_NEW(set->arena, ScatterLight, LIGHTS_MAX);
-    int          *size = ARENA_NEW(set->arena, int, LIGHTS_MAX);
+    int *size = ARENA_NEW(set->arena, int, LIGHTS_MAX);
     for (int i = 0, g = 0; i < in->rows; i++) {
         ScatterLight one = light_of(in, i);
         if (g == count || !same_light(light[g], one)) /* rows of one light stand together */
             for (g = 0; g < count && !same_light(light[g], one);) g++;
         if (g == LIGHTS_MAX)
-            return error_at(err, ERROR_INPUT, in->scan.file, "", "has light from more than %d "
-                            "directions", LIGHTS_MAX);
+            return error_at(err, ERROR_INPUT, in->scan.file, "",
+                            "has light from more than %d "
+                            "directions",
+                            LIGHTS_MAX);
         if (g == count) light[count++] = one;
         size[group[i] = g]++;
     }
@@ -262,8 +251,7 @@ static bool add_tables(const Astm *in, const float *nm, ImportSet *set, Error *e
 }
 
 static const float *name_bands(const Astm *in, const ImportOptions *options, ImportSet *set,
-                               Error *err)
-{
+                               Error *err) {
     const char *file = in->scan.file;
     if (in->nm) return in->nm;
     if (in->is_rgb) return scatter_rgb_bands(file, set);
@@ -271,10 +259,8 @@ static const float *name_bands(const Astm *in, const ImportOptions *options, Imp
                       : scatter_wavelength(0, options, file, set, err);
 }
 
-static bool read_astm(const char *file, const ImportOptions *options, ImportSet *set,
-                      Error *err)
-{
-    Astm         in = {.columns = 0};
+static bool read_astm(const char *file, const ImportOptions *options, ImportSet *set, Error *err) {
+    Astm in = {.columns = 0};
     const float *nm;
     if (!scan_open(file, set->arena, &in.scan, err) || !read_header(&in, err) ||
         !read_rows(&in, err) || !convert_angles(&in, set, err) ||
@@ -286,8 +272,7 @@ static bool read_astm(const char *file, const ImportOptions *options, ImportSet 
     return add_tables(&in, nm, set, err);
 }
 
-static bool is_astm(const char *file, const char *head, size_t head_size)
-{
+static bool is_astm(const char *file, const char *head, size_t head_size) {
     (void)file;
     return scan_head_has(head, head_size, "VARS theta_i") ||
            scan_head_has(head, head_size, "VARS\ttheta_i");

@@ -11,9 +11,9 @@
 #include "base/error.h"
 
 typedef struct ByteScan {
-    const char          *file;
+    const char *file;
     const unsigned char *data;
-    size_t               size, at;
+    size_t size, at;
 } ByteScan;
 
 bool byte_scan_open(const char *file, Arena *arena, ByteScan *out, Error *err);
@@ -32,5 +32,5 @@ bool byte_scan_fail(const ByteScan *scan, Error *err, const char *format, ...)
 
 /* Numbers at any address. */
 uint64_t uint_from_bytes(const unsigned char *bytes, size_t size);
-float    float_from_bytes(const unsigned char *bytes);
-double   double_from_bytes(const unsigned char *bytes);
+float float_from_bytes(const unsigned char *bytes);
+double double_from_bytes(const unsigned char *bytes);

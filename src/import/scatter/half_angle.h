@@ -20,17 +20,16 @@ HalfAngles half_angles(Direction light, Direction leaving);
 Direction half_angle_mirror(Direction light, Direction half);
 
 /* Values for light and leaving direction; false: not measured there. */
-typedef bool (*BrdfFunction)(const void *data, Direction light, Direction leaving,
-                             double *value);
+typedef bool (*BrdfFunction)(const void *data, Direction light, Direction leaving, double *value);
 
 typedef struct BrdfSource {
-    const char   *file;
-    BrdfFunction  function;
-    const void   *data;
-    int           channels;
-    const float  *wavelength_nm;
+    const char *file;
+    BrdfFunction function;
+    const void *data;
+    int channels;
+    const float *wavelength_nm;
     const double *half_theta_deg; /* rising: rings of half vectors on which it is evaluated */
-    int           rings;
+    int rings;
 } BrdfSource;
 
 /* Tables at incidences 0, 10, ... 80 degrees. The rows stand where half vectors on the rings

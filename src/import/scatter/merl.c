@@ -18,25 +18,25 @@
 #define SIDE_MAX 4096
 
 typedef struct Merl {
-    int                  half_thetas, diff_thetas, diff_phis;
-    size_t               cells;
+    int half_thetas, diff_thetas, diff_phis;
+    size_t cells;
     const unsigned char *value; /* 3 x cells doubles */
 } Merl;
 
-static bool read_side(ByteScan *scan, int *out, Error *err)
-{
+static bool read_side(ByteScan *scan, int *out, Error *err) {
     uint64_t side;
     if (!byte_scan_uint(scan, 4, &side))
         return byte_scan_fail(scan, err, "the file ends inside its header");
     if (side < 1 || side > SIDE_MAX)
-        return byte_scan_fail(scan, err, "a side is %u cells, required: 1 to %d (MERL: 90, 90, "
-                              "180)", (unsigned)side, SIDE_MAX);
+        return byte_scan_fail(scan, err,
+                              "a side is %u cells, required: 1 to %d (MERL: 90, 90, "
+                              "180)",
+                              (unsigned)side, SIDE_MAX);
     *out = (int)side;
     return true;
 }
 
-static bool open_merl(const char *file, Arena *arena, Merl *out, Error *err)
-{
+static bool open_merl(const char *file, Arena *arena, Merl *out, Error *err) {
     ByteScan scan;
     if (!byte_scan_open(file, arena, &scan, err) || !read_side(&scan, &out->half_thetas, err) ||
         !read_side(&scan, &out->diff_thetas, err) || !read_side(&scan, &out->diff_phis, err))
@@ -44,9 +44,10 @@ static bool open_merl(const char *file, Arena *arena, Merl *out, Error *err)
     out->cells = (size_t)out->half_thetas * (size_t)out->diff_thetas * (size_t)out->diff_phis;
     size_t wanted = RGB_BANDS * out->cells * sizeof(double), left = scan.size - scan.at;
     if (wanted != left)
-        return byte_scan_fail(&scan, err, "%zu bytes follow, required: %zu for %d x %d x %d "
-                              "cells of three colours", left, wanted, out->half_thetas,
-                              out->diff_thetas, out->diff_phis);
+        return byte_scan_fail(&scan, err,
+                              "%zu bytes follow, required: %zu for %d x %d x %d "
+                              "cells of three colours",
+                              left, wanted, out->half_thetas, out->diff_thetas, out->diff_phis);
     out->value = byte_scan_take(&scan, left);
     for (size_t i = 0; i < RGB_BANDS * out->cells; i++)
         if (!isfinite(double_from_bytes(out->value + i * sizeof(double))))
@@ -54,18 +55,16 @@ static bool open_merl(const char *file, Arena *arena, Merl *out, Error *err)
     return true;
 }
 
-static size_t cell_of(double part, int cells)
-{
+static size_t cell_of(double part, int cells) {
     int cell = (int)(part * cells);
     return (size_t)(cell < 0 ? 0 : cell >= cells ? cells - 1 : cell);
 }
 
-static bool evaluate(const void *data, Direction light, Direction leaving, double *value)
-{
+static bool evaluate(const void *data, Direction light, Direction leaving, double *value) {
     static const double scale[RGB_BANDS] = {1.66 / 1500, 1.15 / 1500, 1.0 / 1500};
     const Merl *in = data;
-    HalfAngles  h = half_angles(light, leaving);
-    double      turn = h.diff_phi < 0 ? h.diff_phi + 180 : h.diff_phi;
+    HalfAngles h = half_angles(light, leaving);
+    double turn = h.diff_phi < 0 ? h.diff_phi + 180 : h.diff_phi;
     size_t at = cell_of(sqrt(h.half_theta / 90), in->half_thetas);
     at = at * (size_t)in->diff_thetas + cell_of(h.diff_theta / 90, in->diff_thetas);
     at = at * (size_t)in->diff_phis + cell_of(turn / 180, in->diff_phis);
@@ -78,9 +77,7 @@ static bool evaluate(const void *data, Direction light, Direction leaving, doubl
     return true;
 }
 
-static bool read_merl(const char *file, const ImportOptions *options, ImportSet *set,
-                      Error *err)
-{
+static bool read_merl(const char *file, const ImportOptions *options, ImportSet *set, Error *err) {
     Merl in;
     (void)options;
     if (!open_merl(file, set->arena, &in, err)) return false;
@@ -89,13 +86,12 @@ static bool read_merl(const char *file, const ImportOptions *options, ImportSet 
         double part = (i + 0.5) / in.half_thetas;
         ring[i] = 90 * part * part;
     }
-    BrdfSource source = {file, evaluate, &in, RGB_BANDS, scatter_rgb_bands(file, set), ring,
-                         in.half_thetas};
+    BrdfSource source = {file, evaluate,      &in, RGB_BANDS, scatter_rgb_bands(file, set),
+                         ring, in.half_thetas};
     return brdf_source_add(&source, set, err);
 }
 
-static bool is_merl(const char *file, const char *head, size_t head_size)
-{
+static bool is_merl(const char *file, const char *head, size_t head_size) {
     static const unsigned char sides[12] = {90, 0, 0, 0, 90, 0, 0, 0, 180, 0, 0, 0};
     return !strcasecmp(path_ending(file), ".binary") ||
            (head_size >= sizeof sides && !memcmp(head, sides, sizeof sides));

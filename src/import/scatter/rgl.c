@@ -23,63 +23,65 @@
 #define GRAZING_DEG 89.0
 
 typedef struct Rgl {
-    TensorFile         file;
+    TensorFile file;
     const TensorField *theta_i, *phi_i, *ndf, *sigma, *vndf, *values, *wavelengths;
-    int                thetas, phis, channels;
-    bool               is_isotropic, is_rgb, has_jacobian;
-    bool               closes; /* the last azimuth is the first one again */
+    int thetas, phis, channels;
+    bool is_isotropic, is_rgb, has_jacobian;
+    bool closes; /* the last azimuth is the first one again */
 } Rgl;
 
 /* ---- the file ---------------------------------------------------------------------------- */
 
-static bool wrong_shape(const Rgl *in, const TensorField *field, Error *err, const char *wanted)
-{
-    return error_at(err, ERROR_INPUT, in->file.file, field->name, "has the wrong shape, "
-                                                                  "required: %s", wanted);
+static bool wrong_shape(const Rgl *in, const TensorField *field, Error *err, const char *wanted) {
+    return error_at(err, ERROR_INPUT, in->file.file, field->name,
+                    "has the wrong shape, "
+                    "required: %s",
+                    wanted);
 }
 
-static bool read_fields(Rgl *in, Error *err)
-{
+static bool read_fields(Rgl *in, Error *err) {
     const TensorField *jacobian;
     in->is_rgb = !tensor_file_find(&in->file, "spectra") && tensor_file_find(&in->file, "rgb");
     const char *values = in->is_rgb ? "rgb" : "spectra";
-    bool ok =
-        tensor_file_field(&in->file, "theta_i", 1, &in->theta_i, err) &&
-        tensor_file_field(&in->file, "phi_i", 1, &in->phi_i, err) &&
-        tensor_file_field(&in->file, "ndf", 2, &in->ndf, err) &&
-        tensor_file_field(&in->file, "sigma", 2, &in->sigma, err) &&
-        tensor_file_field(&in->file, "vndf", 4, &in->vndf, err) &&
-        tensor_file_field(&in->file, values, 5, &in->values, err) &&
-        tensor_file_field(&in->file, "jacobian", 1, &jacobian, err) &&
-        (in->is_rgb ||
-         tensor_file_field(&in->file, "wavelengths", 1, &in->wavelengths, err));
+    bool ok = tensor_file_field(&in->file, "theta_i", 1, &in->theta_i, err) &&
+              tensor_file_field(&in->file, "phi_i", 1, &in->phi_i, err) &&
+              tensor_file_field(&in->file, "ndf", 2, &in->ndf, err) &&
+              tensor_file_field(&in->file, "sigma", 2, &in->sigma, err) &&
+              tensor_file_field(&in->file, "vndf", 4, &in->vndf, err) &&
+              tensor_file_field(&in->file, values, 5, &in->values, err) &&
+              tensor_file_field(&in->file, "jacobian", 1, &jacobian, err) &&
+              (in->is_rgb || tensor_file_field(&in->file, "wavelengths", 1, &in->wavelengths, err));
     if (!ok) return false;
     if (jacobian->count != 1) return wrong_shape(in, jacobian, err, "one number");
     in->has_jacobian = tensor_value(jacobian, 0) != 0;
     return true;
 }
 
-static bool is_grid(const TensorField *field, int first)
-{
+static bool is_grid(const TensorField *field, int first) {
     for (int d = first; d < field->rank; d++)
         if (field->shape[d] < 2 || field->shape[d] > 65536) return false;
     return true;
 }
 
-static bool check_shapes(Rgl *in, Error *err)
-{
+static bool check_shapes(Rgl *in, Error *err) {
     size_t channels = in->is_rgb ? RGB_BANDS : in->wavelengths->count;
     size_t thetas = in->theta_i->count, phis = in->phi_i->count;
-    const struct { const TensorField *field; bool fits; const char *wanted; } shapes[] = {
+    const struct {
+        const TensorField *field;
+        bool fits;
+        const char *wanted;
+    } shapes[] = {
         {in->theta_i, thetas >= 1 && thetas <= LIST_MAX, "1 to 4096 angles"},
         {in->phi_i, phis >= 1 && phis <= LIST_MAX, "1 to 4096 angles"},
         {in->wavelengths, channels >= 1 && channels <= LIST_MAX, "1 to 4096 wavelengths"},
         {in->ndf, is_grid(in->ndf, 0), "at least 2 x 2"},
         {in->sigma, is_grid(in->sigma, 0), "at least 2 x 2"},
-        {in->vndf, is_grid(in->vndf, 2) && in->vndf->shape[0] == phis &&
-         in->vndf->shape[1] == thetas, "phi_i x theta_i x a grid of at least 2 x 2"},
-        {in->values, is_grid(in->values, 3) && in->values->shape[0] == phis &&
-         in->values->shape[1] == thetas && in->values->shape[2] == channels,
+        {in->vndf,
+         is_grid(in->vndf, 2) && in->vndf->shape[0] == phis && in->vndf->shape[1] == thetas,
+         "phi_i x theta_i x a grid of at least 2 x 2"},
+        {in->values,
+         is_grid(in->values, 3) && in->values->shape[0] == phis && in->values->shape[1] == thetas &&
+             in->values->shape[2] == channels,
          "phi_i x theta_i x channels x a grid of at least 2 x 2"}};
     for (int i = 0; i < COUNT_OF(shapes); i++)
         if (!shapes[i].fits) return wrong_shape(in, shapes[i].field, err, shapes[i].wanted);
@@ -90,8 +92,7 @@ static bool check_shapes(Rgl *in, Error *err)
     return true;
 }
 
-static bool check_angles(Rgl *in, Error *err)
-{
+static bool check_angles(Rgl *in, Error *err) {
     const char *file = in->file.file;
     for (int i = 0; i < in->thetas; i++) {
         double theta = tensor_value(in->theta_i, (size_t)i);
@@ -105,7 +106,8 @@ static bool check_angles(Rgl *in, Error *err)
     in->closes = fabs(last - first - 2 * PI) < 1e-3;
     double step = (last - first) / (in->phis - 1);
     if (!(last - first > 2 * PI - 1.5 * step)) /* the last step may be left out */
-        return error_at(err, ERROR_INPUT, file, "phi_i", "goes from %g to %g: only part of a "
+        return error_at(err, ERROR_INPUT, file, "phi_i",
+                        "goes from %g to %g: only part of a "
                         "turn (a material stored by its symmetry), which is not read here",
                         first, last);
     return true;
@@ -114,8 +116,7 @@ static bool check_angles(Rgl *in, Error *err)
 /* ---- grids ------------------------------------------------------------------------------- */
 
 /* Bilinear at (x, y) of the unit square; x runs along the last dimension. */
-static double bilinear(const TensorField *grid, double x, double y)
-{
+static double bilinear(const TensorField *grid, double x, double y) {
     size_t width = grid->shape[1], height = grid->shape[0];
     double u = fmin(fmax(x, 0), 1) * (double)(width - 1);
     double v = fmin(fmax(y, 0), 1) * (double)(height - 1);
@@ -133,14 +134,13 @@ static double bilinear(const TensorField *grid, double x, double y)
 /* One slice of vndf as a warp: rows are chosen by the running integral of the rows, then the
  * place in the row by the running integral along it (both of the bilinear density). */
 typedef struct Warp {
-    size_t  width, height;
+    size_t width, height;
     double *density;     /* height x width */
     double *conditional; /* running integral along each row */
     double *marginal;    /* running integral of the rows' totals */
 } Warp;
 
-static bool make_warp(const Rgl *in, int phi, int theta, Warp *out, Arena *arena, Error *err)
-{
+static bool make_warp(const Rgl *in, int phi, int theta, Warp *out, Arena *arena, Error *err) {
     size_t width = in->vndf->shape[3], height = in->vndf->shape[2], size = width * height;
     size_t first = ((size_t)phi * (size_t)in->thetas + (size_t)theta) * size;
     *out = (Warp){width, height, ARENA_NEW(arena, double, size), ARENA_NEW(arena, double, size),
@@ -150,19 +150,19 @@ static bool make_warp(const Rgl *in, int phi, int theta, Warp *out, Arena *arena
         if (out->density[i] < 0)
             return error_at(err, ERROR_INPUT, in->file.file, "vndf", "has a density below 0");
         if (i % width)
-            out->conditional[i] = out->conditional[i - 1] +
-                                  (out->density[i - 1] + out->density[i]) / 2;
+            out->conditional[i] =
+                out->conditional[i - 1] + (out->density[i - 1] + out->density[i]) / 2;
     }
     for (size_t j = 1; j < height; j++)
-        out->marginal[j] = out->marginal[j - 1] + (out->conditional[j * width - 1] +
-                                                   out->conditional[(j + 1) * width - 1]) / 2;
+        out->marginal[j] =
+            out->marginal[j - 1] +
+            (out->conditional[j * width - 1] + out->conditional[(j + 1) * width - 1]) / 2;
     return out->marginal[height - 1] > 0 ||
            error_at(err, ERROR_INPUT, in->file.file, "vndf", "has a density of 0 everywhere");
 }
 
 /* t in [0, 1] with a t + (b - a) t^2 / 2 = area. */
-static double invert_trapezoid(double a, double b, double area)
-{
+static double invert_trapezoid(double a, double b, double area) {
     double slope = b - a;
     if (a + b <= 0) return 0;
     if (fabs(slope) < 1e-9 * (a + b)) return fmin(fmax(2 * area / (a + b), 0), 1);
@@ -171,16 +171,14 @@ static double invert_trapezoid(double a, double b, double area)
 }
 
 /* Where s comes to lie in the square of half vectors. */
-static void warp(const Warp *in, double sx, double sy, double u[2])
-{
+static void warp(const Warp *in, double sx, double sy, double u[2]) {
     size_t width = in->width, row = 0, column = 0;
     double want = fmin(fmax(sy, 0), 1) * in->marginal[in->height - 1];
     while (row + 2 < in->height && in->marginal[row + 1] < want) row++;
     const double *low = in->conditional + row * width, *high = low + width;
     double v = invert_trapezoid(low[width - 1], high[width - 1], want - in->marginal[row]);
     want = fmin(fmax(sx, 0), 1) * ((1 - v) * low[width - 1] + v * high[width - 1]);
-    while (column + 2 < width && (1 - v) * low[column + 1] + v * high[column + 1] < want)
-        column++;
+    while (column + 2 < width && (1 - v) * low[column + 1] + v * high[column + 1] < want) column++;
     const double *d = in->density + row * width + column;
     double before = (1 - v) * low[column] + v * high[column];
     double a = (1 - v) * d[0] + v * d[width], b = (1 - v) * d[1] + v * d[width + 1];
@@ -191,21 +189,20 @@ static void warp(const Warp *in, double sx, double sy, double u[2])
 /* ---- tables ------------------------------------------------------------------------------ */
 
 typedef struct RglLight {
-    int       phi, theta;    /* numbers in the file */
-    double    azimuth;       /* radians; 0 when isotropic */
+    int phi, theta; /* numbers in the file */
+    double azimuth; /* radians; 0 when isotropic */
     Direction direction;
-    double    sigma;
-    Warp      warp;
+    double sigma;
+    Warp warp;
 } RglLight;
 
 static void put_node(const Rgl *in, const RglLight *light, size_t j, size_t i, double *value,
-                     ImportRows *rows)
-{
-    size_t    height = in->values->shape[3], width = in->values->shape[4];
-    size_t    plane = height * width;
-    double    u[2], theta_deg, phi_deg, scale = 1;
+                     ImportRows *rows) {
+    size_t height = in->values->shape[3], width = in->values->shape[4];
+    size_t plane = height * width;
+    double u[2], theta_deg, phi_deg, scale = 1;
     warp(&light->warp, (double)i / (double)(width - 1), (double)j / (double)(height - 1), u);
-    double    theta_m = u[0] * u[0] * PI / 2, phi_m = (2 * u[1] - 1) * PI;
+    double theta_m = u[0] * u[0] * PI / 2, phi_m = (2 * u[1] - 1) * PI;
     Direction half = direction_from_degrees(
         degrees_from_radians(theta_m),
         degrees_from_radians(phi_m + (in->is_isotropic ? light->azimuth : 0)));
@@ -214,7 +211,8 @@ static void put_node(const Rgl *in, const RglLight *light, size_t j, size_t i, d
     if (theta_deg > GRAZING_DEG) return;
     if (in->has_jacobian) scale = bilinear(in->ndf, u[0], u[1]) / (4 * light->sigma);
     size_t at = ((size_t)light->phi * (size_t)in->thetas + (size_t)light->theta) *
-                    (size_t)in->channels * plane + j * width + i;
+                    (size_t)in->channels * plane +
+                j * width + i;
     for (int c = 0; c < in->channels; c++) {
         size_t channel = (size_t)(in->is_rgb ? RGB_BANDS - 1 - c : c);
         value[c] = tensor_value(in->values, at + channel * plane) * scale / leaving.z;
@@ -224,27 +222,27 @@ static void put_node(const Rgl *in, const RglLight *light, size_t j, size_t i, d
 }
 
 /* Degrees that the file's single precision knows: to 0.0001. */
-static double whole_ticks(double radians)
-{
+static double whole_ticks(double radians) {
     return round(degrees_from_radians(radians) * 1e4) / 1e4;
 }
 
 static bool add_light(const Rgl *in, int phi, int theta, const float *nm, ImportSet *set,
-                      Error *err)
-{
-    double   lean = tensor_value(in->theta_i, (size_t)theta);
-    double   turn = in->is_isotropic ? 0 : tensor_value(in->phi_i, (size_t)phi);
+                      Error *err) {
+    double lean = tensor_value(in->theta_i, (size_t)theta);
+    double turn = in->is_isotropic ? 0 : tensor_value(in->phi_i, (size_t)phi);
     RglLight light = {.phi = phi, .theta = theta, .azimuth = turn};
-    light.direction = direction_from_degrees(degrees_from_radians(lean),
-                                             degrees_from_radians(turn));
+    light.direction =
+        direction_from_degrees(degrees_from_radians(lean), degrees_from_radians(turn));
     light.sigma = bilinear(in->sigma, sqrt(lean * 2 / PI), (turn + PI) / (2 * PI));
     if (in->has_jacobian && !(light.sigma > 0))
-        return error_at(err, ERROR_INPUT, in->file.file, "sigma", "is %g at theta_i %g, "
-                        "required: above 0", light.sigma, lean);
-    Arena   before = *set->arena;
-    size_t  height = in->values->shape[3], width = in->values->shape[4];
+        return error_at(err, ERROR_INPUT, in->file.file, "sigma",
+                        "is %g at theta_i %g, "
+                        "required: above 0",
+                        light.sigma, lean);
+    Arena before = *set->arena;
+    size_t height = in->values->shape[3], width = in->values->shape[4];
     ImportRows rows = scatter_rows(set->arena, (int)(height * width), in->channels);
-    Arena   scratch = *set->arena;
+    Arena scratch = *set->arena;
     double *value = ARENA_NEW(&scratch, double, in->channels);
     if (!make_warp(in, phi, theta, &light.warp, &scratch, err)) return false;
     for (size_t j = 0; j < height; j++)
@@ -257,8 +255,7 @@ static bool add_light(const Rgl *in, int phi, int theta, const float *nm, Import
     return at.incidence_deg >= 90 || scatter_add(set, in->file.file, &rows, at, nm, err);
 }
 
-static bool name_bands(const Rgl *in, ImportSet *set, const float **nm, Error *err)
-{
+static bool name_bands(const Rgl *in, ImportSet *set, const float **nm, Error *err) {
     if (in->is_rgb) {
         *nm = scatter_rgb_bands(in->file.file, set);
         return true;
@@ -267,16 +264,17 @@ static bool name_bands(const Rgl *in, ImportSet *set, const float **nm, Error *e
     for (int c = 0; c < in->channels; c++) {
         list[c] = (float)tensor_value(in->wavelengths, (size_t)c);
         if (!(list[c] > 0) || (c && !(list[c] > list[c - 1])))
-            return error_at(err, ERROR_INPUT, in->file.file, "wavelengths", "has %g nm, "
-                            "required: rising wavelengths", (double)list[c]);
+            return error_at(err, ERROR_INPUT, in->file.file, "wavelengths",
+                            "has %g nm, "
+                            "required: rising wavelengths",
+                            (double)list[c]);
     }
     *nm = list;
     return true;
 }
 
-static bool read_rgl(const char *file, const ImportOptions *options, ImportSet *set, Error *err)
-{
-    Rgl          in;
+static bool read_rgl(const char *file, const ImportOptions *options, ImportSet *set, Error *err) {
+    Rgl in;
     const float *nm = NULL;
     (void)options;
     memset(&in, 0, sizeof in);
@@ -287,14 +285,15 @@ static bool read_rgl(const char *file, const ImportOptions *options, ImportSet *
     for (int phi = 0; phi < phis; phi++)
         for (int theta = 0; theta < in.thetas; theta++)
             if (!add_light(&in, phi, theta, nm, set, err)) return false;
-    import_note(set, "%s: stands at the file's own incidences and samples; directions beyond "
+    import_note(set,
+                "%s: stands at the file's own incidences and samples; directions beyond "
                 "%g degrees are left out, where the cosine that the values hold cannot be "
-                "divided out", path_name(file), GRAZING_DEG);
+                "divided out",
+                path_name(file), GRAZING_DEG);
     return true;
 }
 
-static bool is_rgl(const char *file, const char *head, size_t head_size)
-{
+static bool is_rgl(const char *file, const char *head, size_t head_size) {
     (void)file;
     return tensor_file_head_has(head, head_size, "vndf");
 }

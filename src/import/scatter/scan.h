@@ -16,10 +16,10 @@
 typedef struct WordScan {
     const char *file;
     const char *next, *end; /* the text; *end is 0 */
-    int         line;       /* of `next`, from 1 */
-    char        comment;    /* 0: none */
-    bool        commas;     /* a comma separates words, too */
-    Arena      *arena;
+    int line;               /* of `next`, from 1 */
+    char comment;           /* 0: none */
+    bool commas;            /* a comma separates words, too */
+    Arena *arena;
 } WordScan;
 
 /* Reads the file (a byte order mark is passed over); '#' is the comment mark. */

@@ -15,8 +15,8 @@ typedef struct Direction {
 } Direction;
 
 Direction direction_from_degrees(double theta_deg, double phi_deg);
-void      direction_to_degrees(Direction d, double *theta_deg, double *phi_deg);
-double    direction_dot(Direction a, Direction b);
+void direction_to_degrees(Direction d, double *theta_deg, double *phi_deg);
+double direction_dot(Direction a, Direction b);
 Direction direction_scaled_sum(Direction a, double s, Direction b, double t); /* s a + t b */
 Direction direction_unit(Direction a);
 
@@ -36,8 +36,7 @@ void scatter_mask(ImportRows *rows, double theta_deg, double phi_deg);
 
 /* As scatter_put, any turn of phi; values that are all exactly 0 mark a direction that was not
  * measured. */
-void scatter_put_measured(ImportRows *rows, double theta_deg, double phi_deg,
-                          const double *value);
+void scatter_put_measured(ImportRows *rows, double theta_deg, double phi_deg, const double *value);
 
 typedef struct ScatterLight {
     double incidence_deg;
@@ -47,8 +46,8 @@ typedef struct ScatterLight {
 /* Adds the rows as a table. Light from a second azimuth makes the set anisotropic, or is left
  * out (with a note) when the user calls the set isotropic. Negative
  * values stay: they are noise below the zero of the instrument. */
-bool scatter_add(ImportSet *set, const char *file, const ImportRows *rows,
-                 ScatterLight light, const float *wavelength_nm, Error *err);
+bool scatter_add(ImportSet *set, const char *file, const ImportRows *rows, ScatterLight light,
+                 const float *wavelength_nm, Error *err);
 
 /* ---- wavelengths ------------------------------------------------------------------------- */
 
@@ -57,8 +56,8 @@ const float *scatter_band(double nm, ImportSet *set);
 
 /* --wavelength, else the one that the file states (0: none); or an error that requests it
  * (NULL). */
-const float *scatter_wavelength(double stated_nm, const ImportOptions *options,
-                                const char *file, ImportSet *set, Error *err);
+const float *scatter_wavelength(double stated_nm, const ImportOptions *options, const char *file,
+                                ImportSet *set, Error *err);
 
 /* Of X, Y and Z the photopic Y alone is taken, with a note, and stands at one wavelength, with
  * another; --wavelength wins. */
@@ -74,11 +73,11 @@ const float *scatter_rgb_bands(const char *file, ImportSet *set);
 
 /* Values on radial x azimuth about an axis that leans by axis_deg from the normal. */
 typedef struct ScatterGrid {
-    int           radials, azimuths;
+    int radials, azimuths;
     const double *radial_deg, *azimuth_deg; /* rising */
     const double *value;                    /* azimuths x radials */
-    double        axis_deg;
-    bool          is_half; /* azimuths 0 to 180, the other half is their mirror image */
+    double axis_deg;
+    bool is_half; /* azimuths 0 to 180, the other half is their mirror image */
 } ScatterGrid;
 
 /* Integral of value * cos(angle from the normal) over the upper hemisphere, bilinear between
@@ -88,7 +87,7 @@ double scatter_grid_integral(const ScatterGrid *grid, Arena scratch);
 /* "10 deg 0.0387 (0.0391), ...": stated and integrated totals for one note. */
 typedef struct TotalsNote {
     char text[640];
-    int  count;
+    int count;
 } TotalsNote;
 
 void totals_add(TotalsNote *note, double incidence_deg, double stated, double integrated);

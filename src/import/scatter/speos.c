@@ -31,8 +31,7 @@ typedef struct SpeosText {
 
 /* ---- small parts ------------------------------------------------------------------------- */
 
-static bool read_flag(SpeosText *in, const char *what, bool *out, Error *err)
-{
+static bool read_flag(SpeosText *in, const char *what, bool *out, Error *err) {
     double value;
     if (!scan_number(&in->scan, what, &value, err)) return false;
     if (value != 0 && value != 1)
@@ -42,31 +41,33 @@ static bool read_flag(SpeosText *in, const char *what, bool *out, Error *err)
 }
 
 /* A length in characters, then a text of that length, which may have lines of its own. */
-static bool skip_description(SpeosText *in, Error *err)
-{
+static bool skip_description(SpeosText *in, Error *err) {
     double length;
-    WordScan  *scan = &in->scan;
+    WordScan *scan = &in->scan;
     if (!scan_number(scan, "the length of the description", &length, err)) return false;
     scan_line(scan);
     if (!(length >= 0 && length <= (double)(scan->end - scan->next)))
-        return scan_fail(scan, err, "the length of the description is %g, more than the rest "
-                         "of the file", length);
+        return scan_fail(scan, err,
+                         "the length of the description is %g, more than the rest "
+                         "of the file",
+                         length);
     for (const char *stop = scan->next + (size_t)length; scan->next < stop; scan->next++)
         scan->line += *scan->next == '\n';
     scan_line(scan);
     return true;
 }
 
-static bool read_table(SpeosText *in, SpeosTable *table, Error *err)
-{
+static bool read_table(SpeosText *in, SpeosTable *table, Error *err) {
     WordScan *scan = &in->scan;
     if (!scan_count(scan, "the number of thetas", SPEOS_ANGLES_MAX, &table->thetas, err) ||
         !scan_count(scan, "the number of phis", SPEOS_ANGLES_MAX, &table->phis, err))
         return false;
     size_t size = (size_t)table->thetas * (size_t)table->phis;
     if (size / 2 > (size_t)(scan->end - scan->next))
-        return scan_fail(scan, err, "a table of %d thetas x %d phis is more than the rest of "
-                         "the file can hold", table->thetas, table->phis);
+        return scan_fail(scan, err,
+                         "a table of %d thetas x %d phis is more than the rest of "
+                         "the file can hold",
+                         table->thetas, table->phis);
     if (!scan_list(scan, "phi", table->phis, &table->phi_deg, err)) return false;
     double *rows = ARENA_NEW(in->arena, double, size);
     table->theta_deg = ARENA_NEW(in->arena, double, table->thetas);
@@ -80,8 +81,7 @@ static bool read_table(SpeosText *in, SpeosTable *table, Error *err)
 }
 
 /* The rest of the file is transmission, which is not read, or nothing. */
-static bool check_end(const SpeosText *in, Error *err)
-{
+static bool check_end(const SpeosText *in, Error *err) {
     const WordScan *scan = &in->scan;
     const char *word = scan_peek(scan);
     if (!scan_check_end(scan, err)) return false;
@@ -90,24 +90,23 @@ static bool check_end(const SpeosText *in, Error *err)
     return true;
 }
 
-static bool read_kind(SpeosText *in, Error *err)
-{
+static bool read_kind(SpeosText *in, Error *err) {
     Speos *out = in->out;
     if (!read_flag(in, "the flag of reflection", &out->has_reflection, err) ||
         !read_flag(in, "the flag of transmission", &out->has_transmission, err) ||
         !read_flag(in, "the kind of value", &out->is_bsdf, err))
         return false;
-    return out->has_reflection || scan_fail(&in->scan, err, "there is transmission only: a "
+    return out->has_reflection || scan_fail(&in->scan, err,
+                                            "there is transmission only: a "
                                             "display panel is opaque");
 }
 
 /* ---- .anisotropicbsdf -------------------------------------------------------------------- */
 
-static bool add_lights(SpeosText *in, double anisotropy_deg, Error *err)
-{
-    int     count;
+static bool add_lights(SpeosText *in, double anisotropy_deg, Error *err) {
+    int count;
     double *incidence;
-    Speos  *out = in->out;
+    Speos *out = in->out;
     if (!scan_counted_list(&in->scan, "the number of incidences", SPEOS_ANGLES_MAX, &count,
                            &incidence, err))
         return false;
@@ -120,12 +119,11 @@ static bool add_lights(SpeosText *in, double anisotropy_deg, Error *err)
 }
 
 /* Anisotropy angles, and for each its incidences. */
-static bool read_lights(SpeosText *in, bool is_kept, Error *err)
-{
-    int     count, tables = in->out->tables;
+static bool read_lights(SpeosText *in, bool is_kept, Error *err) {
+    int count, tables = in->out->tables;
     double *anisotropy;
-    if (!scan_counted_list(&in->scan, "the number of anisotropy angles", SPEOS_ANGLES_MAX,
-                           &count, &anisotropy, err))
+    if (!scan_counted_list(&in->scan, "the number of anisotropy angles", SPEOS_ANGLES_MAX, &count,
+                           &anisotropy, err))
         return false;
     for (int i = 0; i < count; i++)
         if (!add_lights(in, anisotropy[i], err)) return false;
@@ -133,17 +131,15 @@ static bool read_lights(SpeosText *in, bool is_kept, Error *err)
     return true;
 }
 
-static bool read_spectrum(SpeosText *in, Error *err)
-{
+static bool read_spectrum(SpeosText *in, Error *err) {
     Speos *out = in->out;
-    WordScan  *scan = &in->scan;
+    WordScan *scan = &in->scan;
     if (!scan_number(scan, "the spectrum's theta", &out->spectrum_theta_deg, err) ||
         !scan_number(scan, "the spectrum's phi", &out->spectrum_phi_deg, err))
         return false;
     scan_line(scan);
     scan_line(scan); /* its description */
-    if (!scan_count(scan, "the number of wavelengths", SPEOS_ANGLES_MAX, &out->spectrum_count,
-                    err))
+    if (!scan_count(scan, "the number of wavelengths", SPEOS_ANGLES_MAX, &out->spectrum_count, err))
         return false;
     out->spectrum_nm = ARENA_NEW(in->arena, double, out->spectrum_count);
     out->spectrum_percent = ARENA_NEW(in->arena, double, out->spectrum_count);
@@ -154,11 +150,10 @@ static bool read_spectrum(SpeosText *in, Error *err)
     return true;
 }
 
-static bool read_anisotropic(SpeosText *in, Error *err)
-{
-    Speos  *out = in->out;
-    double  vector;
-    Speos   ignored = {.file = out->file};
+static bool read_anisotropic(SpeosText *in, Error *err) {
+    Speos *out = in->out;
+    double vector;
+    Speos ignored = {.file = out->file};
     for (int i = 0; i < 3; i++)
         if (!scan_number(&in->scan, "the anisotropy vector", &vector, err)) return false;
     if (!read_kind(in, err) || !read_lights(in, true, err)) return false;
@@ -177,12 +172,11 @@ static bool read_anisotropic(SpeosText *in, Error *err)
 
 /* ---- .brdf ------------------------------------------------------------------------------- */
 
-static bool read_brdf(SpeosText *in, Error *err)
-{
-    int     incidences, wavelengths;
+static bool read_brdf(SpeosText *in, Error *err) {
+    int incidences, wavelengths;
     double *incidence, *nm;
-    Speos  *out = in->out;
-    WordScan   *scan = &in->scan;
+    Speos *out = in->out;
+    WordScan *scan = &in->scan;
     if (!read_kind(in, err) ||
         !scan_count(scan, "the number of incidences", SPEOS_ANGLES_MAX, &incidences, err) ||
         !scan_count(scan, "the number of wavelengths", SPEOS_ANGLES_MAX, &wavelengths, err))
@@ -204,15 +198,14 @@ static bool read_brdf(SpeosText *in, Error *err)
     return true;
 }
 
-static bool speos_text_read(const char *file, Arena *arena, Speos *out, Error *err)
-{
+static bool speos_text_read(const char *file, Arena *arena, Speos *out, Error *err) {
     SpeosText in = {.arena = arena, .out = out};
     *out = (Speos){.file = file, .table = ARENA_NEW(arena, SpeosTable, SPEOS_TABLES_MAX)};
     if (!scan_open(file, arena, &in.scan, err)) return false;
     in.scan.comment = 0;
     const char *title = scan_line(&in.scan);
     const char *version = title ? strrchr(title, 'v') : NULL;
-    double      number;
+    double number;
     if (!version || !scan_to_number(version + 1, &number) || number < 8)
         return scan_fail(&in.scan, err, "the version is '%.20s', required: v8.0 or later",
                          version ? version : "");
@@ -233,10 +226,9 @@ static bool speos_text_read(const char *file, Arena *arena, Speos *out, Error *e
 #define LAST_NM 830.0
 
 /* The table's integral of value * cos. */
-static double table_integral(const SpeosTable *table, Arena scratch)
-{
-    ScatterGrid grid = {table->thetas, table->phis, table->theta_deg, table->phi_deg,
-                        table->value, 0, false};
+static double table_integral(const SpeosTable *table, Arena scratch) {
+    ScatterGrid grid = {
+        table->thetas, table->phis, table->theta_deg, table->phi_deg, table->value, 0, false};
     return scatter_grid_integral(&grid, scratch);
 }
 
@@ -244,23 +236,20 @@ static double table_integral(const SpeosTable *table, Arena scratch)
 
 /* Divides the cosine out. At the horizon the value of the last theta before it is repeated: it
  * only closes the integral, and is not imported. */
-static void divide_cosine(SpeosTable *table)
-{
+static void divide_cosine(SpeosTable *table) {
     for (int j = 0; j < table->phis; j++) {
         double *value = table->value + (size_t)j * (size_t)table->thetas;
         for (int i = 0; i < table->thetas; i++) {
             if (table->theta_deg[i] <= GRAZING_DEG)
                 value[i] /= cos_d(radians_from_degrees(table->theta_deg[i]));
-            else
-                value[i] = i ? value[i - 1] : 0;
+            else value[i] = i ? value[i - 1] : 0;
         }
     }
 }
 
 /* The two tables of the anisotropy angle nearest to the spectrum's, whose incidences enclose
  * its theta; the same twice outside them. */
-static void find_reference(const Speos *in, const SpeosTable *out[2])
-{
+static void find_reference(const Speos *in, const SpeosTable *out[2]) {
     double nearest = 1e9;
     for (int i = 0; i < in->tables; i++)
         nearest = fmin(nearest, fabs(in->table[i].anisotropy_deg - in->spectrum_phi_deg));
@@ -277,16 +266,16 @@ static void find_reference(const Speos *in, const SpeosTable *out[2])
 }
 
 /* The factor from value times reflectance to BRDF: 1 / H, interpolated between incidences. */
-static bool find_scale(const Speos *in, Arena scratch, double *scale, Error *err)
-{
+static bool find_scale(const Speos *in, Arena scratch, double *scale, Error *err) {
     const SpeosTable *table[2];
     find_reference(in, table);
     double low = table_integral(table[0], scratch);
     double high = table_integral(table[1], scratch);
     if (!(low > 0 && high > 0))
-        return error_at(err, ERROR_INPUT, in->file, "", "the table at incidence %g integrates "
-                        "to %g, required: above 0", table[0]->incidence_deg,
-                        low > 0 ? high : low);
+        return error_at(err, ERROR_INPUT, in->file, "",
+                        "the table at incidence %g integrates "
+                        "to %g, required: above 0",
+                        table[0]->incidence_deg, low > 0 ? high : low);
     double span = table[1]->incidence_deg - table[0]->incidence_deg;
     double u = span > 0 ? (in->spectrum_theta_deg - table[0]->incidence_deg) / span : 0;
     *scale = (1 - u) / low + u / high;
@@ -295,8 +284,7 @@ static bool find_scale(const Speos *in, Arena scratch, double *scale, Error *err
 
 /* ---- the spectrum ------------------------------------------------------------------------ */
 
-static double percent_at(const Speos *in, double nm)
-{
+static double percent_at(const Speos *in, double nm) {
     int last = in->spectrum_count - 1;
     if (nm <= in->spectrum_nm[0]) return in->spectrum_percent[0];
     for (int i = 1; i <= last; i++) {
@@ -309,12 +297,11 @@ static double percent_at(const Speos *in, double nm)
 }
 
 /* The file's wavelengths that a panel has, and its ends where the file goes beyond them. */
-static int choose_bands(const Speos *in, ImportSet *set, float *nm)
-{
-    int    count = 0, last = in->spectrum_count - 1;
+static int choose_bands(const Speos *in, ImportSet *set, float *nm) {
+    int count = 0, last = in->spectrum_count - 1;
     double first_nm = in->spectrum_nm[0], last_nm = in->spectrum_nm[last];
-    bool   before = first_nm < FIRST_NM && last_nm >= FIRST_NM;
-    bool   after = last_nm > LAST_NM && first_nm <= LAST_NM;
+    bool before = first_nm < FIRST_NM && last_nm >= FIRST_NM;
+    bool after = last_nm > LAST_NM && first_nm <= LAST_NM;
     if (before) nm[count++] = (float)FIRST_NM;
     for (int i = 0; i <= last && count < MEASUREMENT_WAVELENGTHS_MAX - 1; i++) {
         double one = in->spectrum_nm[i];
@@ -324,22 +311,26 @@ static int choose_bands(const Speos *in, ImportSet *set, float *nm)
     }
     if (after) nm[count++] = (float)LAST_NM;
     if (before || after)
-        import_note(set, "%s: the spectrum goes from %g to %g nm; it is cut (by straight "
-                    "lines) to %g to %g nm", path_name(in->file), first_nm, last_nm,
-                    FIRST_NM, LAST_NM);
+        import_note(set,
+                    "%s: the spectrum goes from %g to %g nm; it is cut (by straight "
+                    "lines) to %g to %g nm",
+                    path_name(in->file), first_nm, last_nm, FIRST_NM, LAST_NM);
     return count;
 }
 
-static bool check_spectrum(const Speos *in, Error *err)
-{
+static bool check_spectrum(const Speos *in, Error *err) {
     for (int i = 0; i < in->spectrum_count; i++) {
         double nm = in->spectrum_nm[i], percent = in->spectrum_percent[i];
         if (!(nm > 0) || (i && !(nm > in->spectrum_nm[i - 1])))
-            return error_at(err, ERROR_INPUT, in->file, "", "the spectrum has %g nm, required: "
-                            "rising wavelengths", nm);
+            return error_at(err, ERROR_INPUT, in->file, "",
+                            "the spectrum has %g nm, required: "
+                            "rising wavelengths",
+                            nm);
         if (!(percent >= 0))
-            return error_at(err, ERROR_INPUT, in->file, "", "the spectrum is %g%% at %g nm, "
-                            "required: 0 or more", percent, nm);
+            return error_at(err, ERROR_INPUT, in->file, "",
+                            "the spectrum is %g%% at %g nm, "
+                            "required: 0 or more",
+                            percent, nm);
     }
     return true;
 }
@@ -347,14 +338,13 @@ static bool check_spectrum(const Speos *in, Error *err)
 /* ---- tables ------------------------------------------------------------------------------ */
 
 typedef struct SpeosBands {
-    int          count;
+    int count;
     const float *nm;
-    double       factor[MEASUREMENT_WAVELENGTHS_MAX]; /* of the values */
+    double factor[MEASUREMENT_WAVELENGTHS_MAX]; /* of the values */
 } SpeosBands;
 
 static void put_rows(const Speos *in, const SpeosTable *table, const double *factor,
-                     ImportRows *rows)
-{
+                     ImportRows *rows) {
     double value[MEASUREMENT_WAVELENGTHS_MAX];
     for (int i = 0; i < table->thetas; i++)
         for (int j = 0; j < table->phis; j++) {
@@ -367,8 +357,7 @@ static void put_rows(const Speos *in, const SpeosTable *table, const double *fac
 }
 
 static bool add_table(const Speos *in, const SpeosTable *table, const SpeosBands *bands,
-                      ImportSet *set, Error *err)
-{
+                      ImportSet *set, Error *err) {
     ImportRows rows = scatter_rows(set->arena, table->thetas * table->phis, bands->count);
     put_rows(in, table, bands->factor, &rows);
     /* The mirror direction lies `anisotropy` before the vector, which is at phi 0. */
@@ -376,17 +365,18 @@ static bool add_table(const Speos *in, const SpeosTable *table, const SpeosBands
     return scatter_add(set, in->file, &rows, light, bands->nm, err);
 }
 
-static bool add_scaled(const Speos *in, ImportSet *set, Error *err)
-{
-    float     *nm = ARENA_NEW(set->arena, float, MEASUREMENT_WAVELENGTHS_MAX);
+static bool add_scaled(const Speos *in, ImportSet *set, Error *err) {
+    float *nm = ARENA_NEW(set->arena, float, MEASUREMENT_WAVELENGTHS_MAX);
     SpeosBands bands = {.nm = nm};
-    double     scale = 0;
+    double scale = 0;
     if (!check_spectrum(in, err) || !find_scale(in, *set->arena, &scale, err)) return false;
     bands.count = choose_bands(in, set, nm);
     if (!bands.count)
-        return error_at(err, ERROR_INPUT, in->file, "", "the spectrum goes from %g to %g nm, "
-                        "required: some of %g to %g nm", in->spectrum_nm[0],
-                        in->spectrum_nm[in->spectrum_count - 1], FIRST_NM, LAST_NM);
+        return error_at(err, ERROR_INPUT, in->file, "",
+                        "the spectrum goes from %g to %g nm, "
+                        "required: some of %g to %g nm",
+                        in->spectrum_nm[0], in->spectrum_nm[in->spectrum_count - 1], FIRST_NM,
+                        LAST_NM);
     for (int c = 0; c < bands.count; c++)
         bands.factor[c] = percent_at(in, (double)nm[c]) / 100 * scale;
     for (int i = 0; i < in->tables; i++) {
@@ -395,22 +385,24 @@ static bool add_scaled(const Speos *in, ImportSet *set, Error *err)
         if (table->incidence_deg >= 90 || is_again) continue;
         if (!add_table(in, table, &bands, set, err)) return false;
     }
-    import_note(set, "%s: relative values scaled to %g%% directional-hemispherical reflectance "
-                "at incidence %g and %g nm, as the file states", path_name(in->file),
-                percent_at(in, (double)nm[0]), in->spectrum_theta_deg, (double)nm[0]);
+    import_note(set,
+                "%s: relative values scaled to %g%% directional-hemispherical reflectance "
+                "at incidence %g and %g nm, as the file states",
+                path_name(in->file), percent_at(in, (double)nm[0]), in->spectrum_theta_deg,
+                (double)nm[0]);
     return true;
 }
 
-static bool add_spectral(const Speos *in, ImportSet *set, Error *err)
-{
+static bool add_spectral(const Speos *in, ImportSet *set, Error *err) {
     TotalsNote totals = {{0}, 0};
     for (int i = 0; i < in->tables; i++) {
         const SpeosTable *table = &in->table[i];
-        double            total = table_integral(table, *set->arena);
+        double total = table_integral(table, *set->arena);
         if (!(total > 0))
-            return error_at(err, ERROR_INPUT, in->file, "", "the table at incidence %g and %g "
-                            "nm integrates to %g, required: above 0", table->incidence_deg,
-                            table->nm, total);
+            return error_at(err, ERROR_INPUT, in->file, "",
+                            "the table at incidence %g and %g "
+                            "nm integrates to %g, required: above 0",
+                            table->incidence_deg, table->nm, total);
         SpeosBands bands = {1, scatter_band(table->nm, set), {table->percent / 100 / total}};
         totals_add(&totals, table->incidence_deg, table->percent / 100, total);
         if (!add_table(in, table, &bands, set, err)) return false;
@@ -422,8 +414,7 @@ static bool add_spectral(const Speos *in, ImportSet *set, Error *err)
 }
 
 /* Compares the quarters around phi 0 and around phi 180, beyond 20 degrees. */
-static void warn_of_brighter_back(const Speos *in, ImportSet *set)
-{
+static void warn_of_brighter_back(const Speos *in, ImportSet *set) {
     double front = 0, back = 0;
     for (int t = 0; t < in->tables; t++) {
         const SpeosTable *table = &in->table[t];
@@ -436,17 +427,18 @@ static void warn_of_brighter_back(const Speos *in, ImportSet *set)
             }
     }
     if (back > 1.2 * front)
-        import_note(set, "%s: brighter towards the light (phi 180) than towards the mirror "
+        import_note(set,
+                    "%s: brighter towards the light (phi 180) than towards the mirror "
                     "direction (phi 0): a retroreflector, or a file that counts phi from the "
-                    "light", path_name(in->file));
+                    "light",
+                    path_name(in->file));
 }
 
 /* ---- .simplescattering ------------------------------------------------------------------- */
 
 /* Four numbers of which the second is the Lambertian share in percent; the order of the others
  * is not public, so they must leave nothing beside it. */
-static bool read_simple(const char *file, ImportSet *set, Error *err)
-{
+static bool read_simple(const char *file, ImportSet *set, Error *err) {
     WordScan scan;
     double number[4];
     if (!scan_open(file, set->arena, &scan, err)) return false;
@@ -458,9 +450,10 @@ static bool read_simple(const char *file, ImportSet *set, Error *err)
     for (int i = 0; i < 4; i++)
         if (!scan_number(&scan, "a share in percent", &number[i], err)) return false;
     if (number[0] != 0 || number[2] != 0 || !(number[1] > 0 && number[1] <= 100))
-        return scan_fail(&scan, err, "the shares are %g, %g and %g%%; only a Lambertian "
-                         "surface (0, above 0, 0) is known here", number[0], number[1],
-                         number[2]);
+        return scan_fail(&scan, err,
+                         "the shares are %g, %g and %g%%; only a Lambertian "
+                         "surface (0, above 0, 0) is known here",
+                         number[0], number[1], number[2]);
     double brdf = number[1] / 100 / PI;
     const float *nm = scatter_band((double)PHOTOPIC_NM, set);
     for (int lean = 0; lean <= 80; lean += 20) {
@@ -470,7 +463,8 @@ static bool read_simple(const char *file, ImportSet *set, Error *err)
             for (int j = 0; j < 24; j++) scatter_put(&rows, i * 5, j * 15, &brdf);
         if (!scatter_add(set, file, &rows, (ScatterLight){lean, 180}, nm, err)) return false;
     }
-    import_note(set, "%s: a Lambertian surface of %g%%, the same at every wavelength (one band "
+    import_note(set,
+                "%s: a Lambertian surface of %g%%, the same at every wavelength (one band "
                 "at %g nm), on a grid of theta 5 x phi 15 degrees at incidences 0 to 80",
                 path_name(file), number[1], (double)*nm);
     return true;
@@ -478,9 +472,7 @@ static bool read_simple(const char *file, ImportSet *set, Error *err)
 
 /* ---- which form -------------------------------------------------------------------------- */
 
-static bool read_speos(const char *file, const ImportOptions *options, ImportSet *set,
-                       Error *err)
-{
+static bool read_speos(const char *file, const ImportOptions *options, ImportSet *set, Error *err) {
     (void)options;
     WordScan scan;
     Speos in;
@@ -496,14 +488,12 @@ static bool read_speos(const char *file, const ImportOptions *options, ImportSet
                         : speos_text_read(file, set->arena, &in, err);
     if (!ok) return false;
     for (int i = 0; !in.is_bsdf && i < in.tables; i++) divide_cosine(&in.table[i]);
-    if (in.has_transmission)
-        import_note(set, "%s: transmission is left out", path_name(file));
+    if (in.has_transmission) import_note(set, "%s: transmission is left out", path_name(file));
     warn_of_brighter_back(&in, set);
     return in.is_spectral ? add_spectral(&in, set, err) : add_scaled(&in, set, err);
 }
 
-static bool is_speos(const char *file, const char *head, size_t head_size)
-{
+static bool is_speos(const char *file, const char *head, size_t head_size) {
     (void)file;
     return head_size > 8 && !memcmp(head, "OPTIS - ", 8) && strstr(head, "surface file");
 }

@@ -18,22 +18,22 @@
  * Memory    the arena's. Threads: const once read. */
 
 typedef struct SpeosTable {
-    double  anisotropy_deg, incidence_deg;
-    double  nm, percent; /* of a .brdf: wavelength and reflectance of this table */
-    int     thetas, phis;
+    double anisotropy_deg, incidence_deg;
+    double nm, percent; /* of a .brdf: wavelength and reflectance of this table */
+    int thetas, phis;
     double *theta_deg, *phi_deg, *value; /* value: phis x thetas, proportional to the BRDF */
 } SpeosTable;
 
 typedef struct Speos {
     const char *file;
-    bool        has_reflection, has_transmission;
-    bool        is_bsdf;     /* false: values hold the cosine of the leaving angle */
-    bool        is_spectral; /* .brdf: a table a wavelength; else a spectrum scales them all */
-    int         tables;
+    bool has_reflection, has_transmission;
+    bool is_bsdf;     /* false: values hold the cosine of the leaving angle */
+    bool is_spectral; /* .brdf: a table a wavelength; else a spectrum scales them all */
+    int tables;
     SpeosTable *table;
-    double      spectrum_theta_deg, spectrum_phi_deg; /* where the spectrum was measured */
-    int         spectrum_count;
-    double     *spectrum_nm, *spectrum_percent;
+    double spectrum_theta_deg, spectrum_phi_deg; /* where the spectrum was measured */
+    int spectrum_count;
+    double *spectrum_nm, *spectrum_percent;
 } Speos;
 
 #define SPEOS_ANGLES_MAX 4096

@@ -16,18 +16,18 @@
 #define TENSOR_FIELDS_MAX 64
 
 typedef struct TensorField {
-    const char          *name;
-    int                  type; /* its number in the file */
-    int                  rank;
-    size_t               shape[TENSOR_RANK_MAX];
-    size_t               count; /* product of the shape */
+    const char *name;
+    int type; /* its number in the file */
+    int rank;
+    size_t shape[TENSOR_RANK_MAX];
+    size_t count; /* product of the shape */
     const unsigned char *data;
 } TensorField;
 
 typedef struct TensorFile {
     const char *file;
     TensorField field[TENSOR_FIELDS_MAX];
-    int         fields;
+    int fields;
 } TensorFile;
 
 /* Do the first bytes of a file hold this name among its fields? */
@@ -39,8 +39,8 @@ bool tensor_file_open(const char *file, Arena *arena, TensorFile *out, Error *er
 const TensorField *tensor_file_find(const TensorFile *in, const char *name);
 
 /* The field of that name and rank, all of whose numbers are finite; or an error. */
-bool tensor_file_field(const TensorFile *in, const char *name, int rank,
-                       const TensorField **out, Error *err);
+bool tensor_file_field(const TensorFile *in, const char *name, int rank, const TensorField **out,
+                       Error *err);
 
 /* Number i of the field; i below count. */
 double tensor_value(const TensorField *field, size_t i);

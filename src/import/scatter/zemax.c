@@ -20,55 +20,56 @@
 
 typedef struct Zemax {
     WordScan scan;
-    int     rotations, incidences, azimuths, radials;
+    int rotations, incidences, azimuths, radials;
     double *rotation, *incidence, *azimuth, *radial; /* degrees */
-    bool    is_half, has_symmetry, is_xyz, has_content;
-    double *tis;    /* per block of the component that is kept */
-    double *value;  /* blocks x azimuths x radials */
-    int     blocks; /* read so far, of the component that is kept */
+    bool is_half, has_symmetry, is_xyz, has_content;
+    double *tis;   /* per block of the component that is kept */
+    double *value; /* blocks x azimuths x radials */
+    int blocks;    /* read so far, of the component that is kept */
     TotalsNote totals;
 } Zemax;
 
 /* ---- header ------------------------------------------------------------------------------ */
 
-static bool read_symmetry(Zemax *in, Error *err)
-{
-    static const char *const names[] = {"PlaneSymmetrical", "Asymmetrical", "Asymmetrical4D",
-                                        NULL};
-    int found = scan_choice(&in->scan, "Symmetry", names, "PlaneSymmetrical, Asymmetrical or "
-                            "ASymmetrical4D", err);
+static bool read_symmetry(Zemax *in, Error *err) {
+    static const char *const names[] = {"PlaneSymmetrical", "Asymmetrical", "Asymmetrical4D", NULL};
+    int found = scan_choice(&in->scan, "Symmetry", names,
+                            "PlaneSymmetrical, Asymmetrical or "
+                            "ASymmetrical4D",
+                            err);
     in->has_symmetry = true;
     in->is_half = found == 0;
     return found >= 0;
 }
 
-static bool read_content(Zemax *in, Error *err)
-{
+static bool read_content(Zemax *in, Error *err) {
     static const char *const names[] = {"Monochrome", "XYZ", NULL};
     int found = scan_choice(&in->scan, "SpectralContent", names, "Monochrome or XYZ", err);
     in->is_xyz = found == 1;
     return in->has_content = found >= 0;
 }
 
-static bool read_type(Zemax *in, Error *err)
-{
+static bool read_type(Zemax *in, Error *err) {
     const char *word = scan_word(&in->scan);
     if (word && !strcasecmp(word, "BRDF")) return true;
     if (word && !strcasecmp(word, "BTDF"))
-        return scan_fail(&in->scan, err, "ScatterType is BTDF: transmission, and a display "
+        return scan_fail(&in->scan, err,
+                         "ScatterType is BTDF: transmission, and a display "
                          "panel is opaque");
     return scan_fail(&in->scan, err, "ScatterType is '%s', required: BRDF", word ? word : "");
 }
 
 /* Reads one entry; *done at the first word of the data. */
-static bool read_entry(Zemax *in, bool *done, Error *err)
-{
-    const struct { const char *name; int *count; double **list; } lists[] = {
-        {"SampleRotation", &in->rotations, &in->rotation},
-        {"AngleOfIncidence", &in->incidences, &in->incidence},
-        {"ScatterAzimuth", &in->azimuths, &in->azimuth},
-        {"ScatterRadial", &in->radials, &in->radial}};
-    WordScan   *scan = &in->scan;
+static bool read_entry(Zemax *in, bool *done, Error *err) {
+    const struct {
+        const char *name;
+        int *count;
+        double **list;
+    } lists[] = {{"SampleRotation", &in->rotations, &in->rotation},
+                 {"AngleOfIncidence", &in->incidences, &in->incidence},
+                 {"ScatterAzimuth", &in->azimuths, &in->azimuth},
+                 {"ScatterRadial", &in->radials, &in->radial}};
+    WordScan *scan = &in->scan;
     const char *word = scan_peek(scan);
     *done = word && (!strcasecmp(word, "Monochrome") || !strcasecmp(word, "DataBegin") ||
                      !strncasecmp(word, "Tristimulus", 11));
@@ -80,14 +81,13 @@ static bool read_entry(Zemax *in, bool *done, Error *err)
     if (scan_accept(scan, "ScatterType")) return read_type(in, err);
     for (int i = 0; i < COUNT_OF(lists); i++)
         if (scan_accept(scan, lists[i].name))
-            return scan_counted_list(scan, lists[i].name, ANGLES_MAX, lists[i].count,
-                                     lists[i].list, err);
+            return scan_counted_list(scan, lists[i].name, ANGLES_MAX, lists[i].count, lists[i].list,
+                                     err);
     if (!word) return scan_fail(scan, err, "the file ends in its header, required: DataBegin");
     return scan_fail(scan, err, "'%.40s' is no entry of this format's header", word);
 }
 
-static bool check_header(const Zemax *in, Error *err)
-{
+static bool check_header(const Zemax *in, Error *err) {
     const WordScan *scan = &in->scan;
     const char *missing = !in->has_symmetry  ? "Symmetry"
                           : !in->has_content ? "SpectralContent"
@@ -98,14 +98,15 @@ static bool check_header(const Zemax *in, Error *err)
                                              : NULL;
     if (missing) return scan_fail(scan, err, "the header has no %s", missing);
     if (in->rotations > BLOCKS_MAX / in->incidences)
-        return scan_fail(scan, err, "there are %d sample rotations at %d incidences, "
+        return scan_fail(scan, err,
+                         "there are %d sample rotations at %d incidences, "
                          "required: at most %d "
-                         "blocks", in->rotations, in->incidences, BLOCKS_MAX);
+                         "blocks",
+                         in->rotations, in->incidences, BLOCKS_MAX);
     const double turn[] = {-360, 360}, lean[] = {0, 89.999};
     const double full[] = {0, 360}, half[] = {0, 180};
     return angles_check(scan->file, "SampleRotation", in->rotation, in->rotations, turn, err) &&
-           angles_check(scan->file, "AngleOfIncidence", in->incidence, in->incidences, lean,
-                        err) &&
+           angles_check(scan->file, "AngleOfIncidence", in->incidence, in->incidences, lean, err) &&
            angles_check(scan->file, "ScatterAzimuth", in->azimuth, in->azimuths,
                         in->is_half ? half : full, err) &&
            angles_check(scan->file, "ScatterRadial", in->radial, in->radials, half, err);
@@ -113,14 +114,12 @@ static bool check_header(const Zemax *in, Error *err)
 
 /* ---- data -------------------------------------------------------------------------------- */
 
-static size_t block_size(const Zemax *in)
-{
+static size_t block_size(const Zemax *in) {
     return (size_t)in->azimuths * (size_t)in->radials;
 }
 
 /* A block of a component that is not kept is read, and forgotten. */
-static bool read_block(Zemax *in, bool is_kept, Error *err)
-{
+static bool read_block(Zemax *in, bool is_kept, Error *err) {
     double ignored, *value = NULL;
     if (is_kept && in->blocks == in->rotations * in->incidences)
         return scan_fail(&in->scan, err, "this TIS is one block too many, required: %d",
@@ -135,23 +134,23 @@ static bool read_block(Zemax *in, bool is_kept, Error *err)
     return true;
 }
 
-static bool allocate(Zemax *in, Error *err)
-{
+static bool allocate(Zemax *in, Error *err) {
     size_t blocks = (size_t)in->rotations * (size_t)in->incidences;
     size_t values = blocks * block_size(in);
     if (values / 2 > (size_t)(in->scan.end - in->scan.next))
-        return scan_fail(&in->scan, err, "the header announces %zu values, more than the file "
-                         "can hold", values);
+        return scan_fail(&in->scan, err,
+                         "the header announces %zu values, more than the file "
+                         "can hold",
+                         values);
     in->tis = ARENA_NEW(in->scan.arena, double, blocks);
     in->value = ARENA_NEW(in->scan.arena, double, values);
     return true;
 }
 
-static bool read_data(Zemax *in, Error *err)
-{
+static bool read_data(Zemax *in, Error *err) {
     static const char *const components[] = {"Monochrome", "TristimulusX", "TristimulusY",
                                              "TristimulusZ", NULL};
-    int  component = 0, found, kept = in->is_xyz ? 2 : 0; /* Y of X, Y and Z */
+    int component = 0, found, kept = in->is_xyz ? 2 : 0; /* Y of X, Y and Z */
     bool is_ended = false;
     if (!allocate(in, err)) return false;
     for (const char *word; (word = scan_word(&in->scan));) {
@@ -170,9 +169,10 @@ static bool read_data(Zemax *in, Error *err)
         }
     }
     if (in->blocks != in->rotations * in->incidences)
-        return scan_fail(&in->scan, err, "the file ends after %d blocks, required: "
-                         "%d", in->blocks,
-                         in->rotations * in->incidences);
+        return scan_fail(&in->scan, err,
+                         "the file ends after %d blocks, required: "
+                         "%d",
+                         in->blocks, in->rotations * in->incidences);
     return is_ended || scan_fail(&in->scan, err, "the file ends without DataEnd");
 }
 
@@ -180,8 +180,7 @@ static bool read_data(Zemax *in, Error *err)
 
 /* The number that ends before `stop` (blanks between allowed) and does not begin before
  * `begin`. */
-static bool number_before(const char *begin, const char *stop, double *out)
-{
+static bool number_before(const char *begin, const char *stop, double *out) {
     char number[16];
     while (stop > begin && stop[-1] == ' ') stop--;
     const char *digit = stop;
@@ -194,8 +193,7 @@ static bool number_before(const char *begin, const char *stop, double *out)
 }
 
 /* The number after "(nm) =" or "(nm):". */
-static bool number_after(const char *text, const char *end, double *out)
-{
+static bool number_after(const char *text, const char *end, double *out) {
     while (text < end && strchr(") =:\t", *text)) text++;
     const char *stop = text;
     while (stop < end && (isdigit((unsigned char)*stop) || *stop == '.')) stop++;
@@ -203,13 +201,12 @@ static bool number_after(const char *text, const char *end, double *out)
 }
 
 /* "650 nm", "650nm" or "(nm) = 650" in a line that begins with #; 0: none. */
-static double comment_wavelength(const char *text, const char *end)
-{
+static double comment_wavelength(const char *text, const char *end) {
     for (const char *c = text; c + 1 < end; c++) {
         bool is_longer = c + 2 < end && isalnum((unsigned char)c[2]);
         if (c[0] != 'n' || c[1] != 'm' || is_longer) continue;
         const char *line = c;
-        double      nm;
+        double nm;
         while (line > text && line[-1] != '\n') line--;
         if (*line != '#') continue;
         if (!number_before(line, c, &nm) && !number_after(c + 2, end, &nm)) continue;
@@ -218,9 +215,8 @@ static double comment_wavelength(const char *text, const char *end)
     return 0;
 }
 
-static const float *find_wavelength(const Zemax *in, const ImportOptions *options,
-                                    ImportSet *set, const char *text, Error *err)
-{
+static const float *find_wavelength(const Zemax *in, const ImportOptions *options, ImportSet *set,
+                                    const char *text, Error *err) {
     const char *file = in->scan.file;
     if (in->is_xyz) return scatter_xyz(options, file, set);
     double stated = comment_wavelength(text, in->scan.end);
@@ -232,22 +228,20 @@ static const float *find_wavelength(const Zemax *in, const ImportOptions *option
 /* ---- tables ------------------------------------------------------------------------------ */
 
 static void put_about_mirror(ImportRows *rows, double incidence_deg, double radial_deg,
-                             double azimuth_deg, const double *value)
-{
+                             double azimuth_deg, const double *value) {
     double theta_deg, phi_deg;
-    direction_to_degrees(direction_about_mirror(incidence_deg, radial_deg, azimuth_deg),
-                         &theta_deg, &phi_deg);
+    direction_to_degrees(direction_about_mirror(incidence_deg, radial_deg, azimuth_deg), &theta_deg,
+                         &phi_deg);
     scatter_put_measured(rows, theta_deg, phi_deg, value);
 }
 
 /* Every azimuth repeats the mirror direction's value: their mean is taken. */
-static void put_radial(const Zemax *in, ImportRows *rows, const double *value,
-                       double incidence_deg, int i)
-{
+static void put_radial(const Zemax *in, ImportRows *rows, const double *value, double incidence_deg,
+                       int i) {
     double at_mirror = 0, radial = in->radial[i];
     for (int j = 0; j < in->azimuths; j++) {
         const double *one = &value[(size_t)j * (size_t)in->radials + (size_t)i];
-        double        turn = in->azimuth[j];
+        double turn = in->azimuth[j];
         at_mirror += *one / in->azimuths;
         if (radial == 0 || (turn == 360 && in->azimuth[0] == 0)) continue;
         put_about_mirror(rows, incidence_deg, radial, turn, one);
@@ -258,50 +252,46 @@ static void put_radial(const Zemax *in, ImportRows *rows, const double *value,
 }
 
 static bool add_block(Zemax *in, int rotation, int incidence, const float *nm, ImportSet *set,
-                      Error *err)
-{
-    int           block = rotation * in->incidences + incidence;
+                      Error *err) {
+    int block = rotation * in->incidences + incidence;
     const double *value = in->value + block_size(in) * (size_t)block;
-    double        lean = in->incidence[incidence];
-    ImportRows    rows = scatter_rows(set->arena, 2 * in->azimuths * in->radials + 1, 1);
+    double lean = in->incidence[incidence];
+    ImportRows rows = scatter_rows(set->arena, 2 * in->azimuths * in->radials + 1, 1);
     for (int i = 0; i < in->radials; i++) put_radial(in, &rows, value, lean, i);
-    ScatterGrid grid = {in->radials, in->azimuths, in->radial, in->azimuth, value, lean,
-                      in->is_half};
+    ScatterGrid grid = {in->radials, in->azimuths, in->radial, in->azimuth,
+                        value,       lean,         in->is_half};
     totals_add(&in->totals, lean, in->tis[block], scatter_grid_integral(&grid, *set->arena));
     ScatterLight light = {lean, in->rotations > 1 ? 180 - in->rotation[rotation] : 180};
     return scatter_add(set, in->scan.file, &rows, light, nm, err);
 }
 
-static bool add_tables(Zemax *in, const float *nm, ImportSet *set, Error *err)
-{
-    int  last = in->rotations - 1; /* a whole turn may end with its beginning */
+static bool add_tables(Zemax *in, const float *nm, ImportSet *set, Error *err) {
+    int last = in->rotations - 1; /* a whole turn may end with its beginning */
     bool closes = last > 0 && in->rotation[last] - in->rotation[0] == 360;
     for (int r = 0; r <= last - closes; r++)
         for (int i = 0; i < in->incidences; i++)
             if (!add_block(in, r, i, nm, set, err)) return false;
     totals_report(&in->totals, in->scan.file, set);
     if (in->rotations > 1)
-        import_note(set, "%s: a sample turned by S counter-clockwise is taken as light from "
-                    "azimuth 180 - S", path_name(in->scan.file));
+        import_note(set,
+                    "%s: a sample turned by S counter-clockwise is taken as light from "
+                    "azimuth 180 - S",
+                    path_name(in->scan.file));
     return true;
 }
 
-static bool read_zemax(const char *file, const ImportOptions *options, ImportSet *set,
-                       Error *err)
-{
-    Zemax        in = {.rotations = 0};
+static bool read_zemax(const char *file, const ImportOptions *options, ImportSet *set, Error *err) {
+    Zemax in = {.rotations = 0};
     const float *nm;
     if (!scan_open(file, set->arena, &in.scan, err)) return false;
     const char *text = in.scan.next;
     for (bool done = false; !done;)
         if (!read_entry(&in, &done, err)) return false;
     return check_header(&in, err) && read_data(&in, err) &&
-           (nm = find_wavelength(&in, options, set, text, err)) &&
-           add_tables(&in, nm, set, err);
+           (nm = find_wavelength(&in, options, set, text, err)) && add_tables(&in, nm, set, err);
 }
 
-static bool is_zemax(const char *file, const char *head, size_t head_size)
-{
+static bool is_zemax(const char *file, const char *head, size_t head_size) {
     (void)file;
     return scan_head_has(head, head_size, "AngleOfIncidence") ||
            (scan_head_has(head, head_size, "SampleRotation") &&

@@ -8,35 +8,32 @@
 
 #include "base/file.h"
 
-const char *import_source_name(ImportSource source)
-{
-    static const char *const names[] = {"red", "green", "blue", "black", "white", "reflection",
-                                        "dark", "reference"};
+const char *import_source_name(ImportSource source) {
+    static const char *const names[] = {"red",   "green",      "blue", "black",
+                                        "white", "reflection", "dark", "reference"};
     return names[source];
 }
 
-int import_word_find(const char *const *list, const char *word)
-{
+int import_word_find(const char *const *list, const char *word) {
     for (int i = 0; list[i]; i++)
         if (!strcasecmp(list[i], word)) return i;
     return -1;
 }
 
-ImportSet import_set(Arena *arena)
-{
-    return (ImportSet){.arena = arena, .white_reflectance = 1, .inputs = {.arena = arena},
+ImportSet import_set(Arena *arena) {
+    return (ImportSet){.arena = arena,
+                       .white_reflectance = 1,
+                       .inputs = {.arena = arena},
                        .table = ARENA_NEW(arena, ImportTable, IMPORT_TABLES_MAX)};
 }
 
-const ImportTable *import_first(const ImportSet *set, ImportSource source)
-{
+const ImportTable *import_first(const ImportSet *set, ImportSource source) {
     for (int i = 0; i < set->count; i++)
         if (set->table[i].source == source) return &set->table[i];
     return NULL;
 }
 
-void import_note(ImportSet *set, const char *format, ...)
-{
+void import_note(ImportSet *set, const char *format, ...) {
     va_list list;
     va_start(list, format);
     char *text = arena_printable(set->arena, arena_format_list(set->arena, 1023, format, list));
@@ -53,14 +50,12 @@ void import_note(ImportSet *set, const char *format, ...)
 /* ---- what a table must be ---------------------------------------------------------------- */
 
 static bool refuse(const ImportTable *table, Error *err, const char *what, double found,
-                   const char *wanted)
-{
+                   const char *wanted) {
     return error_at(err, ERROR_INPUT, table->file, "", "%s is %g, required: %s", what, found,
                     wanted);
 }
 
-static bool check_emission(const ImportTable *table, Error *err)
-{
+static bool check_emission(const ImportTable *table, Error *err) {
     int channels = table->component ? 1 : 3;
     if (table->component && !strchr("XYZ", table->component))
         return error_at(err, ERROR_INPUT, table->file, "",
@@ -74,8 +69,7 @@ static bool check_emission(const ImportTable *table, Error *err)
     return true;
 }
 
-static bool check_reflection(const ImportTable *table, Error *err)
-{
+static bool check_reflection(const ImportTable *table, Error *err) {
     if (!(table->incidence_deg >= 0 && table->incidence_deg < 90))
         return refuse(table, err, "the angle of incidence", table->incidence_deg,
                       "0 to below 90 degrees");
@@ -83,20 +77,19 @@ static bool check_reflection(const ImportTable *table, Error *err)
         return refuse(table, err, "the light's azimuth", table->incidence_phi_deg,
                       "0 to below 360 degrees");
     if (table->channels < 1 || !table->wavelength_nm)
-        return error_at(err, ERROR_INPUT, table->file, "", "names no wavelength — give one as "
+        return error_at(err, ERROR_INPUT, table->file, "",
+                        "names no wavelength — give one as "
                         "--wavelength NM");
     for (int c = 0; c < table->channels; c++) {
         double nm = (double)table->wavelength_nm[c];
-        if (!(nm > 0 && nm < 1e6))
-            return refuse(table, err, "a wavelength", nm, "nanometres");
+        if (!(nm > 0 && nm < 1e6)) return refuse(table, err, "a wavelength", nm, "nanometres");
         if (c && !(nm > (double)table->wavelength_nm[c - 1]))
             return refuse(table, err, "a wavelength", nm, "rising wavelengths");
     }
     return true;
 }
 
-static bool check_directions(const ImportTable *table, Error *err)
-{
+static bool check_directions(const ImportTable *table, Error *err) {
     for (int i = 0; i < table->rows; i++) {
         if (!(table->theta_deg[i] >= 0 && table->theta_deg[i] <= 90))
             return refuse(table, err, "theta", table->theta_deg[i], "0 to 90 degrees");
@@ -110,8 +103,7 @@ static bool check_directions(const ImportTable *table, Error *err)
     return true;
 }
 
-bool import_add(ImportSet *set, const ImportTable *table, Error *err)
-{
+bool import_add(ImportSet *set, const ImportTable *table, Error *err) {
     if (set->count == IMPORT_TABLES_MAX)
         return error_at(err, ERROR_INPUT, table->file, "",
                         "is one table too many, required: at most %d", IMPORT_TABLES_MAX);

@@ -20,11 +20,15 @@
 #define IMPORT_TABLES_MAX 4096
 #define IMPORT_NOTES_MAX 64
 #define IMPORT_FILE_BYTES_MAX ((size_t)1 << 30) /* for file_read: no foreign file is larger */
-#define IMPORT_ROWS_MAX 8000000 /* directions of one table */
-#define SAME_ANGLE_DEG 1e-4     /* angles nearer than this are the same one */
+#define IMPORT_ROWS_MAX 8000000                 /* directions of one table */
+#define SAME_ANGLE_DEG 1e-4                     /* angles nearer than this are the same one */
 
 typedef enum ImportSource {
-    IMPORT_RED, IMPORT_GREEN, IMPORT_BLUE, IMPORT_BLACK, IMPORT_WHITE, /* emission: XYZ */
+    IMPORT_RED,
+    IMPORT_GREEN,
+    IMPORT_BLUE,
+    IMPORT_BLACK,
+    IMPORT_WHITE,      /* emission: XYZ */
     IMPORT_REFLECTION, /* a channel a wavelength */
     /* for import_complete, which takes them out of the set: */
     IMPORT_DARK,     /* what the instrument reads without light; subtracted from every table */
@@ -35,65 +39,69 @@ typedef enum ImportSource {
 const char *import_source_name(ImportSource source);
 
 typedef struct ImportTable {
-    ImportSource  source;
-    const char   *file;              /* where it comes from */
-    double        level;             /* emission: grey level, (0, 255]; black 0, white 255 */
-    double        incidence_deg;     /* reflection: [0, 90) */
-    double        incidence_phi_deg; /* reflection: the light's azimuth, [0, 360); 180 for
-                                        isotropic data, or the only azimuth measured */
-    int           rows, channels;    /* channels: 3 (X, Y, Z), or wavelength_count */
-    char          component;         /* emission: 0, or one of 'X', 'Y', 'Z' with one channel:
-                                        files of the same source and level are joined; Y alone
-                                        is luminance without colour */
-    bool          is_section;        /* directions of one azimuth: sections of the same source
-                                        or light are put together */
-    bool          is_any_light;      /* reference: serves every light */
-    bool          is_signal;         /* reflection, reference: no BRDF yet but a signal, to be
-                                        divided by the reference's */
-    const float  *wavelength_nm;     /* reflection: channels of them, rising. Tables of the same
-                                        light and directions at other wavelengths are joined */
+    ImportSource source;
+    const char *file;                  /* where it comes from */
+    double level;                      /* emission: grey level, (0, 255]; black 0, white 255 */
+    double incidence_deg;              /* reflection: [0, 90) */
+    double incidence_phi_deg;          /* reflection: the light's azimuth, [0, 360); 180 for
+                                          isotropic data, or the only azimuth measured */
+    int rows, channels;                /* channels: 3 (X, Y, Z), or wavelength_count */
+    char component;                    /* emission: 0, or one of 'X', 'Y', 'Z' with one channel:
+                                          files of the same source and level are joined; Y alone
+                                          is luminance without colour */
+    bool is_section;                   /* directions of one azimuth: sections of the same source
+                                          or light are put together */
+    bool is_any_light;                 /* reference: serves every light */
+    bool is_signal;                    /* reflection, reference: no BRDF yet but a signal, to be
+                                          divided by the reference's */
+    const float *wavelength_nm;        /* reflection: channels of them, rising. Tables of the same
+                                          light and directions at other wavelengths are joined */
     const double *theta_deg, *phi_deg; /* rows; theta in [0, 90], any phi */
-    const double *value;             /* rows x channels */
-    int           masked;            /* directions marked as not measured: left out */
+    const double *value;               /* rows x channels */
+    int masked;                        /* directions marked as not measured: left out */
     const double *masked_theta_deg, *masked_phi_deg; /* masked of them, or NULL: not known */
 } ImportTable;
 
 /* Spectra of the primaries, relative. */
 typedef struct ImportSpectra {
-    int           rows;     /* 0: none */
+    int rows;               /* 0: none */
     const double *nm;       /* rising */
     const double *value[4]; /* red, green, blue, black (may be NULL) */
 } ImportSpectra;
 
 /* The sample's symmetry as the user states it: unmeasured parts are filled from their image. */
 typedef enum ImportSymmetry {
-    IMPORT_NO_SYMMETRY, IMPORT_LEFT_RIGHT, IMPORT_UP_DOWN, IMPORT_BOTH, IMPORT_HALF_TURN
+    IMPORT_NO_SYMMETRY,
+    IMPORT_LEFT_RIGHT,
+    IMPORT_UP_DOWN,
+    IMPORT_BOTH,
+    IMPORT_HALF_TURN
 } ImportSymmetry;
 
 typedef struct ImportSet {
-    Arena        *arena;
-    ImportTable  *table;             /* room for IMPORT_TABLES_MAX */
-    int           count;
-    bool          is_anisotropic;    /* reflection depends on the light's azimuth; tables of
-                                        several azimuths make it so */
-    bool          is_isotropic;      /* the user states that it does not, against any tables */
+    Arena *arena;
+    ImportTable *table; /* room for IMPORT_TABLES_MAX */
+    int count;
+    bool is_anisotropic; /* reflection depends on the light's azimuth; tables of
+                            several azimuths make it so */
+    bool is_isotropic;   /* the user states that it does not, against any tables */
     ImportSymmetry symmetry;
-    bool          black_is_zero;     /* the user states that black was subtracted */
-    bool          accepts_repeats;   /* the user takes means of what contradicts itself */
-    const char   *backlight;         /* of primaries without spectra (primary_bands.h);
-                                        NULL: not stated */
-    double        peaks_nm[3];       /* of their bands; 0: not stated */
-    const char   *panel, *instrument; /* names for the manifest; NULL: the file's */
-    const char   *date, *operator_name, *conditions; /* of the measurement; NULL: not stated */
-    double        white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
+    bool black_is_zero;             /* the user states that black was subtracted */
+    bool accepts_repeats;           /* the user takes means of what contradicts itself */
+    const char *backlight;          /* of primaries without spectra (primary_bands.h);
+                                       NULL: not stated */
+    double peaks_nm[3];             /* of their bands; 0: not stated */
+    const char *panel, *instrument; /* names for the manifest; NULL: the file's */
+    const char *date, *operator_name, *conditions; /* of the measurement; NULL: not stated */
+    double white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
     ImportSpectra spectra;
-    const struct LevelTable *levels; /* of white alone (panel/set/level_table.h); NULL: none */
+    const struct LevelTable *levels;      /* of white alone (panel/set/level_table.h); NULL: none */
     const struct SpecularTable *specular; /* panel/set/specular_table.h; NULL: none */
-    double        specular_aperture_deg;
-    const struct Gloss *gloss;       /* in its place; NULL: none */
-    const char   *note[IMPORT_NOTES_MAX]; /* one line each: assumed, converted, left out */
-    int           note_count;
-    Lines         inputs;            /* files that it is made from */
+    double specular_aperture_deg;
+    const struct Gloss *gloss;          /* in its place; NULL: none */
+    const char *note[IMPORT_NOTES_MAX]; /* one line each: assumed, converted, left out */
+    int note_count;
+    Lines inputs; /* files that it is made from */
 } ImportSet;
 
 /* The place of a word, in any case, in a list that ends with NULL; or -1. */
@@ -114,9 +122,9 @@ void import_note(ImportSet *set, const char *format, ...) __attribute__((format(
 /* ---- options of the user ----------------------------------------------------------------- */
 
 typedef struct ImportOptions {
-    const char *format;      /* name of an importer; NULL: by the file itself */
-    double      wavelength_nm; /* for files that state none; 0: not given */
-    double      area_mm[2];  /* luminous area for luminaire files; 0: the file's */
+    const char *format;             /* name of an importer; NULL: by the file itself */
+    double wavelength_nm;           /* for files that state none; 0: not given */
+    double area_mm[2];              /* luminous area for luminaire files; 0: the file's */
     const struct TextOptions *text; /* of text tables (text_options.h); NULL: none */
 } ImportOptions;
 

@@ -17,20 +17,17 @@
 
 /* What an instrument reads without light, and white references. */
 
-static bool is_helper(const ImportTable *table)
-{
+static bool is_helper(const ImportTable *table) {
     return table->source == IMPORT_DARK || table->source == IMPORT_REFERENCE;
 }
 
-static bool same_light(const ImportTable *a, const ImportTable *b)
-{
+static bool same_light(const ImportTable *a, const ImportTable *b) {
     return fabs(a->incidence_deg - b->incidence_deg) < SAME_ANGLE_DEG;
 }
 
 /* The helper for a table: of its own light if there is one, else one for every light. */
 static bool find_helper(const ImportSet *set, const ImportTable *table, ImportSource source,
-                        const ImportTable **out, Error *err)
-{
+                        const ImportTable **out, Error *err) {
     const ImportTable *found[2] = {NULL, NULL};
     for (int i = 0; i < set->count; i++) {
         const ImportTable *one = &set->table[i];
@@ -48,20 +45,17 @@ static bool find_helper(const ImportSet *set, const ImportTable *table, ImportSo
 
 typedef void Combine(double *value, double with, double scale);
 
-static void subtract(double *value, double with, double scale)
-{
+static void subtract(double *value, double with, double scale) {
     *value -= with * scale;
 }
 
 /* A reference that reads nothing there gives no number. */
-static void divide(double *value, double with, double scale)
-{
+static void divide(double *value, double with, double scale) {
     *value = with > 0 ? *value / with * scale : NAN;
 }
 
 /* A single reading of the helper serves every direction. */
-static int *helper_rows(ImportSet *set, const ImportTable *table, const ImportTable *helper)
-{
+static int *helper_rows(ImportSet *set, const ImportTable *table, const ImportTable *helper) {
     if (helper->rows > 1) return import_match_rows(table, helper, set->arena);
     import_note(set, "%s is one reading: it serves every direction", path_name(helper->file));
     return ARENA_NEW(set->arena, int, table->rows);
@@ -69,15 +63,14 @@ static int *helper_rows(ImportSet *set, const ImportTable *table, const ImportTa
 
 /* Combines every row with the helper's row of the same direction; rows without one are left
  * out and counted. */
-static bool combine(ImportSet *set, ImportTable *table, const ImportTable *helper,
-                    Combine *how, double scale, Error *err)
-{
-    size_t     size = (size_t)table->channels;
-    int       *match = helper_rows(set, table, helper);
+static bool combine(ImportSet *set, ImportTable *table, const ImportTable *helper, Combine *how,
+                    double scale, Error *err) {
+    size_t size = (size_t)table->channels;
+    int *match = helper_rows(set, table, helper);
     ImportRows kept = import_rows(set->arena, table->rows, 0, table->channels);
     for (int i = 0; i < table->rows; i++) {
         double *row = import_rows_next(&kept);
-        bool    is_finite = match[i] >= 0;
+        bool is_finite = match[i] >= 0;
         for (size_t c = 0; c < size && is_finite; c++) {
             row[c] = table->value[(size_t)i * size + c];
             how(&row[c], helper->value[(size_t)match[i] * size + c], scale);
@@ -96,16 +89,14 @@ static bool combine(ImportSet *set, ImportTable *table, const ImportTable *helpe
     return true;
 }
 
-static bool subtract_dark(ImportSet *set, ImportTable *table, Error *err)
-{
+static bool subtract_dark(ImportSet *set, ImportTable *table, Error *err) {
     const ImportTable *dark;
     if (!find_helper(set, table, IMPORT_DARK, &dark, err)) return false;
     return !dark || combine(set, table, dark, subtract, 1, err);
 }
 
 /* BRDF of a Lambertian reference of reflectance R: R/pi; the signals' ratio carries it over. */
-static bool divide_reference(ImportSet *set, ImportTable *table, Error *err)
-{
+static bool divide_reference(ImportSet *set, ImportTable *table, Error *err) {
     const ImportTable *reference;
     if (!find_helper(set, table, IMPORT_REFERENCE, &reference, err)) return false;
     if (!reference)
@@ -118,21 +109,18 @@ static bool divide_reference(ImportSet *set, ImportTable *table, Error *err)
     return combine(set, table, reference, divide, set->white_reflectance / PI, err);
 }
 
-static bool is_used(const ImportSet *set, const ImportTable *helper)
-{
+static bool is_used(const ImportSet *set, const ImportTable *helper) {
     for (int i = 0; i < set->count; i++) {
         const ImportTable *table = &set->table[i];
         if (!is_helper(table) && import_same_channels(table, helper) &&
-            (helper->source == IMPORT_DARK || helper->is_any_light ||
-             same_light(table, helper)))
+            (helper->source == IMPORT_DARK || helper->is_any_light || same_light(table, helper)))
             return true;
     }
     return false;
 }
 
 /* Subtracts the dark and divides signals by the white reference's; then both leave the set. */
-static bool import_apply_references(ImportSet *set, Error *err)
-{
+static bool import_apply_references(ImportSet *set, Error *err) {
     for (int i = 0; i < set->count; i++)
         if (is_helper(&set->table[i]) && !is_used(set, &set->table[i]))
             return error_at(err, ERROR_INPUT, set->table[i].file, "",
@@ -158,8 +146,7 @@ static bool import_apply_references(ImportSet *set, Error *err)
 
 /* ---- what the manifest cannot take ------------------------------------------------------- */
 
-static bool keep_visible(ImportSet *set, ImportTable *table, Error *err)
-{
+static bool keep_visible(ImportSet *set, ImportTable *table, Error *err) {
     int first = 0, end = table->channels, all = table->channels;
     while (first < end && table->wavelength_nm[first] < FIRST_NM) first++;
     while (end > first && table->wavelength_nm[end - 1] > LAST_NM) end--;
@@ -171,8 +158,8 @@ static bool keep_visible(ImportSet *set, ImportTable *table, Error *err)
     if (end - first == all) return true;
     import_note(set, "%d of %d wavelengths lie outside %d to %d nm and are left out",
                 all - (end - first), all, FIRST_NM, LAST_NM);
-    size_t  kept = (size_t)(end - first);
-    double *value = ARENA_NEW(set->arena, double, kept * (size_t)table->rows);
+    size_t kept = (size_t)(end - first);
+    double *value = ARENA_NEW(set->arena, double, kept *(size_t)table->rows);
     for (size_t i = 0; i < (size_t)table->rows; i++)
         memcpy(value + i * kept, table->value + i * (size_t)all + first, sizeof *value * kept);
     table->value = value;
@@ -181,9 +168,8 @@ static bool keep_visible(ImportSet *set, ImportTable *table, Error *err)
     return true;
 }
 
-static bool keep_usable(ImportSet *set, Error *err)
-{
-    int               kept = 0;
+static bool keep_usable(ImportSet *set, Error *err) {
+    int kept = 0;
     const ImportTable first = set->table[0];
     for (int i = 0; i < set->count; i++) {
         ImportTable *table = &set->table[i];
@@ -199,13 +185,13 @@ static bool keep_usable(ImportSet *set, Error *err)
     set->count = kept;
     return kept || error_at(err, ERROR_INPUT, first.file, "",
                             "has light from %g degrees and no file from less, required: one "
-                            "of 0 to %d degrees", first.incidence_deg, INCIDENCE_MAX_DEG);
+                            "of 0 to %d degrees",
+                            first.incidence_deg, INCIDENCE_MAX_DEG);
 }
 
 /* ---- white beside the primaries ---------------------------------------------------------- */
 
-static const ImportTable *full(const ImportSet *set, ImportSource source)
-{
+static const ImportTable *full(const ImportSet *set, ImportSource source) {
     const ImportTable *found = NULL;
     for (int i = 0; i < set->count; i++)
         if (set->table[i].source == source && (!found || set->table[i].level > found->level))
@@ -214,12 +200,11 @@ static const ImportTable *full(const ImportSet *set, ImportSource source)
 }
 
 /* Notes by how much a measured white differs from the sum of the primaries. */
-static void note_white(ImportSet *set)
-{
+static void note_white(ImportSet *set) {
     const ImportTable *white = full(set, IMPORT_WHITE);
     double worst = 0, at[2] = {0, 0}, normal = NAN;
     const ImportTable *part[4];
-    int               *match[4], compared = 0;
+    int *match[4], compared = 0;
     for (int p = 0; p < 4; p++) {
         part[p] = full(set, p < 3 ? (ImportSource)p : IMPORT_BLACK);
         if (!white || !part[p] || (p < 3 && part[p]->level != 255)) return;
@@ -227,7 +212,7 @@ static void note_white(ImportSet *set)
     }
     for (int i = 0; i < white->rows; i++) {
         double sum = 0, luminance = white->value[3 * i + 1];
-        bool   all = luminance > 0;
+        bool all = luminance > 0;
         for (int p = 0; p < 4 && all; p++) {
             all = match[p][i] >= 0;
             if (all) sum += (p < 3 ? 1 : -2) * part[p]->value[3 * match[p][i] + 1];
@@ -250,16 +235,14 @@ static void note_white(ImportSet *set)
 
 /* ---- is it a set? ------------------------------------------------------------------------ */
 
-static int count_of(const ImportSet *set, ImportSource source)
-{
+static int count_of(const ImportSet *set, ImportSource source) {
     int count = 0;
     for (int i = 0; i < set->count; i++) count += set->table[i].source == source;
     return count;
 }
 
 /* Where the user states that black was subtracted: zeros at the directions of a red table. */
-static bool add_zero_black(ImportSet *set, Error *err)
-{
+static bool add_zero_black(ImportSet *set, Error *err) {
     ImportTable black = *import_first(set, IMPORT_RED);
     black.source = IMPORT_BLACK;
     black.level = 0;
@@ -271,8 +254,7 @@ static bool add_zero_black(ImportSet *set, Error *err)
 }
 
 /* Primaries with their black, or white alone: what both have too much of is left out. */
-static bool check_sources(ImportSet *set, Error *err)
-{
+static bool check_sources(ImportSet *set, Error *err) {
     bool primaries = import_first(set, IMPORT_RED) || import_first(set, IMPORT_GREEN) ||
                      import_first(set, IMPORT_BLUE);
     bool white = import_first(set, IMPORT_WHITE), black = import_first(set, IMPORT_BLACK);
@@ -282,20 +264,19 @@ static bool check_sources(ImportSet *set, Error *err)
                         "white");
     for (ImportSource p = IMPORT_RED; primaries && p <= IMPORT_BLUE; p++) {
         if (!import_first(set, p))
-            return error_set(err, ERROR_INPUT,
-                             "no file is %s — name one as --role FILE=%s:LEVEL",
+            return error_set(err, ERROR_INPUT, "no file is %s — name one as --role FILE=%s:LEVEL",
                              import_source_name(p), import_source_name(p));
         if (count_of(set, p) > MEASUREMENT_LEVELS_MAX)
             return error_set(err, ERROR_INPUT, "%s has %d grey levels, required: at most %d",
-                             import_source_name(p), count_of(set, p),
-                             MEASUREMENT_LEVELS_MAX);
+                             import_source_name(p), count_of(set, p), MEASUREMENT_LEVELS_MAX);
     }
     if (primaries && black && set->black_is_zero)
         return error_at(err, ERROR_INPUT, import_first(set, IMPORT_BLACK)->file, "",
                         "is a black pattern, and --no-black says that there is none");
     if (primaries && !black && set->black_is_zero) return add_zero_black(set, err);
     if (primaries && !black)
-        return error_set(err, ERROR_INPUT, "no file is the black pattern — name one as --role "
+        return error_set(err, ERROR_INPUT,
+                         "no file is the black pattern — name one as --role "
                          "FILE=black, or say --no-black when it was subtracted");
     if (primaries && white) {
         note_white(set);
@@ -310,17 +291,16 @@ static bool check_sources(ImportSet *set, Error *err)
 }
 
 /* The fit takes noise below zero, but nothing that cannot be noise. */
-static bool check_signs(const ImportTable *table, Error *err)
-{
-    bool   is_light = table->source == IMPORT_REFLECTION;
+static bool check_signs(const ImportTable *table, Error *err) {
+    bool is_light = table->source == IMPORT_REFLECTION;
     size_t size = (size_t)table->channels, total = size * (size_t)table->rows, worst = 0;
     double most = 0;
     for (size_t i = 0; i < total; i++) {
         most = fmax(most, table->value[i]);
         if (table->value[i] < table->value[worst]) worst = i;
     }
-    double share = is_light ? (double)ANGLE_TABLE_NOISE_BRDF_SHARE
-                            : (double)ANGLE_TABLE_NOISE_CD_M2_SHARE;
+    double share =
+        is_light ? (double)ANGLE_TABLE_NOISE_BRDF_SHARE : (double)ANGLE_TABLE_NOISE_CD_M2_SHARE;
     double least = is_light ? (double)ANGLE_TABLE_NOISE_BRDF : (double)ANGLE_TABLE_NOISE_CD_M2;
     double allowed = fmax(least, share * most);
     return table->value[worst] >= -allowed ||
@@ -330,8 +310,7 @@ static bool check_signs(const ImportTable *table, Error *err)
                     table->phi_deg[worst / size], -allowed, is_light ? "sr^-1" : "cd/m2");
 }
 
-static int by_light(const void *a, const void *b)
-{
+static int by_light(const void *a, const void *b) {
     const ImportTable *p = a, *q = b;
     if (p->source != q->source) return p->source < q->source ? -1 : 1;
     if (p->level != q->level) return p->level < q->level ? -1 : 1;
@@ -340,17 +319,15 @@ static int by_light(const void *a, const void *b)
     return p->incidence_deg < q->incidence_deg ? -1 : p->incidence_deg > q->incidence_deg;
 }
 
-bool import_complete(ImportSet *set, Error *err)
-{
-    if (!set->count)
-        return error_set(err, ERROR_INPUT, "the files hold no table of a panel");
+bool import_complete(ImportSet *set, Error *err) {
+    if (!set->count) return error_set(err, ERROR_INPUT, "the files hold no table of a panel");
     if (!import_apply_references(set, err)) return false;
     import_find_anisotropy(set);
     if (!import_join_parts(set, err) || !keep_usable(set, err) ||
         !import_merge_directions(set, err))
         return false;
-    if (!import_mirror(set, err) || !import_complete_lights(set, err) ||
-        !check_sources(set, err) || !import_check_lights(set, err))
+    if (!import_mirror(set, err) || !import_complete_lights(set, err) || !check_sources(set, err) ||
+        !import_check_lights(set, err))
         return false;
     for (int i = 0; i < set->count; i++)
         if (!check_signs(&set->table[i], err)) return false;

@@ -15,28 +15,25 @@
 /* A direction in steps of SAME_ANGLE_DEG, and its row. */
 typedef struct RowPlace {
     long theta, phi;
-    int  row;
+    int row;
 } RowPlace;
 
 #define STEPS(degrees) lround((degrees) / SAME_ANGLE_DEG)
 
-static int by_place(const void *a, const void *b)
-{
+static int by_place(const void *a, const void *b) {
     const RowPlace *p = a, *q = b;
     if (p->theta != q->theta) return p->theta < q->theta ? -1 : 1;
     if (p->phi != q->phi) return p->phi < q->phi ? -1 : 1;
     return p->row < q->row ? -1 : p->row > q->row;
 }
 
-static bool same_place(const RowPlace *a, const RowPlace *b)
-{
+static bool same_place(const RowPlace *a, const RowPlace *b) {
     return a->theta == b->theta && a->phi == b->phi;
 }
 
-static RowPlace *sorted_places(const ImportTable *table, Arena *arena)
-{
+static RowPlace *sorted_places(const ImportTable *table, Arena *arena) {
     RowPlace *place = ARENA_NEW(arena, RowPlace, table->rows);
-    long   turn = STEPS(360.0);
+    long turn = STEPS(360.0);
     for (int i = 0; i < table->rows; i++) {
         long phi = STEPS(table->phi_deg[i]) % turn;
         place[i] = (RowPlace){STEPS(table->theta_deg[i]), phi < 0 ? phi + turn : phi, i};
@@ -45,8 +42,7 @@ static RowPlace *sorted_places(const ImportTable *table, Arena *arena)
     return place;
 }
 
-bool import_same_channels(const ImportTable *a, const ImportTable *b)
-{
+bool import_same_channels(const ImportTable *a, const ImportTable *b) {
     bool same = a->channels == b->channels && a->component == b->component &&
                 !a->wavelength_nm == !b->wavelength_nm;
     for (int c = 0; same && a->wavelength_nm && c < a->channels; c++)
@@ -54,10 +50,9 @@ bool import_same_channels(const ImportTable *a, const ImportTable *b)
     return same;
 }
 
-int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena *arena)
-{
-    int   *match = ARENA_NEW(arena, int, table->rows);
-    Arena  scratch = *arena;
+int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena *arena) {
+    int *match = ARENA_NEW(arena, int, table->rows);
+    Arena scratch = *arena;
     RowPlace *from = sorted_places(table, &scratch), *to = sorted_places(other, &scratch);
     for (int i = 0, k = 0; i < table->rows; i++) {
         RowPlace wanted = {from[i].theta, from[i].phi, 0};
@@ -69,13 +64,13 @@ int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena
 
 /* ---- joining ----------------------------------------------------------------------------- */
 
-static void sort_parts(const ImportSet *set, const int *part, int count, int *sorted)
-{
+static void sort_parts(const ImportSet *set, const int *part, int count, int *sorted) {
     memcpy(sorted, part, sizeof *sorted * (size_t)count);
     if (set->table[part[0]].source != IMPORT_REFLECTION) return;
     for (int i = 1; i < count; i++)
         for (int k = i; k > 0 && set->table[sorted[k]].wavelength_nm[0] <
-                                     set->table[sorted[k - 1]].wavelength_nm[0]; k--) {
+                                     set->table[sorted[k - 1]].wavelength_nm[0];
+             k--) {
             int swap = sorted[k];
             sorted[k] = sorted[k - 1];
             sorted[k - 1] = swap;
@@ -83,8 +78,7 @@ static void sort_parts(const ImportSet *set, const int *part, int count, int *so
 }
 
 static bool join_wavelengths(const ImportSet *set, const int *part, int count, float *nm,
-                             Error *err)
-{
+                             Error *err) {
     int filled = 0;
     for (int k = 0; k < count; k++) {
         const ImportTable *table = &set->table[part[k]];
@@ -93,8 +87,9 @@ static bool join_wavelengths(const ImportSet *set, const int *part, int count, f
             if (filled && !(nm[filled] > nm[filled - 1]))
                 return error_at(err, ERROR_INPUT, table->file, "",
                                 "has light from incidence %g, azimuth %g degrees at %g nm, and "
-                                "so has %s", table->incidence_deg, table->incidence_phi_deg,
-                                (double)nm[filled], set->table[part[k ? k - 1 : 0]].file);
+                                "so has %s",
+                                table->incidence_deg, table->incidence_phi_deg, (double)nm[filled],
+                                set->table[part[k ? k - 1 : 0]].file);
             filled++;
         }
     }
@@ -103,17 +98,16 @@ static bool join_wavelengths(const ImportSet *set, const int *part, int count, f
 
 typedef struct Joiner {
     const ImportSet *set;
-    const int       *part;
-    int              count, channels;
-    int            **match; /* for each part but the first: its row of each row of that one */
+    const int *part;
+    int count, channels;
+    int **match; /* for each part but the first: its row of each row of that one */
 } Joiner;
 
 /* False when a part lacks the direction. */
-static bool copy_row(const Joiner *join, int first_row, double *value)
-{
+static bool copy_row(const Joiner *join, int first_row, double *value) {
     for (int k = 0; k < join->count; k++) {
         const ImportTable *table = &join->set->table[join->part[k]];
-        int    row = k ? join->match[k][first_row] : first_row;
+        int row = k ? join->match[k][first_row] : first_row;
         size_t size = (size_t)table->channels;
         if (row < 0) return false;
         memcpy(value, table->value + (size_t)row * size, sizeof *value * size);
@@ -123,12 +117,11 @@ static bool copy_row(const Joiner *join, int first_row, double *value)
 }
 
 /* `joined` keeps what it holds of directions that were not measured. */
-static void join_rows(const Joiner *join, Arena *arena, ImportTable *joined)
-{
+static void join_rows(const Joiner *join, Arena *arena, ImportTable *joined) {
     const ImportTable *first = &join->set->table[join->part[0]];
     ImportRows rows = import_rows(arena, first->rows, 0, join->channels);
-    Arena      scratch = *arena;
-    RowPlace  *place = sorted_places(first, &scratch);
+    Arena scratch = *arena;
+    RowPlace *place = sorted_places(first, &scratch);
     for (int i = 0; i < first->rows; i++) {
         int row = place[i].row;
         if (copy_row(join, row, import_rows_next(&rows)))
@@ -140,11 +133,10 @@ static void join_rows(const Joiner *join, Arena *arena, ImportTable *joined)
 /* The channels of `count` tables (indices into the set) side by side, at the directions that
  * all of them have; by rising wavelength for reflection. */
 static bool join_tables(ImportSet *set, const int *part, int count, ImportTable *joined,
-                        Error *err)
-{
-    int   *sorted = ARENA_NEW(set->arena, int, count), most = 0;
-    Joiner join = {.set = set, .part = sorted, .count = count,
-                   .match = ARENA_NEW(set->arena, int *, count)};
+                        Error *err) {
+    int *sorted = ARENA_NEW(set->arena, int, count), most = 0;
+    Joiner join = {
+        .set = set, .part = sorted, .count = count, .match = ARENA_NEW(set->arena, int *, count)};
     sort_parts(set, part, count, sorted);
     *joined = set->table[sorted[0]];
     joined->masked = 0;
@@ -168,17 +160,16 @@ static bool join_tables(ImportSet *set, const int *part, int count, ImportTable 
     if (2 * joined->rows < most)
         return error_at(err, ERROR_INPUT, set->table[sorted[count - 1]].file, "",
                         "and %s share %d of %d directions, required: the same directions in "
-                        "the files of one table", joined->file, joined->rows, most);
+                        "the files of one table",
+                        joined->file, joined->rows, most);
     if (joined->rows < most)
-        import_note(set,
-                    "%s: %d directions are not in every file of the table and are left out",
+        import_note(set, "%s: %d directions are not in every file of the table and are left out",
                     path_name(joined->file), most - joined->rows);
     return true;
 }
 
 /* The rows of `count` tables one after the other. */
-static void append_tables(ImportSet *set, const int *part, int count, ImportTable *joined)
-{
+static void append_tables(ImportSet *set, const int *part, int count, ImportTable *joined) {
     int rows = 0, masked = 0;
     for (int k = 0; k < count; k++) {
         rows += set->table[part[k]].rows;
@@ -191,8 +182,7 @@ static void append_tables(ImportSet *set, const int *part, int count, ImportTabl
 }
 
 /* Removes the tables of the list but `keep`. */
-static void remove_tables(ImportSet *set, const int *part, int count, int keep)
-{
+static void remove_tables(ImportSet *set, const int *part, int count, int keep) {
     int kept = 0;
     for (int i = 0; i < set->count; i++) {
         bool listed = false;
@@ -202,8 +192,7 @@ static void remove_tables(ImportSet *set, const int *part, int count, int keep)
     set->count = kept;
 }
 
-void import_remove_source(ImportSet *set, ImportSource source)
-{
+void import_remove_source(ImportSet *set, ImportSource source) {
     int kept = 0;
     for (int i = 0; i < set->count; i++)
         if (set->table[i].source != source) set->table[kept++] = set->table[i];
@@ -212,8 +201,7 @@ void import_remove_source(ImportSet *set, ImportSource source)
 
 /* ---- parts of one table: sections -------------------------------------------------------- */
 
-static bool same_light(const ImportTable *a, const ImportTable *b)
-{
+static bool same_light(const ImportTable *a, const ImportTable *b) {
     if (a->source != b->source) return false;
     if (a->source != IMPORT_REFLECTION) return a->level == b->level;
     return fabs(a->incidence_deg - b->incidence_deg) < SAME_ANGLE_DEG &&
@@ -221,11 +209,10 @@ static bool same_light(const ImportTable *a, const ImportTable *b)
 }
 
 /* Sections at several azimuths make one table. */
-static bool join_sections(ImportSet *set, Error *err)
-{
+static bool join_sections(ImportSet *set, Error *err) {
     int *part = ARENA_NEW(set->arena, int, IMPORT_TABLES_MAX);
     for (int i = 0; i < set->count; i++) {
-        int    count = 0;
+        int count = 0;
         double rows = 0;
         for (int k = i; k < set->count && set->table[i].is_section; k++)
             if (set->table[k].is_section && same_light(&set->table[i], &set->table[k]) &&
@@ -236,8 +223,8 @@ static bool join_sections(ImportSet *set, Error *err)
         if (count < 2) continue;
         if (rows > IMPORT_ROWS_MAX)
             return error_at(err, ERROR_INPUT, set->table[i].file, "",
-                            "and its other sections have %g directions, required: at most %d",
-                            rows, IMPORT_ROWS_MAX);
+                            "and its other sections have %g directions, required: at most %d", rows,
+                            IMPORT_ROWS_MAX);
         ImportTable joined;
         append_tables(set, part, count, &joined);
         set->table[i] = joined;
@@ -249,8 +236,7 @@ static bool join_sections(ImportSet *set, Error *err)
 /* ---- luminance without colour ------------------------------------------------------------ */
 
 /* X/Y and Z/Y of a spectrum, by the trapezoidal rule over its own wavelengths. */
-static bool spectrum_ratios(const ImportSpectra *spectra, const double *value, double ratio[2])
-{
+static bool spectrum_ratios(const ImportSpectra *spectra, const double *value, double ratio[2]) {
     double sum[3] = {0, 0, 0};
     for (int i = 1; i < spectra->rows; i++) {
         double step = spectra->nm[i] - spectra->nm[i - 1];
@@ -269,11 +255,10 @@ static bool spectrum_ratios(const ImportSpectra *spectra, const double *value, d
 }
 
 /* Luminance alone as X, Y, Z. */
-static void add_colour(ImportSet *set, ImportTable *table)
-{
+static void add_colour(ImportSet *set, ImportTable *table) {
     double ratio[2] = {0.95047, 1.08883}; /* D65, CIE 15 */
-    bool   measured = table->source <= IMPORT_BLUE && set->spectra.rows &&
-                      spectrum_ratios(&set->spectra, set->spectra.value[table->source], ratio);
+    bool measured = table->source <= IMPORT_BLUE && set->spectra.rows &&
+                    spectrum_ratios(&set->spectra, set->spectra.value[table->source], ratio);
     double *value = ARENA_NEW(set->arena, double, 3 * (size_t)table->rows);
     for (size_t i = 0; i < (size_t)table->rows; i++) {
         value[3 * i] = ratio[0] * table->value[i];
@@ -292,18 +277,17 @@ static void add_colour(ImportSet *set, ImportTable *table)
 /* ---- components and wavelengths ---------------------------------------------------------- */
 
 /* Files of X, Y and Z alone: each of them once. */
-static bool join_components(ImportSet *set, int first, Error *err)
-{
+static bool join_components(ImportSet *set, int first, Error *err) {
     static const char letters[] = "XYZ";
-    int          part[3] = {-1, -1, -1};
+    int part[3] = {-1, -1, -1};
     ImportTable *table = set->table;
     for (int i = first; i < set->count; i++) {
         if (!table[i].component || !same_light(&table[first], &table[i])) continue;
         int at = (int)(strchr(letters, table[i].component) - letters);
         if (part[at] >= 0)
             return error_at(err, ERROR_INPUT, table[i].file, "", "is %c of %s %g, and so is %s",
-                            table[i].component, import_source_name(table[i].source),
-                            table[i].level, table[part[at]].file);
+                            table[i].component, import_source_name(table[i].source), table[i].level,
+                            table[part[at]].file);
         part[at] = i;
     }
     if (part[1] >= 0 && part[0] < 0 && part[2] < 0) {
@@ -316,9 +300,8 @@ static bool join_components(ImportSet *set, int first, Error *err)
                             "is %c of %s %g, and no file has %c — give the missing file, or "
                             "its role as --role FILE=%s:%g:%c",
                             table[first].component, import_source_name(table[first].source),
-                            table[first].level, letters[j],
-                            import_source_name(table[first].source), table[first].level,
-                            letters[j]);
+                            table[first].level, letters[j], import_source_name(table[first].source),
+                            table[first].level, letters[j]);
     ImportTable joined = table[first];
     if (!join_tables(set, part, 3, &joined, err)) return false;
     joined.component = 0;
@@ -327,9 +310,8 @@ static bool join_components(ImportSet *set, int first, Error *err)
     return true;
 }
 
-static bool join_bands(ImportSet *set, int first, Error *err)
-{
-    int          part[MEASUREMENT_WAVELENGTHS_MAX], count = 0;
+static bool join_bands(ImportSet *set, int first, Error *err) {
+    int part[MEASUREMENT_WAVELENGTHS_MAX], count = 0;
     ImportTable *table = set->table;
     for (int i = first; i < set->count; i++) {
         if (!same_light(&table[first], &table[i])) continue;
@@ -345,26 +327,23 @@ static bool join_bands(ImportSet *set, int first, Error *err)
     return true;
 }
 
-static bool refuse_twice(const ImportSet *set, int first, Error *err)
-{
+static bool refuse_twice(const ImportSet *set, int first, Error *err) {
     const ImportTable *table = set->table;
     for (int i = first + 1; i < set->count; i++)
         if (same_light(&table[first], &table[i]))
             return error_at(err, ERROR_INPUT, table[i].file, "",
                             "is %s %g, and so is %s — give one of them another --role, or "
                             "leave it out",
-                            import_source_name(table[i].source), table[i].level,
-                            table[first].file);
+                            import_source_name(table[i].source), table[i].level, table[first].file);
     return true;
 }
 
-bool import_join_parts(ImportSet *set, Error *err)
-{
+bool import_join_parts(ImportSet *set, Error *err) {
     if (!join_sections(set, err)) return false;
     for (int i = 0; i < set->count; i++) {
         bool ok = set->table[i].source == IMPORT_REFLECTION ? join_bands(set, i, err)
-                  : set->table[i].component ? join_components(set, i, err)
-                                            : true;
+                  : set->table[i].component                 ? join_components(set, i, err)
+                                                            : true;
         if (!ok || !refuse_twice(set, i, err)) return false;
     }
     return true;
@@ -373,10 +352,9 @@ bool import_join_parts(ImportSet *set, Error *err)
 /* ---- a direction once -------------------------------------------------------------------- */
 
 /* How many rows are repetitions; leader[row] is the first row of the same direction. */
-static int find_repeats(const ImportTable *table, Arena scratch, int *leader)
-{
+static int find_repeats(const ImportTable *table, Arena scratch, int *leader) {
     RowPlace *place = sorted_places(table, &scratch);
-    int    repeats = 0;
+    int repeats = 0;
     for (int i = 0; i < table->rows; i++) {
         bool again = i && place[i].theta && same_place(&place[i], &place[i - 1]);
         leader[place[i].row] = again ? leader[place[i - 1].row] : place[i].row;
@@ -385,11 +363,10 @@ static int find_repeats(const ImportTable *table, Arena scratch, int *leader)
     return repeats;
 }
 
-static void take_means(ImportTable *table, const int *leader, int rows, Arena *arena)
-{
-    size_t     size = (size_t)table->channels;
+static void take_means(ImportTable *table, const int *leader, int rows, Arena *arena) {
+    size_t size = (size_t)table->channels;
     ImportRows means = import_rows(arena, rows, 0, table->channels);
-    int       *place = ARENA_NEW(arena, int, table->rows), *count = ARENA_NEW(arena, int, rows);
+    int *place = ARENA_NEW(arena, int, table->rows), *count = ARENA_NEW(arena, int, rows);
     for (int i = 0; i < table->rows; i++) {
         if (leader[i] == i) {
             place[i] = means.rows;
@@ -407,22 +384,21 @@ static void take_means(ImportTable *table, const int *leader, int rows, Arena *a
 }
 
 #define REPEATS_APART 0.1  /* share: runs further apart are not one measurement, */
-#define REPEATS_SURE  3    /* where the sum of differences is so many times what noise makes */
+#define REPEATS_SURE 3     /* where the sum of differences is so many times what noise makes */
 #define REPEATS_WORST 0.5  /* share: so far apart no single direction was measured twice */
 #define REPEATS_POLES 4    /* rows at theta 0: so many show the fit which of them is wrong */
 #define REPEATS_FLOOR 0.05 /* of a channel's largest: what is less is compared with that */
 
 /* What stands again beside what stood first at the same directions. */
 typedef struct Repeats {
-    int    count;
+    int count;
     double ratio; /* of all values that stand again to those that stood first */
     double sure;  /* the sum of the differences over the root of the sum of their squares */
     double worst; /* largest difference of two values of one direction, of the larger */
-    int    row;   /* that has it */
+    int row;      /* that has it */
 } Repeats;
 
-static double largest_of(const ImportTable *table, size_t channel)
-{
+static double largest_of(const ImportTable *table, size_t channel) {
     double most = 0;
     for (int i = 0; i < table->rows; i++)
         most = fmax(most, table->value[(size_t)i * (size_t)table->channels + channel]);
@@ -430,8 +406,7 @@ static double largest_of(const ImportTable *table, size_t channel)
 }
 
 /* Adds channel c of a repetition; returns by how much it is more. */
-static double compare_value(double old, double value, double floor, int row, Repeats *out)
-{
+static double compare_value(double old, double value, double floor, int row, Repeats *out) {
     double apart = fabs(value - old) / fmax(fmax(old, value), floor);
     if (apart > out->worst) {
         out->worst = apart;
@@ -441,22 +416,20 @@ static double compare_value(double old, double value, double floor, int row, Rep
 }
 
 static void compare_repeats(const ImportTable *table, const int *leader, Arena scratch,
-                            Repeats *out)
-{
-    double  first = 0, again = 0, squares = 0;
-    size_t  size = (size_t)table->channels;
+                            Repeats *out) {
+    double first = 0, again = 0, squares = 0;
+    size_t size = (size_t)table->channels;
     double *floor = ARENA_NEW(&scratch, double, size);
-    int     pole = -1, poles = 0;
+    int pole = -1, poles = 0;
     for (int i = table->rows - 1; i >= 0; i--) {
         if (STEPS(table->theta_deg[i])) continue;
         pole = i;
         poles++;
     }
-    for (size_t c = 0; c < size; c++)
-        floor[c] = fmax(1e-30, REPEATS_FLOOR * largest_of(table, c));
+    for (size_t c = 0; c < size; c++) floor[c] = fmax(1e-30, REPEATS_FLOOR * largest_of(table, c));
     for (int i = 0; i < table->rows; i++) {
-        bool   is_pole = poles < REPEATS_POLES && !STEPS(table->theta_deg[i]);
-        int    older = is_pole ? pole : leader[i];
+        bool is_pole = poles < REPEATS_POLES && !STEPS(table->theta_deg[i]);
+        int older = is_pole ? pole : leader[i];
         double apart = 0;
         for (size_t c = 0; c < size && older != i; c++) {
             double old = table->value[(size_t)older * size + c];
@@ -473,48 +446,50 @@ static void compare_repeats(const ImportTable *table, const int *leader, Arena s
 }
 
 /* Noise goes out of the sums; another scale of a second run does not. */
-static bool check_repeats(const ImportTable *table, const Repeats *found, Error *err)
-{
+static bool check_repeats(const ImportTable *table, const Repeats *found, Error *err) {
     double apart = 1 - fmin(found->ratio, 1 / found->ratio);
     if (apart > REPEATS_APART && found->sure >= REPEATS_SURE)
         return error_at(err, ERROR_INPUT, table->file, "",
                         "%d directions stand more than once, with %.3g times the light when "
                         "they stand again: required within %g %% — leave one run out, or say "
-                        "--accept for their mean", found->count, found->ratio,
-                        100 * REPEATS_APART);
+                        "--accept for their mean",
+                        found->count, found->ratio, 100 * REPEATS_APART);
     return found->worst <= REPEATS_WORST ||
            error_at(err, ERROR_INPUT, table->file, "",
                     "theta %g, phi %g stands more than once, and its values are %.3g %% apart: "
                     "required within %g %% (of what is at least %g %% of the table's largest) "
                     "— leave one out, or say --accept for their mean",
-                    table->theta_deg[found->row], table->phi_deg[found->row],
-                    100 * found->worst, 100 * REPEATS_WORST, 100 * REPEATS_FLOOR);
+                    table->theta_deg[found->row], table->phi_deg[found->row], 100 * found->worst,
+                    100 * REPEATS_WORST, 100 * REPEATS_FLOOR);
 }
 
-bool import_merge_directions(ImportSet *set, Error *err)
-{
-    int         total = 0, tables = 0;
-    double      most = -1;
+bool import_merge_directions(ImportSet *set, Error *err) {
+    int total = 0, tables = 0;
+    double most = -1;
     const char *worst = "";
     for (int i = 0; i < set->count; i++) {
         ImportTable *table = &set->table[i];
-        int    *leader = ARENA_NEW(set->arena, int, table->rows);
+        int *leader = ARENA_NEW(set->arena, int, table->rows);
         Repeats found = {.count = find_repeats(table, *set->arena, leader)};
         compare_repeats(table, leader, *set->arena, &found);
         if (!set->accepts_repeats && !check_repeats(table, &found, err)) return false;
         if (!found.count) continue;
         if (found.worst > most)
-            worst = arena_format(set->arena, "%.2g %% (%s, theta %g, phi %g; its second values "
-                                 "have %.3g times the light)", 100 * found.worst,
-                                 path_name(table->file), table->theta_deg[found.row],
-                                 table->phi_deg[found.row], found.ratio);
+            worst =
+                arena_format(set->arena,
+                             "%.2g %% (%s, theta %g, phi %g; its second values "
+                             "have %.3g times the light)",
+                             100 * found.worst, path_name(table->file), table->theta_deg[found.row],
+                             table->phi_deg[found.row], found.ratio);
         most = fmax(most, found.worst);
         take_means(table, leader, table->rows - found.count, set->arena);
         total += found.count;
         tables++;
     }
     if (total)
-        import_note(set, "%d directions of %d tables stood more than once and disagree by up "
-                    "to %s: their mean was taken", total, tables, worst);
+        import_note(set,
+                    "%d directions of %d tables stood more than once and disagree by up "
+                    "to %s: their mean was taken",
+                    total, tables, worst);
     return true;
 }

@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-ImportRows import_rows(Arena *arena, int capacity, int masked, int channels)
-{
+ImportRows import_rows(Arena *arena, int capacity, int masked, int channels) {
     size_t values = (size_t)capacity * (size_t)channels;
     return (ImportRows){.channels = channels,
                         .theta_deg = ARENA_NEW(arena, double, capacity),
@@ -14,20 +13,17 @@ ImportRows import_rows(Arena *arena, int capacity, int masked, int channels)
                         .masked_phi_deg = ARENA_NEW(arena, double, masked)};
 }
 
-void import_rows_put(ImportRows *rows, double theta_deg, double phi_deg, const double *value)
-{
+void import_rows_put(ImportRows *rows, double theta_deg, double phi_deg, const double *value) {
     memcpy(import_rows_next(rows), value, sizeof *value * (size_t)rows->channels);
     import_rows_end(rows, theta_deg, phi_deg);
 }
 
-void import_rows_mask(ImportRows *rows, double theta_deg, double phi_deg)
-{
+void import_rows_mask(ImportRows *rows, double theta_deg, double phi_deg) {
     rows->masked_theta_deg[rows->masked] = theta_deg;
     rows->masked_phi_deg[rows->masked++] = phi_deg;
 }
 
-void import_rows_append(ImportRows *rows, const ImportTable *table)
-{
+void import_rows_append(ImportRows *rows, const ImportTable *table) {
     size_t size = (size_t)table->channels;
     for (int i = 0; i < table->rows; i++)
         import_rows_put(rows, table->theta_deg[i], table->phi_deg[i],
@@ -38,8 +34,7 @@ void import_rows_append(ImportRows *rows, const ImportTable *table)
                          is_masked ? table->masked_phi_deg[i] : 0);
 }
 
-void import_rows_give_measured(const ImportRows *rows, ImportTable *table)
-{
+void import_rows_give_measured(const ImportRows *rows, ImportTable *table) {
     table->rows = rows->rows;
     table->channels = rows->channels;
     table->theta_deg = rows->theta_deg;
@@ -47,8 +42,7 @@ void import_rows_give_measured(const ImportRows *rows, ImportTable *table)
     table->value = rows->value;
 }
 
-void import_rows_give(const ImportRows *rows, ImportTable *table)
-{
+void import_rows_give(const ImportRows *rows, ImportTable *table) {
     import_rows_give_measured(rows, table);
     table->masked = rows->masked;
     table->masked_theta_deg = rows->masked_theta_deg;

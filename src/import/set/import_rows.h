@@ -7,9 +7,9 @@
 #include "import/set/import.h"
 
 typedef struct ImportRows {
-    int     rows, channels;
+    int rows, channels;
     double *theta_deg, *phi_deg, *value; /* value: rows x channels */
-    int     masked;                      /* directions marked as not measured */
+    int masked;                          /* directions marked as not measured */
     double *masked_theta_deg, *masked_phi_deg;
 } ImportRows;
 
@@ -17,13 +17,11 @@ typedef struct ImportRows {
 ImportRows import_rows(Arena *arena, int capacity, int masked, int channels);
 
 /* Where the next row's values go, for import_rows_end to make it a row. */
-static inline double *import_rows_next(ImportRows *rows)
-{
+static inline double *import_rows_next(ImportRows *rows) {
     return rows->value + (size_t)rows->rows * (size_t)rows->channels;
 }
 
-static inline void import_rows_end(ImportRows *rows, double theta_deg, double phi_deg)
-{
+static inline void import_rows_end(ImportRows *rows, double theta_deg, double phi_deg) {
     rows->theta_deg[rows->rows] = theta_deg;
     rows->phi_deg[rows->rows++] = phi_deg;
 }

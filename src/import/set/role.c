@@ -11,14 +11,13 @@
 #define WORD_LENGTH 24
 
 typedef struct RoleWord {
-    char   text[WORD_LENGTH]; /* lower case; empty for a number */
+    char text[WORD_LENGTH]; /* lower case; empty for a number */
     double number;
 } RoleWord;
 
 /* ---- "red:255:X" ------------------------------------------------------------------------- */
 
-static bool bad_role(const char *text, Error *err)
-{
+static bool bad_role(const char *text, Error *err) {
     return error_set(err, ERROR_USAGE,
                      "the role '%s' is unknown, required: red, green or blue with :LEVEL, "
                      "black, white, brdf:INCIDENCE[:AZIMUTH[:WAVELENGTH]], dark, "
@@ -27,8 +26,7 @@ static bool bad_role(const char *text, Error *err)
 }
 
 /* Up to three fields behind the name; NULL where there is none. */
-static int cut_fields(const char *text, char *copy, size_t size, const char *field[4])
-{
+static int cut_fields(const char *text, char *copy, size_t size, const char *field[4]) {
     int count = 0;
     snprintf(copy, size, "%s", text);
     for (char *at = copy; at && count < 4;) {
@@ -41,15 +39,13 @@ static int cut_fields(const char *text, char *copy, size_t size, const char *fie
     return count;
 }
 
-static bool field_number(const char *text, double low, double high, double *out)
-{
+static bool field_number(const char *text, double low, double high, double *out) {
     char *after;
     *out = strtod(text, &after);
     return after != text && !*after && *out >= low && *out <= high;
 }
 
-static bool parse_light(const char *const *field, int count, Role *role)
-{
+static bool parse_light(const char *const *field, int count, Role *role) {
     if (count > 1) {
         role->has_incidence = true;
         if (!field_number(field[1], 0, 89.999, &role->incidence_deg)) return false;
@@ -61,10 +57,9 @@ static bool parse_light(const char *const *field, int count, Role *role)
     return count < 4 || field_number(field[3], 100, 20000, &role->wavelength_nm);
 }
 
-static bool parse_pattern(const char *const *field, int count, double level_max, Role *role)
-{
+static bool parse_pattern(const char *const *field, int count, double level_max, Role *role) {
     bool is_fixed = role->source == IMPORT_BLACK || role->source == IMPORT_WHITE;
-    int  at = 1;
+    int at = 1;
     role->level = level_max;
     if (!is_fixed && count > 1) {
         if (!field_number(field[at++], 1e-9, level_max, &role->level)) return false;
@@ -78,14 +73,13 @@ static bool parse_pattern(const char *const *field, int count, double level_max,
     return at == count;
 }
 
-bool role_parse(const char *text, double level_max, Role *out, Error *err)
-{
-    static const char *const names[] = {"red", "green", "blue", "black", "white", "brdf",
-                                        "dark", "reference"}; /* as ImportSource */
-    char        copy[128];
+bool role_parse(const char *text, double level_max, Role *out, Error *err) {
+    static const char *const names[] = {"red",  "green", "blue",     "black", "white",
+                                        "brdf", "dark",  "reference"}; /* as ImportSource */
+    char copy[128];
     const char *field[4] = {0};
-    int         count = cut_fields(text, copy, sizeof copy, field);
-    Role        role = {.is_known = true};
+    int count = cut_fields(text, copy, sizeof copy, field);
+    Role role = {.is_known = true};
     if (count < 1) return bad_role(text, err);
     if (!strcmp(field[0], "skip") && count == 1) {
         *out = (Role){.is_known = true, .is_skipped = true};
@@ -96,8 +90,8 @@ bool role_parse(const char *text, double level_max, Role *out, Error *err)
         role.source = (ImportSource)i;
         bool is_light = role.source == IMPORT_REFLECTION || role.source == IMPORT_REFERENCE;
         bool ok = role.source == IMPORT_DARK ? count == 1
-                  : is_light ? parse_light(field, count, &role)
-                             : parse_pattern(field, count, level_max, &role);
+                  : is_light                 ? parse_light(field, count, &role)
+                                             : parse_pattern(field, count, level_max, &role);
         if (!ok) return bad_role(text, err);
         *out = role;
         return true;
@@ -107,21 +101,20 @@ bool role_parse(const char *text, double level_max, Role *out, Error *err)
 
 /* ---- words ------------------------------------------------------------------------------- */
 
-static bool is_letter(char c)
-{
+static bool is_letter(char c) {
     return isalpha((unsigned char)c) || (unsigned char)c >= 0x80;
 }
 
 /* Runs of letters, and numbers with a point between digits. */
-static int cut_words(const char *text, RoleWord *word)
-{
+static int cut_words(const char *text, RoleWord *word) {
     int count = 0;
     while (*text && count < WORDS_MAX) {
         word[count] = (RoleWord){0};
         if (isdigit((unsigned char)*text)) {
             char digits[WORD_LENGTH] = {0};
-            for (int n = 0; isdigit((unsigned char)*text) ||
-                            (*text == '.' && isdigit((unsigned char)text[1])); text++)
+            for (int n = 0;
+                 isdigit((unsigned char)*text) || (*text == '.' && isdigit((unsigned char)text[1]));
+                 text++)
                 if (n < WORD_LENGTH - 1) digits[n++] = *text;
             word[count++].number = strtod(digits, NULL);
         } else if (is_letter(*text)) {
@@ -136,12 +129,12 @@ static int cut_words(const char *text, RoleWord *word)
 }
 
 /* The pattern that a word names; a single letter counts only before a number. */
-static int colour_of(const RoleWord *word, bool before_number)
-{
-    static const char *const words[5][5] = {
-        {"red", "rot", "rouge", NULL}, {"green", "gruen", "gr\xC3\xBCn", "vert", NULL},
-        {"blue", "blau", "bleu", NULL}, {"black", "schwarz", "noir", NULL},
-        {"white", "weiss", "wei\xC3\x9F", "blanc", NULL}};
+static int colour_of(const RoleWord *word, bool before_number) {
+    static const char *const words[5][5] = {{"red", "rot", "rouge", NULL},
+                                            {"green", "gruen", "gr\xC3\xBCn", "vert", NULL},
+                                            {"blue", "blau", "bleu", NULL},
+                                            {"black", "schwarz", "noir", NULL},
+                                            {"white", "weiss", "wei\xC3\x9F", "blanc", NULL}};
     static const char letters[] = "rgbkw";
     for (int c = 0; c < 5; c++) {
         if (import_word_find(words[c], word->text) >= 0) return c;
@@ -152,26 +145,24 @@ static int colour_of(const RoleWord *word, bool before_number)
 
 typedef struct WordReader {
     const RoleWord *word;
-    int         count;
-    Role        role;
-    int         colours, lights; /* how many of each were found */
+    int count;
+    Role role;
+    int colours, lights; /* how many of each were found */
 } WordReader;
 
-static bool next_is_number(const WordReader *in, int i)
-{
+static bool next_is_number(const WordReader *in, int i) {
     return i + 1 < in->count && !in->word[i + 1].text[0];
 }
 
 /* A light's word with its number: incidence, azimuth or wavelength. */
-static bool read_light_word(WordReader *in, int i)
-{
-    static const char *const incidence[] = {"brdf", "bsdf", "brf", "reflection", "reflectance",
-        "refl", "i", "in", "inc", "incidence", "aoi", "ti", "thetai", NULL};
-    static const char *const azimuth[] = {"a",   "az", "azi",  "azimuth",
-                                          "phi", "p",  "phii", NULL};
+static bool read_light_word(WordReader *in, int i) {
+    static const char *const incidence[] = {"brdf", "bsdf", "brf",    "reflection", "reflectance",
+                                            "refl", "i",    "in",     "inc",        "incidence",
+                                            "aoi",  "ti",   "thetai", NULL};
+    static const char *const azimuth[] = {"a", "az", "azi", "azimuth", "phi", "p", "phii", NULL};
     static const char *const wavelength[] = {"w", "wl", "wave", "wavelength", "lambda", NULL};
     const char *text = in->word[i].text;
-    double      number = in->word[i + 1].number;
+    double number = in->word[i + 1].number;
     if (import_word_find(incidence, text) >= 0 && number < 90) {
         in->role.incidence_deg = number;
         in->role.has_incidence = true;
@@ -192,13 +183,11 @@ static bool read_light_word(WordReader *in, int i)
 }
 
 /* "20-90": a second angle without a word could be anything. A date is none. */
-static bool has_loose_number(const WordReader *in, int i)
-{
+static bool has_loose_number(const WordReader *in, int i) {
     return i < in->count && !in->word[i].text[0] && in->word[i].number <= 360;
 }
 
-static void read_words(WordReader *in)
-{
+static void read_words(WordReader *in) {
     for (int i = 0; i < in->count; i++) {
         const RoleWord *word = &in->word[i];
         if (!word->text[0]) {
@@ -226,9 +215,8 @@ static void read_words(WordReader *in)
     }
 }
 
-Role role_from_words(const char *words, double level_max, bool *is_ambiguous)
-{
-    RoleWord       word[WORDS_MAX];
+Role role_from_words(const char *words, double level_max, bool *is_ambiguous) {
+    RoleWord word[WORDS_MAX];
     WordReader in = {.word = word, .count = cut_words(words, word)};
     read_words(&in);
     Role *role = &in.role;
@@ -253,8 +241,7 @@ Role role_from_words(const char *words, double level_max, bool *is_ambiguous)
 
 /* ---- names and agreement ----------------------------------------------------------------- */
 
-const char *role_text(const Role *role, Arena *arena)
-{
+const char *role_text(const Role *role, Arena *arena) {
     const char *name = import_source_name(role->source);
     if (role->source == IMPORT_REFLECTION)
         return arena_format(arena, "%s at incidence %g", name, role->incidence_deg);
@@ -263,8 +250,7 @@ const char *role_text(const Role *role, Arena *arena)
                         &role->component);
 }
 
-bool role_agrees(const Role *a, const Role *b)
-{
+bool role_agrees(const Role *a, const Role *b) {
     if (a->source != b->source) return false;
     if (a->has_incidence && b->has_incidence &&
         fabs(a->incidence_deg - b->incidence_deg) > SAME_ANGLE_DEG)

@@ -10,16 +10,16 @@
 #include "import/set/import.h"
 
 typedef struct Role {
-    bool         is_known;
-    bool         is_skipped;
+    bool is_known;
+    bool is_skipped;
     ImportSource source;
-    double       level;
-    bool         has_level;    /* the number itself was there */
-    char         component;    /* 0, 'X', 'Y' or 'Z' */
-    bool         has_incidence, has_azimuth;
-    double       incidence_deg;
-    double       azimuth_deg;  /* of the light, in the file's own azimuths */
-    double       wavelength_nm; /* 0: not stated */
+    double level;
+    bool has_level; /* the number itself was there */
+    char component; /* 0, 'X', 'Y' or 'Z' */
+    bool has_incidence, has_azimuth;
+    double incidence_deg;
+    double azimuth_deg;   /* of the light, in the file's own azimuths */
+    double wavelength_nm; /* 0: not stated */
 } Role;
 
 /* "red[:LEVEL[:X|Y|Z]]", "black", "white", "brdf:INCIDENCE[:AZIMUTH[:WAVELENGTH]]", "dark",

@@ -21,36 +21,32 @@
 /* The rows of one pattern or light: what they share in the columns that identify it. */
 typedef struct RowGroup {
     double key[KEYS_MAX];
-    int    row;
+    int row;
 } RowGroup;
 
 typedef struct TextChannels {
-    int       count;
-    int       column[CHANNELS_MAX]; /* of reflection, by rising wavelength */
-    float     nm[CHANNELS_MAX];
-    char      component; /* emission of one component */
-    Quantity  source[3]; /* emission: the three columns to take */
+    int count;
+    int column[CHANNELS_MAX]; /* of reflection, by rising wavelength */
+    float nm[CHANNELS_MAX];
+    char component;     /* emission of one component */
+    Quantity source[3]; /* emission: the three columns to take */
 } TextChannels;
 
-static double cell_of(const TextReader *in, int row, int column)
-{
+static double cell_of(const TextReader *in, int row, int column) {
     return in->raw->rows.cell[(size_t)row * (size_t)in->raw->rows.width + (size_t)column];
 }
 
-static const char *row_place(const TextReader *in, int row)
-{
+static const char *row_place(const TextReader *in, int row) {
     return text_place(in->raw->rows.line[row], in->set->arena);
 }
 
 /* ---- which channels ---------------------------------------------------------------------- */
 
-static bool has(const TextReader *in, Quantity quantity)
-{
+static bool has(const TextReader *in, Quantity quantity) {
     return in->column[quantity] >= 0;
 }
 
-static bool emission_channels(TextReader *in, TextChannels *out)
-{
+static bool emission_channels(TextReader *in, TextChannels *out) {
     Quantity luminance = has(in, QUANTITY_Y) ? QUANTITY_Y : QUANTITY_LUMINANCE;
     static const char letters[] = "XYZ";
     const Quantity colours[3][3] = {{QUANTITY_X, QUANTITY_Y, QUANTITY_Z},
@@ -79,17 +75,15 @@ static bool emission_channels(TextReader *in, TextChannels *out)
                     "or luminance alone — name the columns with --columns");
 }
 
-static float column_wavelength(const TextReader *in, int column)
-{
+static float column_wavelength(const TextReader *in, int column) {
     double nm = in->raw->column[column].name.wavelength_nm;
     if (nm > 0) return (float)nm;
     if (in->role.wavelength_nm > 0) return (float)in->role.wavelength_nm;
     return (float)(in->metadata.wavelength_nm > 0 ? in->metadata.wavelength_nm
-                                              : in->import->wavelength_nm);
+                                                  : in->import->wavelength_nm);
 }
 
-static bool reflection_channels(TextReader *in, TextChannels *out)
-{
+static bool reflection_channels(TextReader *in, TextChannels *out) {
     for (int c = 0; c < in->raw->rows.width; c++) {
         if (in->raw->column[c].name.quantity != QUANTITY_REFLECTION) continue;
         float nm = column_wavelength(in, c);
@@ -114,11 +108,10 @@ static bool reflection_channels(TextReader *in, TextChannels *out)
 /* ---- values of a row --------------------------------------------------------------------- */
 
 /* Luminance and chromaticity (CIE 15) to X, Y, Z; a row without light may have any. */
-static bool xyz_from_chromaticity(const TextReader *in, int row, bool is_uv, double xyz[3])
-{
+static bool xyz_from_chromaticity(const TextReader *in, int row, bool is_uv, double xyz[3]) {
     double luminance = xyz[0], a = xyz[1], b = xyz[2];
-    bool   is_valid = is_uv ? a >= 0 && b > 0 && 12 - 3 * a - 20 * b >= 0
-                            : a >= 0 && b > 0 && a + b <= 1 + 1e-9;
+    bool is_valid =
+        is_uv ? a >= 0 && b > 0 && 12 - 3 * a - 20 * b >= 0 : a >= 0 && b > 0 && a + b <= 1 + 1e-9;
     if (luminance == 0) {
         memset(xyz, 0, 3 * sizeof *xyz);
         return true;
@@ -134,8 +127,7 @@ static bool xyz_from_chromaticity(const TextReader *in, int row, bool is_uv, dou
 
 /* False: an error. *is_masked: a value is marked as not measured. */
 static bool emission_values(const TextReader *in, const TextChannels *channels, int row,
-                            double *value, bool *is_masked)
-{
+                            double *value, bool *is_masked) {
     double scale = value_unit_cd_m2(in->unit);
     for (int j = 0; j < channels->count; j++) {
         value[j] = cell_of(in, row, in->column[channels->source[j]]);
@@ -151,13 +143,11 @@ static bool emission_values(const TextReader *in, const TextChannels *channels, 
 
 /* To sr^-1 without the cosine. A cosine-corrected value at the horizon is masked. */
 static void reflection_values(const TextReader *in, const TextChannels *channels, int row,
-                              double theta_deg, double *value, bool *is_masked)
-{
+                              double theta_deg, double *value, bool *is_masked) {
     double cosine = cos_d(radians_from_degrees(theta_deg));
     double scale = 1;
     if (in->unit == UNIT_FACTOR)
-        scale *=
-            (in->options->white_reflectance > 0 ? in->options->white_reflectance : 1) / PI;
+        scale *= (in->options->white_reflectance > 0 ? in->options->white_reflectance : 1) / PI;
     if (in->unit == UNIT_BRDF_COS) {
         *is_masked |= cosine < 1e-3;
         scale /= cosine < 1e-3 ? 1 : cosine;
@@ -171,11 +161,10 @@ static void reflection_values(const TextReader *in, const TextChannels *channels
 
 /* ---- one table --------------------------------------------------------------------------- */
 
-static bool row_angles(const TextReader *in, int row, double *theta, double *phi)
-{
-    bool   is_pair = in->column[QUANTITY_THETA] < 0;
-    int    a = in->column[is_pair ? QUANTITY_HORIZONTAL : QUANTITY_THETA];
-    int    b = in->column[is_pair ? QUANTITY_VERTICAL : QUANTITY_PHI];
+static bool row_angles(const TextReader *in, int row, double *theta, double *phi) {
+    bool is_pair = in->column[QUANTITY_THETA] < 0;
+    int a = in->column[is_pair ? QUANTITY_HORIZONTAL : QUANTITY_THETA];
+    int b = in->column[is_pair ? QUANTITY_VERTICAL : QUANTITY_PHI];
     double phi_unit = in->is_radians ? PI / 180 : 1; /* --section is always in degrees */
     double raw[2] = {cell_of(in, row, a),
                      in->is_section ? in->section_phi * phi_unit : cell_of(in, row, b)};
@@ -194,10 +183,9 @@ static bool row_angles(const TextReader *in, int row, double *theta, double *phi
 
 /* *beyond counts directions beyond 90 degrees. */
 static bool fill_row(const TextReader *in, const TextChannels *channels, int row,
-                     const ImportTable *light, ImportRows *to, int *beyond)
-{
+                     const ImportTable *light, ImportRows *to, int *beyond) {
     double theta, phi, *value = import_rows_next(to);
-    bool   is_masked = false;
+    bool is_masked = false;
     if (!row_angles(in, row, &theta, &phi)) return false;
     if (in->is_reflection) phi = fmod(phi + 540 - light->incidence_phi_deg, 360);
     if (theta > 90 + 1e-6) {
@@ -213,10 +201,9 @@ static bool fill_row(const TextReader *in, const TextChannels *channels, int row
 }
 
 static bool fill_table(TextReader *in, const TextChannels *channels, const RowGroup *group,
-                       int count, ImportTable *table)
-{
+                       int count, ImportTable *table) {
     ImportRows to = import_rows(in->set->arena, count, count, channels->count);
-    int        beyond = 0;
+    int beyond = 0;
     for (int i = 0; i < count; i++)
         if (!fill_row(in, channels, group[i].row, table, &to, &beyond)) return false;
     import_rows_give(&to, table);
@@ -229,25 +216,22 @@ static bool fill_table(TextReader *in, const TextChannels *channels, const RowGr
                         "begins a table of %d measured direction%s, required: an angular "
                         "table of at least %d — leave the file out (--role FILE=skip) if it "
                         "is none",
-                        table->rows, table->rows == 1 ? "" : "s",
-                        is_helper ? 1 : DIRECTIONS_MIN);
+                        table->rows, table->rows == 1 ? "" : "s", is_helper ? 1 : DIRECTIONS_MIN);
     return import_add(in->set, table, in->err);
 }
 
 /* ---- groups ------------------------------------------------------------------------------ */
 
-static int by_key(const void *a, const void *b)
-{
+static int by_key(const void *a, const void *b) {
     const RowGroup *p = a, *q = b;
     for (int k = 0; k < KEYS_MAX; k++)
         if (p->key[k] != q->key[k]) return p->key[k] < q->key[k] ? -1 : 1;
     return p->row < q->row ? -1 : p->row > q->row;
 }
 
-static RowGroup *group_rows(TextReader *in, const Quantity keys[KEYS_MAX])
-{
+static RowGroup *group_rows(TextReader *in, const Quantity keys[KEYS_MAX]) {
     RowGroup *group = ARENA_NEW(in->set->arena, RowGroup, in->raw->rows.count);
-    bool   any = false;
+    bool any = false;
     for (int i = 0; i < in->raw->rows.count; i++) {
         group[i].row = i;
         for (int k = 0; k < KEYS_MAX; k++) {
@@ -266,18 +250,16 @@ static RowGroup *group_rows(TextReader *in, const Quantity keys[KEYS_MAX])
     return group;
 }
 
-static int group_length(const RowGroup *group, int left)
-{
+static int group_length(const RowGroup *group, int left) {
     int count = 1;
     while (count < left && !memcmp(group[count].key, group->key, sizeof group->key)) count++;
     return count;
 }
 
 /* Codes as the panel showed them: one primary, black or white. */
-static bool codes_role(TextReader *in, const RowGroup *group, Role *role)
-{
+static bool codes_role(TextReader *in, const RowGroup *group, Role *role) {
     double most = text_options_level_max(in->options);
-    int    lit = 0;
+    int lit = 0;
     *role = (Role){.is_known = true, .source = IMPORT_BLACK, .has_level = true};
     for (int p = 0; p < 3; p++)
         if (group->key[p] != 0) {
@@ -285,8 +267,8 @@ static bool codes_role(TextReader *in, const RowGroup *group, Role *role)
             role->source = (ImportSource)p;
             role->level = group->key[p];
         }
-    bool is_white = lit == 3 && group->key[0] == most && group->key[1] == most &&
-                    group->key[2] == most;
+    bool is_white =
+        lit == 3 && group->key[0] == most && group->key[1] == most && group->key[2] == most;
     if (is_white) role->source = IMPORT_WHITE;
     return lit <= 1 || is_white ||
            error_at(in->err, ERROR_INPUT, in->file, row_place(in, group->row),
@@ -296,17 +278,15 @@ static bool codes_role(TextReader *in, const RowGroup *group, Role *role)
                     group->key[0], group->key[1], group->key[2]);
 }
 
-static void light_of(const TextReader *in, const RowGroup *group, ImportTable *table)
-{
-    bool   has_column = has(in, QUANTITY_INCIDENCE), has_azimuth = has(in, QUANTITY_LIGHT_PHI);
-    double incidence = has_column ? group->key[0] * (in->is_radians ? 180 / PI : 1)
-                                  : in->role.incidence_deg;
+static void light_of(const TextReader *in, const RowGroup *group, ImportTable *table) {
+    bool has_column = has(in, QUANTITY_INCIDENCE), has_azimuth = has(in, QUANTITY_LIGHT_PHI);
+    double incidence =
+        has_column ? group->key[0] * (in->is_radians ? 180 / PI : 1) : in->role.incidence_deg;
     double azimuth = 180;
     if (has_azimuth) {
         azimuth = text_conventions_azimuth(in, group->key[1]);
     } else if (in->role.has_azimuth || in->options->has_light_azimuth) {
-        double raw = in->role.has_azimuth ? in->role.azimuth_deg
-                                          : in->options->light_azimuth_deg;
+        double raw = in->role.has_azimuth ? in->role.azimuth_deg : in->options->light_azimuth_deg;
         azimuth = fmod(in->zero_deg + in->sense * raw + 720, 360);
     } else {
         import_note(in->set, "reflection azimuths are taken to count from the mirror "
@@ -319,18 +299,17 @@ static void light_of(const TextReader *in, const RowGroup *group, ImportTable *t
 }
 
 static void emission_of(const TextReader *in, const Role *role, const TextChannels *channels,
-                        ImportTable *table)
-{
+                        ImportTable *table) {
     double most = text_options_level_max(in->options);
-    table->level = role->source == IMPORT_BLACK ? 0
-                   : role->source == IMPORT_WHITE ? 255 : role->level * 255 / most;
+    table->level = role->source == IMPORT_BLACK   ? 0
+                   : role->source == IMPORT_WHITE ? 255
+                                                  : role->level * 255 / most;
     table->component = channels->component;
 }
 
 static bool add_group(TextReader *in, const TextChannels *channels, const RowGroup *group,
-                      int count)
-{
-    Role        role = in->role;
+                      int count) {
+    Role role = in->role;
     TextChannels *own = (TextChannels *)channels;
     ImportTable table = {.file = in->file, .is_section = in->is_section};
     if (has(in, QUANTITY_CODE_R) && !codes_role(in, group, &role)) return false;
@@ -351,14 +330,12 @@ static bool add_group(TextReader *in, const TextChannels *channels, const RowGro
 }
 
 /* One table for each pattern or light; the conventions are found already. */
-static bool text_table_add(TextReader *in)
-{
+static bool text_table_add(TextReader *in) {
     static const Quantity codes[] = {QUANTITY_CODE_R, QUANTITY_CODE_G, QUANTITY_CODE_B};
-    static const Quantity lights[] = {QUANTITY_INCIDENCE, QUANTITY_LIGHT_PHI,
-                                      QUANTITY_WAVELENGTH};
+    static const Quantity lights[] = {QUANTITY_INCIDENCE, QUANTITY_LIGHT_PHI, QUANTITY_WAVELENGTH};
     TextChannels *channels = ARENA_NEW(in->set->arena, TextChannels, 1);
-    bool ok = in->is_reflection ? reflection_channels(in, channels)
-                                : emission_channels(in, channels);
+    bool ok =
+        in->is_reflection ? reflection_channels(in, channels) : emission_channels(in, channels);
     RowGroup *group = ok ? group_rows(in, in->is_reflection ? lights : codes) : NULL;
     if (!group) return false;
     for (int i = 0; i < in->raw->rows.count;) {
@@ -371,27 +348,24 @@ static bool text_table_add(TextReader *in)
 
 /* ---- what the file is -------------------------------------------------------------------- */
 
-static bool fails_unstated(TextReader *in, bool is_ambiguous)
-{
+static bool fails_unstated(TextReader *in, bool is_ambiguous) {
     const char *wanted =
         in->is_reflection ? "brdf:INCIDENCE" : "red:255 (or green, blue, black, white)";
-    return error_at(in->err, ERROR_INPUT, in->file, "",
-                    "%s %s — say it with --role %s=%s", is_ambiguous ? "tells more than one"
-                    : "does not tell, by its contents or its name,",
-                    in->is_reflection ? is_ambiguous ? "angle of incidence"
-                                                     : "the light's angle of incidence"
-                    : is_ambiguous ? "pattern" : "which pattern it shows",
-                    path_name(in->file), wanted);
+    return error_at(
+        in->err, ERROR_INPUT, in->file, "", "%s %s — say it with --role %s=%s",
+        is_ambiguous ? "tells more than one" : "does not tell, by its contents or its name,",
+        in->is_reflection ? is_ambiguous ? "angle of incidence" : "the light's angle of incidence"
+        : is_ambiguous    ? "pattern"
+                          : "which pattern it shows",
+        path_name(in->file), wanted);
 }
 
-static bool fits_kind(const TextReader *in, const Role *role)
-{
+static bool fits_kind(const TextReader *in, const Role *role) {
     bool is_light = role->source == IMPORT_REFLECTION || role->source == IMPORT_REFERENCE;
     return role->source == IMPORT_DARK || is_light == in->is_reflection;
 }
 
-static bool role_from_option(TextReader *in, const char *text)
-{
+static bool role_from_option(TextReader *in, const char *text) {
     double most = text_options_level_max(in->options);
     if (!role_parse(text, most, &in->role, in->err)) return false;
     if (!fits_kind(in, &in->role))
@@ -407,41 +381,38 @@ static bool role_from_option(TextReader *in, const char *text)
 }
 
 /* "R_031" of ".../R_031.csv". */
-static const char *name_without_ending(TextReader *in)
-{
+static const char *name_without_ending(TextReader *in) {
     const char *name = path_name(in->file), *ending = path_ending(in->file);
-    size_t      length = strlen(name) - strlen(ending);
+    size_t length = strlen(name) - strlen(ending);
     return arena_string(in->set->arena, name, length ? length : strlen(name));
 }
 
 /* The role of a reflection table whose own text states the incidence. */
-static Role stated_light(const TextReader *in)
-{
-    return (Role){.is_known = in->metadata.has_incidence, .source = IMPORT_REFLECTION,
+static Role stated_light(const TextReader *in) {
+    return (Role){.is_known = in->metadata.has_incidence,
+                  .source = IMPORT_REFLECTION,
                   .has_incidence = in->metadata.has_incidence,
                   .incidence_deg = in->metadata.incidence_deg,
                   .wavelength_nm = in->metadata.wavelength_nm};
 }
 
-static bool fails_twice(TextReader *in, const Role *stated, const Role *named)
-{
+static bool fails_twice(TextReader *in, const Role *stated, const Role *named) {
     Arena *arena = in->set->arena;
-    return error_at(in->err, ERROR_INPUT, in->file, in->metadata.words_line >= 0 ?
-                    text_place(in->metadata.words_line, arena) : "",
+    return error_at(in->err, ERROR_INPUT, in->file,
+                    in->metadata.words_line >= 0 ? text_place(in->metadata.words_line, arena) : "",
                     "is %s by its contents and %s by its name — say which with --role %s=...",
                     role_text(stated, arena), role_text(named, arena), path_name(in->file));
 }
 
-static bool find_role(TextReader *in)
-{
+static bool find_role(TextReader *in) {
     double most = text_options_level_max(in->options);
-    bool   is_mixed[2] = {false, false};
-    bool   by_column = in->is_reflection ? in->column[QUANTITY_INCIDENCE] >= 0
-                                         : in->column[QUANTITY_CODE_R] >= 0;
+    bool is_mixed[2] = {false, false};
+    bool by_column =
+        in->is_reflection ? in->column[QUANTITY_INCIDENCE] >= 0 : in->column[QUANTITY_CODE_R] >= 0;
     const char *text = text_options_role(in->options, in->file);
     if (text) return role_from_option(in, text);
     Role stated = in->is_reflection ? stated_light(in)
-                                  : role_from_words(in->metadata.words, most, &is_mixed[0]);
+                                    : role_from_words(in->metadata.words, most, &is_mixed[0]);
     Role named = role_from_words(name_without_ending(in), most, &is_mixed[1]);
     if (named.is_known && !fits_kind(in, &named)) named = (Role){.is_known = false};
     in->role = stated.is_known ? stated : named;
@@ -466,24 +437,21 @@ static bool find_role(TextReader *in)
 
 /* ---- columns ----------------------------------------------------------------------------- */
 
-static void index_columns(TextReader *in)
-{
+static void index_columns(TextReader *in) {
     for (int q = 0; q < QUANTITY_COUNT; q++) in->column[q] = -1;
     for (int c = in->raw->rows.width - 1; c >= 0; c--)
         in->column[in->raw->column[c].name.quantity] = c;
 }
 
 /* A matrix without a label: --quantity names what it holds, or a component in role or name. */
-static bool name_unlabelled(TextReader *in)
-{
+static bool name_unlabelled(TextReader *in) {
     int c = in->column[QUANTITY_NONE];
     if (c < 0) return true;
     ColumnName *name = &in->raw->column[c].name;
-    const char *given = in->options->quantity,
-               *role = text_options_role(in->options, in->file);
+    const char *given = in->options->quantity, *role = text_options_role(in->options, in->file);
     double most = text_options_level_max(in->options);
-    bool   is_mixed;
-    Role   named = role_from_words(name_without_ending(in), most, &is_mixed);
+    bool is_mixed;
+    Role named = role_from_words(name_without_ending(in), most, &is_mixed);
     if (role && !role_parse(role, most, &named, in->err)) return false;
     if (given) {
         *name = column_name((TextCell){given, (int)strlen(given)});
@@ -502,8 +470,7 @@ static bool name_unlabelled(TextReader *in)
 }
 
 /* Luminance or reflection; both, or codes without all three, are refused. */
-static bool find_kind(TextReader *in)
-{
+static bool find_kind(TextReader *in) {
     bool emission = false;
     for (int q = QUANTITY_X; q <= QUANTITY_VPRIME; q++) emission |= in->column[q] >= 0;
     in->is_reflection = in->column[QUANTITY_REFLECTION] >= 0;
@@ -522,17 +489,18 @@ static bool find_kind(TextReader *in)
     if (in->is_section && !text_options_section(in->options, in->file, &in->section_phi))
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
                         "has theta but no azimuth — say the section's azimuth with --section "
-                        "%s=DEG", path_name(in->file));
+                        "%s=DEG",
+                        path_name(in->file));
     bool has_polar = in->column[QUANTITY_THETA] >= 0;
     bool has_pair = in->column[QUANTITY_HORIZONTAL] >= 0 && in->column[QUANTITY_VERTICAL] >= 0;
-    return has_polar != has_pair ||
-           error_at(in->err, ERROR_INPUT, in->file, "header line",
-                    "has %s, required: one pair of angles", has_polar ? "theta and phi and "
-                    "also a horizontal and a vertical angle" : "no pair of angles");
+    return has_polar != has_pair || error_at(in->err, ERROR_INPUT, in->file, "header line",
+                                             "has %s, required: one pair of angles",
+                                             has_polar ? "theta and phi and "
+                                                         "also a horizontal and a vertical angle"
+                                                       : "no pair of angles");
 }
 
-static bool check_wavelength(TextReader *in)
-{
+static bool check_wavelength(TextReader *in) {
     double given = in->import->wavelength_nm, stated = in->metadata.wavelength_nm;
     if (given > 0 && stated > 0 && fabs(given - stated) > 1e-3)
         return error_at(in->err, ERROR_INPUT, in->file, "",
@@ -542,36 +510,35 @@ static bool check_wavelength(TextReader *in)
 
 /* ---- the importer ------------------------------------------------------------------------ */
 
-static void note_names(TextReader *in)
-{
+static void note_names(TextReader *in) {
     if (!in->set->panel) in->set->panel = in->metadata.panel;
     if (!in->set->instrument) in->set->instrument = in->metadata.instrument;
     if (!in->set->date) in->set->date = in->metadata.date;
     if (!in->set->operator_name) in->set->operator_name = in->metadata.operator_name;
     if (in->metadata.unused_columns)
-        import_note(in->set, "%s: %d columns with other names are not used",
-                    path_name(in->file), in->metadata.unused_columns);
+        import_note(in->set, "%s: %d columns with other names are not used", path_name(in->file),
+                    in->metadata.unused_columns);
 }
 
-static bool read_text(const char *file, const ImportOptions *options, ImportSet *set,
-                      Error *err)
-{
+static bool read_text(const char *file, const ImportOptions *options, ImportSet *set, Error *err) {
     static const TextOptions nothing;
-    TextReader in = {.file = file, .import = options, .set = set, .err = err,
+    TextReader in = {.file = file,
+                     .import = options,
+                     .set = set,
+                     .err = err,
                      .options = options->text ? options->text : &nothing,
                      .raw = ARENA_NEW(set->arena, NamedRows, 1)};
     if (!text_scan(file, in.options, set->arena, in.raw, &in.metadata, err)) return false;
     index_columns(&in);
-    if (!name_unlabelled(&in) || !find_kind(&in) || !check_wavelength(&in) ||
-        !find_role(&in) || !text_conventions_find(&in))
+    if (!name_unlabelled(&in) || !find_kind(&in) || !check_wavelength(&in) || !find_role(&in) ||
+        !text_conventions_find(&in))
         return false;
     note_names(&in);
     return text_table_add(&in);
 }
 
 /* Text holds no zero bytes but as half of UTF-16's; DOS ends it with a control-Z. */
-static bool is_text(const char *file, const char *head, size_t size)
-{
+static bool is_text(const char *file, const char *head, size_t size) {
     (void)file;
     size_t zeros = 0, odd = 0;
     for (size_t i = 0; i < size; i++) {
@@ -581,5 +548,5 @@ static bool is_text(const char *file, const char *head, size_t size)
     return odd == 0 && (zeros == 0 || zeros * 5 > size * 2);
 }
 
-const Importer importer_text = {"text", "columns and matrices of any layout, as declared",
-                              is_text, read_text};
+const Importer importer_text = {"text", "columns and matrices of any layout, as declared", is_text,
+                                read_text};

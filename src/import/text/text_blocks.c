@@ -6,26 +6,23 @@
 
 /* ---- labels ------------------------------------------------------------------------------ */
 
-static bool is_label_key(TextCell cell)
-{
-    static const char *const keys[] = {"component", "channel", "data", "quantity", "value",
-                                       "tristimulus", "block", NULL};
+static bool is_label_key(TextCell cell) {
+    static const char *const keys[] = {"component", "channel",     "data",  "quantity",
+                                       "value",     "tristimulus", "block", NULL};
     return text_cell_find(keys, cell) >= 0;
 }
 
-static TextCell without_brackets(TextCell cell)
-{
+static TextCell without_brackets(TextCell cell) {
     if (cell.length > 2 && cell.text[0] == '[' && cell.text[cell.length - 1] == ']')
         cell = (TextCell){cell.text + 1, cell.length - 2};
     if (cell.length > 1 && strchr(":=", cell.text[cell.length - 1])) cell.length--;
     return cell;
 }
 
-bool text_blocks_label(TextBlocks *blocks, const TextCell *cell, int count)
-{
+bool text_blocks_label(TextBlocks *blocks, const TextCell *cell, int count) {
     while (count > 1 && !cell[count - 1].length) count--;
     if (count > 2 || (count == 2 && !is_label_key(without_brackets(cell[0])))) return false;
-    TextCell   text = without_brackets(cell[count - 1]);
+    TextCell text = without_brackets(cell[count - 1]);
     ColumnName name = column_name(text);
     if (name.quantity < QUANTITY_X) return false;
     blocks->label = name;
@@ -35,27 +32,27 @@ bool text_blocks_label(TextBlocks *blocks, const TextCell *cell, int count)
 
 /* ---- rows -------------------------------------------------------------------------------- */
 
-bool text_blocks_begin(TextBlocks *blocks, const TextCell *cell, int count, char decimal,
-                       int line, Error *err)
-{
+bool text_blocks_begin(TextBlocks *blocks, const TextCell *cell, int count, char decimal, int line,
+                       Error *err) {
     const char *file = blocks->text->file;
     while (count > 2 && !cell[count - 1].length) count--;
-    if (!blocks->block)
-        blocks->block = ARENA_NEW(blocks->arena, TextBlock, TEXT_BLOCKS_MAX);
+    if (!blocks->block) blocks->block = ARENA_NEW(blocks->arena, TextBlock, TEXT_BLOCKS_MAX);
     if (blocks->count == TEXT_BLOCKS_MAX)
         return error_at(err, ERROR_INPUT, file, text_place(line, blocks->arena),
                         "is one matrix too many, required: at most %d", TEXT_BLOCKS_MAX);
     if (blocks->count && count - 1 != blocks->across)
         return error_at(err, ERROR_INPUT, file, text_place(line, blocks->arena),
                         "has %d angles across, required: the %d of the matrix "
-                        "before", count - 1,
-                        blocks->across);
+                        "before",
+                        count - 1, blocks->across);
     blocks->across = count - 1;
     TextBlock *block = &blocks->block[blocks->count++];
-    *block = (TextBlock){
-        .name = blocks->label, .label = blocks->label_text, .line = line,
-        .corner = arena_string(blocks->arena, cell[0].text, (size_t)cell[0].length),
-        .angle = ARENA_NEW(blocks->arena, double, count)};
+    *block =
+        (TextBlock){.name = blocks->label,
+                    .label = blocks->label_text,
+                    .line = line,
+                    .corner = arena_string(blocks->arena, cell[0].text, (size_t)cell[0].length),
+                    .angle = ARENA_NEW(blocks->arena, double, count)};
     for (int i = 1; i < count; i++)
         if (!text_number(cell[i], decimal, &block->angle[i - 1]))
             return error_at(err, ERROR_INPUT, file, text_place(line, blocks->arena),
@@ -66,8 +63,7 @@ bool text_blocks_begin(TextBlocks *blocks, const TextCell *cell, int count, char
     return true;
 }
 
-double *text_blocks_row(TextBlocks *blocks, int line, Error *err)
-{
+double *text_blocks_row(TextBlocks *blocks, int line, Error *err) {
     TextBlock *block = &blocks->block[blocks->count - 1];
     if ((double)block->down.count * (double)blocks->across >= IMPORT_ROWS_MAX) {
         error_at(err, ERROR_INPUT, blocks->text->file, text_place(line, blocks->arena),
@@ -81,31 +77,27 @@ double *text_blocks_row(TextBlocks *blocks, int line, Error *err)
 /* ---- which angle runs down --------------------------------------------------------------- */
 
 /* The names of the first column and the first row in the corner: "Incl\Azim". */
-static void corner_names(const char *corner, ColumnName name[2])
-{
+static void corner_names(const char *corner, ColumnName name[2]) {
     size_t first = strcspn(corner, "\\/|,;");
     const char *rest = corner + first + (corner[first] != 0);
     name[0] = column_name((TextCell){corner, (int)first});
     name[1] = column_name((TextCell){rest, (int)strlen(rest)});
 }
 
-static double largest_down(const TextBlock *block, int across)
-{
+static double largest_down(const TextBlock *block, int across) {
     double most = 0;
     for (int i = 0; i < block->down.count; i++)
         most = fmax(most, fabs(block->down.cell[(size_t)i * (size_t)(across + 1)]));
     return most;
 }
 
-static double largest_across(const TextBlock *block, int across)
-{
+static double largest_across(const TextBlock *block, int across) {
     double most = 0;
     for (int i = 0; i < across; i++) most = fmax(most, fabs(block->angle[i]));
     return most;
 }
 
-static TableLayout corner_layout(const ColumnName name[2])
-{
+static TableLayout corner_layout(const ColumnName name[2]) {
     if (name[0].quantity == QUANTITY_INCIDENCE) return LAYOUT_THETA_DOWN;
     if (name[1].quantity == QUANTITY_INCIDENCE) return LAYOUT_PHI_DOWN;
     if (name[0].quantity == QUANTITY_THETA || name[1].quantity == QUANTITY_PHI)
@@ -119,16 +111,14 @@ static TableLayout corner_layout(const ColumnName name[2])
     return LAYOUT_AUTO;
 }
 
-static const char *name_of_down(TableLayout layout)
-{
-    static const char *const names[] = {"", "", "theta", "phi", "the horizontal angle",
-                                        "the vertical angle"};
+static const char *name_of_down(TableLayout layout) {
+    static const char *const names[] = {
+        "", "", "theta", "phi", "the horizontal angle", "the vertical angle"};
     return names[layout];
 }
 
 /* An inclination does not exceed 90 degrees (1.6 radians are no more than that either). */
-static TableLayout find_layout(const TextBlocks *blocks, const ColumnName name[2])
-{
+static TableLayout find_layout(const TextBlocks *blocks, const ColumnName name[2]) {
     const TextBlock *block = &blocks->block[0];
     double down = largest_down(block, blocks->across);
     double across = largest_across(block, blocks->across);
@@ -139,8 +129,7 @@ static TableLayout find_layout(const TextBlocks *blocks, const ColumnName name[2
 }
 
 static bool choose_layout(const TextBlocks *blocks, const ColumnName name[2], TableLayout *out,
-                          Error *err)
-{
+                          Error *err) {
     const TextBlock *block = &blocks->block[0];
     const char *at = text_place(block->line, blocks->arena);
     TableLayout given = blocks->options->layout, found = corner_layout(name);
@@ -157,22 +146,21 @@ static bool choose_layout(const TextBlocks *blocks, const ColumnName name[2], Ta
 
 /* ---- to rows ----------------------------------------------------------------------------- */
 
-static bool same_grid(const TextBlocks *blocks, const TextBlock *block, Error *err)
-{
+static bool same_grid(const TextBlocks *blocks, const TextBlock *block, Error *err) {
     const TextBlock *first = &blocks->block[0];
     size_t width = (size_t)blocks->across + 1;
-    bool   same = block->down.count == first->down.count &&
-                  !memcmp(block->angle, first->angle, sizeof(double) * (width - 1));
+    bool same = block->down.count == first->down.count &&
+                !memcmp(block->angle, first->angle, sizeof(double) * (width - 1));
     for (size_t i = 0; same && i < (size_t)block->down.count; i++)
         same = block->down.cell[i * width] == first->down.cell[i * width];
-    return same || error_at(err, ERROR_INPUT, blocks->text->file,
-                            text_place(block->line, blocks->arena),
-                            "begins a matrix over other angles than the one of %s, required: "
-                            "one grid in a file", text_place(first->line, blocks->arena));
+    return same ||
+           error_at(err, ERROR_INPUT, blocks->text->file, text_place(block->line, blocks->arena),
+                    "begins a matrix over other angles than the one of %s, required: "
+                    "one grid in a file",
+                    text_place(first->line, blocks->arena));
 }
 
-static bool add_quantities(const TextBlocks *blocks, NamedRows *out, Error *err)
-{
+static bool add_quantities(const TextBlocks *blocks, NamedRows *out, Error *err) {
     for (int b = 0; b < blocks->count; b++) {
         const TextBlock *block = &blocks->block[b];
         if (!same_grid(blocks, block, err)) return false;
@@ -182,21 +170,21 @@ static bool add_quantities(const TextBlocks *blocks, NamedRows *out, Error *err)
                 return error_at(err, ERROR_INPUT, blocks->text->file,
                                 text_place(block->line, blocks->arena),
                                 "begins a matrix of the same quantity (%s) as %s — label each, "
-                                "as [X], [Y], [Z] or [550 nm]", block->label ? block->label :
-                                "no label", text_place(blocks->block[k].line, blocks->arena));
+                                "as [X], [Y], [Z] or [550 nm]",
+                                block->label ? block->label : "no label",
+                                text_place(blocks->block[k].line, blocks->arena));
         out->column[out->rows.width++] =
             (NamedColumn){block->name, block->label ? block->label : "", 0};
     }
     return true;
 }
 
-static void fill_rows(const TextBlocks *blocks, bool first_down, NamedRows *out)
-{
+static void fill_rows(const TextBlocks *blocks, bool first_down, NamedRows *out) {
     const TextBlock *first = &blocks->block[0];
     size_t width = (size_t)blocks->across + 1, columns = (size_t)out->rows.width;
     for (int i = 0; i < first->down.count; i++)
         for (int k = 0; k < blocks->across; k++) {
-            size_t  at = (size_t)i * width;
+            size_t at = (size_t)i * width;
             double *row = out->rows.cell + (size_t)out->rows.count * columns;
             row[first_down ? 0 : 1] = first->down.cell[at];
             row[first_down ? 1 : 0] = first->angle[k];
@@ -206,9 +194,8 @@ static void fill_rows(const TextBlocks *blocks, bool first_down, NamedRows *out)
         }
 }
 
-bool text_blocks_finish(TextBlocks *blocks, NamedRows *out, Error *err)
-{
-    ColumnName  corner[2];
+bool text_blocks_finish(TextBlocks *blocks, NamedRows *out, Error *err) {
+    ColumnName corner[2];
     TableLayout layout;
     const TextBlock *first = &blocks->block[0];
     corner_names(first->corner, corner);
@@ -216,8 +203,8 @@ bool text_blocks_finish(TextBlocks *blocks, NamedRows *out, Error *err)
         return error_at(err, ERROR_INPUT, blocks->text->file,
                         text_place(first->line, blocks->arena), "is a matrix without rows");
     if (!choose_layout(blocks, corner, &layout, err)) return false;
-    bool      is_pair = layout >= LAYOUT_HORIZONTAL_DOWN;
-    bool      first_down = layout == LAYOUT_THETA_DOWN || layout == LAYOUT_HORIZONTAL_DOWN;
+    bool is_pair = layout >= LAYOUT_HORIZONTAL_DOWN;
+    bool first_down = layout == LAYOUT_THETA_DOWN || layout == LAYOUT_HORIZONTAL_DOWN;
     AngleUnit angle = corner[0].angle != ANGLE_AUTO ? corner[0].angle : corner[1].angle;
     out->rows.width = 2;
     ColumnName name[2] = {
@@ -229,7 +216,7 @@ bool text_blocks_finish(TextBlocks *blocks, NamedRows *out, Error *err)
     if (rows > IMPORT_ROWS_MAX)
         return error_at(err, ERROR_INPUT, blocks->text->file, "",
                         "has %zu directions, required: at most %d", rows, IMPORT_ROWS_MAX);
-    out->rows.cell = ARENA_NEW(blocks->arena, double, rows * (size_t)out->rows.width);
+    out->rows.cell = ARENA_NEW(blocks->arena, double, rows *(size_t)out->rows.width);
     out->rows.line = ARENA_NEW(blocks->arena, int, rows);
     fill_rows(blocks, first_down, out);
     return true;

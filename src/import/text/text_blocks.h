@@ -10,21 +10,21 @@
 #define TEXT_BLOCKS_MAX 512
 
 typedef struct TextBlock {
-    ColumnName  name;  /* QUANTITY_NONE: no label */
+    ColumnName name; /* QUANTITY_NONE: no label */
     const char *label;
     const char *corner;
-    int         line;  /* index of its head */
-    double     *angle; /* of the head: across */
-    TextRows    down;  /* the angle of each, then its values */
+    int line;      /* index of its head */
+    double *angle; /* of the head: across */
+    TextRows down; /* the angle of each, then its values */
 } TextBlock;
 
 typedef struct TextBlocks {
-    const TextFile    *text;
+    const TextFile *text;
     const TextOptions *options;
-    Arena      *arena;
-    TextBlock  *block; /* TEXT_BLOCKS_MAX of them once there is one */
-    int         count, across;
-    ColumnName  label; /* of the block to come */
+    Arena *arena;
+    TextBlock *block; /* TEXT_BLOCKS_MAX of them once there is one */
+    int count, across;
+    ColumnName label; /* of the block to come */
     const char *label_text;
 } TextBlocks;
 
@@ -32,8 +32,8 @@ typedef struct TextBlocks {
 bool text_blocks_label(TextBlocks *blocks, const TextCell *cell, int count);
 
 /* A matrix begins: its corner and the angles across. */
-bool text_blocks_begin(TextBlocks *blocks, const TextCell *cell, int count, char decimal,
-                       int line, Error *err);
+bool text_blocks_begin(TextBlocks *blocks, const TextCell *cell, int count, char decimal, int line,
+                       Error *err);
 
 /* Room for the next row of the current block: its angle and its values. NULL: too many. */
 double *text_blocks_row(TextBlocks *blocks, int line, Error *err);

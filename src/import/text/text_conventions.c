@@ -6,8 +6,7 @@
 #include "base/mathd.h"
 #include "base/units.h"
 
-static bool contradicts(TextReader *in, int line, const char *stated, const char *option)
-{
+static bool contradicts(TextReader *in, int line, const char *stated, const char *option) {
     return error_at(in->err, ERROR_INPUT, in->file,
                     line >= 0 ? text_place(line, in->set->arena) : "header line",
                     "says %s, and %s says otherwise", stated, option);
@@ -15,26 +14,22 @@ static bool contradicts(TextReader *in, int line, const char *stated, const char
 
 /* ---- azimuths ---------------------------------------------------------------------------- */
 
-static double turned(double degrees)
-{
+static double turned(double degrees) {
     double angle = fmod(degrees, 360);
     return angle < 0 ? angle + 360 : angle;
 }
 
-static bool find_azimuths(TextReader *in)
-{
+static bool find_azimuths(TextReader *in) {
     const TextOptions *d = in->options;
-    const AzimuthWords    *stated = &in->metadata.azimuth;
+    const AzimuthWords *stated = &in->metadata.azimuth;
     bool is_behind = stated->has_side ? stated->is_behind : d->seen_from < 0;
     if (stated->has_zero && d->has_azimuth_zero &&
         fabs(turned(stated->zero_deg) - turned(d->azimuth_zero_deg)) > 1e-6)
-        return contradicts(in, in->metadata.zero_line, "where azimuth 0 points",
-                           "--azimuth-zero");
+        return contradicts(in, in->metadata.zero_line, "where azimuth 0 points", "--azimuth-zero");
     if (stated->has_sense && d->azimuth_sense && stated->sense != d->azimuth_sense)
         return contradicts(in, in->metadata.sense_line, "how azimuths run", "--azimuth-sense");
     if (stated->has_side && d->seen_from && stated->is_behind != (d->seen_from < 0))
-        return contradicts(in, in->metadata.side_line, "from which side",
-                           "--azimuth-seen-from");
+        return contradicts(in, in->metadata.side_line, "from which side", "--azimuth-seen-from");
     bool knows_zero = stated->has_zero || d->has_azimuth_zero;
     bool knows_sense = stated->has_sense || d->azimuth_sense;
     in->zero_deg = stated->has_zero ? stated->zero_deg : d->azimuth_zero_deg;
@@ -45,23 +40,21 @@ static bool find_azimuths(TextReader *in)
     }
     if (!knows_zero)
         import_note(in->set, "azimuth 0 is taken to point right: neither the files nor "
-                    "--azimuth-zero say where");
+                             "--azimuth-zero say where");
     if (!knows_sense)
         import_note(in->set, "azimuths are taken to run counter-clockwise: neither the files "
                              "nor --azimuth-sense say how");
     return true;
 }
 
-double text_conventions_azimuth(const TextReader *in, double raw)
-{
+double text_conventions_azimuth(const TextReader *in, double raw) {
     double degrees = in->is_radians ? degrees_from_radians(raw) : raw;
     return turned(in->zero_deg + in->sense * degrees);
 }
 
 /* ---- the two angles ---------------------------------------------------------------------- */
 
-static double largest(const TextReader *in, int column)
-{
+static double largest(const TextReader *in, int column) {
     double most = 0;
     size_t width = (size_t)in->raw->rows.width;
     for (size_t i = 0; i < (size_t)in->raw->rows.count; i++)
@@ -69,29 +62,27 @@ static double largest(const TextReader *in, int column)
     return most;
 }
 
-static bool find_angle_unit(TextReader *in, int column)
-{
+static bool find_angle_unit(TextReader *in, int column) {
     AngleUnit header = in->raw->column[column].name.angle, stated = in->metadata.angle;
     AngleUnit given = in->options->angle_unit;
     AngleUnit file = header != ANGLE_AUTO ? header : stated;
     if (file != ANGLE_AUTO && given != ANGLE_AUTO && file != given)
-        return contradicts(in, in->metadata.angle_line, "the unit of its angles",
-                           "--angle-unit");
+        return contradicts(in, in->metadata.angle_line, "the unit of its angles", "--angle-unit");
     AngleUnit unit = file != ANGLE_AUTO ? file : given;
-    double    most = largest(in, column);
+    double most = largest(in, column);
     if (unit == ANGLE_AUTO && most > 0 && most <= 1.6)
         return error_at(in->err, ERROR_INPUT, in->file, "",
                         "has angles up to %g: radians, or a cone of so many degrees — say "
-                        "--angle-unit rad or deg", most);
+                        "--angle-unit rad or deg",
+                        most);
     in->is_radians = unit == ANGLE_RADIANS;
     return true;
 }
 
-static bool find_angles(TextReader *in)
-{
-    bool      is_pair = in->column[QUANTITY_THETA] < 0;
+static bool find_angles(TextReader *in) {
+    bool is_pair = in->column[QUANTITY_THETA] < 0;
     AnglePair given = in->options->angles;
-    int       column = in->column[is_pair ? QUANTITY_HORIZONTAL : QUANTITY_THETA];
+    int column = in->column[is_pair ? QUANTITY_HORIZONTAL : QUANTITY_THETA];
     if (is_pair && (given == ANGLES_AUTO || given == ANGLES_POLAR))
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
                         "has a horizontal and a vertical angle — say which with --angles "
@@ -105,8 +96,7 @@ static bool find_angles(TextReader *in)
 }
 
 /* Unit vector of two angles in radians, x right and y up as the file means them. */
-static void pair_vector(AnglePair pair, double h, double v, double d[3])
-{
+static void pair_vector(AnglePair pair, double h, double v, double d[3]) {
     switch (pair) {
     case ANGLES_PROJECTED: {
         double x = tan_d(h), y = tan_d(v), length = sqrt(x * x + y * y + 1);
@@ -128,8 +118,7 @@ static void pair_vector(AnglePair pair, double h, double v, double d[3])
 }
 
 void text_conventions_direction(const TextReader *in, const double raw[2], double *theta_deg,
-                    double *phi_deg)
-{
+                                double *phi_deg) {
     double to_degrees = in->is_radians ? 180 / PI : 1;
     if (in->angles == ANGLES_POLAR) {
         double theta = raw[0] * to_degrees;
@@ -146,19 +135,16 @@ void text_conventions_direction(const TextReader *in, const double raw[2], doubl
 
 /* ---- values ------------------------------------------------------------------------------ */
 
-static ValueUnit canonical(ValueUnit unit)
-{
+static ValueUnit canonical(ValueUnit unit) {
     return unit == UNIT_NIT ? UNIT_CD_M2 : unit;
 }
 
-static bool fits_kind(ValueUnit unit, bool is_reflection)
-{
+static bool fits_kind(ValueUnit unit, bool is_reflection) {
     return unit != UNIT_AUTO && (value_unit_cd_m2(unit) == 0) == is_reflection;
 }
 
 /* The unit that the columns' names give; they must agree. */
-static bool header_unit(TextReader *in, ValueUnit *out)
-{
+static bool header_unit(TextReader *in, ValueUnit *out) {
     *out = UNIT_AUTO;
     for (int c = 0; c < in->raw->rows.width; c++) {
         ValueUnit unit = canonical(in->raw->column[c].name.unit);
@@ -172,8 +158,7 @@ static bool header_unit(TextReader *in, ValueUnit *out)
     return true;
 }
 
-static bool find_unit(TextReader *in)
-{
+static bool find_unit(TextReader *in) {
     ValueUnit header, stated = canonical(in->metadata.unit);
     ValueUnit given = canonical(in->options->unit);
     if (!header_unit(in, &header)) return false;
@@ -181,8 +166,7 @@ static bool find_unit(TextReader *in)
     if (!fits_kind(given, in->is_reflection)) given = UNIT_AUTO;
     ValueUnit file = header != UNIT_AUTO ? header : stated;
     if (header != UNIT_AUTO && stated != UNIT_AUTO && header != stated)
-        return contradicts(in, in->metadata.unit_line, value_unit_name(stated),
-                           "the header line");
+        return contradicts(in, in->metadata.unit_line, value_unit_name(stated), "the header line");
     /* "brdf" heads values of any scattering unit in practice: there the user has the word */
     bool is_loose = header == UNIT_BRDF && stated == UNIT_AUTO;
     if (file != UNIT_AUTO && given != UNIT_AUTO && file != given && !is_loose)
@@ -196,7 +180,6 @@ static bool find_unit(TextReader *in)
     return true;
 }
 
-bool text_conventions_find(TextReader *in)
-{
+bool text_conventions_find(TextReader *in) {
     return find_azimuths(in) && find_angles(in) && find_unit(in);
 }

@@ -19,15 +19,13 @@
 /* ---- characters -------------------------------------------------------------------------- */
 
 /* Writes one character as UTF-8; blanks and minus signs of typographers become plain ones. */
-static char *put_character(char *to, unsigned code)
-{
+static char *put_character(char *to, unsigned code) {
     if (code == 0xA0 || code == 0x2007 || code == 0x202F || code == 0x1A || !code) code = ' ';
     if (code == 0x2212) code = '-';
     return to + utf8_encode(code, to);
 }
 
-static TextEncoding find_encoding(const unsigned char *bytes, size_t size, size_t *mark)
-{
+static TextEncoding find_encoding(const unsigned char *bytes, size_t size, size_t *mark) {
     *mark = 0;
     if (size >= 2 && bytes[0] == 0xFF && bytes[1] == 0xFE) return *mark = 2, ENCODING_UTF16LE;
     if (size >= 2 && bytes[0] == 0xFE && bytes[1] == 0xFF) return *mark = 2, ENCODING_UTF16BE;
@@ -46,8 +44,7 @@ static TextEncoding find_encoding(const unsigned char *bytes, size_t size, size_
 }
 
 /* One UTF-16 character, with its surrogate if there is one; returns the bytes taken. */
-static size_t utf16_character(const unsigned char *at, size_t left, bool is_big, unsigned *code)
-{
+static size_t utf16_character(const unsigned char *at, size_t left, bool is_big, unsigned *code) {
     int high = is_big ? 0 : 1;
     *code = (unsigned)at[high] << 8 | at[1 - high];
     if (*code >> 10 != 0x36 || left < 4) return 2;
@@ -57,8 +54,7 @@ static size_t utf16_character(const unsigned char *at, size_t left, bool is_big,
     return 4;
 }
 
-static char *decode(const unsigned char *bytes, size_t size, TextEncoding encoding, char *to)
-{
+static char *decode(const unsigned char *bytes, size_t size, TextEncoding encoding, char *to) {
     unsigned code = 0;
     for (size_t i = 0; i < size;) {
         if (encoding == ENCODING_UTF16LE || encoding == ENCODING_UTF16BE) {
@@ -66,7 +62,8 @@ static char *decode(const unsigned char *bytes, size_t size, TextEncoding encodi
             i += utf16_character(bytes + i, size - i, encoding == ENCODING_UTF16BE, &code);
         } else {
             int length = encoding == ENCODING_UTF8
-                             ? utf8_decode((const char *)bytes + i, size - i, &code) : 0;
+                             ? utf8_decode((const char *)bytes + i, size - i, &code)
+                             : 0;
             if (!length) code = bytes[i]; /* Latin-1, or a broken byte of UTF-8 */
             i += length ? (size_t)length : 1;
         }
@@ -77,8 +74,7 @@ static char *decode(const unsigned char *bytes, size_t size, TextEncoding encodi
 
 /* ---- lines ------------------------------------------------------------------------------- */
 
-static size_t count_character(const char *text, const char *end, char wanted)
-{
+static size_t count_character(const char *text, const char *end, char wanted) {
     size_t count = 0;
     while ((text = memchr(text, wanted, (size_t)(end - text)))) {
         count++;
@@ -87,14 +83,14 @@ static size_t count_character(const char *text, const char *end, char wanted)
     return count;
 }
 
-static bool cut_lines(const char *text, const char *end, Arena *arena, TextFile *out,
-                      Error *err)
-{
-    char   feed = memchr(text, '\n', (size_t)(end - text)) ? '\n' : '\r';
+static bool cut_lines(const char *text, const char *end, Arena *arena, TextFile *out, Error *err) {
+    char feed = memchr(text, '\n', (size_t)(end - text)) ? '\n' : '\r';
     size_t count = count_character(text, end, feed) + 1;
     if (count > LINES_MAX)
-        return error_at(err, ERROR_INPUT, out->file, "", "has %zu lines, required: "
-                                                         "fewer", count);
+        return error_at(err, ERROR_INPUT, out->file, "",
+                        "has %zu lines, required: "
+                        "fewer",
+                        count);
     out->line = ARENA_NEW(arena, TextLine, count);
     while (text < end) {
         const char *stop = memchr(text, feed, (size_t)(end - text));
@@ -111,10 +107,9 @@ static bool cut_lines(const char *text, const char *end, Arena *arena, TextFile 
 }
 
 bool text_file_decode(const char *file, FileBytes bytes, TextEncoding encoding, Arena *arena,
-                      TextFile *out, Error *err)
-{
-    size_t       mark;
-    TextFile     text = {.file = file};
+                      TextFile *out, Error *err) {
+    size_t mark;
+    TextFile text = {.file = file};
     TextEncoding found = find_encoding(bytes.data, bytes.size, &mark);
     if (encoding == ENCODING_AUTO) encoding = found;
     char *decoded = ARENA_NEW(arena, char, 2 * (bytes.size - mark) + 1);
@@ -125,37 +120,32 @@ bool text_file_decode(const char *file, FileBytes bytes, TextEncoding encoding, 
 }
 
 bool text_file_read(const char *file, TextEncoding encoding, Arena *arena, TextFile *out,
-                    Error *err)
-{
+                    Error *err) {
     FileBytes bytes;
     return file_read(file, IMPORT_FILE_BYTES_MAX, arena, &bytes, err) &&
            text_file_decode(file, bytes, encoding, arena, out, err);
 }
 
-const char *text_place(int line_index, Arena *arena)
-{
+const char *text_place(int line_index, Arena *arena) {
     return arena_format(arena, "line %d", line_index + 1);
 }
 
 /* ---- cells ------------------------------------------------------------------------------- */
 
-static bool is_blank(char c)
-{
+static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-static TextCell trimmed(const char *begin, const char *end)
-{
+static TextCell trimmed(const char *begin, const char *end) {
     while (begin < end && is_blank(*begin)) begin++;
     while (end > begin && is_blank(end[-1])) end--;
-    if (end - begin >= 2 && *begin == '"' && end[-1] == '"') return (TextCell){begin + 1,
-                                                                   (int)(end - begin - 2)};
+    if (end - begin >= 2 && *begin == '"' && end[-1] == '"')
+        return (TextCell){begin + 1, (int)(end - begin - 2)};
     return (TextCell){begin, (int)(end - begin)};
 }
 
 /* Where the cell that begins here ends: a delimiter inside quotes is no end. */
-static const char *cell_end(const char *at, const char *end, char delimiter)
-{
+static const char *cell_end(const char *at, const char *end, char delimiter) {
     const char *first = at;
     while (first < end && *first == ' ') first++;
     if (first < end && *first == '"') {
@@ -166,10 +156,9 @@ static const char *cell_end(const char *at, const char *end, char delimiter)
     return stop ? stop : end;
 }
 
-static int cells_between_blanks(TextLine line, TextCell *cell)
-{
+static int cells_between_blanks(TextLine line, TextCell *cell) {
     const char *at = line.text, *end = line.text + line.length;
-    int         count = 0;
+    int count = 0;
     for (;;) {
         while (at < end && is_blank(*at)) at++;
         if (at == end) return count;
@@ -180,8 +169,7 @@ static int cells_between_blanks(TextLine line, TextCell *cell)
     }
 }
 
-int text_cells(TextLine line, char delimiter, TextCell *cell)
-{
+int text_cells(TextLine line, char delimiter, TextCell *cell) {
     if (delimiter == ' ') return cells_between_blanks(line, cell);
     const char *at = line.text, *end = line.text + line.length;
     for (int count = 0;;) {
@@ -193,8 +181,7 @@ int text_cells(TextLine line, char delimiter, TextCell *cell)
     }
 }
 
-int text_cell_find(const char *const *list, TextCell cell)
-{
+int text_cell_find(const char *const *list, TextCell cell) {
     for (int i = 0; list[i]; i++)
         if ((int)strlen(list[i]) == cell.length &&
             !strncasecmp(list[i], cell.text, (size_t)cell.length))
@@ -202,12 +189,10 @@ int text_cell_find(const char *const *list, TextCell cell)
     return -1;
 }
 
-bool text_number(TextCell cell, char decimal, double *out)
-{
+bool text_number(TextCell cell, char decimal, double *out) {
     char plain[CELL_DIGITS_MAX + 1], *after;
     bool has_digit = false;
-    if (cell.length > 2 && !memcmp(cell.text + cell.length - 2, DEGREE_SIGN, 2))
-        cell.length -= 2;
+    if (cell.length > 2 && !memcmp(cell.text + cell.length - 2, DEGREE_SIGN, 2)) cell.length -= 2;
     if (cell.length < 1 || cell.length > CELL_DIGITS_MAX) return false;
     for (int i = 0; i < cell.length; i++) {
         char c = cell.text[i];
@@ -227,11 +212,10 @@ bool text_number(TextCell cell, char decimal, double *out)
     return true;
 }
 
-bool text_is_masked(TextCell cell)
-{
-    static const char *const words[] = {"nan", "n/a", "na", "#n/a", "null", "none", "-nan",
-                                        "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "inf",
-                                        NULL};
+bool text_is_masked(TextCell cell) {
+    static const char *const words[] = {"nan",     "n/a",  "na",       "#n/a",      "null",
+                                        "none",    "-nan", "nan(ind)", "-nan(ind)", "1.#qnan",
+                                        "-1.#ind", "inf",  NULL};
     bool only_marks = true;
     for (int i = 0; i < cell.length; i++) only_marks &= strchr("-*?", cell.text[i]) != NULL;
     return only_marks || text_cell_find(words, cell) >= 0;
@@ -243,9 +227,8 @@ bool text_is_masked(TextCell cell)
 
 /* At least two numbers, and nothing else but masks; or, when a column may hold words, at least
  * three that are the better half. */
-static bool is_numeric_row(const TextCell *cell, int count, char decimal, bool with_words)
-{
-    int    numbers = 0, words = 0;
+static bool is_numeric_row(const TextCell *cell, int count, char decimal, bool with_words) {
+    int numbers = 0, words = 0;
     double value;
     for (int i = 0; i < count; i++) {
         if (text_number(cell[i], decimal, &value)) numbers++;
@@ -254,9 +237,8 @@ static bool is_numeric_row(const TextCell *cell, int count, char decimal, bool w
     return with_words ? numbers >= 3 && numbers > words : numbers >= 2 && !words;
 }
 
-static int count_rows(const TextFile *text, int first_line, TextDialect dialect,
-                      bool with_words, TextCell *cell)
-{
+static int count_rows(const TextFile *text, int first_line, TextDialect dialect, bool with_words,
+                      TextCell *cell) {
     int rows = 0, seen = 0;
     for (int i = first_line; i < text->count && seen < DIALECT_LINES; i++) {
         if (!text->line[i].length) continue;
@@ -270,17 +252,16 @@ static int count_rows(const TextFile *text, int first_line, TextDialect dialect,
 /* The dialect of the most rows; how many they are. Decimal commas between commas stand in
  * quotes. */
 static int best_dialect(const TextFile *text, int first_line, bool with_words, TextCell *cell,
-                        TextDialect *dialect)
-{
+                        TextDialect *dialect) {
     static const char delimiters[] = ";\t, ", decimals[] = ".,";
     TextDialect best = *dialect;
-    int         most = 0;
+    int most = 0;
     for (const char *d = delimiters; *d; d++)
         for (const char *p = decimals; *p; p++) {
             bool wanted = (!dialect->delimiter || dialect->delimiter == *d) &&
                           (!dialect->decimal || dialect->decimal == *p);
-            int rows = wanted ? count_rows(text, first_line, (TextDialect){*d, *p}, with_words,
-                                           cell) : 0;
+            int rows =
+                wanted ? count_rows(text, first_line, (TextDialect){*d, *p}, with_words, cell) : 0;
             if (rows <= most) continue;
             most = rows;
             best = (TextDialect){*d, *p};
@@ -289,9 +270,8 @@ static int best_dialect(const TextFile *text, int first_line, bool with_words, T
     return most;
 }
 
-bool text_find_dialect(const TextFile *text, int first_line, Arena scratch,
-                       TextDialect *dialect, Error *err)
-{
+bool text_find_dialect(const TextFile *text, int first_line, Arena scratch, TextDialect *dialect,
+                       Error *err) {
     TextCell *cell = ARENA_NEW(&scratch, TextCell, TEXT_CELLS_MAX);
     if (best_dialect(text, first_line, false, cell, dialect) ||
         best_dialect(text, first_line, true, cell, dialect))

@@ -13,18 +13,22 @@
 #include "base/file.h"
 
 typedef enum TextEncoding {
-    ENCODING_AUTO, ENCODING_UTF8, ENCODING_LATIN1, ENCODING_UTF16LE, ENCODING_UTF16BE
+    ENCODING_AUTO,
+    ENCODING_UTF8,
+    ENCODING_LATIN1,
+    ENCODING_UTF16LE,
+    ENCODING_UTF16BE
 } TextEncoding;
 
 typedef struct TextLine {
     const char *text; /* not terminated; no line end */
-    int         length;
+    int length;
 } TextLine;
 
 typedef struct TextFile {
     const char *file;
-    TextLine   *line;
-    int         count; /* line i is number i + 1 of the file */
+    TextLine *line;
+    int count; /* line i is number i + 1 of the file */
 } TextFile;
 
 /* Reads and decodes to UTF-8: a byte order mark decides, then zero bytes at every second place
@@ -51,7 +55,7 @@ typedef struct TextDialect {
 
 typedef struct TextCell {
     const char *text; /* blanks and quotes around it removed */
-    int         length;
+    int length;
 } TextCell;
 
 /* Cuts a line; at most TEXT_CELLS_MAX cells. An empty last cell behind a final delimiter
@@ -69,5 +73,5 @@ bool text_is_masked(TextCell cell);
 
 /* Finds what the user did not give: the delimiter and decimal sign under which most lines are
  * rows of numbers. */
-bool text_find_dialect(const TextFile *text, int first_line, Arena scratch,
-                       TextDialect *dialect, Error *err);
+bool text_find_dialect(const TextFile *text, int first_line, Arena scratch, TextDialect *dialect,
+                       Error *err);

@@ -10,7 +10,6 @@
 #include "base/file.h"
 #include "text/nearest_word.h"
 
-
 const TextKey text_keys[] = {
     {"table", "list|theta-down|phi-down|horizontal-down|vertical-down",
      "a direction a row, or a matrix and what runs down"},
@@ -38,22 +37,20 @@ const TextKey text_keys[] = {
 const int text_key_count = COUNT_OF(text_keys);
 
 /* The index of a value among "a|b|c", or -1. */
-static int choice_of(const char *choices, const char *value)
-{
+static int choice_of(const char *choices, const char *value) {
     size_t length = strlen(value);
     for (int i = 0; choices; i++) {
         const char *bar = strchr(choices, '|');
-        size_t      size = bar ? (size_t)(bar - choices) : strlen(choices);
+        size_t size = bar ? (size_t)(bar - choices) : strlen(choices);
         if (size == length && !strncmp(choices, value, size)) return i;
         choices = bar ? bar + 1 : NULL;
     }
     return -1;
 }
 
-static const TextKey *key_named(const char *key, Error *err)
-{
+static const TextKey *key_named(const char *key, Error *err) {
     const char *names[COUNT_OF(text_keys)];
-    char        advice[700];
+    char advice[700];
     for (int i = 0; i < text_key_count; i++) {
         if (!strcmp(text_keys[i].key, key)) return &text_keys[i];
         names[i] = text_keys[i].key;
@@ -63,41 +60,38 @@ static const TextKey *key_named(const char *key, Error *err)
     return NULL;
 }
 
-static bool bad_value(const TextKey *key, const char *value, Error *err)
-{
-    return error_set(err, ERROR_USAGE, "%s is '%s', required: "
-                                       "%s", key->key, value, key->values);
+static bool bad_value(const TextKey *key, const char *value, Error *err) {
+    return error_set(err, ERROR_USAGE,
+                     "%s is '%s', required: "
+                     "%s",
+                     key->key, value, key->values);
 }
 
-static bool number_of(const char *value, double low, double high, double *out)
-{
-    char  *after;
+static bool number_of(const char *value, double low, double high, double *out) {
+    char *after;
     double number = strtod(value, &after);
     if (after == value || *after || !(number >= low && number <= high)) return false;
     *out = number;
     return true;
 }
 
-static bool add_entry(TextList *list, const char *value)
-{
+static bool add_entry(TextList *list, const char *value) {
     if (list->count == TEXT_ENTRIES_MAX) return false;
     list->text[list->count++] = value;
     return true;
 }
 
 /* A pattern, '=' and an azimuth. */
-static bool section_azimuth(const char *value, size_t *pattern_length, double *phi)
-{
+static bool section_azimuth(const char *value, size_t *pattern_length, double *phi) {
     const char *equals = strrchr(value, '=');
     if (!equals || equals == value || !number_of(equals + 1, -360, 360, phi)) return false;
     *pattern_length = (size_t)(equals - value);
     return true;
 }
 
-bool text_options_section(const TextOptions *options, const char *file, double *phi)
-{
+bool text_options_section(const TextOptions *options, const char *file, double *phi) {
     for (int i = options->section.count - 1; i >= 0; i--) {
-        char   pattern[512];
+        char pattern[512];
         size_t length = 0;
         if (!section_azimuth(options->section.text[i], &length, phi)) continue;
         snprintf(pattern, sizeof pattern, "%.*s", (int)length, options->section.text[i]);
@@ -106,15 +100,13 @@ bool text_options_section(const TextOptions *options, const char *file, double *
     return false;
 }
 
-static bool set_section(TextOptions *d, const char *value)
-{
+static bool set_section(TextOptions *d, const char *value) {
     size_t length;
     double phi;
     return section_azimuth(value, &length, &phi) && add_entry(&d->section, value);
 }
 
-static bool set_azimuth_zero(TextOptions *d, const char *value)
-{
+static bool set_azimuth_zero(TextOptions *d, const char *value) {
     static const double sides[] = {0, 90, 180, 270};
     int side = choice_of("right|top|left|bottom", value);
     if (side >= 0) d->azimuth_zero_deg = sides[side];
@@ -122,22 +114,19 @@ static bool set_azimuth_zero(TextOptions *d, const char *value)
     return d->has_azimuth_zero;
 }
 
-static bool set_unit(TextOptions *d, const char *value)
-{
+static bool set_unit(TextOptions *d, const char *value) {
     d->unit = value_unit((TextCell){value, (int)strlen(value)});
     if (!strcmp(value, "brdf-cos")) d->unit = UNIT_BRDF_COS;
     return d->unit != UNIT_AUTO;
 }
 
-static bool set_quantity(TextOptions *d, const char *value)
-{
+static bool set_quantity(TextOptions *d, const char *value) {
     ColumnName name = column_name((TextCell){value, (int)strlen(value)});
     d->quantity = value;
     return name.quantity >= QUANTITY_X && !name.is_ambiguous;
 }
 
-static bool set_count(int *out, const char *value, double most)
-{
+static bool set_count(int *out, const char *value, double most) {
     double number;
     if (!number_of(value, 0, most, &number) || number != (double)(int)number) return false;
     *out = (int)number;
@@ -145,8 +134,7 @@ static bool set_count(int *out, const char *value, double most)
 }
 
 /* Keys with a choice: 0 when the value is none of them. */
-static bool set_choice(TextOptions *d, const TextKey *key, const char *value)
-{
+static bool set_choice(TextOptions *d, const TextKey *key, const char *value) {
     static const char delimiters[] = ",;\t ", decimals[] = ".,";
     int choice = choice_of(key->values, value);
     if (choice < 0) return false;
@@ -161,8 +149,7 @@ static bool set_choice(TextOptions *d, const TextKey *key, const char *value)
     return true;
 }
 
-static bool set_key(TextOptions *d, const TextKey *key, const char *value)
-{
+static bool set_key(TextOptions *d, const TextKey *key, const char *value) {
     const char *name = key->key;
     if (!strcmp(name, "columns")) return d->columns = value, *value != 0;
     if (!strcmp(name, "quantity")) return set_quantity(d, value);
@@ -180,14 +167,12 @@ static bool set_key(TextOptions *d, const TextKey *key, const char *value)
     return set_choice(d, key, value);
 }
 
-bool text_options_set(TextOptions *options, const char *key, const char *value, Error *err)
-{
+bool text_options_set(TextOptions *options, const char *key, const char *value, Error *err) {
     const TextKey *row = key_named(key, err);
     return row && (set_key(options, row, value) || bad_value(row, value, err));
 }
 
-const char *text_options_role(const TextOptions *options, const char *file)
-{
+const char *text_options_role(const TextOptions *options, const char *file) {
     for (int i = options->role_count - 1; i >= 0; i--) {
         const RoleRow *row = &options->role[i];
         if (!fnmatch(row->pattern, file, 0) || !fnmatch(row->pattern, path_name(file), 0))

@@ -17,7 +17,7 @@
 
 typedef enum TableLayout {
     LAYOUT_AUTO,
-    LAYOUT_LIST,      /* a direction a row */
+    LAYOUT_LIST,       /* a direction a row */
     LAYOUT_THETA_DOWN, /* a matrix: theta in the first column, phi in the first row */
     LAYOUT_PHI_DOWN,
     LAYOUT_HORIZONTAL_DOWN, /* a matrix of horizontal and vertical angles */
@@ -41,31 +41,31 @@ typedef struct RoleRow {
 
 typedef struct TextList {
     const char *text[TEXT_ENTRIES_MAX];
-    int         count;
+    int count;
 } TextList;
 
 typedef struct TextOptions {
-    TableLayout  layout;
-    const char  *columns;     /* "theta,phi,X,Y,Z"; "-" skips one; NULL: as in the header */
-    const char  *quantity;    /* of a matrix: "X", "L", "brdf", ...; NULL: not given */
-    TextDialect  dialect;
+    TableLayout layout;
+    const char *columns;  /* "theta,phi,X,Y,Z"; "-" skips one; NULL: as in the header */
+    const char *quantity; /* of a matrix: "X", "L", "brdf", ...; NULL: not given */
+    TextDialect dialect;
     TextEncoding encoding;
-    int          skip_lines;
-    TextList     comment;     /* beginnings of comment lines besides # ! % // */
-    TextList     mask;        /* values that mean "not measured" */
-    TextList     section;     /* "PATTERN=DEG": the azimuth of files that have theta alone */
-    AngleUnit    angle_unit;
-    AnglePair    angles;
-    ValueUnit    unit;
-    bool         has_azimuth_zero, has_light_azimuth;
-    double       azimuth_zero_deg;   /* where the file's azimuth 0 points, 0 right, 90 up */
-    int          azimuth_sense;      /* 1 counter-clockwise, -1 clockwise, 0 not given */
-    int          seen_from;          /* 1 the viewer's side, -1 behind the panel, 0 not given */
-    double       light_azimuth_deg;  /* of all reflection tables, in the file's azimuths */
-    double       white_reflectance;  /* 0: not given */
-    double       level_max;          /* the panel's highest code; 0: 255 */
-    RoleRow      role[TEXT_ENTRIES_MAX];
-    int          role_count;
+    int skip_lines;
+    TextList comment; /* beginnings of comment lines besides # ! % // */
+    TextList mask;    /* values that mean "not measured" */
+    TextList section; /* "PATTERN=DEG": the azimuth of files that have theta alone */
+    AngleUnit angle_unit;
+    AnglePair angles;
+    ValueUnit unit;
+    bool has_azimuth_zero, has_light_azimuth;
+    double azimuth_zero_deg;  /* where the file's azimuth 0 points, 0 right, 90 up */
+    int azimuth_sense;        /* 1 counter-clockwise, -1 clockwise, 0 not given */
+    int seen_from;            /* 1 the viewer's side, -1 behind the panel, 0 not given */
+    double light_azimuth_deg; /* of all reflection tables, in the file's azimuths */
+    double white_reflectance; /* 0: not given */
+    double level_max;         /* the panel's highest code; 0: 255 */
+    RoleRow role[TEXT_ENTRIES_MAX];
+    int role_count;
 } TextOptions;
 
 /* All keys, with their values and meaning: for the command line, help and the README. */
@@ -73,14 +73,13 @@ typedef struct TextKey {
     const char *key, *values, *help;
 } TextKey;
 extern const TextKey text_keys[];
-extern const int     text_key_count;
+extern const int text_key_count;
 
 /* Sets one key ("azimuth_zero", "top") from text. A list's key adds. */
 bool text_options_set(TextOptions *options, const char *key, const char *value, Error *err);
 
 /* The panel's highest code. */
-static inline double text_options_level_max(const TextOptions *options)
-{
+static inline double text_options_level_max(const TextOptions *options) {
     return options->level_max > 0 ? options->level_max : 255;
 }
 

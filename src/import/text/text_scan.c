@@ -19,15 +19,14 @@
 #define KEY_LENGTH 48
 
 typedef struct KeyValue {
-    char     key[KEY_LENGTH]; /* lower case; blanks and underscores left out */
+    char key[KEY_LENGTH]; /* lower case; blanks and underscores left out */
     TextLine value;
 } KeyValue;
 
 /* "Sample;blue 127", "Unit: cd/m2", "level = 255". No separator: the key is empty. */
-static KeyValue cut_key(TextLine line)
-{
+static KeyValue cut_key(TextLine line) {
     KeyValue pair = {.value = line};
-    int      i = 0, n = 0;
+    int i = 0, n = 0;
     while (i < line.length && !strchr(":;=,\t", line.text[i])) i++;
     if (i == line.length) return pair;
     for (int k = 0; k < i && n < KEY_LENGTH - 1; k++)
@@ -40,14 +39,12 @@ static KeyValue cut_key(TextLine line)
     return pair;
 }
 
-static bool key_is(const KeyValue *pair, const char *const *names)
-{
+static bool key_is(const KeyValue *pair, const char *const *names) {
     return import_word_find(names, pair->key) >= 0;
 }
 
 /* The number at the value's beginning, with a decimal point or comma. */
-static bool value_number(const KeyValue *pair, double *out)
-{
+static bool value_number(const KeyValue *pair, double *out) {
     char digits[32] = {0}, *after;
     for (int i = 0; i < pair->value.length && i < 31; i++)
         digits[i] = pair->value.text[i] == ',' ? '.' : pair->value.text[i];
@@ -55,10 +52,9 @@ static bool value_number(const KeyValue *pair, double *out)
     return after != digits && *out >= -1e6 && *out <= 1e6;
 }
 
-static void read_azimuth(TextMetadata *metadata, TextLine line, int index)
-{
-    bool about = line_has(line, "azim") || line_has(line, "phi") ||
-                 line_has(line, "clockwise") || line_has(line, "orientation");
+static void read_azimuth(TextMetadata *metadata, TextLine line, int index) {
+    bool about = line_has(line, "azim") || line_has(line, "phi") || line_has(line, "clockwise") ||
+                 line_has(line, "orientation");
     if (!about) return;
     AzimuthWords words = azimuth_words(line);
     if (words.has_zero) {
@@ -78,12 +74,11 @@ static void read_azimuth(TextMetadata *metadata, TextLine line, int index)
     }
 }
 
-static void read_metadata_units(TextMetadata *metadata, const KeyValue *pair, int index)
-{
-    static const char *const unit_keys[] = {"unit", "units", "einheit", "valueunit",
-                                            "luminanceunit", NULL};
-    static const char *const angle_keys[] = {"angleunit", "angleunits", "angles", "angle",
-                                             "winkel", NULL};
+static void read_metadata_units(TextMetadata *metadata, const KeyValue *pair, int index) {
+    static const char *const unit_keys[] = {"unit",      "units",         "einheit",
+                                            "valueunit", "luminanceunit", NULL};
+    static const char *const angle_keys[] = {"angleunit", "angleunits", "angles",
+                                             "angle",     "winkel",     NULL};
     if (key_is(pair, unit_keys) || !pair->key[0]) { /* or the unit alone */
         ValueUnit unit = value_unit((TextCell){pair->value.text, pair->value.length});
         if (unit != UNIT_AUTO) {
@@ -92,8 +87,9 @@ static void read_metadata_units(TextMetadata *metadata, const KeyValue *pair, in
         }
     }
     if (key_is(pair, angle_keys)) {
-        AngleUnit unit = line_has(pair->value, "rad") ? ANGLE_RADIANS
-                         : line_has(pair->value, "deg") ? ANGLE_DEGREES : ANGLE_AUTO;
+        AngleUnit unit = line_has(pair->value, "rad")   ? ANGLE_RADIANS
+                         : line_has(pair->value, "deg") ? ANGLE_DEGREES
+                                                        : ANGLE_AUTO;
         if (unit != ANGLE_AUTO) {
             metadata->angle = unit;
             metadata->angle_line = index;
@@ -101,38 +97,35 @@ static void read_metadata_units(TextMetadata *metadata, const KeyValue *pair, in
     }
 }
 
-static void read_pattern(TextMetadata *metadata, const KeyValue *pair, int index)
-{
-    static const char *const keys[] = {"sample", "pattern", "testpattern", "colour", "color",
-        "farbe", "muster", "stimulus", "content", "image", "primary", "level", "greylevel",
-        "graylevel", "grey", "gray", "code", "rgb", NULL};
+static void read_pattern(TextMetadata *metadata, const KeyValue *pair, int index) {
+    static const char *const keys[] = {"sample",  "pattern", "testpattern", "colour",    "color",
+                                       "farbe",   "muster",  "stimulus",    "content",   "image",
+                                       "primary", "level",   "greylevel",   "graylevel", "grey",
+                                       "gray",    "code",    "rgb",         NULL};
     if (!key_is(pair, keys)) return;
     size_t length = strlen(metadata->words);
-    snprintf(metadata->words + length, sizeof metadata->words - length, "%s%.*s",
-             length ? " " : "", pair->value.length, pair->value.text);
+    snprintf(metadata->words + length, sizeof metadata->words - length, "%s%.*s", length ? " " : "",
+             pair->value.length, pair->value.text);
     metadata->words_line = index;
 }
 
-static void read_light(TextMetadata *metadata, const KeyValue *pair)
-{
-    static const char *const incidence[] = {"incidence", "angleofincidence", "incidenceangle",
-        "thetai", "aoi", "thetain", "incidencedeg", NULL};
+static void read_light(TextMetadata *metadata, const KeyValue *pair) {
+    static const char *const incidence[] = {
+        "incidence", "angleofincidence", "incidenceangle", "thetai",
+        "aoi",       "thetain",          "incidencedeg",   NULL};
     static const char *const wavelength[] = {"wavelength", "wavelengthnm", "lambda", NULL};
     double number;
     if (key_is(pair, incidence) && value_number(pair, &number)) {
         metadata->has_incidence = true;
         metadata->incidence_deg = number;
     }
-    if (key_is(pair, wavelength) && value_number(pair, &number) &&
-        number >= 100 && number <= 20000)
+    if (key_is(pair, wavelength) && value_number(pair, &number) && number >= 100 && number <= 20000)
         metadata->wavelength_nm = number;
 }
 
-static void read_names(TextMetadata *metadata, const KeyValue *pair, Arena *arena)
-{
+static void read_names(TextMetadata *metadata, const KeyValue *pair, Arena *arena) {
     static const char *const panel[] = {"panel", "display", "device", "dut", "model", NULL};
-    static const char *const instrument[] = {"instrument", "messger\xC3\xA4t", "conoscope",
-                                             NULL};
+    static const char *const instrument[] = {"instrument", "messger\xC3\xA4t", "conoscope", NULL};
     static const char *const date[] = {"date", "datum", "measurementdate", "messdatum", NULL};
     static const char *const person[] = {"operator", "bediener", "measuredby", NULL};
     if (pair->value.length < 1 || pair->value.length > 200) return;
@@ -143,16 +136,18 @@ static void read_names(TextMetadata *metadata, const KeyValue *pair, Arena *aren
     if (key_is(pair, person) && !metadata->operator_name) metadata->operator_name = value;
 }
 
-static TextMetadata text_metadata(void)
-{
-    return (TextMetadata){.zero_line = -1, .sense_line = -1, .side_line = -1, .unit_line = -1,
-                          .angle_line = -1, .words_line = -1};
+static TextMetadata text_metadata(void) {
+    return (TextMetadata){.zero_line = -1,
+                          .sense_line = -1,
+                          .side_line = -1,
+                          .unit_line = -1,
+                          .angle_line = -1,
+                          .words_line = -1};
 }
 
 /* Reads a line that is no row of numbers; its index is for messages. */
 static void text_metadata_read_line(TextMetadata *metadata, TextLine line, int index,
-                                    Arena *arena)
-{
+                                    Arena *arena) {
     KeyValue pair = cut_key(line);
     read_azimuth(metadata, line, index);
     read_metadata_units(metadata, &pair, index);
@@ -165,31 +160,31 @@ static void text_metadata_read_line(TextMetadata *metadata, TextLine line, int i
 /* Where the reader is in the file. */
 typedef enum State {
     STATE_BEFORE, /* no numbers yet, or between blocks */
-    STATE_LIST, STATE_BLOCK,
-    STATE_DONE    /* behind the last row of a list */
+    STATE_LIST,
+    STATE_BLOCK,
+    STATE_DONE /* behind the last row of a list */
 } State;
 
 typedef struct TextScan {
-    const TextFile        *text;
+    const TextFile *text;
     const TextOptions *options;
     TextDialect dialect;
-    Arena      *arena;
-    Error      *err;
-    TextMetadata   *metadata;
-    NamedRows   *table;
-    TextBlocks  blocks;
-    State       state;
-    int         at;         /* index of the current line */
-    TextCell   *cell;       /* of the current line */
-    int         count;
-    bool        has_header; /* the table's columns are known */
-    int         header_cells;
+    Arena *arena;
+    Error *err;
+    TextMetadata *metadata;
+    NamedRows *table;
+    TextBlocks blocks;
+    State state;
+    int at;         /* index of the current line */
+    TextCell *cell; /* of the current line */
+    int count;
+    bool has_header; /* the table's columns are known */
+    int header_cells;
 } TextScan;
 
 /* An error at the current line. Always false. */
-__attribute__((format(printf, 2, 3))) static bool bad_line(const TextScan *scan,
-                                                           const char *format, ...)
-{
+__attribute__((format(printf, 2, 3))) static bool bad_line(const TextScan *scan, const char *format,
+                                                           ...) {
     va_list list;
     va_start(list, format);
     error_at_list(scan->err, ERROR_INPUT, scan->text->file, text_place(scan->at, scan->arena),
@@ -200,8 +195,7 @@ __attribute__((format(printf, 2, 3))) static bool bad_line(const TextScan *scan,
 
 /* ---- cells ------------------------------------------------------------------------------- */
 
-static bool is_users_mask(const TextScan *scan, TextCell cell, double value, bool is_number)
-{
+static bool is_users_mask(const TextScan *scan, TextCell cell, double value, bool is_number) {
     const TextList *mask = &scan->options->mask;
     for (int i = 0; i < mask->count; i++) {
         double marked;
@@ -214,33 +208,29 @@ static bool is_users_mask(const TextScan *scan, TextCell cell, double value, boo
 }
 
 /* A number, or NAN for a mark of what was not measured. */
-static bool read_cell(const TextScan *scan, TextCell cell, double *out)
-{
+static bool read_cell(const TextScan *scan, TextCell cell, double *out) {
     double value = NAN;
-    bool   is_number = text_number(cell, scan->dialect.decimal, &value);
-    if (!is_number && !text_is_masked(cell) && !is_users_mask(scan, cell, 0, false))
-        return false;
+    bool is_number = text_number(cell, scan->dialect.decimal, &value);
+    if (!is_number && !text_is_masked(cell) && !is_users_mask(scan, cell, 0, false)) return false;
     *out = is_number && !is_users_mask(scan, cell, value, true) ? value : NAN;
     return true;
 }
 
-static bool bad_cell(const TextScan *scan, TextCell cell, const char *column)
-{
-    return bad_line(scan, "column '%s' holds '%.*s', required: a number or a mark of what was "
-                          "not measured (---, NaN, or one given as --mask)", column,
-                    cell.length < 40 ? cell.length : 40, cell.text);
+static bool bad_cell(const TextScan *scan, TextCell cell, const char *column) {
+    return bad_line(scan,
+                    "column '%s' holds '%.*s', required: a number or a mark of what was "
+                    "not measured (---, NaN, or one given as --mask)",
+                    column, cell.length < 40 ? cell.length : 40, cell.text);
 }
 
-static bool is_number(const TextScan *scan, TextCell cell)
-{
+static bool is_number(const TextScan *scan, TextCell cell) {
     double value;
     return text_number(cell, scan->dialect.decimal, &value);
 }
 
 /* Numbers and marks, at least one number. */
-static bool is_row(const TextScan *scan, const TextCell *cell, int count)
-{
-    int    numbers = 0;
+static bool is_row(const TextScan *scan, const TextCell *cell, int count) {
+    int numbers = 0;
     double value;
     for (int i = 0; i < count; i++) {
         if (!read_cell(scan, cell[i], &value)) return false;
@@ -251,14 +241,12 @@ static bool is_row(const TextScan *scan, const TextCell *cell, int count)
 
 /* ---- rows of a list ---------------------------------------------------------------------- */
 
-static bool add_list_row(TextScan *scan)
-{
+static bool add_list_row(TextScan *scan) {
     NamedRows *table = scan->table;
-    int       wanted = scan->header_cells;
-    bool      has_final = scan->count == wanted + 1 && !scan->cell[wanted].length;
+    int wanted = scan->header_cells;
+    bool has_final = scan->count == wanted + 1 && !scan->cell[wanted].length;
     if (scan->count != wanted && !has_final)
-        return bad_line(scan, "has %d cells, required: %d as the columns are", scan->count,
-                        wanted);
+        return bad_line(scan, "has %d cells, required: %d as the columns are", scan->count, wanted);
     if (table->rows.count >= IMPORT_ROWS_MAX)
         return bad_line(scan, "is one row too many, required: at most %d", IMPORT_ROWS_MAX);
     double *row = text_rows_add(&table->rows, scan->at, scan->arena);
@@ -271,22 +259,22 @@ static bool add_list_row(TextScan *scan)
 
 /* ---- headers ----------------------------------------------------------------------------- */
 
-static bool add_column(TextScan *scan, ColumnName name, const char *text, int from)
-{
+static bool add_column(TextScan *scan, ColumnName name, const char *text, int from) {
     NamedRows *table = scan->table;
     for (int c = 0; c < table->rows.width; c++)
         if (table->column[c].name.quantity == name.quantity &&
             table->column[c].name.wavelength_nm == name.wavelength_nm)
-            return bad_line(scan, "columns '%s' and '%s' name the same quantity — say which is "
-                            "which with --columns (- skips one)", table->column[c].text, text);
+            return bad_line(scan,
+                            "columns '%s' and '%s' name the same quantity — say which is "
+                            "which with --columns (- skips one)",
+                            table->column[c].text, text);
     if (table->rows.width == TEXT_COLUMNS_MAX)
         return bad_line(scan, "has more than %d columns", TEXT_COLUMNS_MAX);
     table->column[table->rows.width++] = (NamedColumn){name, text, from};
     return true;
 }
 
-static bool has_direction(const TextCell *cell, int count)
-{
+static bool has_direction(const TextCell *cell, int count) {
     bool seen[QUANTITY_COUNT] = {false};
     for (int i = 0; i < count; i++) seen[column_name(cell[i]).quantity] = true;
     bool emission = false;
@@ -297,8 +285,7 @@ static bool has_direction(const TextCell *cell, int count)
 }
 
 /* theta and something measured, but no azimuth: a section. */
-static bool has_section(const TextCell *cell, int count)
-{
+static bool has_section(const TextCell *cell, int count) {
     bool has_theta = false, has_value = false;
     for (int i = 0; i < count; i++) {
         Quantity quantity = column_name(cell[i]).quantity;
@@ -310,10 +297,9 @@ static bool has_section(const TextCell *cell, int count)
 
 /* Fourier-optics instruments call theta the incidence; where luminances stand and no theta,
  * that is what is meant. */
-static void rename_incidence(NamedRows *table)
-{
+static void rename_incidence(NamedRows *table) {
     NamedColumn *incidence = NULL;
-    bool       emission = false, has_theta = false;
+    bool emission = false, has_theta = false;
     for (int c = 0; c < table->rows.width; c++) {
         Quantity quantity = table->column[c].name.quantity;
         emission |= quantity >= QUANTITY_X && quantity <= QUANTITY_VPRIME;
@@ -324,20 +310,23 @@ static void rename_incidence(NamedRows *table)
 }
 
 /* The cells of a header as columns; names that are not known are not used. */
-static bool read_header(TextScan *scan, const TextCell *cell, int count, bool from_user)
-{
+static bool read_header(TextScan *scan, const TextCell *cell, int count, bool from_user) {
     scan->table->rows.width = 0;
     scan->header_cells = count;
     for (int i = 0; i < count; i++) {
         const char *text = arena_string(scan->arena, cell[i].text, (size_t)cell[i].length);
-        ColumnName  name = column_name(cell[i]);
+        ColumnName name = column_name(cell[i]);
         if (name.is_ambiguous)
-            return bad_line(scan, "column '%s' may be CIE 1960 or 1976 — name the columns with "
-                            "--columns, u' and v' for 1976", text);
+            return bad_line(scan,
+                            "column '%s' may be CIE 1960 or 1976 — name the columns with "
+                            "--columns, u' and v' for 1976",
+                            text);
         if (name.quantity == QUANTITY_NONE && from_user && strcmp(text, "-") != 0)
-            return error_set(scan->err, ERROR_USAGE, "--columns: '%s' is no name of a column, "
+            return error_set(scan->err, ERROR_USAGE,
+                             "--columns: '%s' is no name of a column, "
                              "required: theta, phi, X, Y, Z, L, x, y, u', v', a wavelength, "
-                             "incidence, ... or -", text);
+                             "incidence, ... or -",
+                             text);
         scan->metadata->unused_columns += name.quantity == QUANTITY_NONE;
         if (name.quantity != QUANTITY_NONE && !add_column(scan, name, text, i)) return false;
     }
@@ -346,11 +335,10 @@ static bool read_header(TextScan *scan, const TextCell *cell, int count, bool fr
     return true;
 }
 
-static bool read_users_columns(TextScan *scan)
-{
+static bool read_users_columns(TextScan *scan) {
     TextCell *cell = ARENA_NEW(scan->arena, TextCell, TEXT_CELLS_MAX);
-    TextLine  line = {scan->options->columns, (int)strlen(scan->options->columns)};
-    int       count = text_cells(line, ',', cell);
+    TextLine line = {scan->options->columns, (int)strlen(scan->options->columns)};
+    int count = text_cells(line, ',', cell);
     if (count < 0) return error_set(scan->err, ERROR_USAGE, "--columns has too many names");
     if (!has_direction(cell, count) && !has_section(cell, count))
         return error_set(scan->err, ERROR_USAGE,
@@ -363,25 +351,23 @@ static bool read_users_columns(TextScan *scan)
 /* ---- lines ------------------------------------------------------------------------------- */
 
 /* How many characters begin a comment; 0: it is none. */
-static int comment_length(const TextScan *scan, TextLine line)
-{
+static int comment_length(const TextScan *scan, TextLine line) {
     static const char *const known[] = {"#", "!", "%", "//"};
     const TextList *more = &scan->options->comment;
     for (int i = 0; i < 4 + more->count; i++) {
         const char *begin = i < 4 ? known[i] : more->text[i - 4];
-        int         length = (int)strlen(begin);
+        int length = (int)strlen(begin);
         if (line.length >= length && !memcmp(line.text, begin, (size_t)length)) return length;
     }
     return 0;
 }
 
 /* A comment may hold the header: "# theta phi X Y Z". */
-static bool read_comment(TextScan *scan, TextLine line, int begin)
-{
+static bool read_comment(TextScan *scan, TextLine line, int begin) {
     while (begin < line.length && strchr("#!%/ \t", line.text[begin])) begin++;
     TextLine rest = {line.text + begin, line.length - begin};
-    int      count = text_cells(rest, scan->dialect.delimiter, scan->cell);
-    bool     may_head = scan->state == STATE_BEFORE && !scan->options->columns && count > 2;
+    int count = text_cells(rest, scan->dialect.delimiter, scan->cell);
+    bool may_head = scan->state == STATE_BEFORE && !scan->options->columns && count > 2;
     if (may_head && has_direction(scan->cell, count))
         return read_header(scan, scan->cell, count, false);
     text_metadata_read_line(scan->metadata, rest, scan->at, scan->arena);
@@ -390,11 +376,10 @@ static bool read_comment(TextScan *scan, TextLine line, int begin)
 
 /* The next line that holds something is a row of as many numbers: what stands above may be a
  * matrix's head. */
-static bool row_follows(const TextScan *scan, int count)
-{
-    Arena     scratch = *scan->arena;
+static bool row_follows(const TextScan *scan, int count) {
+    Arena scratch = *scan->arena;
     TextCell *cell = ARENA_NEW(&scratch, TextCell, TEXT_CELLS_MAX);
-    int       next = scan->at + 1;
+    int next = scan->at + 1;
     while (next < scan->text->count && !scan->text->line[next].length) next++;
     if (next == scan->text->count) return false;
     int found = text_cells(scan->text->line[next], scan->dialect.delimiter, cell);
@@ -402,9 +387,8 @@ static bool row_follows(const TextScan *scan, int count)
 }
 
 /* A corner, then rising or falling angles, then rows under them. */
-static bool is_matrix_head(const TextScan *scan)
-{
-    int    count = scan->count - (scan->count > 2 && !scan->cell[scan->count - 1].length);
+static bool is_matrix_head(const TextScan *scan) {
+    int count = scan->count - (scan->count > 2 && !scan->cell[scan->count - 1].length);
     double last = 0, value, step = 0;
     if (count < 2 || is_number(scan, scan->cell[0])) return false;
     for (int i = 1; i < count; i++) {
@@ -416,22 +400,19 @@ static bool is_matrix_head(const TextScan *scan)
     return row_follows(scan, scan->count);
 }
 
-static bool begin_block(TextScan *scan)
-{
+static bool begin_block(TextScan *scan) {
     scan->state = STATE_BLOCK;
     return text_blocks_begin(&scan->blocks, scan->cell, scan->count, scan->dialect.decimal,
                              scan->at, scan->err);
 }
 
-static bool numbers_without_names(TextScan *scan)
-{
+static bool numbers_without_names(TextScan *scan) {
     return bad_line(scan, "begins numbers that no header names — name them with --columns "
-                    "theta,phi,..., or say --table theta-down or phi-down for a matrix");
+                          "theta,phi,..., or say --table theta-down or phi-down for a matrix");
 }
 
 /* The first row of numbers: of which layout is it? */
-static bool begin_rows(TextScan *scan)
-{
+static bool begin_rows(TextScan *scan) {
     bool is_matrix = scan->options->layout >= LAYOUT_THETA_DOWN;
     bool may_head = scan->options->layout != LAYOUT_LIST && !scan->options->columns;
     if (is_matrix && scan->count > 1) return begin_block(scan);
@@ -443,15 +424,15 @@ static bool begin_rows(TextScan *scan)
     return numbers_without_names(scan);
 }
 
-static bool add_block_row(TextScan *scan)
-{
+static bool add_block_row(TextScan *scan) {
     TextBlocks *blocks = &scan->blocks;
-    int     wanted = blocks->across + 1;
-    bool    has_final = scan->count == wanted + 1 && !scan->cell[wanted].length;
+    int wanted = blocks->across + 1;
+    bool has_final = scan->count == wanted + 1 && !scan->cell[wanted].length;
     if (scan->count != wanted && !has_final)
-        return bad_line(scan, "has %d cells, required: %d as the head of the "
-                        "matrix", scan->count,
-                        wanted);
+        return bad_line(scan,
+                        "has %d cells, required: %d as the head of the "
+                        "matrix",
+                        scan->count, wanted);
     double *value = text_blocks_row(blocks, scan->at, scan->err);
     if (!value) return false;
     for (int i = 0; i < wanted; i++)
@@ -462,19 +443,18 @@ static bool add_block_row(TextScan *scan)
 }
 
 /* A line of units under the header: "deg;deg;fL;fL;fL". False: it is none. */
-static bool read_units(TextScan *scan)
-{
+static bool read_units(TextScan *scan) {
     int known = 0, filled = 0;
     for (int i = 0; i < scan->count; i++) {
-        const char *text = arena_string(scan->arena, scan->cell[i].text,
-                                        (size_t)scan->cell[i].length);
+        const char *text =
+            arena_string(scan->arena, scan->cell[i].text, (size_t)scan->cell[i].length);
         known += angle_unit(text) != ANGLE_AUTO || value_unit(scan->cell[i]) != UNIT_AUTO;
         filled += *text != 0;
     }
     if (scan->count != scan->header_cells || !known || 2 * known < filled) return false;
     for (int c = 0; c < scan->table->rows.width; c++) {
-        NamedColumn  *column = &scan->table->column[c];
-        TextCell    cell = scan->cell[column->from];
+        NamedColumn *column = &scan->table->column[c];
+        TextCell cell = scan->cell[column->from];
         const char *text = arena_string(scan->arena, cell.text, (size_t)cell.length);
         if (column->name.angle == ANGLE_AUTO) column->name.angle = angle_unit(text);
         if (column->name.unit == UNIT_AUTO) column->name.unit = value_unit(cell);
@@ -483,15 +463,12 @@ static bool read_units(TextScan *scan)
 }
 
 /* A row may also hold text, in columns that are not used. */
-static bool begins_row(const TextScan *scan)
-{
-    int first =
-        scan->has_header && scan->state != STATE_BLOCK ? scan->table->column[0].from : 0;
+static bool begins_row(const TextScan *scan) {
+    int first = scan->has_header && scan->state != STATE_BLOCK ? scan->table->column[0].from : 0;
     return first < scan->count && is_number(scan, scan->cell[first]);
 }
 
-static bool read_text_line(TextScan *scan, TextLine line)
-{
+static bool read_text_line(TextScan *scan, TextLine line) {
     bool begins_with_number = begins_row(scan);
     if (scan->state == STATE_BEFORE && begins_with_number && scan->has_header &&
         !scan->blocks.count && scan->count == scan->header_cells)
@@ -517,26 +494,22 @@ static bool read_text_line(TextScan *scan, TextLine line)
     return true;
 }
 
-static bool read_row(TextScan *scan)
-{
+static bool read_row(TextScan *scan) {
     switch (scan->state) {
-    case STATE_LIST:   return add_list_row(scan);
-    case STATE_BLOCK:
-        return is_matrix_head(scan) ? begin_block(scan) : add_block_row(scan);
+    case STATE_LIST: return add_list_row(scan);
+    case STATE_BLOCK: return is_matrix_head(scan) ? begin_block(scan) : add_block_row(scan);
     case STATE_BEFORE: return begin_rows(scan);
-    case STATE_DONE:   break;
+    case STATE_DONE: break;
     }
     return bad_line(scan, "holds numbers again behind the end of the table");
 }
 
-static bool read_line(TextScan *scan)
-{
+static bool read_line(TextScan *scan) {
     TextLine line = scan->text->line[scan->at];
-    int      comment = comment_length(scan, line);
+    int comment = comment_length(scan, line);
     if (comment) return read_comment(scan, line, comment);
     scan->count = text_cells(line, scan->dialect.delimiter, scan->cell);
-    if (scan->count < 0)
-        return bad_line(scan, "has more than %d cells", TEXT_CELLS_MAX);
+    if (scan->count < 0) return bad_line(scan, "has more than %d cells", TEXT_CELLS_MAX);
     bool is_empty = true;
     for (int i = 0; i < scan->count; i++) is_empty &= !scan->cell[i].length;
     if (is_empty) {
@@ -547,18 +520,21 @@ static bool read_line(TextScan *scan)
 }
 
 bool text_scan(const char *file, const TextOptions *options, Arena *arena, NamedRows *out,
-               TextMetadata *metadata, Error *err)
-{
+               TextMetadata *metadata, Error *err) {
     TextFile text;
     if (!text_file_read(file, options->encoding, arena, &text, err)) return false;
     *out = (NamedRows){0};
     *metadata = text_metadata();
-    TextScan scan = {.text = &text, .options = options, .dialect = options->dialect,
-                 .arena = arena, .err = err, .metadata = metadata, .table = out,
-                 .cell = ARENA_NEW(arena, TextCell, TEXT_CELLS_MAX)};
+    TextScan scan = {.text = &text,
+                     .options = options,
+                     .dialect = options->dialect,
+                     .arena = arena,
+                     .err = err,
+                     .metadata = metadata,
+                     .table = out,
+                     .cell = ARENA_NEW(arena, TextCell, TEXT_CELLS_MAX)};
     scan.blocks = (TextBlocks){.text = &text, .options = options, .arena = arena};
-    if (!text_find_dialect(&text, options->skip_lines, *arena, &scan.dialect, err))
-        return false;
+    if (!text_find_dialect(&text, options->skip_lines, *arena, &scan.dialect, err)) return false;
     if (options->columns && !read_users_columns(&scan)) return false;
     for (scan.at = options->skip_lines; scan.at < text.count; scan.at++)
         if (!read_line(&scan)) return false;

@@ -14,18 +14,18 @@
 /* A line index is -1 where the file states nothing. */
 typedef struct TextMetadata {
     AzimuthWords azimuth;
-    int          zero_line, sense_line, side_line;
-    ValueUnit    unit;
-    int          unit_line;
-    AngleUnit    angle;
-    int          angle_line;
-    double       wavelength_nm;  /* 0: not there */
-    bool         has_incidence;
-    double       incidence_deg;
-    char         words[256];     /* of pattern, colour and level */
-    int          words_line;
-    const char  *panel, *instrument, *date, *operator_name; /* NULL: not there */
-    int          unused_columns;
+    int zero_line, sense_line, side_line;
+    ValueUnit unit;
+    int unit_line;
+    AngleUnit angle;
+    int angle_line;
+    double wavelength_nm; /* 0: not there */
+    bool has_incidence;
+    double incidence_deg;
+    char words[256]; /* of pattern, colour and level */
+    int words_line;
+    const char *panel, *instrument, *date, *operator_name; /* NULL: not there */
+    int unused_columns;
 } TextMetadata;
 
 /* `out` and `metadata` are filled; there is at least one row. */

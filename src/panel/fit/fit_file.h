@@ -25,24 +25,23 @@
 
 /* Which panels there are to fit, and what of them goes into the file. */
 typedef struct FitPlaces {
-    Measurement     own;
-    int             panels;               /* besides the own */
-    Measurement    *of_panel;             /* what each is fitted from */
-    int            *spot_of_panel;        /* index of the set's spot */
-    const void    **bytes;                /* the file of each, once it is fitted */
-    size_t         *sizes;
-    int             spots;
+    Measurement own;
+    int panels;            /* besides the own */
+    Measurement *of_panel; /* what each is fitted from */
+    int *spot_of_panel;    /* index of the set's spot */
+    const void **bytes;    /* the file of each, once it is fitted */
+    size_t *sizes;
+    int spots;
     PanelSpotStored *spot;
-    float           own_at[2];
-    const void     *map;                  /* the section; NULL: none, or not yet */
-    size_t          map_size;
+    float own_at[2];
+    const void *map; /* the section; NULL: none, or not yet */
+    size_t map_size;
 } FitPlaces;
 
 void fit_places_plan(const Measurement *set, Arena *arena, FitPlaces *out);
 
 /* Anything to write? Else the file is that of one panel everywhere. */
-static inline bool fit_places_are_there(const FitPlaces *places)
-{
+static inline bool fit_places_are_there(const FitPlaces *places) {
     return places->spots || places->map;
 }
 
@@ -52,26 +51,26 @@ size_t fit_places_bytes(const FitPlaces *places);
 /* Makes the map's section. panel: of the file as it is without the map; it takes out what a
  * camera that stands at one point saw under an angle. Fails, naming the map's file, where it is
  * dark at a place that was measured. */
-bool fit_places_add_map(const Measurement *set, const Panel *panel, Arena *arena,
-                        FitPlaces *places, Error *err);
+bool fit_places_add_map(const Measurement *set, const Panel *panel, Arena *arena, FitPlaces *places,
+                        Error *err);
 
 typedef struct FitParts {
-    const Measurement      *set;
-    const FitOptions       *options;
-    const EmissionResult   *emission; /* NULL: none */
-    const void             *primaries; /* the section */
-    size_t                  primaries_size;
-    const char             *spectra_assumed; /* in words; NULL: they were measured */
+    const Measurement *set;
+    const FitOptions *options;
+    const EmissionResult *emission; /* NULL: none */
+    const void *primaries;          /* the section */
+    size_t primaries_size;
+    const char *spectra_assumed;        /* in words; NULL: they were measured */
     const ReflectionResult *reflection; /* NULL: none */
-    FitNotes               *notes;
-    int                     notes_before_reflection;
-    bool                    saves; /* the tables of the report are compressed */
-    const FitPlaces        *places; /* NULL: one panel everywhere */
-    const json_t           *spots;  /* its panels' entries in the report; NULL: none */
-    const void             *tables; /* of the report, packed (panel_report.h); NULL: not yet */
-    size_t                  tables_size;
-    const void             *meta; /* the report, packed; NULL: not yet */
-    size_t                  meta_size;
+    FitNotes *notes;
+    int notes_before_reflection;
+    bool saves;              /* the tables of the report are compressed */
+    const FitPlaces *places; /* NULL: one panel everywhere */
+    const json_t *spots;     /* its panels' entries in the report; NULL: none */
+    const void *tables;      /* of the report, packed (panel_report.h); NULL: not yet */
+    size_t tables_size;
+    const void *meta; /* the report, packed; NULL: not yet */
+    size_t meta_size;
 } FitParts;
 
 /* The file's bytes; *size bytes in the arena, aligned to 64. */

@@ -4,8 +4,7 @@
 #include <math.h>
 
 void fit_table_add_error(FitErrors *errors, double found, double wanted, double scale,
-                         double weight)
-{
+                         double weight) {
     double relative = fabs(found - wanted) / scale;
     errors->max = fmax(errors->max, relative);
     errors->squares += relative * relative;
@@ -14,22 +13,19 @@ void fit_table_add_error(FitErrors *errors, double found, double wanted, double 
     errors->integral_source += weight * wanted;
 }
 
-void fit_table_add_excess(FitErrors *errors, double miss, double bound)
-{
+void fit_table_add_excess(FitErrors *errors, double miss, double bound) {
     double excess = fmax(0, miss);
     errors->beyond += excess > bound;
     errors->excess_squares += excess * excess;
     errors->excess = fmax(errors->excess, excess);
 }
 
-void fit_table_leave_out(FitErrors *errors, double found, double wanted, double scale)
-{
+void fit_table_leave_out(FitErrors *errors, double found, double wanted, double scale) {
     errors->outliers += 1;
     errors->outlier_max = fmax(errors->outlier_max, fabs(found - wanted) / scale);
 }
 
-void fit_table_merge(FitErrors *all, const FitErrors *one)
-{
+void fit_table_merge(FitErrors *all, const FitErrors *one) {
     all->max = fmax(all->max, one->max);
     all->squares += one->squares;
     all->count += one->count;
@@ -38,32 +34,28 @@ void fit_table_merge(FitErrors *all, const FitErrors *one)
     all->excess = fmax(all->excess, one->excess);
 }
 
-void fit_table_finish(const FitErrors *errors, FitTable *out)
-{
+void fit_table_finish(const FitErrors *errors, FitTable *out) {
     out->max_error = errors->max;
     out->rms_error = sqrt(errors->squares / fmax(1, errors->count));
-    out->integral_error = errors->integral_source > 0
-                              ? errors->integral / errors->integral_source - 1 : 0;
+    out->integral_error =
+        errors->integral_source > 0 ? errors->integral / errors->integral_source - 1 : 0;
     out->outliers = errors->outliers;
     out->outlier_error = errors->outlier_max;
 }
 
-static double ratio_of(double bytes, double stored)
-{
+static double ratio_of(double bytes, double stored) {
     return stored > 0 ? bytes / stored : 0;
 }
 
-json_t *fit_table_json(const FitTable *t)
-{
-    json_t *out = json_pack("{s:s, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}",
-                     "name", t->name, "source_bytes_text", (json_int_t)t->text_bytes,
-                     "source_bytes_float32", (json_int_t)t->float32_bytes,
-                     "stored_values", t->stored_values, "bytes", t->bytes,
-                     "ratio", ratio_of((double)t->float32_bytes, t->bytes),
-                     "ratio_text", ratio_of((double)t->text_bytes, t->bytes),
-                     "max_error", t->max_error, "rms_error", t->rms_error,
-                     "integral_error", t->integral_error, "noise", t->noise,
-                     "extrapolated_share", t->extrapolated);
+json_t *fit_table_json(const FitTable *t) {
+    json_t *out =
+        json_pack("{s:s, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "name", t->name,
+                  "source_bytes_text", (json_int_t)t->text_bytes, "source_bytes_float32",
+                  (json_int_t)t->float32_bytes, "stored_values", t->stored_values, "bytes",
+                  t->bytes, "ratio", ratio_of((double)t->float32_bytes, t->bytes), "ratio_text",
+                  ratio_of((double)t->text_bytes, t->bytes), "max_error", t->max_error, "rms_error",
+                  t->rms_error, "integral_error", t->integral_error, "noise", t->noise,
+                  "extrapolated_share", t->extrapolated);
     if (t->outliers > 0) {
         json_object_set_new(out, "outliers", json_integer((json_int_t)t->outliers));
         json_object_set_new(out, "outliers_max_error", json_real(t->outlier_error));
@@ -71,8 +63,7 @@ json_t *fit_table_json(const FitTable *t)
     return out;
 }
 
-void fit_table_set_file_size(json_t *total, size_t file_bytes)
-{
+void fit_table_set_file_size(json_t *total, size_t file_bytes) {
     double bytes = (double)file_bytes;
     double binary = json_number_value(json_object_get(total, "source_bytes_float32"));
     double text = json_number_value(json_object_get(total, "source_bytes_text"));
@@ -81,8 +72,7 @@ void fit_table_set_file_size(json_t *total, size_t file_bytes)
     json_object_set_new(total, "ratio_text", json_real(ratio_of(text, bytes)));
 }
 
-void fit_table_append(json_t *tables, FitTable *total, const FitTable *one)
-{
+void fit_table_append(json_t *tables, FitTable *total, const FitTable *one) {
     json_array_append_new(tables, fit_table_json(one));
     total->text_bytes += one->text_bytes;
     total->float32_bytes += one->float32_bytes;

@@ -4,9 +4,8 @@
 #include <math.h>
 #include <stdarg.h>
 
-void judge_reason_add(Judge *judge, JudgeGrade grade, const char *format, ...)
-{
-    Arena   scratch = *judge->arena;
+void judge_reason_add(Judge *judge, JudgeGrade grade, const char *format, ...) {
+    Arena scratch = *judge->arena;
     va_list args;
     if (grade == JUDGE_GOOD) return;
     va_start(args, format);
@@ -16,12 +15,10 @@ void judge_reason_add(Judge *judge, JudgeGrade grade, const char *format, ...)
     if (grade > judge->grade) judge->grade = grade;
 }
 
-const char *judge_rounded(const Judge *judge, double value)
-{
+const char *judge_rounded(const Judge *judge, double value) {
     return arena_format(judge->arena, fabs(value) < 99.5 ? "%.2g" : "%.0f", value);
 }
 
-JudgeGrade judge_reason_grade(double value, double care, double unusable)
-{
+JudgeGrade judge_reason_grade(double value, double care, double unusable) {
     return value > unusable ? JUDGE_UNUSABLE : value > care ? JUDGE_CARE : JUDGE_GOOD;
 }

@@ -14,10 +14,10 @@
 typedef enum JudgeGrade { JUDGE_GOOD = 0, JUDGE_CARE, JUDGE_UNUSABLE } JudgeGrade;
 
 typedef struct Judge {
-    JudgeGrade grade;      /* of the worst reason */
-    json_t    *reasons[3]; /* texts, by grade */
-    json_t    *figures;    /* an object of what was judged */
-    Arena     *arena;
+    JudgeGrade grade;   /* of the worst reason */
+    json_t *reasons[3]; /* texts, by grade */
+    json_t *figures;    /* an object of what was judged */
+    Arena *arena;
 } Judge;
 
 /* One more reason, as printf; none of JUDGE_GOOD. */

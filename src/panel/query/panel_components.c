@@ -9,21 +9,19 @@
 #include "panel/shape/spectral_warp.h"
 
 /* Position in the spline's table over tan(theta / 2): *t in [0, 1] from node to node + 1. */
-static inline int spline_node(float tan_half, float *t)
-{
+static inline int spline_node(float tan_half, float *t) {
     float at = clampf(tan_half, 0, 1) * (PANEL_SPLINE_ANGLES - 1);
-    int   node = (int)at;
+    int node = (int)at;
     if (node > PANEL_SPLINE_ANGLES - 2) node = PANEL_SPLINE_ANGLES - 2;
     *t = at - (float)node;
     return node;
 }
 
-void panel_components_add_spline(const PanelSpline *spline, Vec3 d, float log_cos, float *out)
-{
+void panel_components_add_spline(const PanelSpline *spline, Vec3 d, float log_cos, float *out) {
     float t, s = safe_sqrtf(d.x * d.x + d.y * d.y);
     float cos_1 = s > 0 ? d.x / s : 1, sin_1 = s > 0 ? d.y / s : 0;
     float angle[PANEL_SPLINE_TERMS_MAX + 1] = {1, cos_1, sin_1};
-    int   node = spline_node(s / (1 + d.z), &t), row = spline->terms * spline->stride;
+    int node = spline_node(s / (1 + d.z), &t), row = spline->terms * spline->stride;
     const float *near = spline->table + node * row, *power = spline->power;
     for (int m = 2; m <= spline->harmonics; m++) {
         float c = angle[2 * m - 3], e = angle[2 * m - 2];
@@ -40,16 +38,14 @@ void panel_components_add_spline(const PanelSpline *spline, Vec3 d, float log_co
     }
 }
 
-float panel_components_beam_place(const PanelBeam *beam, Vec3 direction)
-{
-    Vec3  v = vec3_sub(direction, beam->centre); /* a cosine near 1 would be too coarse */
+float panel_components_beam_place(const PanelBeam *beam, Vec3 direction) {
+    Vec3 v = vec3_sub(direction, beam->centre); /* a cosine near 1 would be too coarse */
     float along = vec3_dot(beam->narrow, v);
     float squares = vec3_dot(v, v) + along * along;
     return log_f(1 + squares * beam->core_squares) * (1 / PANEL_BEAM_STEP);
 }
 
-void panel_components_add_beam(const PanelBeam *beam, Vec3 direction, float *out)
-{
+void panel_components_add_beam(const PanelBeam *beam, Vec3 direction, float *out) {
     float at = panel_components_beam_place(beam, direction), weight[4];
     if (!(at >= 0 && at < (float)beam->knots)) return;
     int knot = (int)at, stride = beam->stride;
@@ -57,15 +53,13 @@ void panel_components_add_beam(const PanelBeam *beam, Vec3 direction, float *out
     const float *row = beam->coefficient + knot * stride;
     panel_beam_weights(at - (float)knot, weight);
     for (int k = 0; k < stride; k += 4)
-        *(PanelFloat4 *)(out + k) +=
-            *(const PanelFloat4 *)(row + k) * weight[0] +
-            *(const PanelFloat4 *)(row + stride + k) * weight[1] +
-            *(const PanelFloat4 *)(row + 2 * stride + k) * weight[2] +
-            *(const PanelFloat4 *)(row + 3 * stride + k) * weight[3];
+        *(PanelFloat4 *)(out + k) += *(const PanelFloat4 *)(row + k) * weight[0] +
+                                     *(const PanelFloat4 *)(row + stride + k) * weight[1] +
+                                     *(const PanelFloat4 *)(row + 2 * stride + k) * weight[2] +
+                                     *(const PanelFloat4 *)(row + 3 * stride + k) * weight[3];
 }
 
-float panel_components(const Panel *panel, Vec3 direction, float *components)
-{
+float panel_components(const Panel *panel, Vec3 direction, float *components) {
     const PanelEmission *e = panel->emission;
     for (int k = e->components & ~3; k < e->stride; k++) components[k] = 0;
     tree_interpolate(&panel->emission_tree, direction, components);
@@ -78,26 +72,22 @@ float panel_components(const Panel *panel, Vec3 direction, float *components)
 
 /* ---- the four sources of the light: red, green, blue and black --------------------------- */
 
-bool panel_sources_are_measured(const Panel *panel, Vec3 direction)
-{
+bool panel_sources_are_measured(const Panel *panel, Vec3 direction) {
     return direction.z >= panel->emission->cone_cos - 1e-6f;
 }
 
 /* A source's ln XYZ (and a number that means nothing) from one row. */
-static inline PanelFloat4 row_logs(const float *row, const float *components, int count)
-{
+static inline PanelFloat4 row_logs(const float *row, const float *components, int count) {
     PanelFloat4 sum = *(const PanelFloat4 *)row;
-    for (int k = 0; k < count; k++)
-        sum += components[k] * *(const PanelFloat4 *)(row + 4 * k + 4);
+    for (int k = 0; k < count; k++) sum += components[k] * *(const PanelFloat4 *)(row + 4 * k + 4);
     return sum;
 }
 
 /* A primary at any code above 0: whole codes have a row; between two of them ln E is linear in
  * ln code; below 1 it is a power law. */
 static PanelFloat4 primary_logs(const PanelEmission *e, int primary, float code,
-                                const float *components)
-{
-    int          size = 4 * (e->components + 1), whole = code < 255 ? (int)code : 255;
+                                const float *components) {
+    int size = 4 * (e->components + 1), whole = code < 255 ? (int)code : 255;
     const float *rows = e->code_rows[primary];
     if ((float)whole >= code && whole > 0)
         return row_logs(rows + whole * size, components, e->components);
@@ -111,8 +101,7 @@ static PanelFloat4 primary_logs(const PanelEmission *e, int primary, float code,
 }
 
 void panel_source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
-                       PanelFloat4 logs[4])
-{
+                       PanelFloat4 logs[4]) {
     const PanelEmission *e = panel->emission;
     float components[PANEL_COMPONENTS_MAX];
     float fall = panel_components(panel, direction, components);
@@ -122,10 +111,9 @@ void panel_source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
     if (e->has_black) logs[3] = fall + row_logs(e->black_rows, components, e->components);
 }
 
-void panel_sources_xyz(const PanelFloat4 logs[4], float xyz[3])
-{
+void panel_sources_xyz(const PanelFloat4 logs[4], float xyz[3]) {
     PanelFloat4 light[4];
-    Spectrum    all;
+    Spectrum all;
     memcpy(&all, logs, sizeof all);
     /* e^80 cd m^-2 is more than any display sends: a forged file stays finite. */
     all = spectrum_exp(spectrum_min(all, spectrum_all(80)));
@@ -137,8 +125,7 @@ void panel_sources_xyz(const PanelFloat4 logs[4], float xyz[3])
 /* ---- spectra --------------------------------------------------------------------------- */
 
 /* The spectrum of a source at the lanes' wavelengths, linear between whole nm. */
-static Spectrum spectrum_of(const float *spectrum, const Wavelengths *wavelengths)
-{
+static Spectrum spectrum_of(const float *spectrum, const Wavelengths *wavelengths) {
     Spectrum at = spectrum_clamp(wavelengths->nm - spectrum_all(SPECTRAL_FIRST_NM), 0,
                                  SPECTRAL_COUNT - 1.001f);
     SpectrumMask n = __builtin_convertvector(at, SpectrumMask);
@@ -152,16 +139,15 @@ static Spectrum spectrum_of(const float *spectrum, const Wavelengths *wavelength
 /* S = T exp(c0 + c1 t + c2 t^2) Y, t = (lambda - 560 nm) / 180 nm; strictly positive where T
  * is (spectral_warp.h). */
 Spectrum panel_sources_spectrum(const Panel *panel, const PanelFloat4 source[4],
-                                const Wavelengths *wavelengths)
-{
+                                const Wavelengths *wavelengths) {
     Spectrum sum = spectrum_all(0);
     Spectrum t = (wavelengths->nm - spectrum_all(560)) * spectrum_all(1.0f / 180);
     for (int s = 0; s < 4; s++) {
         float c[3], logs[3] = {source[s][0], source[s][1], source[s][2]};
         if (logs[1] <= PANEL_DARK) continue;
         spectral_warp_at(&panel->primaries->warp[s], logs, c);
-        Spectrum exponent = (spectrum_all(c[2]) * t + spectrum_all(c[1])) * t +
-                            spectrum_all(c[0] + logs[1]);
+        Spectrum exponent =
+            (spectrum_all(c[2]) * t + spectrum_all(c[1])) * t + spectrum_all(c[0] + logs[1]);
         /* Far from a narrow primary the curve may run away where the primary is dark: infinity
          * times nothing would be no number. */
         exponent = spectrum_min(exponent, spectrum_all(EXPONENT_MOST));

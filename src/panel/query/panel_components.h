@@ -31,11 +31,10 @@ void panel_components_add_beam(const PanelBeam *beam, Vec3 direction, float *out
 #define PANEL_DARK (-1e4f) /* a logarithm of nothing */
 
 /* ln X, Y, Z of each in a direction above the surface; a primary at code 0 is PANEL_DARK. */
-void panel_source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
-                       PanelFloat4 logs[4]);
+void panel_source_logs(const Panel *panel, Vec3 direction, const float rgb[3], PanelFloat4 logs[4]);
 
 /* Their sum, never negative; and as a spectral radiance (panel_emission.h: units). */
-void     panel_sources_xyz(const PanelFloat4 logs[4], float xyz[3]);
+void panel_sources_xyz(const PanelFloat4 logs[4], float xyz[3]);
 Spectrum panel_sources_spectrum(const Panel *panel, const PanelFloat4 logs[4],
                                 const Wavelengths *wavelengths);
 

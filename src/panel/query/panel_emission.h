@@ -24,7 +24,6 @@ Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float
 /* The same at every angle, code and wavelength. */
 PanelPolarisation panel_polarisation(const Panel *panel);
 
-
 /* Luminance in cd m^-2 averaged over the hemisphere with the cosine (luminous exitance / pi),
  * for codes rgb: what light sampling needs to weigh displays against other lights. */
 float panel_mean_luminance(const Panel *panel, const float rgb[3]);

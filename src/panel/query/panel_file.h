@@ -12,48 +12,49 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in place");
 
 #define PANEL_MAGIC "PHPANEL\n"
-#define PANEL_VERSION 4u /* of files that a reader of version 3 would misread */
+#define PANEL_VERSION 4u        /* of files that a reader of version 3 would misread */
 #define PANEL_VERSION_PLACES 5u /* of files with several spots or a map: one of 4 would too */
-#define PANEL_VERSION_ZONES 6u  /* of files with local dimming: older ones would show the
-                                   black that a full backlight leaks */
+#define PANEL_VERSION_ZONES \
+    6u                         /* of files with local dimming: older ones would show the \
+                                  black that a full backlight leaks */
 #define PANEL_VERSION_PLAIN 3u /* of all others, so that it can read them */
-#define PANEL_ALIGN 8 /* of sections, bytes */
+#define PANEL_ALIGN 8          /* of sections, bytes */
 #define PANEL_SECTIONS_MAX 64
 #define PANEL_LEVELS_MAX 64
 #define PANEL_SLICES_MAX 40
 #define PANEL_WAVELENGTHS_MAX 256
-#define PANEL_COMPONENTS_MAX 64  /* of the emission tree */
+#define PANEL_COMPONENTS_MAX 64   /* of the emission tree */
 #define PANEL_COEFFICIENTS_MAX 32 /* spectral, per slice */
 
 typedef struct PanelHeader {
-    char     magic[8]; /* PANEL_MAGIC, without its zero */
-    uint32_t version, flags; /* flags: 0 */
-    uint64_t checksum;       /* of the bytes from size on */
-    uint64_t size;           /* of the file */
+    char magic[8];                    /* PANEL_MAGIC, without its zero */
+    uint32_t version, flags;          /* flags: 0 */
+    uint64_t checksum;                /* of the bytes from size on */
+    uint64_t size;                    /* of the file */
     uint32_t section_count, reserved; /* reserved: 0 */
 } PanelHeader;
 
 typedef enum PanelSectionKind {
-    PANEL_META = 1,            /* panel_report.h: names, source, what was chosen, notes */
-    PANEL_EMISSION = 2,        /* PanelEmissionHead and what follows it */
+    PANEL_META = 1,     /* panel_report.h: names, source, what was chosen, notes */
+    PANEL_EMISSION = 2, /* PanelEmissionHead and what follows it */
     PANEL_EMISSION_TREE = 3,
-    PANEL_PRIMARIES = 4,       /* PanelPrimariesHead, spectra */
-    PANEL_REFLECTION = 5,      /* PanelReflectionStored and what follows it */
+    PANEL_PRIMARIES = 4,  /* PanelPrimariesHead, spectra */
+    PANEL_REFLECTION = 5, /* PanelReflectionStored and what follows it */
     PANEL_REFLECTION_TREE = 6,
-    PANEL_SAMPLING = 7,          /* a sampling tree, PanelSampling's counts and thetas */
-    PANEL_REPORT_TABLES = 8,   /* panel_report.h: the tables of the report, then the total;
-                                  compressed maybe, which older readers call damaged */
-    PANEL_SURFACE = 9,         /* PanelSurfaceStored: how the reflection is read */
-    PANEL_POLARISED = 10,      /* PanelPolarisedStored: of the emission; absent: unpolarised */
-    PANEL_SPOTS = 11,          /* PanelSpotsHead and what follows it; absent: one everywhere */
-    PANEL_SPOT_FILE = 12,      /* index 1 on: a panel file of its own, of one spot */
-    PANEL_MAP = 13,            /* PanelMapHead and what follows it */
-                               /* 14 was how pixels are divided: passed over */
-    PANEL_REACH = 15,          /* PanelReachStored[tables]; absent: the cone of all tables */
-    PANEL_ZONES = 16,          /* PanelZonesStored and what follows it; absent: one backlight,
-                                  always full */
-    PANEL_STATES = 17          /* several states of a display, once written: refused (18 held
-                                  their files) */
+    PANEL_SAMPLING = 7,      /* a sampling tree, PanelSampling's counts and thetas */
+    PANEL_REPORT_TABLES = 8, /* panel_report.h: the tables of the report, then the total;
+                                compressed maybe, which older readers call damaged */
+    PANEL_SURFACE = 9,       /* PanelSurfaceStored: how the reflection is read */
+    PANEL_POLARISED = 10,    /* PanelPolarisedStored: of the emission; absent: unpolarised */
+    PANEL_SPOTS = 11,        /* PanelSpotsHead and what follows it; absent: one everywhere */
+    PANEL_SPOT_FILE = 12,    /* index 1 on: a panel file of its own, of one spot */
+    PANEL_MAP = 13,          /* PanelMapHead and what follows it */
+                             /* 14 was how pixels are divided: passed over */
+    PANEL_REACH = 15,        /* PanelReachStored[tables]; absent: the cone of all tables */
+    PANEL_ZONES = 16,        /* PanelZonesStored and what follows it; absent: one backlight,
+                                always full */
+    PANEL_STATES = 17        /* several states of a display, once written: refused (18 held
+                                their files) */
 } PanelSectionKind;
 
 typedef struct PanelSection {
@@ -76,9 +77,9 @@ typedef struct PanelSection {
  *           know of no beams refuse a section that goes on behind its spline. */
 typedef struct PanelEmissionHead {
     uint8_t components, has_black, level_count[3], beams, reserved[2];
-    float   cone_cos;    /* cos of the last measured theta */
-    float   level_power; /* exponent of the level curve where only one level is known */
-    float   cosine_power;
+    float cone_cos;    /* cos of the last measured theta */
+    float level_power; /* exponent of the level curve where only one level is known */
+    float cosine_power;
 } PanelEmissionHead;
 #define PANEL_MEAN_BITS 11
 #define PANEL_LEVEL_UNIT 256.0f
@@ -86,9 +87,9 @@ typedef struct PanelEmissionHead {
 /* The section of the primaries: this head, then uint16 value[3][count] of red, green, blue at
  * even wavelengths, multiples of scale; linear between them, 0 outside. */
 typedef struct PanelPrimariesHead {
-    float    first_nm, step_nm;
+    float first_nm, step_nm;
     uint16_t count, kind; /* kind: PanelSpectraKind; count 0 when nothing is stored */
-    float    scale[3];
+    float scale[3];
 } PanelPrimariesHead;
 #define PANEL_SPECTRUM_MAX 1024
 
@@ -100,14 +101,14 @@ typedef struct PanelPrimariesHead {
  * reflectance R / F = exp(lobe), a Gaussian of lobe_sigma over the angle to the mirror
  * direction. 16-bit numbers are multiples of the scale that stands beside them. */
 typedef struct PanelReflectionStored {
-    uint16_t incidences, azimuths;    /* azimuths 1: isotropic, symmetric in y */
+    uint16_t incidences, azimuths;     /* azimuths 1: isotropic, symmetric in y */
     uint16_t components, coefficients; /* of the tree; of spectra */
     uint16_t wavelengths;
-    uint16_t nodes;                   /* incidences from the last measured one to 90 degrees */
-    uint8_t  is_cubic, has_mirror, has_lobe, reserved;
-    float    frame_exponent, refractive_index;
-    float    cone_cos;                /* of the leaving directions */
-    float    mean_scale, lobe_scale;
+    uint16_t nodes; /* incidences from the last measured one to 90 degrees */
+    uint8_t is_cubic, has_mirror, has_lobe, reserved;
+    float frame_exponent, refractive_index;
+    float cone_cos; /* of the leaving directions */
+    float mean_scale, lobe_scale;
     /* then, float: incidence[incidences], azimuth[azimuths], wavelength_nm[wavelengths],
      *   node_theta[nodes], basis_scale[coefficients], loading_scale[components],
      *   lobe_sigma[tables] (with a lobe only);
@@ -128,10 +129,7 @@ typedef enum PanelFrameKind {
 } PanelFrameKind;
 
 /* The variables of the haze beyond the last measured incidence (panel_reference.h). */
-typedef enum PanelBeyondKind {
-    PANEL_BEYOND_COSINES = 0,
-    PANEL_BEYOND_SLOPES = 1
-} PanelBeyondKind;
+typedef enum PanelBeyondKind { PANEL_BEYOND_COSINES = 0, PANEL_BEYOND_SLOPES = 1 } PanelBeyondKind;
 
 /* PANEL_SURFACE; where the section is absent everything is 0 but the refractive index, which is
  * PanelReflectionStored's. A file with a frame has version PANEL_VERSION. In a frame other than
@@ -139,19 +137,19 @@ typedef enum PanelBeyondKind {
  * instead of F(theta_i). */
 typedef struct PanelSurfaceStored {
     uint8_t frame, beyond, reserved[2]; /* PanelFrameKind, PanelBeyondKind */
-    float   axes[3], reach;   /* surface_frame.h: xx, xy, yy; with a frame only */
-    float   roughness[3];     /* squared GGX alphas, xx, xy, yy; of slopes beyond */
-    float   refractive_index; /* of slopes beyond, where there is no mirror part */
-    float   mirror_index;     /* of the mirror part beyond; 0: a straight line over F */
+    float axes[3], reach;               /* surface_frame.h: xx, xy, yy; with a frame only */
+    float roughness[3];                 /* squared GGX alphas, xx, xy, yy; of slopes beyond */
+    float refractive_index;             /* of slopes beyond, where there is no mirror part */
+    float mirror_index;                 /* of the mirror part beyond; 0: a straight line over F */
 } PanelSurfaceStored;
 
 /* PANEL_REACH: which directions a table's samples surround (panel_reach.h); it is there where
  * some table's do not surround the cone. */
 #define PANEL_REACH_SIDES 36
 typedef struct PanelReachStored {
-    uint16_t theta, phi; /* of the centre, 1/65535 of 90 and 1/65536 of 360 degrees */
-    uint16_t most;       /* the edge's largest angle, 1/65535 of 180 degrees */
-    uint8_t  side[PANEL_REACH_SIDES]; /* its angle, 1/255 of the largest */
+    uint16_t theta, phi;             /* of the centre, 1/65535 of 90 and 1/65536 of 360 degrees */
+    uint16_t most;                   /* the edge's largest angle, 1/65535 of 180 degrees */
+    uint8_t side[PANEL_REACH_SIDES]; /* its angle, 1/255 of the largest */
 } PanelReachStored;
 
 /* PANEL_POLARISED: the linearly polarised share of the emitted light, above 0 to 1, and the
@@ -166,15 +164,15 @@ typedef struct PanelPolarisedStored {
  * Section   PanelZonesStored | float radius_mm, value [spread_rows] | float code, drive
  *           [drive_rows]; pairs. */
 typedef struct PanelZonesStored {
-    uint16_t version;          /* PANEL_ZONES_VERSION */
+    uint16_t version; /* PANEL_ZONES_VERSION */
     uint16_t columns, rows;
-    uint8_t  rule;             /* 0 maximum, 1 mean */
-    uint8_t  compensates;      /* 0 or 1 */
-    uint8_t  spread_rows, drive_rows; /* 0, or 2 to 64 */
-    uint8_t  reserved[2];      /* 0 */
-    float    size_mm[2];
-    float    sigma_mm;         /* 0: the table says the spread */
-    float    least;
+    uint8_t rule;                    /* 0 maximum, 1 mean */
+    uint8_t compensates;             /* 0 or 1 */
+    uint8_t spread_rows, drive_rows; /* 0, or 2 to 64 */
+    uint8_t reserved[2];             /* 0 */
+    float size_mm[2];
+    float sigma_mm; /* 0: the table says the spread */
+    float least;
 } PanelZonesStored;
 #define PANEL_ZONES_VERSION 1u
 
@@ -187,11 +185,11 @@ typedef struct PanelZonesStored {
  *           everywhere, and PANEL_MAP is there. */
 typedef struct PanelSpotsHead {
     uint16_t spots, panels; /* panels: besides the file's own */
-    float    own_at[2];     /* where the file's own was measured */
+    float own_at[2];        /* where the file's own was measured */
 } PanelSpotsHead;
 
 typedef struct PanelSpotStored {
-    float    at[2];
+    float at[2];
     uint16_t emission, reflection; /* panel */
 } PanelSpotStored;
 
@@ -202,8 +200,8 @@ typedef struct PanelSpotStored {
  *           and Z alike. No channel of black: as white. */
 typedef struct PanelMapHead {
     uint16_t width, height;
-    uint8_t  white_channels, black_channels, reserved[2]; /* 1 or 3; 0, 1 or 3; 0 */
-    float    scale[6]; /* of white's channels, then black's; behind them 0 */
+    uint8_t white_channels, black_channels, reserved[2]; /* 1 or 3; 0, 1 or 3; 0 */
+    float scale[6]; /* of white's channels, then black's; behind them 0 */
 } PanelMapHead;
 #define PANEL_MAP_SIDE_MAX 8192
 #define PANEL_MAP_LEAST_SCALE 1e-20f
@@ -218,7 +216,6 @@ typedef struct PanelMapHead {
  * azimuths, then float theta[incidences]; or nothing: opening the file makes it from the
  * reflection (sampling_make.h), of an isotropic one the same bytes. Readers that make none of
  * several azimuths refuse the file. */
-static inline size_t panel_sampling_tree_bytes(size_t tree)
-{
+static inline size_t panel_sampling_tree_bytes(size_t tree) {
     return (tree + 3) / 4 * 4;
 }

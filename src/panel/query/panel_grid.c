@@ -13,41 +13,36 @@
 
 _Static_assert(sizeof(PanelGridHead) == 40, "the file's layout");
 _Static_assert(offsetof(PanelGridHead, level) == offsetof(TreeHeader, level) &&
-               offsetof(PanelGridHead, size) == offsetof(TreeHeader, size),
+                   offsetof(PanelGridHead, size) == offsetof(TreeHeader, size),
                "finest_level and tree_size read either");
 
 #define CELL_MOST 32767
 #define SETTLE_ROUNDS 40
-#define SETTLED 0.2       /* of the tolerance */
+#define SETTLED 0.2 /* of the tolerance */
 
 /* ---- the bytes --------------------------------------------------------------------------- */
 
-static size_t cells_of(const PanelGridHead *head)
-{
+static size_t cells_of(const PanelGridHead *head) {
     return 1 + (size_t)(head->thetas - 1) * head->phis;
 }
 
-size_t panel_grid_bytes(const PanelGridHead *head)
-{
+size_t panel_grid_bytes(const PanelGridHead *head) {
     size_t floats = (size_t)head->thetas + head->phis + head->components;
     size_t cells = 2 * cells_of(head) * head->components;
     return (sizeof *head + 4 * floats + cells + head->phis + 7) / 8 * 8;
 }
 
 /* A cell of the grid among the stored ones: the pole is one. */
-static size_t stored_cell(const PanelGridHead *head, size_t cell)
-{
+static size_t stored_cell(const PanelGridHead *head, size_t cell) {
     return cell < head->phis ? 0 : 1 + cell - head->phis;
 }
 
-static void put(unsigned char **to, const void *from, size_t bytes)
-{
+static void put(unsigned char **to, const void *from, size_t bytes) {
     memcpy(*to, from, bytes);
     *to += bytes;
 }
 
-const void *panel_grid_pack(const PanelGridCells *in, Arena *arena)
-{
+const void *panel_grid_pack(const PanelGridCells *in, Arena *arena) {
     PanelGridHead head = in->head;
     size_t n = head.components, cells = (size_t)head.thetas * head.phis;
     float *scale = ARENA_NEW(arena, float, n);
@@ -77,38 +72,33 @@ const void *panel_grid_pack(const PanelGridCells *in, Arena *arena)
 typedef struct GridExpansion {
     const PanelEmission *emission;
     PanelGridHead head;
-    PanelAxes     axes;
-    size_t        cells;
-    float        *cell;   /* cells x components, as stored: the pole is one */
-    bool         *follows;
+    PanelAxes axes;
+    size_t cells;
+    float *cell; /* cells x components, as stored: the pole is one */
+    bool *follows;
     PanelProfiles profiles;
-    double       *normal; /* components^2: factor of the loadings' normal equations */
+    double *normal; /* components^2: factor of the loadings' normal equations */
     VertexLattice lattice;
-    uint32_t      vertices;
-    float        *value;  /* vertices x components */
+    uint32_t vertices;
+    float *value; /* vertices x components */
 } GridExpansion;
 
-static bool rises(const float *list, int count, float most)
-{
+static bool rises(const float *list, int count, float most) {
     for (int i = 0; i < count; i++)
         if (!(list[i] >= 0 && list[i] <= most) || (i && !(list[i] > list[i - 1]))) return false;
     return true;
 }
 
-static bool head_is_good(const PanelGridHead *h, size_t size, const PanelEmission *e)
-{
+static bool head_is_good(const PanelGridHead *h, size_t size, const PanelEmission *e) {
     return h->version == PANEL_GRID_VERSION && h->components == (uint32_t)e->components &&
            h->thetas >= 3 && h->thetas <= PANEL_GRID_SIDE_MAX && h->phis >= 1 &&
-           h->phis <= PANEL_GRID_SIDE_MAX && h->level >= 1 &&
-           h->level <= PANEL_GRID_LEVEL_MAX &&
+           h->phis <= PANEL_GRID_SIDE_MAX && h->level >= 1 && h->level <= PANEL_GRID_LEVEL_MAX &&
            h->rest > 0 && h->rest < 1 && h->least_share > 0 && h->least_share < 1 &&
-           h->tolerance > 0 && h->tolerance < 10 && h->size == size &&
-           panel_grid_bytes(h) == size;
+           h->tolerance > 0 && h->tolerance < 10 && h->size == size && panel_grid_bytes(h) == size;
 }
 
 /* What stands behind a good head. */
-static bool read_grid(const void *data, Arena *arena, GridExpansion *g)
-{
+static bool read_grid(const void *data, Arena *arena, GridExpansion *g) {
     const unsigned char *at = data;
     const PanelGridHead *h = &g->head;
     size_t n = h->components, floats = (size_t)h->thetas + h->phis + n;
@@ -117,7 +107,7 @@ static bool read_grid(const void *data, Arena *arena, GridExpansion *g)
     at += sizeof *h + 4 * floats;
     g->axes = (PanelAxes){h->thetas, h->phis, axis, axis + h->thetas};
     g->cells = cells_of(h);
-    g->cell = ARENA_NEW(arena, float, g->cells * n);
+    g->cell = ARENA_NEW(arena, float, g->cells *n);
     g->follows = ARENA_NEW(arena, bool, h->phis);
     const float *scale = axis + h->thetas + h->phis;
     for (size_t k = 0; k < n; k++)
@@ -137,14 +127,12 @@ static bool read_grid(const void *data, Arena *arena, GridExpansion *g)
 
 /* ---- between components and light -------------------------------------------------------- */
 
-static double fall_of(const PanelEmission *e, double theta)
-{
+static double fall_of(const PanelEmission *e, double theta) {
     return (double)e->cosine_power * log_d(fmax((double)PANEL_LEAST_COS, cos_d(theta)));
 }
 
 /* ln E of the channels without the fall. */
-static void channel_logs(const PanelEmission *e, const float *components, float *logs)
-{
+static void channel_logs(const PanelEmission *e, const float *components, float *logs) {
     for (int c = 0; c < e->channels; c++) {
         logs[c] = e->mean[c];
         for (int k = 0; k < e->components; k++)
@@ -155,13 +143,12 @@ static void channel_logs(const PanelEmission *e, const float *components, float 
 #define LOG_MOST 60.0
 
 /* E of all cells of the grid. */
-static float *light_of_cells(const GridExpansion *g, Arena *arena)
-{
+static float *light_of_cells(const GridExpansion *g, Arena *arena) {
     const PanelEmission *e = g->emission;
     size_t phis = g->head.phis, cells = g->head.thetas * phis, n = g->head.components;
     size_t channels = (size_t)e->channels;
-    float *out = ARENA_NEW(arena, float, cells * channels), *logs = ARENA_NEW(arena, float,
-                                                                             channels);
+    float *out = ARENA_NEW(arena, float, cells *channels),
+          *logs = ARENA_NEW(arena, float, channels);
     for (size_t i = 0; i < cells; i++) {
         double fall = fall_of(e, (double)g->axes.theta[i / phis]);
         channel_logs(e, g->cell + stored_cell(&g->head, i) * n, logs);
@@ -173,26 +160,24 @@ static float *light_of_cells(const GridExpansion *g, Arena *arena)
 }
 
 /* So that logarithms become components: L^T L, a little more on its diagonal, factored. */
-static void factor_loadings(GridExpansion *g, Arena *arena)
-{
+static void factor_loadings(GridExpansion *g, Arena *arena) {
     const PanelEmission *e = g->emission;
     int n = e->components;
-    g->normal = ARENA_NEW(arena, double, n * n);
+    g->normal = ARENA_NEW(arena, double, n *n);
     for (int c = 0; c < e->channels; c++)
         for (int i = 0; i < n; i++)
             for (int k = 0; k <= i; k++)
-                g->normal[i * n + k] += (double)e->loading[c * n + i] *
-                                        (double)e->loading[c * n + k];
+                g->normal[i * n + k] +=
+                    (double)e->loading[c * n + i] * (double)e->loading[c * n + k];
     for (int i = 0; i < n; i++) g->normal[i * (n + 1)] += 1e-9;
     least_squares_factor(g->normal, (size_t)n);
 }
 
 /* Components of light, by least squares over the channels. */
 static void components_of(const GridExpansion *g, const float *light, double fall,
-                          float *components)
-{
+                          float *components) {
     const PanelEmission *e = g->emission;
-    int    n = e->components;
+    int n = e->components;
     double right[PANEL_COMPONENTS_MAX] = {0};
     for (int c = 0; c < e->channels; c++) {
         double rest = log_d(fmax((double)light[c], 1e-30)) - fall - (double)e->mean[c];
@@ -204,9 +189,8 @@ static void components_of(const GridExpansion *g, const float *light, double fal
 
 /* ---- the tree ---------------------------------------------------------------------------- */
 
-static void fill_vertices(GridExpansion *g, Arena *arena)
-{
-    Vec3  *direction = ARENA_NEW(arena, Vec3, g->vertices);
+static void fill_vertices(GridExpansion *g, Arena *arena) {
+    Vec3 *direction = ARENA_NEW(arena, Vec3, g->vertices);
     float *light = ARENA_NEW(arena, float, g->emission->channels);
     vertex_directions(g->lattice, direction);
     for (uint32_t v = 0; v < g->vertices; v++) {
@@ -220,8 +204,7 @@ static void fill_vertices(GridExpansion *g, Arena *arena)
 }
 
 /* The largest change of a channel's logarithm by components. */
-static float most_of(const GridExpansion *g, const float *components)
-{
+static float most_of(const GridExpansion *g, const float *components) {
     const PanelEmission *e = g->emission;
     float most = 0;
     for (int c = 0; c < e->channels; c++) {
@@ -235,22 +218,20 @@ static float most_of(const GridExpansion *g, const float *components)
 
 /* Triangles are linear where the light between samples is not: what that does to a cell its
  * three vertices take, each by its share (Kaczmarz's method). Returns how many cells did. */
-static int settle_cells(GridExpansion *g, const Geodesic *geodesic)
-{
+static int settle_cells(GridExpansion *g, const Geodesic *geodesic) {
     size_t n = g->head.components, phis = g->head.phis;
-    int    moved = 0;
+    int moved = 0;
     for (size_t i = 0; i < g->cells; i++) {
         size_t ring = i ? 1 + (i - 1) / phis : 0, p = i ? (i - 1) % phis : 0;
         double theta = (double)g->axes.theta[ring], phi = (double)g->axes.phi[p];
-        Vec3   d = vec3((float)(sin_d(theta) * cos_d(phi)), (float)(sin_d(theta) * sin_d(phi)),
-                        (float)cos_d(theta));
+        Vec3 d = vec3((float)(sin_d(theta) * cos_d(phi)), (float)(sin_d(theta) * sin_d(phi)),
+                      (float)cos_d(theta));
         VertexPoint at = vertex_find(geodesic, g->lattice, d);
-        float  miss[PANEL_COMPONENTS_MAX], squares = 0;
+        float miss[PANEL_COMPONENTS_MAX], squares = 0;
         for (int q = 0; q < 3; q++) squares += at.weight[q] * at.weight[q];
         for (size_t k = 0; k < n; k++) {
             miss[k] = g->cell[i * n + k];
-            for (int q = 0; q < 3; q++)
-                miss[k] -= at.weight[q] * g->value[at.vertex[q] * n + k];
+            for (int q = 0; q < 3; q++) miss[k] -= at.weight[q] * g->value[at.vertex[q] * n + k];
         }
         if (!(most_of(g, miss) > (float)SETTLED * g->head.tolerance)) continue;
         moved++;
@@ -262,8 +243,7 @@ static int settle_cells(GridExpansion *g, const Geodesic *geodesic)
 }
 
 bool panel_grid_expand(const void *data, size_t size, const PanelEmission *emission,
-                       const Geodesic *geodesic, Arena *arena, Tree *out)
-{
+                       const Geodesic *geodesic, Arena *arena, Tree *out) {
     GridExpansion grid = {.emission = emission}, *g = &grid;
     memcpy(&g->head, data, sizeof g->head);
     if (!head_is_good(&g->head, size, emission)) return false;
@@ -272,11 +252,11 @@ bool panel_grid_expand(const void *data, size_t size, const PanelEmission *emiss
     Arena scratch = *arena;
     if (!read_grid(data, &scratch, g)) return false;
     g->vertices = vertex_count(g->lattice);
-    g->value = ARENA_NEW(&scratch, float, g->vertices * (size_t)g->head.components);
+    g->value = ARENA_NEW(&scratch, float, g->vertices *(size_t)g->head.components);
     const float *cells = light_of_cells(g, &scratch);
     factor_loadings(g, &scratch);
-    panel_profiles_start(&g->axes, emission->channels, cells, (double)g->head.least_share,
-                         &scratch, &g->profiles);
+    panel_profiles_start(&g->axes, emission->channels, cells, (double)g->head.least_share, &scratch,
+                         &g->profiles);
     if (emission->has_black) g->profiles.lit -= 3;
     panel_profiles_make(&g->profiles, cells, (double)g->head.rest, &scratch);
     memcpy(g->profiles.follows, g->follows, g->head.phis);

@@ -26,18 +26,17 @@
 /* Begins as TreeHeader does. */
 typedef struct PanelGridHead {
     uint32_t magic, version;
-    uint64_t size;  /* of the whole, bytes */
-    uint8_t  level; /* of the tree */
-    uint8_t  zero[3];
+    uint64_t size; /* of the whole, bytes */
+    uint8_t level; /* of the tree */
+    uint8_t zero[3];
     uint32_t components;
     uint16_t thetas, phis;
-    float    rest;        /* radians: so near a sample its value stands */
-    float    least_share; /* of a channel's largest value: ratios count above it */
-    float    tolerance;   /* of logarithms at cells */
+    float rest;        /* radians: so near a sample its value stands */
+    float least_share; /* of a channel's largest value: ratios count above it */
+    float tolerance;   /* of logarithms at cells */
 } PanelGridHead;
 
-static inline bool panel_grid_is(const void *data, size_t size)
-{
+static inline bool panel_grid_is(const void *data, size_t size) {
     return size >= sizeof(PanelGridHead) &&
            ((const PanelGridHead *)data)->magic == PANEL_GRID_MAGIC;
 }
@@ -45,9 +44,9 @@ static inline bool panel_grid_is(const void *data, size_t size)
 /* What is to be stored. cell: thetas x phis x components. */
 typedef struct PanelGridCells {
     PanelGridHead head; /* without magic, version, size */
-    PanelAxes     axes;
-    const float  *cell;
-    const bool   *follows; /* phis */
+    PanelAxes axes;
+    const float *cell;
+    const bool *follows; /* phis */
 } PanelGridCells;
 
 /* Of components, thetas and phis alone. */

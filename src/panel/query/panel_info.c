@@ -8,15 +8,13 @@
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_place.h"
 
-int panel_info_wavelengths(const Panel *panel, float nm[PANEL_INFO_WAVELENGTHS_MAX])
-{
+int panel_info_wavelengths(const Panel *panel, float nm[PANEL_INFO_WAVELENGTHS_MAX]) {
     if (!panel->reflection) return 0;
     memcpy(nm, panel->reflection->wavelength_nm, sizeof *nm * panel->reflection->wavelengths);
     return (int)panel->reflection->wavelengths;
 }
 
-int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES_MAX])
-{
+int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES_MAX]) {
     const PanelReflection *r = panel->reflection;
     int count = 0;
     for (uint32_t i = 0; r && i < r->steps; i++)
@@ -27,8 +25,7 @@ int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES
 _Static_assert(PANEL_INFO_AZIMUTHS_MAX >= PANEL_AZIMUTHS_MAX, "room for every azimuth");
 _Static_assert(PANEL_INFO_INCIDENCES_MAX >= PANEL_INCIDENCES_MAX, "and every incidence");
 
-int panel_info_azimuths(const Panel *panel, double phi[PANEL_INFO_AZIMUTHS_MAX])
-{
+int panel_info_azimuths(const Panel *panel, double phi[PANEL_INFO_AZIMUTHS_MAX]) {
     const PanelReflection *r = panel->reflection;
     phi[0] = PI;
     if (!r || r->azimuths < 2) return r ? 1 : 0;
@@ -36,38 +33,32 @@ int panel_info_azimuths(const Panel *panel, double phi[PANEL_INFO_AZIMUTHS_MAX])
     return (int)r->azimuths;
 }
 
-bool panel_info_has_hulls(const Panel *panel)
-{
+bool panel_info_has_hulls(const Panel *panel) {
     return panel->reflection && panel->reflection->reach;
 }
 
-double panel_info_reflection_cone(const Panel *panel)
-{
+double panel_info_reflection_cone(const Panel *panel) {
     return panel->reflection ? acos_d((double)panel->reflection->cone_cos) : 0;
 }
 
 /* ---- emission -------------------------------------------------------------------------- */
 
-bool panel_info_emits(const Panel *panel)
-{
+bool panel_info_emits(const Panel *panel) {
     return panel->emission != NULL;
 }
 
-int panel_info_levels(const Panel *panel, int primary, double code[PANEL_INFO_LEVELS_MAX])
-{
+int panel_info_levels(const Panel *panel, int primary, double code[PANEL_INFO_LEVELS_MAX]) {
     const PanelEmission *e = panel->emission;
     for (int i = 0; e && i < (int)e->level_count[primary]; i++)
         code[i] = (double)e->level[primary][i];
     return e ? (int)e->level_count[primary] : 0;
 }
 
-double panel_info_emission_cone(const Panel *panel)
-{
+double panel_info_emission_cone(const Panel *panel) {
     return panel->emission ? acos_d((double)panel->emission->cone_cos) : 0;
 }
 
-const float *panel_info_spectrum(const Panel *panel, int primary)
-{
+const float *panel_info_spectrum(const Panel *panel, int primary) {
     return panel->primaries ? panel->primaries->spectrum[primary] : NULL;
 }
 
@@ -76,22 +67,19 @@ const float *panel_info_spectrum(const Panel *panel, int primary)
 #define COLUMNS 96
 #define ROWS 54
 
-static double luminance_at(const Panel *panel, const float place[2], const float rgb[3])
-{
+static double luminance_at(const Panel *panel, const float place[2], const float rgb[3]) {
     float xyz[3];
     panel_place_emission_xyz(panel, place, vec3(0, 0, 1), rgb, xyz);
     return (double)xyz[1];
 }
 
-void panel_nine_place(int index, float place[2])
-{
+void panel_nine_place(int index, float place[2]) {
     static const float at[3] = {0.1f, 0.5f, 0.9f};
     place[0] = at[index % 3];
     place[1] = at[index / 3];
 }
 
-PanelEvenness panel_evenness(const Panel *panel, const float rgb[3])
-{
+PanelEvenness panel_evenness(const Panel *panel, const float rgb[3]) {
     PanelEvenness out = {.nine_least = INFINITY, .least = INFINITY};
     for (int i = 0; i < PANEL_NINE; i++) {
         float place[2];
@@ -102,8 +90,8 @@ PanelEvenness panel_evenness(const Panel *panel, const float rgb[3])
         out.nine_mean += out.nine[i] / PANEL_NINE;
     }
     for (int i = 0; i < COLUMNS * ROWS; i++) {
-        float  place[2] = {((float)(i % COLUMNS) + 0.5f) / COLUMNS,
-                           ((float)(i / COLUMNS) + 0.5f) / ROWS};
+        float place[2] = {((float)(i % COLUMNS) + 0.5f) / COLUMNS,
+                          ((float)(i / COLUMNS) + 0.5f) / ROWS};
         double y = luminance_at(panel, place, rgb);
         out.least = fmin(out.least, y);
         out.most = fmax(out.most, y);
@@ -114,13 +102,11 @@ PanelEvenness panel_evenness(const Panel *panel, const float rgb[3])
 
 _Static_assert(PANEL_EVENNESS_SPOTS >= SPOT_GROUND_MAX, "room for every spot");
 
-int panel_spots(const Panel *panel, float place[PANEL_EVENNESS_SPOTS][2], int map[2])
-{
+int panel_spots(const Panel *panel, float place[PANEL_EVENNESS_SPOTS][2], int map[2]) {
     const PanelPlaces *places = panel->places;
     map[0] = map[1] = 0;
     if (!places) return 0;
-    for (int i = 0; i < places->spots; i++)
-        memcpy(place[i], places->ground.at[i], sizeof place[i]);
+    for (int i = 0; i < places->spots; i++) memcpy(place[i], places->ground.at[i], sizeof place[i]);
     if (places->map) map[0] = places->map->width, map[1] = places->map->height;
     return places->spots;
 }

@@ -61,8 +61,7 @@ void panel_nine_place(int index, float place[2]);
 PanelEvenness panel_evenness(const Panel *panel, const float rgb[3]);
 
 /* By how much least is less than most, 0 to 1; 0 where there is no light. */
-static inline double panel_non_uniformity(double least, double most)
-{
+static inline double panel_non_uniformity(double least, double most) {
     return most > 0 ? 1 - least / most : 0;
 }
 

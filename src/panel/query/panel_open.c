@@ -28,14 +28,12 @@ _Static_assert(sizeof(PanelMapHead) == 32, "the file's layout");
 
 /* ---- spots ------------------------------------------------------------------------------- */
 
-static bool is_place(const float at[2])
-{
+static bool is_place(const float at[2]) {
     return at[0] >= 0 && at[0] <= 1 && at[1] >= 0 && at[1] <= 1;
 }
 
 /* Each panel was measured at one place: where the first spot that names it stands. */
-static bool place_panels(const PanelBytes *bytes, PanelPlaces *places, float (*at)[2])
-{
+static bool place_panels(const PanelBytes *bytes, PanelPlaces *places, float (*at)[2]) {
     for (int k = 1; k < places->panels; k++) {
         int i = 0;
         while (i < places->spots && places->emission[i] != k && places->reflection[i] != k) i++;
@@ -45,9 +43,7 @@ static bool place_panels(const PanelBytes *bytes, PanelPlaces *places, float (*a
     return true;
 }
 
-static bool check_spots(const PanelBytes *bytes, const float (*at)[2],
-                        const PanelPlaces *places)
-{
+static bool check_spots(const PanelBytes *bytes, const float (*at)[2], const PanelPlaces *places) {
     for (int i = 0; i < places->spots; i++) {
         if (!is_place(at[i])) return panel_refuse(bytes, "spots", "a place is out of range");
         if (places->emission[i] >= places->panels || places->reflection[i] >= places->panels)
@@ -60,8 +56,7 @@ static bool check_spots(const PanelBytes *bytes, const float (*at)[2],
 }
 
 static bool read_spots(const PanelBytes *bytes, const PanelBytes *section, Arena *arena,
-                       PanelPlaces *out)
-{
+                       PanelPlaces *out) {
     PanelSpotsHead head;
     if (section->size < sizeof head) return panel_refuse(bytes, "spots", "is too short");
     memcpy(&head, section->data, sizeof head);
@@ -69,8 +64,8 @@ static bool read_spots(const PanelBytes *bytes, const PanelBytes *section, Arena
         return panel_refuse(bytes, "spots", "a number is out of range");
     if (section->size != sizeof head + head.spots * sizeof(PanelSpotStored))
         return panel_refuse(bytes, "spots", "has another size than its count says");
-    float (*at)[2] = arena_alloc(arena, sizeof *at, _Alignof(float), head.spots);
-    float (*panel_at)[2] = arena_alloc(arena, sizeof *at, _Alignof(float), head.panels + 1);
+    float(*at)[2] = arena_alloc(arena, sizeof *at, _Alignof(float), head.spots);
+    float(*panel_at)[2] = arena_alloc(arena, sizeof *at, _Alignof(float), head.panels + 1);
     uint16_t *emission = ARENA_NEW(arena, uint16_t, head.spots);
     uint16_t *reflection = ARENA_NEW(arena, uint16_t, head.spots);
     for (int i = 0; i < head.spots; i++) {
@@ -81,13 +76,14 @@ static bool read_spots(const PanelBytes *bytes, const PanelBytes *section, Arena
         reflection[i] = spot.reflection;
     }
     memcpy(panel_at[0], head.own_at, sizeof *panel_at);
-    *out = (PanelPlaces){.panels = head.panels + 1, .spots = head.spots, .emission = emission,
+    *out = (PanelPlaces){.panels = head.panels + 1,
+                         .spots = head.spots,
+                         .emission = emission,
                          .reflection = reflection,
-                         .measured_at = (const float (*)[2])panel_at};
+                         .measured_at = (const float(*)[2])panel_at};
     out->panel = ARENA_NEW(arena, const Panel *, out->panels);
-    if (!check_spots(bytes, (const float (*)[2])at, out)) return false;
-    if (out->spots)
-        spot_ground_build((const float (*)[2])at, out->spots, arena, &out->ground);
+    if (!check_spots(bytes, (const float(*)[2])at, out)) return false;
+    if (out->spots) spot_ground_build((const float(*)[2])at, out->spots, arena, &out->ground);
     return place_panels(bytes, out, panel_at);
 }
 
@@ -95,10 +91,9 @@ static bool read_spots(const PanelBytes *bytes, const PanelBytes *section, Arena
 
 /* Where the planes of white or black begin; one serves all three. */
 static void set_planes(const PanelMapHead *head, const uint16_t *first, int channels, int kind,
-                       PanelMap *out)
-{
+                       PanelMap *out) {
     size_t pixels = (size_t)head->width * head->height;
-    int    before = kind ? head->white_channels : 0;
+    int before = kind ? head->white_channels : 0;
     for (int j = 0; j < 3; j++) {
         int plane = before + (channels == 3 ? j : 0);
         out->value[kind][j] = first + (size_t)plane * pixels;
@@ -106,8 +101,7 @@ static void set_planes(const PanelMapHead *head, const uint16_t *first, int chan
     }
 }
 
-static bool check_map(const PanelBytes *bytes, const PanelMapHead *head, size_t size)
-{
+static bool check_map(const PanelBytes *bytes, const PanelMapHead *head, size_t size) {
     int white = head->white_channels, black = head->black_channels;
     if (!head->width || !head->height || head->width > PANEL_MAP_SIDE_MAX ||
         head->height > PANEL_MAP_SIDE_MAX || (white != 1 && white != 3) ||
@@ -122,8 +116,7 @@ static bool check_map(const PanelBytes *bytes, const PanelMapHead *head, size_t 
 }
 
 static bool read_map(const PanelBytes *bytes, const PanelBytes *section, Arena *arena,
-                     const PanelMap **out)
-{
+                     const PanelMap **out) {
     PanelMapHead head;
     if (section->size < sizeof head) return panel_refuse(bytes, "map", "is too short");
     memcpy(&head, section->data, sizeof head);
@@ -145,10 +138,9 @@ static bool read_map(const PanelBytes *bytes, const PanelBytes *section, Arena *
 
 /* The spots and the map; *out NULL: the file has neither. The panels of the spots are still to
  * be opened: panel [0] is the file's own. */
-static bool panel_read_places(const PanelBytes *bytes, Arena *arena, PanelPlaces **out)
-{
+static bool panel_read_places(const PanelBytes *bytes, Arena *arena, PanelPlaces **out) {
     PanelBytes spots, map;
-    bool       has_spots, has_map;
+    bool has_spots, has_map;
     *out = NULL;
     if (!panel_find_section(bytes, PANEL_SPOTS, 0, &spots, &has_spots) ||
         !panel_find_section(bytes, PANEL_MAP, 0, &map, &has_map))
@@ -165,8 +157,7 @@ static bool panel_read_places(const PanelBytes *bytes, Arena *arena, PanelPlaces
     return true;
 }
 
-static bool check_panels(const PanelBytes *bytes, const PanelPlaces *places)
-{
+static bool check_panels(const PanelBytes *bytes, const PanelPlaces *places) {
     const Panel *own = places->panel[0];
     if (places->map && !own->emission)
         return panel_refuse(bytes, "map", "stands without an emission");
@@ -178,8 +169,7 @@ static bool check_panels(const PanelBytes *bytes, const PanelPlaces *places)
 }
 
 /* Black over white along the normal. */
-static void find_dark(const Panel *panel, float dark[3])
-{
+static void find_dark(const Panel *panel, float dark[3]) {
     static const float codes[2][3] = {{0, 0, 0}, {255, 255, 255}};
     float xyz[2][3];
     for (int k = 0; k < 2; k++) panel_emission_xyz(panel, vec3(0, 0, 1), codes[k], xyz[k]);
@@ -187,12 +177,11 @@ static void find_dark(const Panel *panel, float dark[3])
         dark[j] = xyz[1][j] > xyz[0][j] ? clampf(xyz[0][j] / xyz[1][j], 0, 0.999f) : 0;
 }
 
-static bool find_references(const PanelBytes *bytes, Arena *arena, PanelPlaces *places)
-{
+static bool find_references(const PanelBytes *bytes, Arena *arena, PanelPlaces *places) {
     size_t panels = (size_t)places->panels;
-    float (*values)[3] = arena_alloc(arena, sizeof *values, _Alignof(float), 3 * panels);
-    float (*white)[3] = values, (*black)[3] = values + places->panels;
-    float (*dark)[3] = black + places->panels;
+    float(*values)[3] = arena_alloc(arena, sizeof *values, _Alignof(float), 3 * panels);
+    float(*white)[3] = values, (*black)[3] = values + places->panels;
+    float(*dark)[3] = black + places->panels;
     for (int k = 0; k < places->panels; k++) {
         if (!places->panel[k]->emission) continue; /* a spot's reflection alone */
         panel_map_at(places->map, places->measured_at[k], white[k], black[k]);
@@ -201,9 +190,9 @@ static bool find_references(const PanelBytes *bytes, Arena *arena, PanelPlaces *
                 return panel_refuse(bytes, "map", "is dark where a panel was measured");
         find_dark(places->panel[k], dark[k]);
     }
-    places->white = (const float (*)[3])white;
-    places->black = (const float (*)[3])black;
-    places->dark = (const float (*)[3])dark;
+    places->white = (const float(*)[3])white;
+    places->black = (const float(*)[3])black;
+    places->dark = (const float(*)[3])dark;
     return true;
 }
 
@@ -214,10 +203,9 @@ typedef struct MapColours {
 
 #define COLOUR_MOST 3.0f /* beyond, a pixel is no measurement */
 
-static MapColours map_colours(const PanelMap *map)
-{
+static MapColours map_colours(const PanelMap *map) {
     MapColours out = {{0, 0}, {0, 0}};
-    size_t     pixels = (size_t)map->width * (size_t)map->height;
+    size_t pixels = (size_t)map->width * (size_t)map->height;
     for (int kind = 0; kind < 1 + map->has_black; kind++) {
         if (map->value[kind][0] == map->value[kind][1]) continue; /* grey */
         for (size_t i = 0; i < pixels; i++)
@@ -234,8 +222,7 @@ static MapColours map_colours(const PanelMap *map)
 }
 
 /* Corners of the box of colours, in the axes of a warp's range. */
-static void widen(SpectralWarpRange *range, const MapColours *colours, const float at[3])
-{
+static void widen(SpectralWarpRange *range, const MapColours *colours, const float at[3]) {
     float low[2] = {0, 0}, high[2] = {0, 0};
     for (int corner = 0; corner < 4; corner++) {
         float u = (corner & 1 ? colours->high : colours->low)[0] - log_f(at[0] / at[1]);
@@ -250,27 +237,23 @@ static void widen(SpectralWarpRange *range, const MapColours *colours, const flo
     for (int k = 0; k < 2; k++) range->low[k] += low[k], range->high[k] += high[k];
 }
 
-static bool is_grey(const PanelMap *map)
-{
+static bool is_grey(const PanelMap *map) {
     return map->value[0][0] == map->value[0][1] && map->value[1][0] == map->value[1][1];
 }
 
-static void widen_warps(PanelPlaces *places)
-{
+static void widen_warps(PanelPlaces *places) {
     if (is_grey(places->map)) return;
     MapColours colours = map_colours(places->map);
     for (int k = 0; k < places->panels; k++) {
         PanelPrimaries *primaries = (PanelPrimaries *)places->panel[k]->primaries;
         for (int p = 0; primaries && p < 4; p++)
-            widen(&primaries->warp[p].range, &colours,
-                  p < 3 ? places->white[k] : places->black[k]);
+            widen(&primaries->warp[p].range, &colours, p < 3 ? places->white[k] : places->black[k]);
     }
 }
 
 /* Once all panels are opened: checks that every spot has what the file has, and reads the map
  * at each panel's place. The ranges of their primaries' warps grow by the map's colours. */
-static bool panel_finish_places(const PanelBytes *bytes, Arena *arena, PanelPlaces *places)
-{
+static bool panel_finish_places(const PanelBytes *bytes, Arena *arena, PanelPlaces *places) {
     if (!check_panels(bytes, places)) return false;
     if (!places->map) return true;
     if (!find_references(bytes, arena, places)) return false;
@@ -279,22 +262,20 @@ static bool panel_finish_places(const PanelBytes *bytes, Arena *arena, PanelPlac
 }
 
 /* The finest level of any tree inside, read before the trees themselves are checked. */
-static bool finest_level(const PanelBytes *bytes, int *level)
-{
+static bool finest_level(const PanelBytes *bytes, int *level) {
     static const PanelSectionKind kinds[] = {PANEL_EMISSION_TREE, PANEL_REFLECTION_TREE,
                                              PANEL_SAMPLING};
     *level = 0;
     for (int k = 0; k < 3; k++)
         for (uint32_t i = 0; i < PANEL_SLICES_MAX; i++) {
             PanelBytes at;
-            bool  found;
-            int   one = 0;
+            bool found;
+            int one = 0;
             if (!panel_find_section(bytes, kinds[k], i, &at, &found)) return false;
             if (!found) break;
             if (kinds[k] == PANEL_SAMPLING && at.size >= sizeof(SamplingHeader))
                 one = ((const SamplingHeader *)at.data)->level;
-            else if (kinds[k] == PANEL_SAMPLING)
-                one = SAMPLING_MADE_LEVEL;
+            else if (kinds[k] == PANEL_SAMPLING) one = SAMPLING_MADE_LEVEL;
             else if (kinds[k] != PANEL_SAMPLING && at.size >= sizeof(TreeHeader))
                 one = ((const TreeHeader *)at.data)->level;
             *level = one > *level ? one : *level;
@@ -303,24 +284,23 @@ static bool finest_level(const PanelBytes *bytes, int *level)
 }
 
 /* The checksum does not cover the version: what stands in the file has to bear it out. */
-static bool check_version(const PanelBytes *bytes, const PanelHeader *header,
-                          const Panel *panel)
-{
-    bool     has_frame = panel->reflection && panel->reflection->frame != PANEL_FRAME_SPECULAR;
+static bool check_version(const PanelBytes *bytes, const PanelHeader *header, const Panel *panel) {
+    bool has_frame = panel->reflection && panel->reflection->frame != PANEL_FRAME_SPECULAR;
     uint32_t wanted = panel->zones    ? PANEL_VERSION_ZONES
                       : panel->places ? PANEL_VERSION_PLACES
-                      : has_frame     ? PANEL_VERSION : PANEL_VERSION_PLAIN;
+                      : has_frame     ? PANEL_VERSION
+                                      : PANEL_VERSION_PLAIN;
     if (header->version == wanted) return true;
     return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
                     "has version %u, required: %u for what the file holds; it is damaged: fit "
-                    "the panel again", header->version, wanted);
+                    "the panel again",
+                    header->version, wanted);
 }
 
 /* The angle is held in its range: what is stored rounds to float. */
-static bool open_polarised(const PanelBytes *bytes, Panel *panel)
-{
+static bool open_polarised(const PanelBytes *bytes, Panel *panel) {
     PanelBytes at;
-    bool       found;
+    bool found;
     PanelPolarisedStored stored;
     if (!panel_find_section(bytes, PANEL_POLARISED, 0, &at, &found)) return false;
     if (!found) return true;
@@ -330,18 +310,16 @@ static bool open_polarised(const PanelBytes *bytes, Panel *panel)
     if (!(stored.degree > 0 && stored.degree <= 1) ||
         !(stored.azimuth >= 0 && stored.azimuth < PI_F))
         return panel_refuse(bytes, "polarisation", "a number is out of range");
-    if (!panel->emission)
-        return panel_refuse(bytes, "polarisation", "stands without an emission");
+    if (!panel->emission) return panel_refuse(bytes, "polarisation", "stands without an emission");
     panel->polarisation = (PanelPolarisation){stored.degree, stored.azimuth};
     return true;
 }
 
 /* All of a file but its places and the warps. */
-static bool open_one(const PanelBytes *bytes, Arena *arena, PanelHeader *header, Panel **out)
-{
+static bool open_one(const PanelBytes *bytes, Arena *arena, PanelHeader *header, Panel **out) {
     PanelBytes meta, figures = {0};
-    int        level;
-    bool       has_figures;
+    int level;
+    bool has_figures;
     if (!panel_check_header(bytes, header) || !finest_level(bytes, &level) ||
         !panel_need_section(bytes, PANEL_META, 0, &meta) ||
         !panel_find_section(bytes, PANEL_REPORT_TABLES, 0, &figures, &has_figures))
@@ -354,8 +332,8 @@ static bool open_one(const PanelBytes *bytes, Arena *arena, PanelHeader *header,
     panel->figures = has_figures ? figures.data : NULL;
     panel->figures_size = figures.size;
     if (!panel_open_emission(bytes, geodesic, arena, panel) ||
-        !panel_open_reflection(bytes, geodesic, arena, panel) ||
-        !open_polarised(bytes, panel) || !panel_open_zones(bytes, arena, panel))
+        !panel_open_reflection(bytes, geodesic, arena, panel) || !open_polarised(bytes, panel) ||
+        !panel_open_zones(bytes, arena, panel))
         return false;
     if (!panel->emission && !panel->reflection)
         return panel_refuse(bytes, "table of contents", "neither emits nor reflects");
@@ -363,20 +341,18 @@ static bool open_one(const PanelBytes *bytes, Arena *arena, PanelHeader *header,
     return true;
 }
 
-static bool check_sampling(const PanelBytes *bytes, const Panel *panel)
-{
+static bool check_sampling(const PanelBytes *bytes, const Panel *panel) {
     return !panel->reflection || panel->sampling.incidences ||
            panel_refuse(bytes, "table of contents",
                         "a reflection stands without its sampling tree");
 }
 
 /* A spot's panel is a file in the file, of one place. */
-static bool open_spot(const PanelBytes *bytes, int index, Arena *arena, const Panel **out)
-{
-    PanelBytes  at, inner;
+static bool open_spot(const PanelBytes *bytes, int index, Arena *arena, const Panel **out) {
+    PanelBytes at, inner;
     PanelHeader header;
-    Panel      *panel;
-    bool        has_spots, has_map;
+    Panel *panel;
+    bool has_spots, has_map;
     if (!panel_need_section(bytes, PANEL_SPOT_FILE, (uint32_t)index, &at)) return false;
     if (!open_one(&at, arena, &header, &panel) || !check_version(&at, &header, panel) ||
         !check_sampling(&at, panel) ||
@@ -389,8 +365,7 @@ static bool open_spot(const PanelBytes *bytes, int index, Arena *arena, const Pa
     return true;
 }
 
-static bool open_places(const PanelBytes *bytes, Arena *arena, Panel *panel)
-{
+static bool open_places(const PanelBytes *bytes, Arena *arena, Panel *panel) {
     PanelPlaces *places;
     if (!panel_read_places(bytes, arena, &places)) return false;
     if (!places) return true;
@@ -404,10 +379,9 @@ static bool open_places(const PanelBytes *bytes, Arena *arena, Panel *panel)
 }
 
 /* Read as its first state alone it would answer for a display that nobody chose. */
-static bool refuse_states(const PanelBytes *bytes)
-{
+static bool refuse_states(const PanelBytes *bytes) {
     PanelBytes at;
-    bool       found;
+    bool found;
     return panel_find_section(bytes, PANEL_STATES, 0, &at, &found) &&
            (!found || error_at(bytes->err, ERROR_INPUT, bytes->name, "",
                                "has several states of a display, which are no longer read; "
@@ -415,12 +389,11 @@ static bool refuse_states(const PanelBytes *bytes)
                                "`--panel NAME=FILE`"));
 }
 
-bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *arena,
-                      Panel **out, Error *err)
-{
-    PanelBytes  bytes = {data, size, name, err};
+bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *arena, Panel **out,
+                      Error *err) {
+    PanelBytes bytes = {data, size, name, err};
     PanelHeader header;
-    Panel      *panel;
+    Panel *panel;
     if (!open_one(&bytes, arena, &header, &panel) || !refuse_states(&bytes) ||
         !open_places(&bytes, arena, panel) || !check_version(&bytes, &header, panel))
         return false;
@@ -429,18 +402,16 @@ bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *ar
     return true;
 }
 
-bool panel_open_memory(const void *data, size_t size, const char *name, Arena *arena,
-                       Panel **out, Error *err)
-{
+bool panel_open_memory(const void *data, size_t size, const char *name, Arena *arena, Panel **out,
+                       Error *err) {
     PanelBytes bytes = {data, size, name, err};
     return panel_from_bytes(data, size, name, arena, out, err) && check_sampling(&bytes, *out);
 }
 
 /* A copy, not a mapping: a file that shrinks under a mapping kills the process, and one that
  * changes would be queried unchecked. */
-bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
-{
-    Arena     copy = arena_reserve(PANEL_FILE_BYTES_MAX + 4096);
+bool panel_open(const char *path, Arena *arena, Panel **out, Error *err) {
+    Arena copy = arena_reserve(PANEL_FILE_BYTES_MAX + 4096);
     FileBytes bytes = {0};
     if (!file_read(path, PANEL_FILE_BYTES_MAX, &copy, &bytes, err) ||
         !panel_open_memory(bytes.data, bytes.size, path, arena, out, err)) {
@@ -451,22 +422,19 @@ bool panel_open(const char *path, Arena *arena, Panel **out, Error *err)
     return true;
 }
 
-void panel_close(Panel *panel)
-{
+void panel_close(Panel *panel) {
     if (panel) arena_release(&panel->copy);
 }
 
 /* ---- coarser ---------------------------------------------------------------------------- */
 
-int panel_coarse_finest(const Panel *panel)
-{
+int panel_coarse_finest(const Panel *panel) {
     int emission = panel->emission ? panel->emission_tree.level : 0;
     int reflection = panel->reflection ? panel->reflection_tree.level : 0;
     return emission > reflection ? emission : reflection;
 }
 
-static void stop_trees(Panel *panel, int level, unsigned parts, Arena *arena)
-{
+static void stop_trees(Panel *panel, int level, unsigned parts, Arena *arena) {
     Tree *emission = &panel->emission_tree, *reflection = &panel->reflection_tree;
     if (panel->emission && parts & PANEL_COARSE_EMISSION)
         tree_stop(emission, level < emission->level ? level : emission->level, arena);
@@ -474,8 +442,7 @@ static void stop_trees(Panel *panel, int level, unsigned parts, Arena *arena)
         tree_stop(reflection, level < reflection->level ? level : reflection->level, arena);
 }
 
-void panel_coarsen(Panel *panel, int level, unsigned parts, Arena *arena)
-{
+void panel_coarsen(Panel *panel, int level, unsigned parts, Arena *arena) {
     const PanelPlaces *places = panel->places;
     stop_trees(panel, level, parts, arena);
     for (int k = 1; places && k < places->panels; k++)

@@ -20,13 +20,13 @@ bool panel_open(const char *path, Arena *arena, Panel **out, Error *err);
 
 /* The same for a file in memory, aligned to 8 bytes, which stays the caller's and must outlive
  * the panel. name: of the file, for messages. */
-bool panel_open_memory(const void *data, size_t size, const char *name, Arena *arena,
-                       Panel **out, Error *err);
+bool panel_open_memory(const void *data, size_t size, const char *name, Arena *arena, Panel **out,
+                       Error *err);
 void panel_close(Panel *panel); /* NULL is fine */
 
 /* As panel_open_memory, before the sampling of the reflection is there. */
-bool panel_from_bytes(const void *bytes, size_t size, const char *name, Arena *arena,
-                      Panel **out, Error *err);
+bool panel_from_bytes(const void *bytes, size_t size, const char *name, Arena *arena, Panel **out,
+                      Error *err);
 
 /* ---- coarser ---------------------------------------------------------------------------- */
 

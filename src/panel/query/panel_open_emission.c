@@ -20,11 +20,10 @@ _Static_assert(sizeof(PanelPrimariesHead) == 24, "the file's layout");
 /* The unread rest of a section. */
 typedef struct Rest {
     const unsigned char *at;
-    size_t               size;
+    size_t size;
 } Rest;
 
-static bool take(Rest *rest, void *to, size_t bytes)
-{
+static bool take(Rest *rest, void *to, size_t bytes) {
     if (rest->size < bytes) return false;
     if (bytes) memcpy(to, rest->at, bytes);
     rest->at += bytes;
@@ -32,8 +31,7 @@ static bool take(Rest *rest, void *to, size_t bytes)
     return true;
 }
 
-static bool take_levels(Rest *rest, PanelEmission *e)
-{
+static bool take_levels(Rest *rest, PanelEmission *e) {
     for (int p = 0; p < 3; p++)
         for (int i = 0; i < e->level_count[p]; i++) {
             uint16_t stored;
@@ -43,8 +41,7 @@ static bool take_levels(Rest *rest, PanelEmission *e)
     return true;
 }
 
-static bool take_means(Rest *rest, PanelEmission *e, Arena *arena)
-{
+static bool take_means(Rest *rest, PanelEmission *e, Arena *arena) {
     float *mean = ARENA_NEW(arena, float, e->channels);
     for (int c = 0; c < e->channels; c++) {
         int16_t stored;
@@ -55,36 +52,36 @@ static bool take_means(Rest *rest, PanelEmission *e, Arena *arena)
     return true;
 }
 
-static bool take_loadings(Rest *rest, PanelEmission *e, Arena *arena)
-{
+static bool take_loadings(Rest *rest, PanelEmission *e, Arena *arena) {
     uint8_t exponent[PANEL_COMPONENTS_MAX], width[PANEL_COMPONENTS_MAX];
-    float  *loading = ARENA_NEW(arena, float, e->channels * e->components);
-    if (!take(rest, exponent, (size_t)e->components) ||
-        !take(rest, width, (size_t)e->components))
+    float *loading = ARENA_NEW(arena, float, e->channels * e->components);
+    if (!take(rest, exponent, (size_t)e->components) || !take(rest, width, (size_t)e->components))
         return false;
     for (int pass = 2; pass >= 1; pass--)
         for (int k = 0; k < e->components; k++) {
             if (width[k] < 1 || width[k] > 2 || exponent[k] > 30) return false;
             for (int c = 0; c < e->channels && width[k] == pass; c++) {
                 int16_t wide = 0;
-                int8_t  narrow = 0;
+                int8_t narrow = 0;
                 if (pass == 2 ? !take(rest, &wide, 2) : !take(rest, &narrow, 1)) return false;
-                loading[c * e->components + k] =
-                    ldexpf((float)(wide + narrow), -(int)exponent[k]);
+                loading[c * e->components + k] = ldexpf((float)(wide + narrow), -(int)exponent[k]);
             }
         }
     e->loading = loading;
     return true;
 }
 
-static bool read_head(const PanelBytes *at, Rest *rest, PanelEmission *e)
-{
+static bool read_head(const PanelBytes *at, Rest *rest, PanelEmission *e) {
     PanelEmissionHead head;
     if (!take(rest, &head, sizeof head)) return panel_refuse(at, "emission", "is too short");
-    *e = (PanelEmission){.components = head.components, .has_black = head.has_black != 0,
-                         .stride = (head.components + 3) / 4 * 4, .cone_cos = head.cone_cos,
-                         .level_power = head.level_power, .cosine_power = head.cosine_power,
-                         .channels = head.has_black ? 3 : 0, .beams = head.beams};
+    *e = (PanelEmission){.components = head.components,
+                         .has_black = head.has_black != 0,
+                         .stride = (head.components + 3) / 4 * 4,
+                         .cone_cos = head.cone_cos,
+                         .level_power = head.level_power,
+                         .cosine_power = head.cosine_power,
+                         .channels = head.has_black ? 3 : 0,
+                         .beams = head.beams};
     for (int p = 0; p < 3; p++) {
         e->level_count[p] = head.level_count[p];
         e->channels += 3 * e->level_count[p];
@@ -93,17 +90,14 @@ static bool read_head(const PanelBytes *at, Rest *rest, PanelEmission *e)
     }
     if (head.has_black > 1 || e->components < 1 || e->components > PANEL_COMPONENTS_MAX)
         return panel_refuse(at, "emission", "component count out of range");
-    if (e->beams > PANEL_BEAMS_MAX)
-        return panel_refuse(at, "emission", "beam count out of range");
-    if (!(e->cone_cos >= 0 && e->cone_cos <= 1) ||
-        !(e->level_power > 0 && e->level_power < 10) ||
+    if (e->beams > PANEL_BEAMS_MAX) return panel_refuse(at, "emission", "beam count out of range");
+    if (!(e->cone_cos >= 0 && e->cone_cos <= 1) || !(e->level_power > 0 && e->level_power < 10) ||
         !(e->cosine_power >= 0 && e->cosine_power < 10))
         return panel_refuse(at, "emission", "cone or level power out of range");
     return true;
 }
 
-static bool check_levels(const PanelBytes *at, const PanelEmission *e)
-{
+static bool check_levels(const PanelBytes *at, const PanelEmission *e) {
     for (int p = 0; p < 3; p++)
         if (!(e->level[p][0] > 0) || !(e->level[p][e->level_count[p] - 1] <= 255) ||
             !panel_rising(e->level[p], (uint32_t)e->level_count[p]))
@@ -111,8 +105,7 @@ static bool check_levels(const PanelBytes *at, const PanelEmission *e)
     return true;
 }
 
-static bool take_spline(Rest *rest, PanelEmission *e, Arena *arena)
-{
+static bool take_spline(Rest *rest, PanelEmission *e, Arena *arena) {
     size_t used = 0;
     if (!panel_spline_open(rest->at, rest->size, e->components, arena, &e->spline, &used))
         return false;
@@ -120,8 +113,7 @@ static bool take_spline(Rest *rest, PanelEmission *e, Arena *arena)
     return true;
 }
 
-static bool take_beams(Rest *rest, PanelEmission *e, Arena *arena)
-{
+static bool take_beams(Rest *rest, PanelEmission *e, Arena *arena) {
     for (int b = 0; b < e->beams; b++) {
         size_t used = 0;
         if (!panel_beam_open(rest->at, rest->size, e->components, arena, &e->beam[b], &used))
@@ -131,12 +123,10 @@ static bool take_beams(Rest *rest, PanelEmission *e, Arena *arena)
     return true;
 }
 
-static bool read_section(const PanelBytes *at, Arena *arena, PanelEmission *e)
-{
+static bool read_section(const PanelBytes *at, Arena *arena, PanelEmission *e) {
     Rest rest = {at->data, at->size};
     if (!read_head(at, &rest, e)) return false;
-    if (!take_levels(&rest, e) || !take_means(&rest, e, arena) ||
-        !take_loadings(&rest, e, arena) ||
+    if (!take_levels(&rest, e) || !take_means(&rest, e, arena) || !take_loadings(&rest, e, arena) ||
         !take_spline(&rest, e, arena) || !take_beams(&rest, e, arena) || rest.size != 0)
         return panel_refuse(at, "emission", "has another size than its counts say");
     return check_levels(at, e);
@@ -145,15 +135,14 @@ static bool read_section(const PanelBytes *at, Arena *arena, PanelEmission *e)
 /* ---- tables of codes -------------------------------------------------------------------- */
 
 /* One row of PanelEmission.code_rows: weights of a primary's levels, channel by channel. */
-static void code_row(const PanelEmission *e, int primary, const float *log_level,
-                     float log_code, float *row)
-{
+static void code_row(const PanelEmission *e, int primary, const float *log_level, float log_code,
+                     float *row) {
     int first = (int)panel_first_channel(e, primary), count = e->level_count[primary];
     for (int j = 0; j < 3; j++) {
         float curve[PANEL_LEVELS_MAX];
         for (int i = 0; i < count; i++) curve[i] = e->mean[first + 3 * i + j];
-        PanelLevelWeights w = panel_level_weights(log_level, curve, count, e->level_power,
-                                                  log_code);
+        PanelLevelWeights w =
+            panel_level_weights(log_level, curve, count, e->level_power, log_code);
         row[j] += w.offset;
         for (int i = 0; i < 4 && w.first + i < count; i++) {
             int channel = first + 3 * (w.first + i) + j;
@@ -165,12 +154,10 @@ static void code_row(const PanelEmission *e, int primary, const float *log_level
 }
 
 /* Codes 1 .. 255; row 0: the change from code 1 to e. */
-static const float *code_rows(const PanelEmission *e, int primary, Arena *arena)
-{
+static const float *code_rows(const PanelEmission *e, int primary, Arena *arena) {
     size_t size = 4 * (size_t)(e->components + 1);
     float *rows = ARENA_NEW(arena, float, 256 * size), log_level[PANEL_LEVELS_MAX];
-    for (int i = 0; i < e->level_count[primary]; i++)
-        log_level[i] = log_f(e->level[primary][i]);
+    for (int i = 0; i < e->level_count[primary]; i++) log_level[i] = log_f(e->level[primary][i]);
     for (int code = 1; code < 256; code++)
         code_row(e, primary, log_level, e->log_code[code], rows + size * (size_t)code);
     float *below = ARENA_NEW(arena, float, size);
@@ -179,13 +166,12 @@ static const float *code_rows(const PanelEmission *e, int primary, Arena *arena)
     return rows;
 }
 
-static void expand_codes(PanelEmission *e, Arena *arena)
-{
+static void expand_codes(PanelEmission *e, Arena *arena) {
     for (int code = 1; code < 256; code++) e->log_code[code] = log_f((float)code);
     for (int p = 0; p < 3; p++) e->code_rows[p] = code_rows(e, p, arena);
     if (!e->has_black) return;
     float *row = ARENA_NEW(arena, float, 4 * (size_t)(e->components + 1));
-    int    first = (int)panel_first_channel(e, 3);
+    int first = (int)panel_first_channel(e, 3);
     for (int j = 0; j < 3; j++) {
         row[j] = e->mean[first + j];
         for (int k = 0; k < e->components; k++)
@@ -200,15 +186,13 @@ static void expand_codes(PanelEmission *e, Arena *arena)
 
 /* ln E of the channels at a direction; with_beams: a beam may lie between the directions of a
  * coarse grid, and is then left out. */
-static void channel_logs(const Panel *panel, Vec3 direction, bool with_beams, float *logs)
-{
+static void channel_logs(const Panel *panel, Vec3 direction, bool with_beams, float *logs) {
     const PanelEmission *e = panel->emission;
     float components[PANEL_COMPONENTS_MAX], beams[PANEL_COMPONENTS_MAX] = {0};
     float fall = panel_components(panel, direction, components);
     for (int b = 0; b < e->beams && !with_beams; b++)
         panel_components_add_beam(&e->beam[b], direction, beams);
-    for (int k = 0; k < e->components && e->beams && !with_beams; k++)
-        components[k] -= beams[k];
+    for (int k = 0; k < e->components && e->beams && !with_beams; k++) components[k] -= beams[k];
     for (int c = 0; c < e->channels; c++) {
         logs[c] = fall + e->mean[c];
         for (int k = 0; k < e->components; k++)
@@ -219,11 +203,10 @@ static void channel_logs(const Panel *panel, Vec3 direction, bool with_beams, fl
 /* Colours of the levels over the cone, where the light is above a fiftieth of its maximum. */
 typedef struct Clouds {
     float *ratio[4][2];
-    int    count[4];
+    int count[4];
 } Clouds;
 
-static void add_colours(const PanelEmission *e, const float *logs, Clouds *clouds)
-{
+static void add_colours(const PanelEmission *e, const float *logs, Clouds *clouds) {
     for (int p = 0; p < 4; p++) {
         int first = (int)panel_first_channel(e, p);
         int count = p < 3 ? e->level_count[p] : e->has_black ? 1 : 0;
@@ -236,30 +219,26 @@ static void add_colours(const PanelEmission *e, const float *logs, Clouds *cloud
     }
 }
 
-static void start_clouds(const PanelEmission *e, int directions, Arena *arena, Clouds *out)
-{
+static void start_clouds(const PanelEmission *e, int directions, Arena *arena, Clouds *out) {
     for (int p = 0; p < 4; p++)
         for (int k = 0; k < 2; k++)
-            out->ratio[p][k] = ARENA_NEW(arena, float,
-                directions * (p < 3 ? e->level_count[p] : 1));
+            out->ratio[p][k] = ARENA_NEW(arena, float, directions *(p < 3 ? e->level_count[p] : 1));
 }
 
 /* The mean luminance of every code, by the same curve over codes as at a direction. */
-static void spread_means(PanelEmission *e, const double *mean_y)
-{
+static void spread_means(PanelEmission *e, const double *mean_y) {
     for (int p = 0; p < 3; p++) {
         float x[PANEL_LEVELS_MAX], y[PANEL_LEVELS_MAX];
-        int   first = (int)panel_first_channel(e, p) / 3, count = e->level_count[p];
+        int first = (int)panel_first_channel(e, p) / 3, count = e->level_count[p];
         for (int i = 0; i < count; i++) {
             x[i] = log_f(e->level[p][i]);
             y[i] = log_f((float)mean_y[first + i]);
         }
         for (int code = 1; code < 256; code++) {
-            PanelLevelWeights w = panel_level_weights(x, y, count, e->level_power,
-                                                      e->log_code[code]);
+            PanelLevelWeights w =
+                panel_level_weights(x, y, count, e->level_power, e->log_code[code]);
             float sum = w.offset;
-            for (int i = 0; i < 4 && w.first + i < count; i++)
-                sum += w.weight[i] * y[w.first + i];
+            for (int i = 0; i < 4 && w.first + i < count; i++) sum += w.weight[i] * y[w.first + i];
             e->mean_y[p][code] = exp_f(sum);
         }
     }
@@ -270,8 +249,7 @@ static void spread_means(PanelEmission *e, const double *mean_y)
  * divides nothing by nothing. */
 #define MEAN_Y_MAX 1e18f
 
-static bool means_fit(const PanelEmission *e)
-{
+static bool means_fit(const PanelEmission *e) {
     for (int p = 0; p < 3; p++)
         for (int code = 1; code < 256; code++)
             if (!(e->mean_y[p][code] >= 1 / MEAN_Y_MAX && e->mean_y[p][code] <= MEAN_Y_MAX))
@@ -283,8 +261,7 @@ static bool means_fit(const PanelEmission *e)
 #define BEAM_TURNS 32
 
 /* No other beam is nearer: each one's light is taken on its own rings. */
-static bool is_nearest(const PanelEmission *e, int beam, Vec3 d)
-{
+static bool is_nearest(const PanelEmission *e, int beam, Vec3 d) {
     float own = panel_components_beam_place(&e->beam[beam], d);
     for (int b = 0; b < e->beams; b++) {
         float other = panel_components_beam_place(&e->beam[b], d);
@@ -294,8 +271,7 @@ static bool is_nearest(const PanelEmission *e, int beam, Vec3 d)
 }
 
 /* Adds a beam's light at one direction of w steradians. */
-static void add_beam_direction(const Panel *panel, Vec3 d, double w, float *logs, double *light)
-{
+static void add_beam_direction(const Panel *panel, Vec3 d, double w, float *logs, double *light) {
     const PanelEmission *e = panel->emission;
     for (int with = 0; with < 2; with++) { /* with the beams last: the logarithms stay */
         channel_logs(panel, d, with, logs);
@@ -307,11 +283,10 @@ static void add_beam_direction(const Panel *panel, Vec3 d, double w, float *logs
 /* Adds a beam's light over the hemisphere, on rings around its centre: even in the profile's
  * own variable; a ring's area is pi times the change of the chord's square. */
 static void add_beam_light(const Panel *panel, int beam, float *logs, Clouds *clouds,
-                           double *light)
-{
+                           double *light) {
     const PanelEmission *e = panel->emission;
-    const PanelBeam     *b = &e->beam[beam];
-    Frame  frame = frame_from_z(b->centre);
+    const PanelBeam *b = &e->beam[beam];
+    Frame frame = frame_from_z(b->centre);
     double step = (double)PANEL_BEAM_STEP * b->knots / BEAM_RADII, inner = 0;
     double core = (double)b->core * (double)b->core;
     for (int ring = 0; ring < BEAM_RADII; ring++) {
@@ -320,8 +295,9 @@ static void add_beam_light(const Panel *panel, int beam, float *logs, Clouds *cl
         if (mid > 2) return;
         for (int i = 0; i < BEAM_TURNS; i++) {
             double turn = 2 * PI * (i + 0.5) / BEAM_TURNS;
-            Vec3   d = frame_to_world(&frame, vec3((float)(across * cos_d(turn)),
-                (float)(across * sin_d(turn)), (float)(1 - 0.5 * mid)));
+            Vec3 d =
+                frame_to_world(&frame, vec3((float)(across * cos_d(turn)),
+                                            (float)(across * sin_d(turn)), (float)(1 - 0.5 * mid)));
             if (d.z <= 0 || !is_nearest(e, beam, d)) continue;
             add_beam_direction(panel, d, area / BEAM_TURNS, logs, light);
             if (d.z >= e->cone_cos && i % 4 == 0) add_colours(e, logs, clouds);
@@ -331,15 +307,14 @@ static void add_beam_light(const Panel *panel, int beam, float *logs, Clouds *cl
 }
 
 /* Means over the hemisphere, and where the colours lie. */
-static void survey(Panel *panel, PanelEmission *e, Arena *arena, PanelPrimaries *primaries)
-{
-    int     directions = (int)geodesic_count(MEAN_LEVEL);
-    float  *logs = ARENA_NEW(arena, float, e->channels);
+static void survey(Panel *panel, PanelEmission *e, Arena *arena, PanelPrimaries *primaries) {
+    int directions = (int)geodesic_count(MEAN_LEVEL);
+    float *logs = ARENA_NEW(arena, float, e->channels);
     double *mean_y = ARENA_NEW(arena, double, e->channels / 3), weight = 0;
-    Clouds  clouds = {.count = {0}};
+    Clouds clouds = {.count = {0}};
     start_clouds(e, directions + e->beams * BEAM_RADII * BEAM_TURNS / 4, arena, &clouds);
     for (int i = 0; i < directions; i++) {
-        Vec3   d = geodesic_center(MEAN_LEVEL, (uint32_t)i);
+        Vec3 d = geodesic_center(MEAN_LEVEL, (uint32_t)i);
         double w = geodesic_area(MEAN_LEVEL, (uint32_t)i) * (double)d.z;
         channel_logs(panel, d, false, logs);
         weight += w;
@@ -357,19 +332,17 @@ static void survey(Panel *panel, PanelEmission *e, Arena *arena, PanelPrimaries 
 
 /* Linear between stored wavelengths, 0 outside. */
 static void expand_spectrum(const PanelPrimariesHead *head, const uint16_t *value, int primary,
-                            float *out)
-{
+                            float *out) {
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
         float at = ((float)(SPECTRAL_FIRST_NM + i) - head->first_nm) / head->step_nm;
         if (!(at >= 0) || at > (float)(head->count - 1)) continue;
-        int   n = (int)at < head->count - 1 ? (int)at : head->count - 2;
+        int n = (int)at < head->count - 1 ? (int)at : head->count - 2;
         float low = (float)value[n], high = (float)value[n + 1];
         out[i] = head->scale[primary] * lerpf(low, high, at - (float)n);
     }
 }
 
-static bool read_spectra(const PanelBytes *at, Arena *arena, PanelPrimaries *out)
-{
+static bool read_spectra(const PanelBytes *at, Arena *arena, PanelPrimaries *out) {
     PanelPrimariesHead head;
     Rest rest = {at->data, at->size};
     if (!take(&rest, &head, sizeof head) || head.kind > PANEL_SPECTRA_REC709 ||
@@ -381,8 +354,7 @@ static bool read_spectra(const PanelBytes *at, Arena *arena, PanelPrimaries *out
         return panel_refuse(at, "primaries", "wavelengths or scales are out of range");
     for (int p = 0; p < 3; p++) {
         uint16_t *value = ARENA_NEW(arena, uint16_t, head.count);
-        if (!head.count)
-            panel_spectrum_default((PanelSpectraKind)head.kind, p, out->spectrum[p]);
+        if (!head.count) panel_spectrum_default((PanelSpectraKind)head.kind, p, out->spectrum[p]);
         if (!take(&rest, value, 2 * (size_t)head.count)) return false;
         if (head.count) expand_spectrum(&head, value, p, out->spectrum[p]);
         for (int i = 0; i < SPECTRAL_COUNT; i++)
@@ -395,8 +367,7 @@ static bool read_spectra(const PanelBytes *at, Arena *arena, PanelPrimaries *out
 }
 
 /* Black leaks through all three, in the share that they have at full level on the axis. */
-static void black_spectrum(const Panel *panel, PanelPrimaries *out)
-{
+static void black_spectrum(const Panel *panel, PanelPrimaries *out) {
     for (int p = 0; p < 3; p++) {
         float rgb[3] = {0, 0, 0}, xyz[3], dark[3], zero[3] = {0, 0, 0};
         rgb[p] = 255;
@@ -411,8 +382,7 @@ static void black_spectrum(const Panel *panel, PanelPrimaries *out)
 
 /* The tree itself, or cells that become one. */
 static bool open_tree(const PanelBytes *at, const Geodesic *geodesic, const PanelEmission *e,
-                      Arena *arena, Tree *out)
-{
+                      Arena *arena, Tree *out) {
     if (!panel_grid_is(at->data, at->size)) {
         if (!tree_open(at->data, at->size, geodesic, out, at->err)) return false;
         tree_unpack(out, arena);
@@ -423,21 +393,19 @@ static bool open_tree(const PanelBytes *at, const Geodesic *geodesic, const Pane
 }
 
 bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
-                         Panel *panel)
-{
+                         Panel *panel) {
     PanelBytes at, tree, spectra;
-    bool       found;
+    bool found;
     if (!panel_find_section(bytes, PANEL_EMISSION, 0, &at, &found)) return false;
     if (!found) return true;
     if (!panel_need_section(bytes, PANEL_EMISSION_TREE, 0, &tree) ||
         !panel_need_section(bytes, PANEL_PRIMARIES, 0, &spectra))
         return false;
-    PanelEmission  *e = ARENA_NEW(arena, PanelEmission, 1);
+    PanelEmission *e = ARENA_NEW(arena, PanelEmission, 1);
     PanelPrimaries *primaries = ARENA_NEW(arena, PanelPrimaries, 1);
     if (!read_section(&at, arena, e) || !read_spectra(&spectra, arena, primaries)) return false;
     if (!open_tree(&tree, geodesic, e, arena, &panel->emission_tree))
-        return error_prefix(bytes->err, "emission tree") ||
-               error_in_file(bytes->err, bytes->name);
+        return error_prefix(bytes->err, "emission tree") || error_in_file(bytes->err, bytes->name);
     if (panel->emission_tree.components != e->components || panel->emission_tree.octants != 4)
         return panel_refuse(&at, "emission", "does not fit its tree");
     expand_codes(e, arena);
@@ -449,8 +417,7 @@ bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Aren
     return true;
 }
 
-void panel_open_warps(Panel *panel)
-{
+void panel_open_warps(Panel *panel) {
     PanelPrimaries *primaries = (PanelPrimaries *)panel->primaries;
     for (int p = 0; primaries && p < (panel->emission->has_black ? 4 : 3); p++)
         spectral_warp_fill(primaries->spectrum[p], &primaries->warp[p]);

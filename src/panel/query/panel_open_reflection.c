@@ -13,8 +13,7 @@
 #include "panel/query/sampling_make.h"
 #include "spectrum/fresnel.h"
 
-static bool check_counts(const PanelBytes *at, const PanelReflectionStored *s)
-{
+static bool check_counts(const PanelBytes *at, const PanelReflectionStored *s) {
     uint32_t tables = (uint32_t)s->incidences * s->azimuths;
     if (s->incidences < 1 || s->incidences > PANEL_INCIDENCES_MAX || s->azimuths < 1 ||
         s->azimuths > PANEL_AZIMUTHS_MAX || tables > PANEL_TABLES_MAX || s->components < 1 ||
@@ -29,21 +28,20 @@ static bool check_counts(const PanelBytes *at, const PanelReflectionStored *s)
         !(s->cone_cos >= 0 && s->cone_cos <= 1) ||
         !(s->mean_scale >= 0 && s->mean_scale <= 0.01f) ||
         !(s->lobe_scale >= 0 && s->lobe_scale <= 0.01f))
-        return panel_refuse(at, "reflection", "frame, refractive index, cone or scale out of "
-                                              "range");
+        return panel_refuse(at, "reflection",
+                            "frame, refractive index, cone or scale out of "
+                            "range");
     return true;
 }
 
-static bool in_range(const float *value, uint32_t count, float low, float high)
-{
+static bool in_range(const float *value, uint32_t count, float low, float high) {
     for (uint32_t i = 0; i < count; i++)
         if (!(value[i] >= low && value[i] <= high)) return false;
     return true;
 }
 
 static bool check_axes(const PanelBytes *at, const PanelReflectionStored *s,
-                       const ReflectionLayout *from)
-{
+                       const ReflectionLayout *from) {
     if (!panel_rising(from->incidence, s->incidences) ||
         !in_range(from->incidence, s->incidences, 0, 1.5708f) ||
         !panel_rising(from->azimuth, s->azimuths) ||
@@ -57,21 +55,19 @@ static bool check_axes(const PanelBytes *at, const PanelReflectionStored *s,
         return panel_refuse(at, "reflection", "incidences beyond the measured do not rise");
     if (!in_range(from->basis_scale, s->coefficients, 0, 1e6f) ||
         !in_range(from->loading_scale, s->components, 0, 1e6f) ||
-        (s->has_lobe && !in_range(from->lobe_sigma,
-                                  (uint32_t)s->incidences * s->azimuths, 1e-4f, 1)))
+        (s->has_lobe &&
+         !in_range(from->lobe_sigma, (uint32_t)s->incidences * s->azimuths, 1e-4f, 1)))
         return panel_refuse(at, "reflection", "a scale or width is out of range");
     return true;
 }
 
-static bool is_positive(const float m[3])
-{
+static bool is_positive(const float m[3]) {
     return in_range(m, 3, -1e6f, 1e6f) && m[0] > 0 && m[2] > 0 && m[0] * m[2] - m[1] * m[1] > 0;
 }
 
 /* The section of the surface, or what its absence means. */
 static bool read_surface(const PanelBytes *at, const PanelReflectionStored *s,
-                         PanelSurfaceStored *out)
-{
+                         PanelSurfaceStored *out) {
     *out = (PanelSurfaceStored){.refractive_index = s->refractive_index};
     if (!at->data) return true;
     if (at->size != sizeof *out) return panel_refuse(at, "surface", "has a wrong size");
@@ -92,9 +88,8 @@ static bool read_surface(const PanelBytes *at, const PanelReflectionStored *s,
 /* ---- expansion --------------------------------------------------------------------------- */
 
 /* rows x wavelengths numbers of 16 bits to padded rows. */
-static float *expand_rows(const PanelReflection *r, const int16_t *from, uint32_t rows,
-                          float scale, Arena *arena)
-{
+static float *expand_rows(const PanelReflection *r, const int16_t *from, uint32_t rows, float scale,
+                          Arena *arena) {
     float *out = ARENA_NEW(arena, float, (size_t)rows * r->padded_wavelengths);
     for (uint32_t i = 0; i < rows; i++)
         for (uint32_t w = 0; w < r->wavelengths; w++)
@@ -103,25 +98,21 @@ static float *expand_rows(const PanelReflection *r, const int16_t *from, uint32_
 }
 
 static float *expand_shares(const PanelReflection *r, const uint16_t *from, uint32_t rows,
-                            Arena *arena)
-{
+                            Arena *arena) {
     float *out = ARENA_NEW(arena, float, (size_t)rows * r->padded_wavelengths);
     for (uint32_t i = 0; i < rows; i++)
         for (uint32_t w = 0; w < r->wavelengths; w++)
-            out[i * r->padded_wavelengths + w] =
-                (float)from[i * r->wavelengths + w] / 65535.0f;
+            out[i * r->padded_wavelengths + w] = (float)from[i * r->wavelengths + w] / 65535.0f;
     return out;
 }
 
-static void exponentiate(float *rows, const PanelReflection *r, uint32_t count)
-{
+static void exponentiate(float *rows, const PanelReflection *r, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t w = 0; w < r->wavelengths; w++)
             rows[i * r->padded_wavelengths + w] = exp_f(rows[i * r->padded_wavelengths + w]);
 }
 
-static bool rows_are_level(const PanelReflection *r, const float *rows, uint32_t count)
-{
+static bool rows_are_level(const PanelReflection *r, const float *rows, uint32_t count) {
     for (uint32_t i = 0; rows && i < count; i++)
         for (uint32_t w = 1; w < r->wavelengths; w++)
             if (rows[i * r->padded_wavelengths + w] != rows[i * r->padded_wavelengths])
@@ -129,22 +120,18 @@ static bool rows_are_level(const PanelReflection *r, const float *rows, uint32_t
     return true;
 }
 
-static bool is_grey(const PanelReflection *r)
-{
-    return rows_are_level(r, r->mean, r->tables) &&
-           rows_are_level(r, r->basis, r->coefficients) &&
+static bool is_grey(const PanelReflection *r) {
+    return rows_are_level(r, r->mean, r->tables) && rows_are_level(r, r->basis, r->coefficients) &&
            rows_are_level(r, r->lambertian_log, r->tables) &&
            rows_are_level(r, r->lobe, r->tables) && rows_are_level(r, r->held, r->nodes) &&
            rows_are_level(r, r->mirror, PANEL_ANGLES);
 }
 
 static void expand_basis(const PanelReflectionStored *s, const ReflectionLayout *from,
-                         PanelReflection *r, Arena *arena)
-{
+                         PanelReflection *r, Arena *arena) {
     float *basis = ARENA_NEW(arena, float, r->coefficients * r->padded_wavelengths);
     size_t loadings = (size_t)r->tables * r->components * r->padded_coefficients;
-    float *loading = arena_alloc(arena, sizeof *loading, 16,
-                                 loadings + PANEL_COEFFICIENTS_BEHIND);
+    float *loading = arena_alloc(arena, sizeof *loading, 16, loadings + PANEL_COEFFICIENTS_BEHIND);
     for (uint32_t k = 0; k < r->coefficients; k++)
         for (uint32_t w = 0; w < r->wavelengths; w++)
             basis[k * r->padded_wavelengths + w] =
@@ -160,12 +147,10 @@ static void expand_basis(const PanelReflectionStored *s, const ReflectionLayout 
 }
 
 /* Measured incidences, and before them up to two seen from the other side of the normal. */
-static void name_steps(const ReflectionLayout *from, PanelReflection *r)
-{
+static void name_steps(const ReflectionLayout *from, PanelReflection *r) {
     int n = (int)r->incidences, first = from->incidence[0] > 1e-6f ? 0 : 1;
     for (int i = first + 1; i >= first; i--)
-        if (i < n)
-            r->step[r->steps++] = (PanelIncidence){-from->incidence[i], i, true};
+        if (i < n) r->step[r->steps++] = (PanelIncidence){-from->incidence[i], i, true};
     for (int i = 0; i < n; i++)
         r->step[r->steps++] = (PanelIncidence){from->incidence[i], i, false};
 }
@@ -176,11 +161,10 @@ static void name_steps(const ReflectionLayout *from, PanelReflection *r)
  * With h the width, h0 and h2 the widths beside it, d0 d1 d2 the divided differences, the slope
  * at the first is (h d0 + h0 d1) / (h0 + h), at an end without neighbour 2 d1 less the other
  * end's. Weights may be negative: they are for logarithms only. */
-static void cubic_between(const PanelReflection *r, int i, float out[4][4])
-{
+static void cubic_between(const PanelReflection *r, int i, float out[4][4]) {
     static const double rise[4] = {0, 0, 3, -2}, first[4] = {0, 1, -2, 1};
     static const double second[4] = {0, 0, -1, 1}; /* what slopes at the two ends add */
-    bool   left = i > 0, right = i + 2 < (int)r->steps;
+    bool left = i > 0, right = i + 2 < (int)r->steps;
     double x1 = (double)r->step[i].theta, x2 = (double)r->step[i + 1].theta, h = x2 - x1;
     double h0 = left ? x1 - (double)r->step[i - 1].theta : h;
     double h2 = right ? (double)r->step[i + 2].theta - x2 : h;
@@ -201,10 +185,9 @@ static void cubic_between(const PanelReflection *r, int i, float out[4][4])
 
 /* Adds the neighbours of an interval that are turned, or those that are not (2: all). */
 static void add_neighbours(const PanelReflection *r, int interval, int which, int *count,
-                           PanelNeighbours *near)
-{
+                           PanelNeighbours *near) {
     for (int k = 0; k < PANEL_NEIGHBOURS; k++) {
-        int  step = interval - 1 + k;
+        int step = interval - 1 + k;
         bool is_there = step >= 0 && step < (int)r->steps;
         bool is_turned = is_there && r->step[step].is_turned;
         if (which != 2 && is_turned != which) continue;
@@ -214,20 +197,18 @@ static void add_neighbours(const PanelReflection *r, int interval, int which, in
     }
 }
 
-static void find_neighbours(PanelReflection *r)
-{
+static void find_neighbours(PanelReflection *r) {
     for (int i = 0; i < (int)r->steps; i++) {
         PanelNeighbours *near = &r->neighbours[i];
-        int              count = 0;
-        bool             turns = r->frame == PANEL_FRAME_SPECULAR;
+        int count = 0;
+        bool turns = r->frame == PANEL_FRAME_SPECULAR;
         add_neighbours(r, i, turns ? 0 : 2, &count, near);
         near->straight = count;
         if (turns) add_neighbours(r, i, 1, &count, near);
     }
 }
 
-static void find_cubics(PanelReflection *r)
-{
+static void find_cubics(PanelReflection *r) {
     if (r->steps == 1) r->step_cubic[0][0][1] = 1;
     for (int i = 0; i + 1 < (int)r->steps; i++) {
         if (r->is_cubic && r->steps >= 3) {
@@ -244,13 +225,10 @@ static void find_cubics(PanelReflection *r)
  * on (a coating loses its effect towards grazing), held between half the last ratio and 1,
  * or what was measured where that is more. */
 static double mirror_ratio(const PanelReflection *r, const ReflectionLayout *from,
-                           uint32_t wavelength, double here)
-{
+                           uint32_t wavelength, double here) {
     uint32_t m = r->incidences, i = 0;
-    double   n = (double)r->refractive_index, f[2], ratio[2];
-    while (i + 2 < m &&
-           fresnel_unpolarised_d(cos_d((double)from->incidence[i + 1]), n) < here)
-        i++;
+    double n = (double)r->refractive_index, f[2], ratio[2];
+    while (i + 2 < m && fresnel_unpolarised_d(cos_d((double)from->incidence[i + 1]), n) < here) i++;
     for (uint32_t k = 0; k < 2; k++) {
         uint32_t j = i + k < m ? i + k : m - 1;
         f[k] = fresnel_unpolarised_d(cos_d((double)from->incidence[j]), n);
@@ -264,32 +242,28 @@ static double mirror_ratio(const PanelReflection *r, const ReflectionLayout *fro
 
 /* Beyond the last incidence: a bare face with the index of the measured ones. */
 static double mirror_beyond(const PanelReflection *r, const ReflectionLayout *from,
-                            uint32_t wavelength, double cosine)
-{
+                            uint32_t wavelength, double cosine) {
     double n = (double)r->mirror_index;
     double last = fresnel_unpolarised_d(cos_d((double)r->last_theta), n);
     return from->mirror[(r->incidences - 1) * r->wavelengths + wavelength] / 65535.0 *
            fresnel_unpolarised_d(cosine, n) / last;
 }
 
-static void expand_mirror(const ReflectionLayout *from, PanelReflection *r, Arena *arena)
-{
+static void expand_mirror(const ReflectionLayout *from, PanelReflection *r, Arena *arena) {
     float *mirror = ARENA_NEW(arena, float, (size_t)PANEL_ANGLES * r->padded_wavelengths);
     for (uint32_t a = 0; a < PANEL_ANGLES; a++) {
         double theta = a * 0.0087266462599716, cosine = cos_d(theta);
         double f = fresnel_unpolarised_d(cosine, (double)r->refractive_index);
-        bool   is_face = r->mirror_index > 0 && theta > (double)r->last_theta;
+        bool is_face = r->mirror_index > 0 && theta > (double)r->last_theta;
         for (uint32_t w = 0; w < r->wavelengths; w++)
-            mirror[a * r->padded_wavelengths + w] =
-                (float)fmin(1, is_face ? mirror_beyond(r, from, w, cosine)
-                                       : f * mirror_ratio(r, from, w, f));
+            mirror[a * r->padded_wavelengths + w] = (float)fmin(
+                1, is_face ? mirror_beyond(r, from, w, cosine) : f * mirror_ratio(r, from, w, f));
     }
     r->mirror = mirror;
 }
 
 /* Luminous mean of a row of shares. */
-static double luminous(const PanelReflection *r, const uint16_t *row)
-{
+static double luminous(const PanelReflection *r, const uint16_t *row) {
     double sum = 0, total = 0;
     for (uint32_t w = 0; w < r->wavelengths; w++) {
         double y = panel_luminous_weight(r->wavelength_nm[w]);
@@ -300,16 +274,15 @@ static double luminous(const PanelReflection *r, const uint16_t *row)
 }
 
 /* Haze albedo over F between the measured incidences, and between the nodes beyond. */
-static void expand_albedo(const ReflectionLayout *from, PanelReflection *r)
-{
+static void expand_albedo(const ReflectionLayout *from, PanelReflection *r) {
     double theta[PANEL_INCIDENCES_MAX + PANEL_NODES_MAX], ratio[COUNT_OF(theta)];
     double n = (double)r->refractive_index;
     uint32_t count = 0;
     for (uint32_t i = 0; i < r->incidences; i++, count++) {
         ratio[count] = 0;
         for (uint32_t a = 0; a < r->azimuths; a++)
-            ratio[count] += luminous(r, from->albedo +
-                                     (a * r->incidences + i) * r->wavelengths) / r->azimuths;
+            ratio[count] +=
+                luminous(r, from->albedo + (a * r->incidences + i) * r->wavelengths) / r->azimuths;
         theta[count] = (double)from->incidence[i];
     }
     for (uint32_t i = 1; i < r->nodes; i++, count++) {
@@ -324,12 +297,11 @@ static void expand_albedo(const ReflectionLayout *from, PanelReflection *r)
         double t = next > i ? (here - theta[i]) / (theta[next] - theta[i]) : 0;
         t = fmin(1, fmax(0, t));
         r->haze_albedo[a] = (float)fmin(1, fresnel_unpolarised_d(cos_d(here), n) *
-                                           (ratio[i] + t * (ratio[next] - ratio[i])));
+                                               (ratio[i] + t * (ratio[next] - ratio[i])));
     }
 }
 
-static void expand_surface(const PanelSurfaceStored *from, PanelReflection *r)
-{
+static void expand_surface(const PanelSurfaceStored *from, PanelReflection *r) {
     SurfaceAxes axes = {from->axes[0], from->axes[1], from->axes[2]};
     r->frame = (PanelFrameKind)from->frame;
     r->beyond = (PanelBeyondKind)from->beyond;
@@ -341,20 +313,25 @@ static void expand_surface(const PanelSurfaceStored *from, PanelReflection *r)
 }
 
 static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionLayout *from,
-                               const PanelSurfaceStored *surface, Arena *arena)
-{
+                               const PanelSurfaceStored *surface, Arena *arena) {
     PanelReflection *r = ARENA_NEW(arena, PanelReflection, 1);
-    *r = (PanelReflection){
-        .incidences = s->incidences, .azimuths = s->azimuths,
-        .tables = (uint32_t)s->incidences * s->azimuths, .components = s->components,
-        .coefficients = s->coefficients,
-        .padded_coefficients = (s->coefficients + 3u) / 4 * 4, .wavelengths = s->wavelengths,
-        .padded_wavelengths = (s->wavelengths + 15u) / 16 * 16,
-        .nodes = s->nodes, .is_cubic = s->is_cubic, .has_mirror = s->has_mirror,
-        .has_lobe = s->has_lobe, .frame_exponent = s->frame_exponent,
-        .refractive_index = s->refractive_index, .cone_cos = s->cone_cos,
-        .cone_theta = (float)acos_d((double)s->cone_cos),
-        .last_theta = from->incidence[s->incidences - 1]};
+    *r = (PanelReflection){.incidences = s->incidences,
+                           .azimuths = s->azimuths,
+                           .tables = (uint32_t)s->incidences * s->azimuths,
+                           .components = s->components,
+                           .coefficients = s->coefficients,
+                           .padded_coefficients = (s->coefficients + 3u) / 4 * 4,
+                           .wavelengths = s->wavelengths,
+                           .padded_wavelengths = (s->wavelengths + 15u) / 16 * 16,
+                           .nodes = s->nodes,
+                           .is_cubic = s->is_cubic,
+                           .has_mirror = s->has_mirror,
+                           .has_lobe = s->has_lobe,
+                           .frame_exponent = s->frame_exponent,
+                           .refractive_index = s->refractive_index,
+                           .cone_cos = s->cone_cos,
+                           .cone_theta = (float)acos_d((double)s->cone_cos),
+                           .last_theta = from->incidence[s->incidences - 1]};
     memcpy(r->azimuth, from->azimuth, sizeof(float) * s->azimuths);
     memcpy(r->wavelength_nm, from->wavelength_nm, sizeof(float) * s->wavelengths);
     memcpy(r->node_theta, from->node_theta, sizeof(float) * s->nodes);
@@ -383,18 +360,15 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
 
 /* ---- sampling ---------------------------------------------------------------------------- */
 
-static bool check_nodes(const PanelBytes *at, const PanelSampling *s)
-{
-    if (s->incidences < 1 || s->azimuths < 1 ||
-        s->incidences * s->azimuths != s->tree.functions)
+static bool check_nodes(const PanelBytes *at, const PanelSampling *s) {
+    if (s->incidences < 1 || s->azimuths < 1 || s->incidences * s->azimuths != s->tree.functions)
         return panel_refuse(at, "sampling", "counts do not fit the tree's functions");
     if ((s->azimuths > 1) != (s->tree.octants == 4))
         return panel_refuse(at, "sampling", "the tree's octants do not fit the azimuths");
     return true;
 }
 
-static bool check_thetas(const PanelBytes *at, const PanelSampling *s)
-{
+static bool check_thetas(const PanelBytes *at, const PanelSampling *s) {
     for (int i = 0; i < s->incidences; i++)
         if (!(s->theta[i] >= 0 && s->theta[i] <= 0.5f * PI_F))
             return panel_refuse(at, "sampling", "an incidence is out of range");
@@ -403,8 +377,7 @@ static bool check_thetas(const PanelBytes *at, const PanelSampling *s)
 }
 
 /* Makes the section that the file omits. */
-static bool make_section(const Panel *panel, Arena *arena, PanelBytes *at)
-{
+static bool make_section(const Panel *panel, Arena *arena, PanelBytes *at) {
     SamplingSection made;
     if (!sampling_make(panel, panel->reflection->azimuths > 1, arena, &made, at->err))
         return error_in_file(at->err, at->name);
@@ -416,11 +389,10 @@ static bool make_section(const Panel *panel, Arena *arena, PanelBytes *at)
 /* The sampling tree, expanded into the arena; a file without one leaves the panel as it is.
  * The reflection is there. */
 static bool open_sampling(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
-                          Panel *panel)
-{
+                          Panel *panel) {
     PanelBytes at;
-    bool       found;
-    uint16_t   counts[2];
+    bool found;
+    uint16_t counts[2];
     if (!panel_find_section(bytes, PANEL_SAMPLING, 0, &at, &found)) return false;
     if (!found) return true;
     if (at.size == 0 && !make_section(panel, arena, &at)) return false;
@@ -444,13 +416,11 @@ static bool open_sampling(const PanelBytes *bytes, const Geodesic *geodesic, Are
 /* ---- the sections ------------------------------------------------------------------------ */
 
 /* For every whole nm the interval of measured wavelengths that holds it. */
-static void index_wavelengths(Panel *panel)
-{
+static void index_wavelengths(Panel *panel) {
     const PanelReflection *r = panel->reflection;
     int last = 0, intervals = (int)r->wavelengths - 1;
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
-        while (last + 1 < intervals &&
-               r->wavelength_nm[last + 1] <= (float)(SPECTRAL_FIRST_NM + i))
+        while (last + 1 < intervals && r->wavelength_nm[last + 1] <= (float)(SPECTRAL_FIRST_NM + i))
             last++;
         panel->wavelength_index[i] = (int16_t)last;
     }
@@ -459,19 +429,17 @@ static void index_wavelengths(Panel *panel)
 }
 
 bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesic *geodesic,
-                             Arena *arena, Panel *panel)
-{
-    ReflectionLayout   from;
+                             Arena *arena, Panel *panel) {
+    ReflectionLayout from;
     PanelSurfaceStored surface;
-    const PanelBytes  *at = &sections->numbers, *tree = &sections->tree;
+    const PanelBytes *at = &sections->numbers, *tree = &sections->tree;
     const PanelReflectionStored *s = (const PanelReflectionStored *)at->data;
     if (at->size < sizeof *s) return panel_refuse(at, "reflection", "is too short");
     if (!check_counts(at, s)) return false;
     if (reflection_layout(s, &from) != at->size)
         return panel_refuse(at, "reflection", "has another size than its counts say");
-    if (!check_axes(at, s, &from) || !read_surface(&sections->surface, s, &surface))
-        return false;
-    size_t      size = tree->size;
+    if (!check_axes(at, s, &from) || !read_surface(&sections->surface, s, &surface)) return false;
+    size_t size = tree->size;
     const void *blob = vertex_is_packed(tree->data, size)
                            ? vertex_unpack_blob(tree->data, tree->size, arena, &size, at->err)
                            : tree->data;
@@ -494,8 +462,7 @@ bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesi
 }
 
 bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
-                           Panel *panel)
-{
+                           Panel *panel) {
     PanelReflectionBytes sections = {.surface = {NULL, 0, bytes->name, bytes->err}};
     bool found, has_surface, has_reach;
     if (!panel_find_section(bytes, PANEL_REFLECTION, 0, &sections.numbers, &found) ||

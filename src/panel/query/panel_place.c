@@ -8,8 +8,7 @@
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_sampling.h"
 
-bool panel_varies(const Panel *panel)
-{
+bool panel_varies(const Panel *panel) {
     return panel->places != NULL;
 }
 
@@ -17,13 +16,12 @@ bool panel_varies(const Panel *panel)
 
 /* Panels by number, the same one once. */
 typedef struct PlaceMix {
-    int   count;
-    int   panel[SPOT_GROUND_COUNT];
+    int count;
+    int panel[SPOT_GROUND_COUNT];
     float weight[SPOT_GROUND_COUNT];
 } PlaceMix;
 
-static PlaceMix mix_of(const PanelPlaces *places, const uint16_t *of_spot, const float place[2])
-{
+static PlaceMix mix_of(const PanelPlaces *places, const uint16_t *of_spot, const float place[2]) {
     PlaceMix out = {.count = 1, .weight = {1}};
     if (!places->spots) return out;
     SpotWeights at = spot_ground_weights(&places->ground, place);
@@ -41,8 +39,7 @@ static PlaceMix mix_of(const PanelPlaces *places, const uint16_t *of_spot, const
     return out;
 }
 
-PanelMix panel_place_reflection(const Panel *panel, const float place[2])
-{
+PanelMix panel_place_reflection(const Panel *panel, const float place[2]) {
     PanelMix out = {.count = 1, .panel = {panel}, .weight = {1}};
     if (!panel->places) return out;
     PlaceMix mix = mix_of(panel->places, panel->places->reflection, place);
@@ -57,21 +54,19 @@ PanelMix panel_place_reflection(const Panel *panel, const float place[2])
 /* ---- the map ----------------------------------------------------------------------------- */
 
 /* The two pixels around a coordinate from 0 to 1, and where between their middles. */
-static int pixel_of(float at, int count, int *next, float *t)
-{
+static int pixel_of(float at, int count, int *next, float *t) {
     float x = clampf((at > 0 ? at : 0) * (float)count - 0.5f, 0, (float)(count - 1));
-    int   i = (int)x;
+    int i = (int)x;
     *next = i + 1 < count ? i + 1 : i;
     *t = x - (float)i;
     return i;
 }
 
-void panel_map_at(const PanelMap *map, const float place[2], float white[3], float black[3])
-{
-    int   right, below;
+void panel_map_at(const PanelMap *map, const float place[2], float white[3], float black[3]) {
+    int right, below;
     float s, t;
-    int   x = pixel_of(place[0], map->width, &right, &s);
-    int   y = pixel_of(place[1], map->height, &below, &t);
+    int x = pixel_of(place[0], map->width, &right, &s);
+    int y = pixel_of(place[1], map->height, &below, &t);
     for (int k = 0; k < 2; k++)
         for (int j = 0; j < 3; j++) {
             const uint16_t *top = map->value[k][j] + (size_t)y * (size_t)map->width;
@@ -88,8 +83,7 @@ void panel_map_at(const PanelMap *map, const float place[2], float white[3], flo
  * relative white and black, and c the panel's black over its white, white is w and black b
  * when the primaries are multiplied by (w - b c) / (1 - c). */
 static void map_logs(const PanelPlaces *places, int panel, const float place[2],
-                     PanelFloat4 logs[2])
-{
+                     PanelFloat4 logs[2]) {
     float white[3], black[3];
     panel_map_at(places->map, place, white, black);
     logs[0] = logs[1] = (PanelFloat4){0};
@@ -105,8 +99,7 @@ static void map_logs(const PanelPlaces *places, int panel, const float place[2],
 
 /* The sources of a panel as the map has them at a place. */
 static void place_logs(const PanelPlaces *places, int panel, const float place[2],
-                       PanelFloat4 logs[4])
-{
+                       PanelFloat4 logs[4]) {
     PanelFloat4 by_map[2];
     if (!places->map) return;
     map_logs(places, panel, place, by_map);
@@ -114,15 +107,13 @@ static void place_logs(const PanelPlaces *places, int panel, const float place[2
         if (logs[s][1] > PANEL_DARK) logs[s] += by_map[s == 3];
 }
 
-static bool mix_is_measured(const PanelPlaces *places, const PlaceMix *mix, Vec3 direction)
-{
+static bool mix_is_measured(const PanelPlaces *places, const PlaceMix *mix, Vec3 direction) {
     for (int i = 0; i < mix->count; i++)
         if (!panel_sources_are_measured(places->panel[mix->panel[i]], direction)) return false;
     return true;
 }
 
-bool panel_place_emission_is_measured(const Panel *panel, const float place[2], Vec3 direction)
-{
+bool panel_place_emission_is_measured(const Panel *panel, const float place[2], Vec3 direction) {
     const PanelPlaces *places = panel->places;
     if (!panel->emission || !(direction.z > 0)) return false;
     if (!places) return panel_sources_are_measured(panel, direction);
@@ -131,8 +122,7 @@ bool panel_place_emission_is_measured(const Panel *panel, const float place[2], 
 }
 
 bool panel_place_emission_xyz(const Panel *panel, const float place[2], Vec3 direction,
-                              const float rgb[3], float xyz[3])
-{
+                              const float rgb[3], float xyz[3]) {
     const PanelPlaces *places = panel->places;
     if (!places) return panel_emission_xyz(panel, direction, rgb, xyz);
     xyz[0] = xyz[1] = xyz[2] = 0;
@@ -140,8 +130,8 @@ bool panel_place_emission_xyz(const Panel *panel, const float place[2], Vec3 dir
     PlaceMix mix = mix_of(places, places->emission, place);
     for (int i = 0; i < mix.count; i++) {
         const Panel *one = places->panel[mix.panel[i]];
-        PanelFloat4  logs[4];
-        float        add[3];
+        PanelFloat4 logs[4];
+        float add[3];
         panel_source_logs(one, direction, rgb, logs);
         place_logs(places, mix.panel[i], place, logs);
         panel_sources_xyz(logs, add);
@@ -151,8 +141,7 @@ bool panel_place_emission_xyz(const Panel *panel, const float place[2], Vec3 dir
 }
 
 Spectrum panel_place_emission_spectrum(const Panel *panel, const float place[2], Vec3 direction,
-                                       const float rgb[3], const Wavelengths *wavelengths)
-{
+                                       const float rgb[3], const Wavelengths *wavelengths) {
     const PanelPlaces *places = panel->places;
     Spectrum sum = spectrum_all(0);
     if (!places) return panel_emission_spectrum(panel, direction, rgb, wavelengths);
@@ -160,7 +149,7 @@ Spectrum panel_place_emission_spectrum(const Panel *panel, const float place[2],
     PlaceMix mix = mix_of(places, places->emission, place);
     for (int i = 0; i < mix.count; i++) {
         const Panel *one = places->panel[mix.panel[i]];
-        PanelFloat4  logs[4];
+        PanelFloat4 logs[4];
         panel_source_logs(one, direction, rgb, logs);
         place_logs(places, mix.panel[i], place, logs);
         sum += panel_sources_spectrum(one, logs, wavelengths) * spectrum_all(mix.weight[i]);
@@ -170,8 +159,7 @@ Spectrum panel_place_emission_spectrum(const Panel *panel, const float place[2],
 
 /* ---- reflection -------------------------------------------------------------------------- */
 
-Spectrum panel_mix_brdf(const PanelMix *mix, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths)
-{
+Spectrum panel_mix_brdf(const PanelMix *mix, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths) {
     Spectrum sum = spectrum_all(0);
     for (int i = 0; i < mix->count; i++)
         sum += panel_brdf(mix->panel[i], wo, wi, wavelengths) * spectrum_all(mix->weight[i]);
@@ -179,47 +167,39 @@ Spectrum panel_mix_brdf(const PanelMix *mix, Vec3 wo, Vec3 wi, const Wavelengths
 }
 
 Spectrum panel_mix_lambertian(const PanelMix *mix, Spectrum brdf, Vec3 wi,
-                              const Wavelengths *wavelengths)
-{
-    Spectrum   sum = spectrum_all(0);
+                              const Wavelengths *wavelengths) {
+    Spectrum sum = spectrum_all(0);
     PanelLanes lanes;
     for (int i = 0; i < mix->count; i++) {
         panel_lanes(mix->panel[i], wavelengths, &lanes);
-        sum += panel_lambertian_at(mix->panel[i], brdf, wi, &lanes) *
-               spectrum_all(mix->weight[i]);
+        sum += panel_lambertian_at(mix->panel[i], brdf, wi, &lanes) * spectrum_all(mix->weight[i]);
     }
     return sum;
 }
 
-Spectrum panel_mix_mirror(const PanelMix *mix, float cos_theta, const Wavelengths *wavelengths)
-{
+Spectrum panel_mix_mirror(const PanelMix *mix, float cos_theta, const Wavelengths *wavelengths) {
     Spectrum sum = spectrum_all(0);
     for (int i = 0; i < mix->count; i++)
-        sum += panel_mirror(mix->panel[i], cos_theta, wavelengths) *
-               spectrum_all(mix->weight[i]);
+        sum += panel_mirror(mix->panel[i], cos_theta, wavelengths) * spectrum_all(mix->weight[i]);
     return sum;
 }
 
-float panel_mix_haze_albedo(const PanelMix *mix, float cos_theta)
-{
+float panel_mix_haze_albedo(const PanelMix *mix, float cos_theta) {
     float sum = 0;
     for (int i = 0; i < mix->count; i++)
         sum += mix->weight[i] * panel_haze_albedo(mix->panel[i], cos_theta);
     return sum;
 }
 
-float panel_mix_pdf(const PanelMix *mix, Vec3 wo, Vec3 wi)
-{
+float panel_mix_pdf(const PanelMix *mix, Vec3 wo, Vec3 wi) {
     float sum = 0;
-    for (int i = 0; i < mix->count; i++)
-        sum += mix->weight[i] * panel_pdf(mix->panel[i], wo, wi);
+    for (int i = 0; i < mix->count; i++) sum += mix->weight[i] * panel_pdf(mix->panel[i], wo, wi);
     return sum;
 }
 
-bool panel_mix_sample(const PanelMix *mix, Vec3 wo, const float u[3], Vec3 *wi, float *pdf)
-{
+bool panel_mix_sample(const PanelMix *mix, Vec3 wo, const float u[3], Vec3 *wi, float *pdf) {
     float rest = u[0];
-    int   i = 0;
+    int i = 0;
     for (; i + 1 < mix->count && rest >= mix->weight[i]; i++) rest -= mix->weight[i];
     float one[3] = {clampf(rest / mix->weight[i], 0, 0x1.fffffep-1f), u[1], u[2]};
     if (!panel_sample(mix->panel[i], wo, one, wi, pdf)) return false;
@@ -227,10 +207,9 @@ bool panel_mix_sample(const PanelMix *mix, Vec3 wo, const float u[3], Vec3 *wi, 
     return *pdf > 0;
 }
 
-bool panel_has_mirror(const Panel *panel)
-{
+bool panel_has_mirror(const Panel *panel) {
     Wavelengths wavelengths;
-    int         panels = panel->places ? panel->places->panels : 1;
+    int panels = panel->places ? panel->places->panels : 1;
     wavelengths_sample(0.5f, &wavelengths);
     for (int k = 0; k < panels; k++) {
         const Panel *one = panel->places ? panel->places->panel[k] : panel;

@@ -24,9 +24,9 @@
 
 /* Panels that count at a place, and how much; weights add up to one. */
 typedef struct PanelMix {
-    int          count;
+    int count;
     const Panel *panel[PANEL_MIX_MAX];
-    float        weight[PANEL_MIX_MAX];
+    float weight[PANEL_MIX_MAX];
 } PanelMix;
 
 /* False: it is the same everywhere; panel_emission.h and panel_reflection.h suffice. */
@@ -49,9 +49,9 @@ Spectrum panel_mix_brdf(const PanelMix *mix, Vec3 wo, Vec3 wi, const Wavelengths
 Spectrum panel_mix_lambertian(const PanelMix *mix, Spectrum brdf, Vec3 wi,
                               const Wavelengths *wavelengths);
 Spectrum panel_mix_mirror(const PanelMix *mix, float cos_theta, const Wavelengths *wavelengths);
-float    panel_mix_haze_albedo(const PanelMix *mix, float cos_theta);
-float    panel_mix_pdf(const PanelMix *mix, Vec3 wo, Vec3 wi);
-bool     panel_mix_sample(const PanelMix *mix, Vec3 wo, const float u[3], Vec3 *wi, float *pdf);
+float panel_mix_haze_albedo(const PanelMix *mix, float cos_theta);
+float panel_mix_pdf(const PanelMix *mix, Vec3 wo, Vec3 wi);
+bool panel_mix_sample(const PanelMix *mix, Vec3 wo, const float u[3], Vec3 *wi, float *pdf);
 
 /* Is there an image in the display's glass, of light that falls straight on it, anywhere? */
 bool panel_has_mirror(const Panel *panel);
@@ -59,5 +59,4 @@ bool panel_has_mirror(const Panel *panel);
 /* The map at a place, bilinear between the middles of its pixels: X, Y, Z of white and black,
  * relative. Private to src/panel. */
 struct PanelMap;
-void panel_map_at(const struct PanelMap *map, const float place[2], float white[3],
-                  float black[3]);
+void panel_map_at(const struct PanelMap *map, const float place[2], float white[3], float black[3]);

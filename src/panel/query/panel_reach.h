@@ -21,8 +21,7 @@ typedef struct PanelReachPlace {
     float angle, turn; /* radians; turn in [0, 2 pi) */
 } PanelReachPlace;
 
-static inline void panel_reach_axes(const PanelReachStored *s, Vec3 axis[3])
-{
+static inline void panel_reach_axes(const PanelReachStored *s, Vec3 axis[3]) {
     float sine[2], cosine[2];
     sincos_turns((float)s->theta * (0.25f / 65535), &sine[0], &cosine[0]);
     sincos_turns((float)s->phi * (1.0f / 65536), &sine[1], &cosine[1]);
@@ -31,8 +30,7 @@ static inline void panel_reach_axes(const PanelReachStored *s, Vec3 axis[3])
     axis[2] = vec3(sine[0] * cosine[1], sine[0] * sine[1], cosine[0]);
 }
 
-static inline PanelReachPlace panel_reach_place(const Vec3 axis[3], Vec3 local)
-{
+static inline PanelReachPlace panel_reach_place(const Vec3 axis[3], Vec3 local) {
     float x = vec3_dot(local, axis[0]), y = vec3_dot(local, axis[1]);
     float turn = atan2_f(y, x);
     return (PanelReachPlace){atan2_f(safe_sqrtf(x * x + y * y), vec3_dot(local, axis[2])),
@@ -40,16 +38,14 @@ static inline PanelReachPlace panel_reach_place(const Vec3 axis[3], Vec3 local)
 }
 
 /* Of its sides, radians. */
-static inline float panel_reach_unit(const PanelReachStored *s)
-{
+static inline float panel_reach_unit(const PanelReachStored *s) {
     return (float)s->most * (PI_F / 65535 / 255);
 }
 
 /* The hull's edge at a turn, radians from its centre. */
-static inline float panel_reach_edge(const PanelReachStored *s, float turn)
-{
+static inline float panel_reach_edge(const PanelReachStored *s, float turn) {
     float at = turn * (PANEL_REACH_SIDES / (2 * PI_F));
-    int   side = (int)at;
+    int side = (int)at;
     float t = at - (float)side;
     float here = (float)s->side[side % PANEL_REACH_SIDES];
     float next = (float)s->side[(side + 1) % PANEL_REACH_SIDES];
@@ -57,8 +53,7 @@ static inline float panel_reach_edge(const PanelReachStored *s, float turn)
 }
 
 /* How far a direction lies inside its edge; negative outside. Radians, towards the centre. */
-static inline float panel_reach_room(const PanelReachStored *s, Vec3 local)
-{
+static inline float panel_reach_room(const PanelReachStored *s, Vec3 local) {
     Vec3 axis[3];
     panel_reach_axes(s, axis);
     PanelReachPlace at = panel_reach_place(axis, local);
@@ -70,9 +65,8 @@ static inline float panel_reach_room(const PanelReachStored *s, Vec3 local)
 
 /* The direction itself inside the hull; else the one just outside of its edge, towards the
  * centre. */
-static inline Vec3 panel_reach_inside(const PanelReachStored *s, Vec3 local)
-{
-    Vec3  axis[3];
+static inline Vec3 panel_reach_inside(const PanelReachStored *s, Vec3 local) {
+    Vec3 axis[3];
     float sine, cosine, across, along;
     panel_reach_axes(s, axis);
     PanelReachPlace at = panel_reach_place(axis, local);

@@ -18,14 +18,12 @@
 #include "spectrum/fresnel.h"
 
 /* Cosine of the angle to the facet between two directions. */
-static inline float panel_facet_cosine(Vec3 wi, Vec3 wo)
-{
+static inline float panel_facet_cosine(Vec3 wi, Vec3 wo) {
     return clampf(safe_sqrtf(0.5f * (1 + vec3_dot(wi, wo))), 0, 1);
 }
 
 /* For frames other than the specular-following one. */
-static inline float panel_reference(PanelFrameKind frame, float index, Vec3 wi, Vec3 wo)
-{
+static inline float panel_reference(PanelFrameKind frame, float index, Vec3 wi, Vec3 wo) {
     if (frame == PANEL_FRAME_COSINES)
         return sqrtf(fresnel_unpolarised(wi.z, index) * fresnel_unpolarised(wo.z, index));
     float sum = wi.z + wo.z;
@@ -33,15 +31,13 @@ static inline float panel_reference(PanelFrameKind frame, float index, Vec3 wi, 
 }
 
 /* z (1 + 2 Lambda): stays finite at the horizon. */
-static inline float panel_masked(SurfaceAxes roughness, Vec3 d)
-{
-    float along = roughness.xx * d.x * d.x + 2 * roughness.xy * d.x * d.y +
-                  roughness.yy * d.y * d.y;
+static inline float panel_masked(SurfaceAxes roughness, Vec3 d) {
+    float along =
+        roughness.xx * d.x * d.x + 2 * roughness.xy * d.x * d.y + roughness.yy * d.y * d.y;
     return sqrtf(d.z * d.z + along);
 }
 
 /* G / (cos theta_i cos theta_o), up to a factor; Lambda = (masked / z - 1) / 2. */
-static inline float panel_masking(SurfaceAxes roughness, Vec3 wi, Vec3 wo)
-{
+static inline float panel_masking(SurfaceAxes roughness, Vec3 wi, Vec3 wo) {
     return 1 / (wo.z * panel_masked(roughness, wi) + wi.z * panel_masked(roughness, wo));
 }

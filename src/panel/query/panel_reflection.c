@@ -17,18 +17,16 @@
 #define PADDED_MAX ((PANEL_WAVELENGTHS_MAX + 15) / 16 * 16)
 #define COEFFICIENTS_MAX ((PANEL_COEFFICIENTS_MAX + 3) / 4 * 4)
 #define COMPONENTS_MAX ((PANEL_REFLECTION_COMPONENTS_MAX + 3) / 4 * 4)
-#define LOBE_SIGMAS 6.5f /* exp(-21): nothing beyond */
+#define LOBE_SIGMAS 6.5f   /* exp(-21): nothing beyond */
 #define LEAST_WEIGHT 1e-3f /* of a table that an answer rests on */
 #define SAME_ANGLE 2e-5f   /* radians */
-#define PASSAGE 0.035f   /* radians, over which exchanged directions take over */
+#define PASSAGE 0.035f     /* radians, over which exchanged directions take over */
 
-bool panel_reflects(const Panel *panel)
-{
+bool panel_reflects(const Panel *panel) {
     return panel->reflection != NULL;
 }
 
-bool panel_reflects_grey(const Panel *panel)
-{
+bool panel_reflects_grey(const Panel *panel) {
     return !panel->reflection || panel->reflection->is_grey;
 }
 
@@ -38,9 +36,8 @@ bool panel_reflects_grey(const Panel *panel)
 typedef float Float8 __attribute__((vector_size(32), aligned(4), may_alias));
 
 /* Weighted rows of the mixed tables at 8 wavelengths from w on. */
-static inline Float8 mixed_rows(const PanelReflection *r, const PanelTables *mix,
-                                const float *rows, int w)
-{
+static inline Float8 mixed_rows(const PanelReflection *r, const PanelTables *mix, const float *rows,
+                                int w) {
     Float8 sum = {0};
     for (int i = 0; i < mix->count; i++)
         sum += mix->term[i].weight *
@@ -71,11 +68,10 @@ typedef struct TableGroup {
  * coefficients from k on. The counts are constants where inlined. All sums grow together: one
  * alone would wait for itself. */
 static inline void add_wides(const PanelReflection *r, TableGroup group, const float *component,
-                             int k, int wides, float *coefficient)
-{
-    int          stride = (int)r->padded_coefficients, n = (int)r->components;
+                             int k, int wides, float *coefficient) {
+    int stride = (int)r->padded_coefficients, n = (int)r->components;
     const float *row[4];
-    Wide         sum[4][2];
+    Wide sum[4][2];
     for (int i = 0; i < group.count; i++) {
         row[i] = r->loading + group.term[i].table * n * stride + k;
         for (int j = 0; j < wides; j++) sum[i][j] = (Wide){0};
@@ -92,19 +88,16 @@ static inline void add_wides(const PanelReflection *r, TableGroup group, const f
 }
 
 static inline void add_group(const PanelReflection *r, TableGroup group, const float *component,
-                             float *coefficient)
-{
+                             float *coefficient) {
     int k = 0, padded = (int)r->padded_coefficients;
-    for (; k + WIDE < padded; k += 2 * WIDE)
-        add_wides(r, group, component, k, 2, coefficient);
+    for (; k + WIDE < padded; k += 2 * WIDE) add_wides(r, group, component, k, 2, coefficient);
     if (k < padded) add_wides(r, group, component, k, 1, coefficient);
 }
 
 /* As many tables as are left are evaluated as four, of which some count nothing: how many there
  * are of a side cannot be predicted. */
-static inline void add_loadings(const PanelReflection *r, const PanelTablesTerm *term,
-                                int count, const float *component, float *coefficient)
-{
+static inline void add_loadings(const PanelReflection *r, const PanelTablesTerm *term, int count,
+                                const float *component, float *coefficient) {
     for (int i = 0; i < count; i += 4) {
         PanelTablesTerm four[4];
         for (int k = 0; k < 4; k++) {
@@ -122,8 +115,7 @@ static inline void add_loadings(const PanelReflection *r, const PanelTablesTerm 
 #endif
 
 /* Values at the lanes, linear between measured wavelengths. */
-static inline Spectrum spread(const float *value, const PanelLanes *lanes)
-{
+static inline Spectrum spread(const float *value, const PanelLanes *lanes) {
     Spectrum low, high;
     if (lanes->has_one) return spectrum_all(value[0]);
 #ifdef PANEL_ROWS_IN_REGISTERS
@@ -142,36 +134,32 @@ static inline Spectrum spread(const float *value, const PanelLanes *lanes)
 
 /* Rows a and b of padded_wavelengths floats, t from the first to the second. */
 static Spectrum spread_between(const Panel *panel, const float *rows, int first, float t,
-                               const PanelLanes *lanes)
-{
-    int          padded = (int)panel->reflection->padded_wavelengths;
+                               const PanelLanes *lanes) {
+    int padded = (int)panel->reflection->padded_wavelengths;
     const float *a = rows + first * padded, *b = t > 0 ? a + padded : a;
-    Spectrum     low = spread(a, lanes), high = spread(b, lanes);
+    Spectrum low = spread(a, lanes), high = spread(b, lanes);
     return low + (high - low) * spectrum_all(t);
 }
 
 /* Mixes rows that are not at the lanes yet before they go there. */
-static Spectrum mixed_at_lanes(const PanelReflection *r, const PanelTables *mix,
-                               const float *rows, const PanelLanes *lanes)
-{
+static Spectrum mixed_at_lanes(const PanelReflection *r, const PanelTables *mix, const float *rows,
+                               const PanelLanes *lanes) {
     float row[PADDED_MAX];
     for (int w = 0; w < (int)r->padded_wavelengths; w += 8)
         *(Float8 *)(row + w) = mixed_rows(r, mix, rows, w);
     return spread(row, lanes);
 }
 
-static inline void add_lanes(float factor, const Spectrum *lanes, Wide *sum)
-{
+static inline void add_lanes(float factor, const Spectrum *lanes, Wide *sum) {
     for (int i = 0; i < SPECTRUM_LANES / WIDE; i++)
         sum[i] += factor * *(const Wide *)((const float *)lanes + i * WIDE);
 }
 
 /* ln (f / F) at the lanes. */
 static Spectrum reflection_logs(const Panel *panel, Vec3 stored, const PanelTables *mix,
-                                const PanelLanes *lanes)
-{
+                                const PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
-    float    component[COMPONENTS_MAX];
+    float component[COMPONENTS_MAX];
     _Alignas(64) float coefficient[COEFFICIENTS_MAX + PANEL_COEFFICIENTS_BEHIND] = {0};
     Spectrum logs = spectrum_all(0);
     if (!lanes->has_means) logs = mixed_at_lanes(r, mix, r->mean, lanes);
@@ -192,8 +180,7 @@ static Spectrum reflection_logs(const Panel *panel, Vec3 stored, const PanelTabl
     memcpy(sum, &logs, sizeof sum);
     for (int i = 0; i < mix->count && lanes->has_means; i++)
         add_lanes(mix->term[i].weight, &lanes->mean[mix->term[i].table], sum);
-    for (int k = 0; k < (int)r->coefficients; k++)
-        add_lanes(coefficient[k], &lanes->basis[k], sum);
+    for (int k = 0; k < (int)r->coefficients; k++) add_lanes(coefficient[k], &lanes->basis[k], sum);
     memcpy(&logs, sum, sizeof logs);
     return logs;
 }
@@ -202,15 +189,13 @@ static Spectrum reflection_logs(const Panel *panel, Vec3 stored, const PanelTabl
 
 /* Squared angle between a local direction (light at azimuth 180) and the mirror direction; the
  * chord stands for the angle up to the third order, and the series adds the next one. */
-static float squared_angle(Vec3 local, float sin_theta, float cos_theta)
-{
+static float squared_angle(Vec3 local, float sin_theta, float cos_theta) {
     float x = local.x - sin_theta, y = local.y, z = local.z - cos_theta;
     float chord = x * x + y * y + z * z;
     return chord * (1 + chord * (1.0f / 12));
 }
 
-static float mixed_sigma(const PanelReflection *r, const PanelTables *mix)
-{
+static float mixed_sigma(const PanelReflection *r, const PanelTables *mix) {
     float sum = 0;
     for (int i = 0; i < mix->count; i++)
         sum += mix->term[i].weight * r->lobe_sigma[mix->term[i].table];
@@ -218,9 +203,8 @@ static float mixed_sigma(const PanelReflection *r, const PanelTables *mix)
 }
 
 /* The lobe over F: R / F G(angle) / cos theta_i. */
-static Spectrum lobe_over_fresnel(const Panel *panel, const PanelTables *mix, Vec3 local,
-                                  Vec3 wi, const PanelLanes *lanes)
-{
+static Spectrum lobe_over_fresnel(const Panel *panel, const PanelTables *mix, Vec3 local, Vec3 wi,
+                                  const PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
     float sine = safe_sqrtf(1 - wi.z * wi.z), sigma = mixed_sigma(r, mix);
     float square = squared_angle(local, sine, wi.z), inverse = 1 / (sigma * sigma);
@@ -236,41 +220,36 @@ static Spectrum lobe_over_fresnel(const Panel *panel, const PanelTables *mix, Ve
 /* Where the last measured incidence is read for one beyond it, by the invariance of scatter
  * from surfaces of low slope (Harvey): in the projection on the panel's plane the haze only
  * moves. Directions that come to lie outside the measured cone are held at its edge. */
-static Vec3 shifted(const PanelReflection *r, Vec3 local, float sin_theta)
-{
+static Vec3 shifted(const PanelReflection *r, Vec3 local, float sin_theta) {
     float x = local.x - sin_theta + r->last_sine, y = local.y;
     float edge = safe_sqrtf(1 - r->cone_cos * r->cone_cos), length = safe_sqrtf(x * x + y * y);
     if (length > edge) x *= edge / length, y *= edge / length;
     return vec3(x, y, safe_sqrtf(1 - x * x - y * y));
 }
 
-static Spectrum mirror_at(const Panel *panel, float cos_theta, const PanelLanes *lanes)
-{
+static Spectrum mirror_at(const Panel *panel, float cos_theta, const PanelLanes *lanes) {
     float t;
-    int   node = panel_angle_node(acos_f(cos_theta), &t);
+    int node = panel_angle_node(acos_f(cos_theta), &t);
     return spread_between(panel, panel->reflection->mirror, node, t, lanes);
 }
 
 /* Reflectance of the glossy surface: the mirror part's where there is one (the coating is the
  * same), Fresnel's otherwise. Up to a constant. */
-static Spectrum gloss(const Panel *panel, float cosine, const PanelLanes *lanes)
-{
+static Spectrum gloss(const Panel *panel, float cosine, const PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
     if (!r->has_mirror) return spectrum_all(fresnel_unpolarised(cosine, r->beyond_index));
     if (!(cosine > 0)) return spectrum_all(1e-6f);
     return spectrum_max(mirror_at(panel, cosine, lanes), spectrum_all(1e-6f));
 }
 
-static Spectrum spectrum_root(Spectrum a)
-{
+static Spectrum spectrum_root(Spectrum a) {
     Spectrum root;
     for (int i = 0; i < SPECTRUM_LANES; i++) root[i] = safe_sqrtf(a[i]);
     return root;
 }
 
 /* Factor that conserves energy at an incidence beyond the measured ones. */
-static Spectrum held_factor(const Panel *panel, float theta, const PanelLanes *lanes)
-{
+static Spectrum held_factor(const Panel *panel, float theta, const PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
     int i = 0;
     if (r->nodes < 2) return spectrum_all(1);
@@ -281,20 +260,18 @@ static Spectrum held_factor(const Panel *panel, float theta, const PanelLanes *l
 
 /* Two directions as one question. local: wo in the frame of panel_turned. */
 typedef struct PanelPair {
-    Vec3  wi, wo, local;
+    Vec3 wi, wo, local;
     float theta; /* of wi */
 } PanelPair;
 
-static Vec3 stored_at(const PanelReflection *r, const PanelPair *pair)
-{
+static Vec3 stored_at(const PanelReflection *r, const PanelPair *pair) {
     if (r->frame != PANEL_FRAME_SPECULAR)
         return surface_frame_stored(&r->surface, pair->wi, pair->wo);
     SpecularFrame frame = specular_frame(pair->theta, r->frame_exponent);
     return specular_frame_stored(&frame, pair->local);
 }
 
-static float reference_at(const PanelReflection *r, const PanelPair *pair)
-{
+static float reference_at(const PanelReflection *r, const PanelPair *pair) {
     if (r->frame != PANEL_FRAME_SPECULAR)
         return panel_reference(r->frame, r->refractive_index, pair->wi, pair->wo);
     return fresnel_unpolarised(pair->wi.z, r->refractive_index);
@@ -302,10 +279,9 @@ static float reference_at(const PanelReflection *r, const PanelPair *pair)
 
 /* Where surfaces of facets are read: the same facet under light from the last incidence. What
  * comes to lie outside the measured cone is held at its edge, unless it lay there already. */
-static Vec3 same_facet(const PanelReflection *r, const PanelPair *pair, Vec3 last_light)
-{
+static Vec3 same_facet(const PanelReflection *r, const PanelPair *pair, Vec3 last_light) {
     float sine = safe_sqrtf(1 - pair->wi.z * pair->wi.z);
-    Vec3  d = surface_frame_same_facet(vec3(-sine, 0, pair->wi.z), pair->local, last_light);
+    Vec3 d = surface_frame_same_facet(vec3(-sine, 0, pair->wi.z), pair->local, last_light);
     float least = pair->local.z < r->cone_cos ? pair->local.z : r->cone_cos;
     float across = safe_sqrtf(d.x * d.x + d.y * d.y);
     if (d.z >= least || !(across > 0)) return d;
@@ -313,21 +289,19 @@ static Vec3 same_facet(const PanelReflection *r, const PanelPair *pair, Vec3 las
     return vec3(d.x * scale, d.y * scale, least);
 }
 
-static PanelPair last_pair(const PanelReflection *r, const PanelPair *pair)
-{
+static PanelPair last_pair(const PanelReflection *r, const PanelPair *pair) {
     Vec3 light = vec3(-r->last_sine, 0, r->last_cosine);
     Vec3 from = r->beyond == PANEL_BEYOND_SLOPES
                     ? same_facet(r, pair, light)
                     : shifted(r, pair->local, safe_sqrtf(1 - pair->wi.z * pair->wi.z));
-    return (PanelPair){panel_turned_back(pair->wi, light), panel_turned_back(pair->wi, from),
-                       from, r->last_theta};
+    return (PanelPair){panel_turned_back(pair->wi, light), panel_turned_back(pair->wi, from), from,
+                       r->last_theta};
 }
 
 /* The haze's height over that where it was read. For fine roughness the root of the surface's
  * reflectances at theta_i and theta_o; for facets their reflectance and G / (cos cos). */
 static Spectrum haze_ratio(const Panel *panel, const PanelPair *now, const PanelPair *then,
-                           const PanelLanes *lanes)
-{
+                           const PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
     if (r->beyond != PANEL_BEYOND_SLOPES) {
         Spectrum here = gloss(panel, now->wi.z, lanes) * gloss(panel, now->local.z, lanes);
@@ -336,14 +310,12 @@ static Spectrum haze_ratio(const Panel *panel, const PanelPair *now, const Panel
     float masking = panel_masking(r->roughness, now->wi, now->wo) /
                     panel_masking(r->roughness, then->wi, then->wo);
     return gloss(panel, panel_facet_cosine(now->wi, now->wo), lanes) /
-           gloss(panel, panel_facet_cosine(then->wi, then->wo), lanes) *
-           spectrum_all(masking);
+           gloss(panel, panel_facet_cosine(then->wi, then->wo), lanes) * spectrum_all(masking);
 }
 
 /* The row of the table that counts most: at the last incidence weights that ought to be 0 may
  * be some rounding. */
-static int main_row(const PanelReflection *r, const PanelTables *mix)
-{
+static int main_row(const PanelReflection *r, const PanelTables *mix) {
     int best = 0;
     for (int i = 1; i < mix->straight; i++)
         if (mix->term[i].weight > mix->term[best].weight) best = i;
@@ -352,14 +324,13 @@ static int main_row(const PanelReflection *r, const PanelTables *mix)
 
 /* The law: the haze moves and changes its height, the lambertian part stays. */
 static Spectrum moved_haze(const Panel *panel, const PanelPair *pair, float light,
-                           const PanelLanes *lanes)
-{
+                           const PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
-    PanelPair     from = last_pair(r, pair);
+    PanelPair from = last_pair(r, pair);
     PanelTables mix = panel_tables_last(r, light);
     Spectrum logs = reflection_logs(panel, stored_at(r, &from), &mix, lanes);
     Spectrum total = spectrum_exp(logs) * spectrum_all(reference_at(r, &from));
-    int      row = main_row(r, &mix);
+    int row = main_row(r, &mix);
     Spectrum lambertian = spectrum_min(total, spread(r->lambertian + row, lanes));
     Spectrum haze = (total - lambertian) * haze_ratio(panel, pair, &from, lanes) + lambertian;
     if (r->has_lobe)
@@ -371,10 +342,9 @@ static Spectrum moved_haze(const Panel *panel, const PanelPair *pair, float ligh
 
 /* How far wo lies inside the hulls of all tables that count under light from wi, which is no
  * further out than the last incidence; radians, negative outside. */
-static float room_inside(const PanelReflection *r, const PanelPair *pair)
-{
+static float room_inside(const PanelReflection *r, const PanelPair *pair) {
     if (!r->reach) return r->cone_theta - panel_polar_angle(pair->local);
-    float       light = r->azimuths > 1 ? atan2_f(pair->wi.y, pair->wi.x) : 0, room = PI_F;
+    float light = r->azimuths > 1 ? atan2_f(pair->wi.y, pair->wi.x) : 0, room = PI_F;
     PanelTables mix = panel_tables_at(r, pair->theta, light);
     for (int i = 0; i < mix.count; i++) {
         Vec3 at = pair->local;
@@ -386,23 +356,20 @@ static float room_inside(const PanelReflection *r, const PanelPair *pair)
     return room;
 }
 
-static float smooth_share(float room)
-{
+static float smooth_share(float room) {
     float t = clampf(room * (1 / PASSAGE), 0, 1);
     return t * t * (3 - 2 * t);
 }
 
-static PanelPair pair_of(Vec3 wo, Vec3 wi)
-{
+static PanelPair pair_of(Vec3 wo, Vec3 wi) {
     return (PanelPair){wi, wo, panel_turned(wi, wo), panel_polar_angle(wi)};
 }
 
 /* Beyond the last incidence the two directions exchanged were measured where this is above 0
  * (Helmholtz); 1 where they are read, less within PASSAGE of where they end. */
-static float exchanged_share(const PanelReflection *r, const PanelPair *pair)
-{
+static float exchanged_share(const PanelReflection *r, const PanelPair *pair) {
     PanelPair other = pair_of(pair->wi, pair->wo);
-    float     before = r->last_theta - other.theta, room;
+    float before = r->last_theta - other.theta, room;
     if (!(before > 0)) return 0;
     room = room_inside(r, &other);
     room = room < before ? room : before;
@@ -410,22 +377,19 @@ static float exchanged_share(const PanelReflection *r, const PanelPair *pair)
 }
 
 static Spectrum brdf_beyond(const Panel *panel, const PanelPair *pair, float light,
-                            const PanelLanes *lanes)
-{
-    float    share = exchanged_share(panel->reflection, pair);
+                            const PanelLanes *lanes) {
+    float share = exchanged_share(panel->reflection, pair);
     Spectrum f = spectrum_all(0);
     if (share < 1) f += moved_haze(panel, pair, light, lanes) * spectrum_all(1 - share);
-    if (share > 0)
-        f += panel_brdf_at(panel, pair->wi, pair->wo, lanes) * spectrum_all(share);
+    if (share > 0) f += panel_brdf_at(panel, pair->wi, pair->wo, lanes) * spectrum_all(share);
     return f * held_factor(panel, pair->theta, lanes);
 }
 
-bool panel_brdf_is_measured(const Panel *panel, Vec3 wo, Vec3 wi)
-{
+bool panel_brdf_is_measured(const Panel *panel, Vec3 wo, Vec3 wi) {
     const PanelReflection *r = panel->reflection;
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return false;
     PanelPair pair = pair_of(wo, wi), other = pair_of(wi, wo);
-    bool      is_beyond = pair.theta > r->last_theta + SAME_ANGLE;
+    bool is_beyond = pair.theta > r->last_theta + SAME_ANGLE;
     if (is_beyond && other.theta > r->last_theta + SAME_ANGLE) return false;
     return room_inside(r, is_beyond ? &other : &pair) >= -SAME_ANGLE;
 }
@@ -434,8 +398,7 @@ bool panel_brdf_is_measured(const Panel *panel, Vec3 wo, Vec3 wi)
 
 /* As brdf_beyond has it. */
 static Spectrum lambertian_beyond(const Panel *panel, float theta, float light,
-                                  const PanelLanes *lanes)
-{
+                                  const PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
     PanelTables mix = panel_tables_last(r, light);
     return spread(r->lambertian + main_row(r, &mix), lanes) * held_factor(panel, theta, lanes);
@@ -443,8 +406,7 @@ static Spectrum lambertian_beyond(const Panel *panel, float theta, float light,
 
 /* ---- the queries ------------------------------------------------------------------------ */
 
-static void find_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes *lanes)
-{
+static void find_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
     Spectrum nm = spectrum_clamp(wavelengths->nm, SPECTRAL_FIRST_NM, SPECTRAL_LAST_NM);
     SpectrumMask whole =
@@ -466,8 +428,7 @@ static void find_lanes(const Panel *panel, const Wavelengths *wavelengths, Panel
     lanes->t = spectrum_clamp((nm - begin) * inverse, 0, 1);
 }
 
-void panel_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes *out)
-{
+void panel_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes *out) {
     const PanelReflection *r = panel->reflection;
     if (!r) return;
     int padded = (int)r->padded_wavelengths;
@@ -480,8 +441,7 @@ void panel_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes 
     out->last_gloss = gloss(panel, r->last_cosine, out);
 }
 
-Spectrum panel_brdf_at(const Panel *panel, Vec3 wo, Vec3 wi, const PanelLanes *lanes)
-{
+Spectrum panel_brdf_at(const Panel *panel, Vec3 wo, Vec3 wi, const PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
     if (!r || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
     PanelPair pair = pair_of(wo, wi);
@@ -489,7 +449,7 @@ Spectrum panel_brdf_at(const Panel *panel, Vec3 wo, Vec3 wi, const PanelLanes *l
     if (pair.theta > r->last_theta) return brdf_beyond(panel, &pair, light, lanes);
     PanelTables mix = panel_tables_at(r, pair.theta, light);
     Spectrum over = spectrum_exp(reflection_logs(panel, stored_at(r, &pair), &mix, lanes));
-    float    reference = reference_at(r, &pair);
+    float reference = reference_at(r, &pair);
     if (r->has_lobe) {
         float fresnel = fresnel_unpolarised(wi.z, r->refractive_index);
         over += lobe_over_fresnel(panel, &mix, pair.local, wi, lanes) *
@@ -498,36 +458,30 @@ Spectrum panel_brdf_at(const Panel *panel, Vec3 wo, Vec3 wi, const PanelLanes *l
     return over * spectrum_all(reference);
 }
 
-Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths)
-{
+Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths) {
     PanelLanes lanes;
     if (!panel->reflection || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
     panel_lanes(panel, wavelengths, &lanes);
     return panel_brdf_at(panel, wo, wi, &lanes);
 }
 
-Spectrum panel_lambertian_at(const Panel *panel, Spectrum brdf, Vec3 wi,
-                             const PanelLanes *lanes)
-{
+Spectrum panel_lambertian_at(const Panel *panel, Spectrum brdf, Vec3 wi, const PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
     if (!r || !(wi.z > 0)) return spectrum_all(0);
     float theta = panel_polar_angle(wi), light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
     if (theta > r->last_theta)
         return spectrum_min(brdf, lambertian_beyond(panel, theta, light, lanes));
     PanelTables mix = panel_tables_at(r, theta, light);
-    return spectrum_min(brdf,
-                        spectrum_exp(mixed_at_lanes(r, &mix, r->lambertian_log, lanes)));
+    return spectrum_min(brdf, spectrum_exp(mixed_at_lanes(r, &mix, r->lambertian_log, lanes)));
 }
 
-Spectrum panel_mirror_at(const Panel *panel, float cos_theta, const PanelLanes *lanes)
-{
+Spectrum panel_mirror_at(const Panel *panel, float cos_theta, const PanelLanes *lanes) {
     if (!panel->reflection || !panel->reflection->has_mirror || !(cos_theta > 0))
         return spectrum_all(0);
     return mirror_at(panel, cos_theta, lanes);
 }
 
-Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths)
-{
+Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wavelengths) {
     PanelLanes lanes;
     if (!panel->reflection || !panel->reflection->has_mirror || !(cos_theta > 0))
         return spectrum_all(0);
@@ -535,8 +489,7 @@ Spectrum panel_mirror(const Panel *panel, float cos_theta, const Wavelengths *wa
     return mirror_at(panel, cos_theta, &lanes);
 }
 
-float panel_haze_albedo(const Panel *panel, float cos_theta)
-{
+float panel_haze_albedo(const Panel *panel, float cos_theta) {
     float t;
     if (!panel->reflection || !(cos_theta > 0)) return 0;
     int node = panel_angle_node(acos_f(cos_theta), &t);

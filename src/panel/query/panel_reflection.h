@@ -22,12 +22,12 @@ bool panel_reflects_grey(const Panel *panel);
 #define PANEL_LANES_TABLES 12 /* more of them are mixed in every query */
 typedef struct PanelLanes {
     SpectrumMask interval; /* of measured wavelengths, that holds the lane */
-    Spectrum     t;        /* in it, 0 to 1: outside, the end value holds */
-    bool         has_one;  /* a single wavelength is measured */
-    int          second;   /* of at most 32 numbers: where a row's last 16 start; or -1 */
-    bool         has_means;
-    Spectrum     last_gloss; /* of the surface, at the last measured incidence */
-    Spectrum     basis[PANEL_LANES_COEFFICIENTS], mean[PANEL_LANES_TABLES];
+    Spectrum t;            /* in it, 0 to 1: outside, the end value holds */
+    bool has_one;          /* a single wavelength is measured */
+    int second;            /* of at most 32 numbers: where a row's last 16 start; or -1 */
+    bool has_means;
+    Spectrum last_gloss; /* of the surface, at the last measured incidence */
+    Spectrum basis[PANEL_LANES_COEFFICIENTS], mean[PANEL_LANES_TABLES];
 } PanelLanes;
 
 void panel_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes *out);
@@ -41,8 +41,7 @@ Spectrum panel_mirror_at(const Panel *panel, float cos_theta, const PanelLanes *
  * incidence of the light: nearly the least that was measured within 60 degrees of the normal
  * (src/panel/fit). One for all wo, and thus not reciprocal by itself; beyond the last
  * measured incidence it stays. */
-Spectrum panel_lambertian_at(const Panel *panel, Spectrum brdf, Vec3 wi,
-                             const PanelLanes *lanes);
+Spectrum panel_lambertian_at(const Panel *panel, Spectrum brdf, Vec3 wi, const PanelLanes *lanes);
 
 /* BRDF without the mirror part, sr^-1 per lane. wo: to the eye, wi: to the light. 0 when
  * either is below the surface. */

@@ -13,14 +13,13 @@
 typedef struct ReflectionLayout {
     const float *incidence, *azimuth, *wavelength_nm, *node_theta;
     const float *basis_scale, *loading_scale, *lobe_sigma;
-    const int16_t  *mean, *lambertian, *basis, *loading, *lobe;
+    const int16_t *mean, *lambertian, *basis, *loading, *lobe;
     const uint16_t *albedo, *mirror, *held, *node_albedo;
 } ReflectionLayout;
 
 /* Fills in where everything stands (lobe and mirror NULL where there are none); the bytes of
  * the whole section. */
-static inline size_t reflection_layout(const PanelReflectionStored *s, ReflectionLayout *out)
-{
+static inline size_t reflection_layout(const PanelReflectionStored *s, ReflectionLayout *out) {
     size_t tables = (size_t)s->incidences * s->azimuths, row = s->wavelengths;
     const float *f = (const float *)(s + 1);
     *out = (ReflectionLayout){0};
@@ -47,8 +46,7 @@ static inline size_t reflection_layout(const PanelReflectionStored *s, Reflectio
 
 /* Weight of a wavelength in luminous means, up to a factor: the observer's y, and a little so
  * that none has weight 0. */
-static inline double panel_luminous_weight(float nm)
-{
+static inline double panel_luminous_weight(float nm) {
     int i = (int)((double)nm + 0.5) - SPECTRAL_FIRST_NM;
     i = i < 0 ? 0 : i >= SPECTRAL_COUNT ? SPECTRAL_COUNT - 1 : i;
     return (double)spectral_table[i].y + 0.002;

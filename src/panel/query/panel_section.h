@@ -12,9 +12,9 @@
 /* A piece of the file, or the whole. */
 typedef struct PanelBytes {
     const unsigned char *data;
-    size_t      size;
+    size_t size;
     const char *name; /* of the file */
-    Error      *err;
+    Error *err;
 } PanelBytes;
 
 /* "the panel file is damaged"; always false. */

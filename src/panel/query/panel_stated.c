@@ -12,8 +12,7 @@
 #define SYNTHETIC "synthetic"
 
 /* A word in small or capital letters. */
-static bool has_word(const char *text, const char *word)
-{
+static bool has_word(const char *text, const char *word) {
     for (size_t length = strlen(word); text && *text; text++) {
         size_t i = 0;
         while (i < length && tolower((unsigned char)text[i]) == word[i]) i++;
@@ -23,22 +22,21 @@ static bool has_word(const char *text, const char *word)
 }
 
 /* NULL where it is empty, too. */
-static const char *kept_text(const json_t *text, Arena *arena)
-{
+static const char *kept_text(const json_t *text, Arena *arena) {
     return json_string_length(text)
-               ? arena_string(arena, json_string_value(text), json_string_length(text)) : NULL;
+               ? arena_string(arena, json_string_value(text), json_string_length(text))
+               : NULL;
 }
 
 /* Tables of the reflection are named "brdf ...". */
-static double error_of(const json_t *tables, bool of_reflection)
-{
-    double        squares = 0;
-    int           count = 0;
-    size_t        i;
+static double error_of(const json_t *tables, bool of_reflection) {
+    double squares = 0;
+    int count = 0;
+    size_t i;
     const json_t *table;
     json_array_foreach(tables, i, table) {
         const char *name = json_string_value(json_object_get(table, "name"));
-        double      error = json_number_value(json_object_get(table, "rms_error"));
+        double error = json_number_value(json_object_get(table, "rms_error"));
         if (!name || !(error >= 0) || !strncmp(name, "brdf", 4) != of_reflection) continue;
         squares += error * error;
         count++;
@@ -46,11 +44,10 @@ static double error_of(const json_t *tables, bool of_reflection)
     return count ? sqrt(squares / count) : 0;
 }
 
-PanelStated panel_stated(const Panel *panel, Arena *arena)
-{
+PanelStated panel_stated(const Panel *panel, Arena *arena) {
     PanelStated out = {0};
-    Error       ignored;
-    json_t     *report;
+    Error ignored;
+    json_t *report;
     if (!panel_report(panel, &report, &ignored)) return out;
     const json_t *tables = json_object_get(report, "tables");
     out.verdict = kept_text(json_object_get(report, "verdict"), arena);
@@ -61,12 +58,11 @@ PanelStated panel_stated(const Panel *panel, Arena *arena)
     out.reflection_error = error_of(tables, true);
     out.name = kept_text(json_object_get(report, "panel"), arena);
     out.instrument = kept_text(json_object_get(report, "instrument"), arena);
-    out.assumed = kept_text(json_object_get(json_object_get(report, "emission"),
-                                            "spectra_assumed"), arena);
+    out.assumed =
+        kept_text(json_object_get(json_object_get(report, "emission"), "spectra_assumed"), arena);
     const char *note = kept_text(json_object_get(report, "note"), arena);
-    out.is_synthetic =
-        (out.instrument && !strncmp(out.instrument, SIMULATED, strlen(SIMULATED))) ||
-        has_word(out.name, SYNTHETIC) || has_word(note, SYNTHETIC);
+    out.is_synthetic = (out.instrument && !strncmp(out.instrument, SIMULATED, strlen(SIMULATED))) ||
+                       has_word(out.name, SYNTHETIC) || has_word(note, SYNTHETIC);
     json_decref(report);
     return out;
 }

@@ -17,17 +17,17 @@
 #include "panel/query/panel.h"
 
 typedef struct PanelStated {
-    const char *verdict;    /* "good", "usable with care", "not usable"; NULL: an older file */
-    const char *reason;     /* the worst; NULL: none */
-    bool        is_coarse;
-    bool        is_unusable;
-    double      emission_error, reflection_error; /* 0: not stated */
-    const char *name;       /* the product's; NULL: not stated */
+    const char *verdict; /* "good", "usable with care", "not usable"; NULL: an older file */
+    const char *reason;  /* the worst; NULL: none */
+    bool is_coarse;
+    bool is_unusable;
+    double emission_error, reflection_error; /* 0: not stated */
+    const char *name;                        /* the product's; NULL: not stated */
     const char *instrument; /* with which it was measured, and by whom where that stands there;
                                NULL likewise */
     const char *assumed;    /* of the emission's spectra; NULL: they were measured, or an
                                older file */
-    bool        is_synthetic;
+    bool is_synthetic;
 } PanelStated;
 
 PanelStated panel_stated(const Panel *panel, Arena *arena);

@@ -11,7 +11,7 @@
 #include "panel/query/panel_opened.h"
 
 typedef struct PanelTablesTerm {
-    int   table;
+    int table;
     float weight;
 } PanelTablesTerm;
 
@@ -19,13 +19,13 @@ typedef struct PanelTablesTerm {
  * turned by 180 degrees (incidences from beyond the normal, in the specular-following frame).
  */
 typedef struct PanelTables {
-    int  count, straight;
+    int count, straight;
     PanelTablesTerm term[16];
 } PanelTables;
 
 /* Weights of up to four neighbours. first: of the first one, may be -1 (weight 0). */
 typedef struct PanelTablesCubic {
-    int   first;
+    int first;
     float weight[4];
 } PanelTablesCubic;
 
@@ -33,9 +33,8 @@ typedef struct PanelTablesCubic {
  * neighbour is missing the other end's parabola serves, and a straight line where both are.
  * Weights may be negative: they are for logarithms only. x: four abscissae, those missing are
  * not read. */
-static inline void panel_tables_hermite(const float x[4], bool has_left, bool has_right,
-                                        float u, float w[4])
-{
+static inline void panel_tables_hermite(const float x[4], bool has_left, bool has_right, float u,
+                                        float w[4]) {
     float h = x[2] - x[1], u2 = u * u, u3 = u2 * u;
     float a = (u3 - 2 * u2 + u) * h, b = (u3 - u2) * h; /* of the slopes at the two ends */
     float h0 = has_left ? x[1] - x[0] : 0, h2 = has_right ? x[3] - x[2] : 0;
@@ -52,22 +51,20 @@ static inline void panel_tables_hermite(const float x[4], bool has_left, bool ha
 }
 
 /* The interval is counted, not searched for: it cannot be predicted. */
-static inline int panel_tables_incidence(const PanelReflection *r, float theta, float weight[4])
-{
+static inline int panel_tables_incidence(const PanelReflection *r, float theta, float weight[4]) {
     int i = 0, n = (int)r->steps;
     for (int k = 1; k < n - 1; k++) i += r->step[k].theta <= theta;
     float span = n > 1 ? r->step[i + 1].theta - r->step[i].theta : 1;
     float u = clampf((theta - r->step[i].theta) / span, 0, 1);
-    const float (*of)[4] = r->step_cubic[i];
+    const float(*of)[4] = r->step_cubic[i];
     for (int k = 0; k < 4; k++)
         weight[k] = of[0][k] + u * (of[1][k] + u * (of[2][k] + u * of[3][k]));
     return i;
 }
 
 /* phi in radians; azimuths repeat after a turn. Linear over fewer than four. */
-static inline PanelTablesCubic panel_tables_azimuth(const PanelReflection *r, float phi)
-{
-    int   n = (int)r->azimuths, i = -1;
+static inline PanelTablesCubic panel_tables_azimuth(const PanelReflection *r, float phi) {
+    int n = (int)r->azimuths, i = -1;
     float x[4];
     phi -= 2 * PI_F * (float)(int)(phi / (2 * PI_F));
     if (phi < 0) phi += 2 * PI_F;
@@ -75,7 +72,8 @@ static inline PanelTablesCubic panel_tables_azimuth(const PanelReflection *r, fl
     for (int k = 0; k < 4; k++) {
         int j = i - 1 + k, turn = j < 0 ? -1 : j >= n ? 1 : 0;
         x[k] = j - turn * n >= 0 && j - turn * n < n
-                   ? r->azimuth[j - turn * n] + 2 * PI_F * (float)turn : 0;
+                   ? r->azimuth[j - turn * n] + 2 * PI_F * (float)turn
+                   : 0;
     }
     float u = clampf((phi - x[1]) / (x[2] - x[1]), 0, 1);
     PanelTablesCubic cubic = {i - 1, {0, 1 - u, u, 0}};
@@ -85,10 +83,9 @@ static inline PanelTablesCubic panel_tables_azimuth(const PanelReflection *r, fl
 
 /* Isotropic panels: a table for each incidence, always in the specular-following frame. Always
  * as many terms, those that are missing with a weight of 0: branches could not be predicted. */
-static inline PanelTables panel_tables_isotropic(const PanelReflection *r, float theta)
-{
+static inline PanelTables panel_tables_isotropic(const PanelReflection *r, float theta) {
     PanelTables mix;
-    float       weight[4];
+    float weight[4];
     const PanelNeighbours *near = &r->neighbours[panel_tables_incidence(r, theta, weight)];
     mix.count = PANEL_NEIGHBOURS;
     mix.straight = near->straight;
@@ -98,12 +95,11 @@ static inline PanelTables panel_tables_isotropic(const PanelReflection *r, float
 }
 
 /* light: its azimuth in the display's frame. */
-static inline PanelTables panel_tables_at(const PanelReflection *r, float theta, float light)
-{
+static inline PanelTables panel_tables_at(const PanelReflection *r, float theta, float light) {
     if (r->azimuths == 1) return panel_tables_isotropic(r, theta);
     PanelTables mix = {0};
-    float       weight[4];
-    int         n = (int)r->azimuths, row = (int)r->incidences;
+    float weight[4];
+    int n = (int)r->azimuths, row = (int)r->incidences;
     PanelTablesCubic azimuth[2] = {panel_tables_azimuth(r, light),
                                    panel_tables_azimuth(r, light + PI_F)};
     const PanelNeighbours *near = &r->neighbours[panel_tables_incidence(r, theta, weight)];
@@ -113,8 +109,8 @@ static inline PanelTables panel_tables_at(const PanelReflection *r, float theta,
         for (int a = 0; a < 4 && of_incidence != 0; a++) {
             if (around->weight[a] == 0) continue;
             int at = (around->first + a + n) % n;
-            mix.term[mix.count++] = (PanelTablesTerm){at * row + near->incidence[k],
-                                                      of_incidence * around->weight[a]};
+            mix.term[mix.count++] =
+                (PanelTablesTerm){at * row + near->incidence[k], of_incidence * around->weight[a]};
             mix.straight += k < near->straight;
         }
     }
@@ -122,8 +118,7 @@ static inline PanelTables panel_tables_at(const PanelReflection *r, float theta,
 }
 
 /* At the last incidence most weights are 0, always the same ones: they are left out. */
-static inline PanelTables panel_tables_last(const PanelReflection *r, float light)
-{
+static inline PanelTables panel_tables_last(const PanelReflection *r, float light) {
     PanelTables all = panel_tables_at(r, r->last_theta, light), mix = {0};
     for (int i = 0; i < all.count; i++) {
         if (all.term[i].weight == 0) continue;

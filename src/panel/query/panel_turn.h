@@ -10,16 +10,14 @@
 #include "panel/query/panel_opened.h"
 
 /* `towards` in the frame in which the light's azimuth is 180 degrees. */
-static inline Vec3 panel_turned(Vec3 light, Vec3 towards)
-{
+static inline Vec3 panel_turned(Vec3 light, Vec3 towards) {
     float s = safe_sqrtf(light.x * light.x + light.y * light.y);
     if (s < 1e-6f) return towards;
     float ex = -light.x / s, ey = -light.y / s; /* the mirror direction's azimuth */
     return vec3(ex * towards.x + ey * towards.y, ex * towards.y - ey * towards.x, towards.z);
 }
 
-static inline Vec3 panel_turned_back(Vec3 light, Vec3 local)
-{
+static inline Vec3 panel_turned_back(Vec3 light, Vec3 local) {
     float s = safe_sqrtf(light.x * light.x + light.y * light.y);
     if (s < 1e-6f) return local;
     float ex = -light.x / s, ey = -light.y / s;
@@ -27,17 +25,15 @@ static inline Vec3 panel_turned_back(Vec3 light, Vec3 local)
 }
 
 /* Position in a table over theta: *t in [0, 1] from node to node + 1. */
-static inline int panel_angle_node(float theta, float *t)
-{
+static inline int panel_angle_node(float theta, float *t) {
     float at = clampf(theta * 114.59155902616465f, 0, PANEL_ANGLES - 1); /* half degrees */
-    int   node = (int)at;
+    int node = (int)at;
     if (node > PANEL_ANGLES - 2) node = PANEL_ANGLES - 2;
     *t = at - (float)node;
     return node;
 }
 
 /* Polar angle of a direction, accurate near the pole too. */
-static inline float panel_polar_angle(Vec3 d)
-{
+static inline float panel_polar_angle(Vec3 d) {
     return atan2_f(safe_sqrtf(d.x * d.x + d.y * d.y), d.z);
 }

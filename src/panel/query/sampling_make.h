@@ -21,8 +21,8 @@
 
 typedef struct SamplingSection {
     const void *bytes;
-    size_t      size;
-    int         incidences, azimuths;
+    size_t size;
+    int incidences, azimuths;
 } SamplingSection;
 
 /* panel: its reflection can be queried, its sampling need not be there. */

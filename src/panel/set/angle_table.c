@@ -18,7 +18,7 @@ const char *const primary_names[3] = {"red", "green", "blue"};
 
 /* How far below zero noise may reach: an absolute part and a share of the table's maximum. */
 typedef struct NoiseAllowance {
-    float       absolute, share;
+    float absolute, share;
     const char *unit;
 } NoiseAllowance;
 
@@ -30,20 +30,19 @@ static const NoiseAllowance brdf_noise = {ANGLE_TABLE_NOISE_BRDF, ANGLE_TABLE_NO
 /* One row while it is sorted: where it came from and where it looks. */
 typedef struct Row {
     float theta_deg, phi_deg;
-    int   line, source;
+    int line, source;
 } Row;
 
 typedef struct RawTable {
-    const char  *file, *name;
-    Row         *row;
-    int          rows, channels;
+    const char *file, *name;
+    Row *row;
+    int rows, channels;
     const float *value; /* rows x channels in the file's order */
-    size_t       bytes;
-    bool         is_emission; /* X, Y, Z */
+    size_t bytes;
+    bool is_emission; /* X, Y, Z */
 } RawTable;
 
-static int by_direction(const void *a, const void *b)
-{
+static int by_direction(const void *a, const void *b) {
     const Row *p = a, *q = b;
     if (p->theta_deg != q->theta_deg) return p->theta_deg < q->theta_deg ? -1 : 1;
     if (p->phi_deg != q->phi_deg) return p->phi_deg < q->phi_deg ? -1 : 1;
@@ -51,14 +50,12 @@ static int by_direction(const void *a, const void *b)
 }
 
 /* "line 12" in the arena. */
-static const char *place_of(int line, Arena *arena)
-{
+static const char *place_of(int line, Arena *arena) {
     return arena_format(arena, "line %d", line);
 }
 
 /* Brings theta to [0, 90] and phi to [0, 360); a negative theta is the other side. */
-static bool place_row(const RawTable *raw, Row *row, Arena *arena, Error *err)
-{
+static bool place_row(const RawTable *raw, Row *row, Arena *arena, Error *err) {
     if (!(fabsf(row->theta_deg) <= 90))
         return error_at(err, ERROR_INPUT, raw->file, place_of(row->line, arena),
                         "theta is %g, required: 0 to 90 degrees", (double)row->theta_deg);
@@ -76,10 +73,9 @@ static bool place_row(const RawTable *raw, Row *row, Arena *arena, Error *err)
     return true;
 }
 
-static bool check_signs(const RawTable *raw, NoiseAllowance noise, Arena *arena, Error *err)
-{
+static bool check_signs(const RawTable *raw, NoiseAllowance noise, Arena *arena, Error *err) {
     size_t total = (size_t)raw->rows * (size_t)raw->channels;
-    float  most = 0;
+    float most = 0;
     for (size_t i = 0; i < total; i++) most = raw->value[i] > most ? raw->value[i] : most;
     float allowed = fmaxf(noise.absolute, noise.share * most);
     for (size_t i = 0; i < total; i++)
@@ -91,22 +87,19 @@ static bool check_signs(const RawTable *raw, NoiseAllowance noise, Arena *arena,
     return true;
 }
 
-static bool same_values(const RawTable *raw, const Row *a, const Row *b)
-{
+static bool same_values(const RawTable *raw, const Row *a, const Row *b) {
     size_t size = (size_t)raw->channels;
     return !memcmp(raw->value + (size_t)a->source * size, raw->value + (size_t)b->source * size,
                    sizeof *raw->value * size);
 }
 
-static bool same_direction(const Row *a, const Row *b)
-{
+static bool same_direction(const Row *a, const Row *b) {
     return fabsf(a->theta_deg - b->theta_deg) < SAME_DEG &&
            fabsf(a->phi_deg - b->phi_deg) < SAME_DEG;
 }
 
 static void keep_row(const RawTable *raw, const Row *row, AngleTable *table, float *theta,
-                     float *phi, float *value)
-{
+                     float *phi, float *value) {
     size_t size = (size_t)raw->channels;
     theta[table->rows] = (float)radians_from_degrees((double)row->theta_deg);
     phi[table->rows] = (float)radians_from_degrees((double)row->phi_deg);
@@ -115,11 +108,10 @@ static void keep_row(const RawTable *raw, const Row *row, AngleTable *table, flo
     table->rows++;
 }
 
-#define POLE_ROWS 4      /* so many show which of them is wrong */
+#define POLE_ROWS 4       /* so many show which of them is wrong */
 #define POLE_LIMIT 0.284f /* e^0.25 - 1: further from the median is a hot or dead pixel */
 
-static float pole_median(const RawTable *raw, int count, size_t channel, Arena scratch)
-{
+static float pole_median(const RawTable *raw, int count, size_t channel, Arena scratch) {
     float *list = ARENA_NEW(&scratch, float, count);
     for (int i = 0; i < count; i++)
         list[i] = raw->value[(size_t)raw->row[i].source * (size_t)raw->channels + channel];
@@ -128,8 +120,7 @@ static float pole_median(const RawTable *raw, int count, size_t channel, Arena s
 }
 
 /* Emission at theta 0: rows that are off the median in any component. */
-static void find_pole_outliers(const RawTable *raw, int count, AngleTable *table, Arena *arena)
-{
+static void find_pole_outliers(const RawTable *raw, int count, AngleTable *table, Arena *arena) {
     float median[3];
     if (!raw->is_emission || count < POLE_ROWS) return;
     AngleOutlier *list = ARENA_NEW(arena, AngleOutlier, count);
@@ -147,8 +138,7 @@ static void find_pole_outliers(const RawTable *raw, int count, AngleTable *table
     if (2 * table->pole_outliers > count) table->pole_outliers = 0; /* none is right */
 }
 
-static bool is_pole_outlier(const AngleTable *table, int row)
-{
+static bool is_pole_outlier(const AngleTable *table, int row) {
     for (int i = 0; i < table->pole_outliers; i++)
         if (table->pole_outlier[i].row == row) return true;
     return false;
@@ -156,10 +146,9 @@ static bool is_pole_outlier(const AngleTable *table, int row)
 
 /* All rows at theta 0 are one direction: the mean of those that do not stand out. Returns how
  * many there are. */
-static int keep_pole(const RawTable *raw, AngleTable *table, float *theta, float *phi,
-                     float *value, Arena *arena)
-{
-    int    count = 0;
+static int keep_pole(const RawTable *raw, AngleTable *table, float *theta, float *phi, float *value,
+                     Arena *arena) {
+    int count = 0;
     size_t size = (size_t)raw->channels;
     while (count < raw->rows && raw->row[count].theta_deg == 0) count++;
     if (!count) return 0;
@@ -179,24 +168,26 @@ static int keep_pole(const RawTable *raw, AngleTable *table, float *theta, float
 }
 
 static bool finish_table(RawTable *raw, NoiseAllowance noise, Arena *arena, AngleTable *out,
-                         Error *err)
-{
+                         Error *err) {
     for (int i = 0; i < raw->rows; i++)
         if (!place_row(raw, &raw->row[i], arena, err)) return false;
     if (!check_signs(raw, noise, arena, err)) return false;
     qsort(raw->row, (size_t)raw->rows, sizeof *raw->row, by_direction);
     float *theta = ARENA_NEW(arena, float, raw->rows);
     float *phi = ARENA_NEW(arena, float, raw->rows);
-    float *value = ARENA_NEW(arena, float, (size_t)raw->rows * (size_t)raw->channels);
-    AngleTable table = {.name = raw->name, .channels = raw->channels, .theta = theta,
-                        .phi = phi, .value = value, .text_bytes = raw->bytes};
+    float *value = ARENA_NEW(arena, float, (size_t)raw->rows *(size_t)raw->channels);
+    AngleTable table = {.name = raw->name,
+                        .channels = raw->channels,
+                        .theta = theta,
+                        .phi = phi,
+                        .value = value,
+                        .text_bytes = raw->bytes};
     for (int i = keep_pole(raw, &table, theta, phi, value, arena); i < raw->rows; i++) {
         const Row *row = &raw->row[i], *last = &raw->row[i - 1];
         if (!i || !same_direction(row, last)) {
             keep_row(raw, row, &table, theta, phi, value);
         } else if (!same_values(raw, row, last)) {
-            return error_at(err, ERROR_INPUT, raw->file,
-                            place_of(row->line, arena),
+            return error_at(err, ERROR_INPUT, raw->file, place_of(row->line, arena),
                             "theta %g, phi %g stands here and in line %d with different "
                             "values, required: every direction once",
                             (double)row->theta_deg, (double)row->phi_deg, last->line);
@@ -209,27 +200,27 @@ static bool finish_table(RawTable *raw, NoiseAllowance noise, Arena *arena, Angl
 
 /* ---- columns ------------------------------------------------------------------------- */
 
-static int angle_column(const CsvTable *csv, const char *name)
-{
+static int angle_column(const CsvTable *csv, const char *name) {
     for (int c = 0; c < csv->columns; c++)
         if (!strcasecmp(csv->name[c], name)) return c;
     return -1;
 }
 
-static bool missing_column(const CsvTable *csv, const char *wanted, Error *err)
-{
+static bool missing_column(const CsvTable *csv, const char *wanted, Error *err) {
     return error_at(err, ERROR_INPUT, csv->file, "header line",
                     "has no column '%s'; the nearest one is '%s'", wanted,
                     nearest_word(wanted, csv->name, csv->columns));
 }
 
 static bool start_rows(const CsvTable *csv, const char *name, Arena *arena, RawTable *raw,
-                       Error *err)
-{
+                       Error *err) {
     int theta = angle_column(csv, "theta"), phi = angle_column(csv, "phi");
     if (theta < 0) return missing_column(csv, "theta", err);
     if (phi < 0) return missing_column(csv, "phi", err);
-    *raw = (RawTable){.file = csv->file, .name = name, .rows = csv->rows, .bytes = csv->bytes,
+    *raw = (RawTable){.file = csv->file,
+                      .name = name,
+                      .rows = csv->rows,
+                      .bytes = csv->bytes,
                       .row = ARENA_NEW(arena, Row, csv->rows)};
     for (int i = 0; i < csv->rows; i++) {
         const float *cell = csv->cell + (size_t)i * (size_t)csv->columns;
@@ -239,24 +230,21 @@ static bool start_rows(const CsvTable *csv, const char *name, Arena *arena, RawT
 }
 
 static bool reject_other_columns(const CsvTable *csv, const char *const *wanted, int count,
-                                 Error *err)
-{
+                                 Error *err) {
     for (int c = 0; c < csv->columns; c++) {
         bool known = false;
         for (int i = 0; i < count && !known; i++)
-            known = i < 2 ? !strcasecmp(csv->name[c], wanted[i])
-                          : !strcmp(csv->name[c], wanted[i]);
+            known = i < 2 ? !strcasecmp(csv->name[c], wanted[i]) : !strcmp(csv->name[c], wanted[i]);
         if (!known)
             return error_at(err, ERROR_INPUT, csv->file, "header line",
-                            "column '%s' is unknown; the nearest known one is '%s'",
-                            csv->name[c], nearest_word(csv->name[c], wanted, count));
+                            "column '%s' is unknown; the nearest known one is '%s'", csv->name[c],
+                            nearest_word(csv->name[c], wanted, count));
     }
     return true;
 }
 
 /* X and Z from luminance and chromaticity; a row without light may have any chromaticity. */
-static bool xyz_from_yxy(const RawTable *raw, float *value, int line, Arena *arena, Error *err)
-{
+static bool xyz_from_yxy(const RawTable *raw, float *value, int line, Arena *arena, Error *err) {
     float y_cd_m2 = value[0], x = value[1], y = value[2];
     if (!(x >= 0) || !(y >= 0) || !(x + y <= 1) || (y == 0 && y_cd_m2 != 0)) {
         return error_at(err, ERROR_INPUT, raw->file, place_of(line, arena),
@@ -274,8 +262,7 @@ static bool xyz_from_yxy(const RawTable *raw, float *value, int line, Arena *are
 #define SCRATCH_BYTES ((size_t)64 << 30)
 
 static bool read_xyz(const char *file, const char *name, Arena *scratch, RawTable *out,
-                     Error *err)
-{
+                     Error *err) {
     static const char *const xyz[] = {"theta", "phi", "X", "Y", "Z"};
     static const char *const yxy[] = {"theta", "phi", "Y", "x", "y"};
     CsvTable csv;
@@ -283,8 +270,7 @@ static bool read_xyz(const char *file, const char *name, Arena *scratch, RawTabl
     if (!csv_table_read(file, scratch, &csv, err)) return false;
     bool is_yxy = csv_table_column(&csv, "x") >= 0 && csv_table_column(&csv, "X") < 0;
     const char *const *wanted = is_yxy ? yxy : xyz;
-    if (!start_rows(&csv, name, scratch, &raw, err) ||
-        !reject_other_columns(&csv, wanted, 5, err))
+    if (!start_rows(&csv, name, scratch, &raw, err) || !reject_other_columns(&csv, wanted, 5, err))
         return false;
     float *value = ARENA_NEW(scratch, float, 3 * (size_t)csv.rows);
     for (int j = 0; j < 3; j++) {
@@ -303,19 +289,17 @@ static bool read_xyz(const char *file, const char *name, Arena *scratch, RawTabl
 }
 
 bool angle_table_read_xyz(const char *file, const char *name, Arena *arena, AngleTable *out,
-                          Error *err)
-{
+                          Error *err) {
     RawTable raw;
-    Arena    scratch = arena_reserve(SCRATCH_BYTES);
-    bool     ok = read_xyz(file, name, &scratch, &raw, err) &&
-                  finish_table(&raw, emission_noise, arena, out, err);
+    Arena scratch = arena_reserve(SCRATCH_BYTES);
+    bool ok = read_xyz(file, name, &scratch, &raw, err) &&
+              finish_table(&raw, emission_noise, arena, out, err);
     arena_release(&scratch);
     return ok;
 }
 
 static bool is_wavelength_column(const CsvTable *csv, int column, const float *wavelength_nm,
-                                 int count)
-{
+                                 int count) {
     char *after;
     float nm = strtof(csv->name[column], &after);
     if (after == csv->name[column]) return false;
@@ -325,21 +309,18 @@ static bool is_wavelength_column(const CsvTable *csv, int column, const float *w
 }
 
 /* Column of a wavelength: its number, with or without "nm" behind it; or "brdf". */
-static int wavelength_column(const CsvTable *csv, float nm, int count)
-{
+static int wavelength_column(const CsvTable *csv, float nm, int count) {
     for (int c = 0; c < csv->columns; c++) {
         char *after;
         float value = strtof(csv->name[c], &after);
-        if (after != csv->name[c] && fabsf(value - nm) < 1e-3f &&
-            (!*after || !strcmp(after, "nm")))
+        if (after != csv->name[c] && fabsf(value - nm) < 1e-3f && (!*after || !strcmp(after, "nm")))
             return c;
     }
     return count == 1 ? csv_table_column(csv, "brdf") : -1;
 }
 
 static bool reject_other_wavelengths(const CsvTable *csv, const float *wavelength_nm, int count,
-                                     Error *err)
-{
+                                     Error *err) {
     for (int c = 0; c < csv->columns; c++) {
         const char *name = csv->name[c];
         if (!strcasecmp(name, "theta") || !strcasecmp(name, "phi")) continue;
@@ -347,21 +328,20 @@ static bool reject_other_wavelengths(const CsvTable *csv, const float *wavelengt
         if (!is_wavelength_column(csv, c, wavelength_nm, count))
             return error_at(err, ERROR_INPUT, csv->file, "header line",
                             "column '%s' is no wavelength of the manifest, required: theta, "
-                            "phi and wavelengths_nm", name);
+                            "phi and wavelengths_nm",
+                            name);
     }
     return true;
 }
 
 static bool read_brdf(const char *file, const float *wavelength_nm, int count, Arena *scratch,
-                      RawTable *out, Error *err)
-{
+                      RawTable *out, Error *err) {
     CsvTable csv;
     RawTable raw;
-    if (!csv_table_read(file, scratch, &csv, err) ||
-        !start_rows(&csv, "", scratch, &raw, err) ||
+    if (!csv_table_read(file, scratch, &csv, err) || !start_rows(&csv, "", scratch, &raw, err) ||
         !reject_other_wavelengths(&csv, wavelength_nm, count, err))
         return false;
-    float *value = ARENA_NEW(scratch, float, (size_t)csv.rows * (size_t)count);
+    float *value = ARENA_NEW(scratch, float, (size_t)csv.rows *(size_t)count);
     for (int w = 0; w < count; w++) {
         int column = wavelength_column(&csv, wavelength_nm[w], count);
         if (column < 0)
@@ -379,32 +359,28 @@ static bool read_brdf(const char *file, const float *wavelength_nm, int count, A
     return true;
 }
 
-bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int count,
-                           Arena *arena, AngleTable *out, Error *err)
-{
+bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int count, Arena *arena,
+                           AngleTable *out, Error *err) {
     RawTable raw;
-    Arena    scratch = arena_reserve(SCRATCH_BYTES);
-    bool     ok = read_brdf(file, wavelength_nm, count, &scratch, &raw, err) &&
-                  finish_table(&raw, brdf_noise, arena, out, err);
+    Arena scratch = arena_reserve(SCRATCH_BYTES);
+    bool ok = read_brdf(file, wavelength_nm, count, &scratch, &raw, err) &&
+              finish_table(&raw, brdf_noise, arena, out, err);
     arena_release(&scratch);
     return ok;
 }
 
 /* ---- polar grids --------------------------------------------------------------------- */
 
-static bool same_grid(const CsvTable *a, const CsvTable *b, Error *err)
-{
+static bool same_grid(const CsvTable *a, const CsvTable *b, Error *err) {
     bool same = a->columns == b->columns && a->rows == b->rows;
     for (int c = 1; same && c < a->columns; c++) same = !strcmp(a->name[c], b->name[c]);
     for (int i = 0; same && i < a->rows; i++)
         same = a->cell[(size_t)(i * a->columns)] == b->cell[(size_t)(i * b->columns)];
     return same || error_at(err, ERROR_INPUT, b->file, "",
-                            "has other angles than %s, required: one grid for X, Y and Z",
-                            a->file);
+                            "has other angles than %s, required: one grid for X, Y and Z", a->file);
 }
 
-static bool grid_azimuth(const CsvTable *csv, int column, float *phi_deg, Error *err)
-{
+static bool grid_azimuth(const CsvTable *csv, int column, float *phi_deg, Error *err) {
     char *after;
     *phi_deg = strtof(csv->name[column], &after);
     return (after != csv->name[column] && !*after && isfinite(*phi_deg)) ||
@@ -413,23 +389,25 @@ static bool grid_azimuth(const CsvTable *csv, int column, float *phi_deg, Error 
 }
 
 bool angle_table_read_grid(const char *const files[3], const char *name, Arena *arena,
-                           AngleTable *out, Error *err)
-{
+                           AngleTable *out, Error *err) {
     CsvTable csv[3];
     for (int j = 0; j < 3; j++)
         if (!csv_table_read(files[j], arena, &csv[j], err) ||
             (j && !same_grid(&csv[0], &csv[j], err)))
             return false;
     int across = csv[0].columns - 1, cells = csv[0].rows * across;
-    RawTable raw = {.file = csv[0].file, .name = name, .rows = cells, .channels = 3,
+    RawTable raw = {.file = csv[0].file,
+                    .name = name,
+                    .rows = cells,
+                    .channels = 3,
                     .is_emission = true,
                     .row = ARENA_NEW(arena, Row, cells),
                     .bytes = csv[0].bytes + csv[1].bytes + csv[2].bytes};
     float *value = ARENA_NEW(arena, float, 3 * (size_t)cells);
     for (int i = 0; i < cells; i++) {
-        int    row = i / across, column = i % across + 1;
+        int row = i / across, column = i % across + 1;
         size_t at = (size_t)row * (size_t)csv[0].columns;
-        float  phi_deg;
+        float phi_deg;
         if (!grid_azimuth(&csv[0], column, &phi_deg, err)) return false;
         raw.row[i] = (Row){csv[0].cell[at], phi_deg, csv[0].line[row], i};
         for (int j = 0; j < 3; j++) value[3 * i + j] = csv[j].cell[at + (size_t)column];
@@ -438,9 +416,7 @@ bool angle_table_read_grid(const char *const files[3], const char *name, Arena *
     return finish_table(&raw, emission_noise, arena, out, err);
 }
 
-bool angle_table_same_rows(const AngleTable *a, const AngleTable *b)
-{
-    return a->rows == b->rows &&
-           !memcmp(a->theta, b->theta, sizeof *a->theta * (size_t)a->rows) &&
+bool angle_table_same_rows(const AngleTable *a, const AngleTable *b) {
+    return a->rows == b->rows && !memcmp(a->theta, b->theta, sizeof *a->theta * (size_t)a->rows) &&
            !memcmp(a->phi, b->phi, sizeof *a->phi * (size_t)a->rows);
 }

@@ -18,20 +18,20 @@
 
 /* A row that is left out of the mean at theta 0. */
 typedef struct AngleOutlier {
-    int   row; /* among those at theta 0 */
+    int row;                    /* among those at theta 0 */
     float phi, value, expected; /* radians; Y, cd m^-2 */
 } AngleOutlier;
 
 /* Values over directions. Rows are sorted by theta, then phi; no direction stands twice.
  * theta in [0, pi/2], phi in [0, 2 pi); rows at theta 0 have become one. */
 typedef struct AngleTable {
-    const char  *name;     /* "red 031", "brdf 30 deg" */
-    int          rows, channels;
+    const char *name; /* "red 031", "brdf 30 deg" */
+    int rows, channels;
     const float *theta, *phi;
-    const float *value;    /* rows x channels */
-    size_t       text_bytes;
-    float        theta_max;
-    int          pole_outliers; /* of emission tables, at theta 0: they are not in the mean */
+    const float *value; /* rows x channels */
+    size_t text_bytes;
+    float theta_max;
+    int pole_outliers; /* of emission tables, at theta 0: they are not in the mean */
     const AngleOutlier *pole_outlier;
 } AngleTable;
 
@@ -44,8 +44,8 @@ bool angle_table_read_grid(const char *const files[3], const char *name, Arena *
                            AngleTable *out, Error *err);
 
 /* Columns theta, phi and one a wavelength ("brdf" when there is but one); without a name. */
-bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int count,
-                           Arena *arena, AngleTable *out, Error *err);
+bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int count, Arena *arena,
+                           AngleTable *out, Error *err);
 
 /* True when both tables have the same directions. */
 bool angle_table_same_rows(const AngleTable *a, const AngleTable *b);
@@ -57,7 +57,7 @@ extern const char *const primary_names[3];
 #define MEASUREMENT_LEVELS_MAX 64
 
 typedef struct MeasuredPrimary {
-    int        level_count;
-    double     level[MEASUREMENT_LEVELS_MAX]; /* rising, in (0, 255] */
+    int level_count;
+    double level[MEASUREMENT_LEVELS_MAX];     /* rising, in (0, 255] */
     AngleTable table[MEASUREMENT_LEVELS_MAX]; /* XYZ, black not subtracted */
 } MeasuredPrimary;

@@ -12,8 +12,7 @@ static const char *const RULES[] = {"maximum", "mean", NULL};
 #define OWNER DimmingZones
 
 static const RecordRow SPREAD[] = {
-    NUMBER("sigma_mm", RECORD_OPEN, sigma_mm, 0.01, 1e6,
-           "Standard deviation of a Gaussian, mm."),
+    NUMBER("sigma_mm", RECORD_OPEN, sigma_mm, 0.01, 1e6, "Standard deviation of a Gaussian, mm."),
     NUMBERS("radius_mm", 0, spread.at, spread.rows, ZONE_ROWS_MAX, 0, 1e5,
             "Of a table: distances from the zone's middle that rise from 0, mm; behind the "
             "last there is no light."),
@@ -55,42 +54,37 @@ static const RecordRow DIMMING[] = {
     {0}};
 #undef OWNER
 
-const RecordFormat dimming_format = {"local_dimming", sizeof(DimmingZones), DIMMING,
-                                     .doc = NULL};
+const RecordFormat dimming_format = {"local_dimming", sizeof(DimmingZones), DIMMING, .doc = NULL};
 
 bool dimming_keys_check(const JsonView *root, const double size_mm[2], DimmingZones *zones,
-                        Error *err)
-{
+                        Error *err) {
     const char *key, *fault;
     if (!(size_mm[0] > 0 && size_mm[1] > 0))
-        return record_fails(root, "local_dimming", err, "is there, but not 'size_mm': the "
+        return record_fails(root, "local_dimming", err,
+                            "is there, but not 'size_mm': the "
                             "light of a zone spreads over millimetres");
     for (int k = 0; k < 2; k++) zones->size_mm[k] = size_mm[k];
     fault = dimming_zones_fault(zones, &key);
     if (!fault) return true;
     return error_at(err, ERROR_INPUT, root->file,
-                    arena_format(root->arena, "%s/local_dimming/%s", root->path, key),
-                    "%s", fault);
+                    arena_format(root->arena, "%s/local_dimming/%s", root->path, key), "%s", fault);
 }
 
 /* ---- written ----------------------------------------------------------------------------- */
 
 /* A file keeps single precision: 7 digits. */
-static json_t *tidy(double value)
-{
+static json_t *tidy(double value) {
     double digits = value != 0 ? pow_d(10, 6 - floor(log10_d(fabs(value)))) : 1;
     return json_real(round(value * digits) / digits);
 }
 
-static void add_list(json_t *object, const char *key, const double *value, int count)
-{
+static void add_list(json_t *object, const char *key, const double *value, int count) {
     json_t *list = json_array();
     for (int i = 0; i < count; i++) json_array_append_new(list, tidy(value[i]));
     json_object_set_new(object, key, list);
 }
 
-json_t *dimming_keys_json(const DimmingZones *zones)
-{
+json_t *dimming_keys_json(const DimmingZones *zones) {
     json_t *spread = json_object(), *drive = json_object();
     if (zones->sigma_mm > 0) {
         json_object_set_new(spread, "sigma_mm", tidy(zones->sigma_mm));

@@ -11,10 +11,9 @@ static const RecordRow POLARISATION[] = {
            "Along which its electric field swings: 0 right, 90 up."),
     {0}};
 const RecordFormat polarisation_format = {"polarisation", sizeof(DisplayTraits), POLARISATION,
-                                         .doc = NULL};
+                                          .doc = NULL};
 
 bool display_traits_check(const JsonView *root, const double size_mm[2], DisplayTraits *traits,
-                          Error *err)
-{
+                          Error *err) {
     return !traits->has_zones || dimming_keys_check(root, size_mm, &traits->zones, err);
 }

@@ -20,8 +20,8 @@
 
 typedef struct ExportOptions {
     double theta_step_deg, phi_step_deg; /* 0: 1 and 3, of reflection 0.5 and 1 */
-    bool   extrapolates;                 /* up to 90 degrees, beyond the measured cone */
-    double mirror_fwhm_deg; /* below 0: 2.4 steps; 0: the mirror part is left out */
+    bool extrapolates;                   /* up to 90 degrees, beyond the measured cone */
+    double mirror_fwhm_deg;              /* below 0: 2.4 steps; 0: the mirror part is left out */
     ProgressMode progress;
 } ExportOptions;
 

@@ -12,11 +12,11 @@
 #define HALO_SQUARE_MM 10.0 /* its side; on a smaller display half of the shorter side */
 
 typedef struct HaloSquare {
-    const Panel     *panel;
+    const Panel *panel;
     const Backlight *backlight;
-    double           side_mm;
-    double           full_black; /* along the normal, all zones full */
-    double           black_drive; /* mean drive of an all-black picture; of a white one 1 */
+    double side_mm;
+    double full_black;  /* along the normal, all zones full */
+    double black_drive; /* mean drive of an all-black picture; of a white one 1 */
 } HaloSquare;
 
 /* Of a panel with zones. */

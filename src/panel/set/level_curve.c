@@ -14,20 +14,18 @@
 /* The rows that shine, as logarithms, and which of them are kept. */
 typedef struct CurveRows {
     const double *level, *cd_m2; /* the first that shines */
-    int           count;
-    double        black_cd_m2, full_cd_m2; /* full without black */
-    float        *log_level, *log_share;
-    bool         *is_kept;
+    int count;
+    double black_cd_m2, full_cd_m2; /* full without black */
+    float *log_level, *log_share;
+    bool *is_kept;
 } CurveRows;
 
-static double share_of(const CurveRows *rows, int i)
-{
+static double share_of(const CurveRows *rows, int i) {
     return (rows->cd_m2[i] - rows->black_cd_m2) / rows->full_cd_m2;
 }
 
 /* The kept rows' levels and logarithms. */
-static int kept_rows(const CurveRows *rows, float x[LEVEL_CURVE_MAX], float y[LEVEL_CURVE_MAX])
-{
+static int kept_rows(const CurveRows *rows, float x[LEVEL_CURVE_MAX], float y[LEVEL_CURVE_MAX]) {
     int count = 0;
     for (int i = 0; i < rows->count; i++) {
         if (!rows->is_kept[i]) continue;
@@ -38,20 +36,17 @@ static int kept_rows(const CurveRows *rows, float x[LEVEL_CURVE_MAX], float y[LE
 }
 
 /* How far the kept rows' curve misses a row, of what the eye compares it with. */
-static double miss_of(const CurveRows *rows, int i, const float *x, const float *y, int count)
-{
+static double miss_of(const CurveRows *rows, int i, const float *x, const float *y, int count) {
     PanelLevelWeights w = panel_level_weights(x, y, count, LEVEL_POWER, rows->log_level[i]);
     double log_share = (double)w.offset;
     for (int k = 0; k < 4 && w.first + k < count; k++)
         log_share += (double)w.weight[k] * (double)y[w.first + k];
     double found = exp_d(log_share) * rows->full_cd_m2 + rows->black_cd_m2;
-    return fabs(found - rows->cd_m2[i]) /
-           (rows->cd_m2[i] + LEVEL_CURVE_FLOOR * rows->full_cd_m2);
+    return fabs(found - rows->cd_m2[i]) / (rows->cd_m2[i] + LEVEL_CURVE_FLOOR * rows->full_cd_m2);
 }
 
 /* Levels nearer than the file's steps are one. */
-static bool is_beside_kept(const CurveRows *rows, int i)
-{
+static bool is_beside_kept(const CurveRows *rows, int i) {
     for (int k = i - 1; k >= 0 && rows->level[i] - rows->level[k] < 2 * LEVEL_STEP; k--)
         if (rows->is_kept[k]) return true;
     for (int k = i + 1; k < rows->count; k++) {
@@ -62,10 +57,9 @@ static bool is_beside_kept(const CurveRows *rows, int i)
 }
 
 /* The row that is missed most, or -1; *miss of it. */
-static int worst_row(const CurveRows *rows, double *miss)
-{
+static int worst_row(const CurveRows *rows, double *miss) {
     float x[LEVEL_CURVE_MAX], y[LEVEL_CURVE_MAX];
-    int   count = kept_rows(rows, x, y), worst = -1;
+    int count = kept_rows(rows, x, y), worst = -1;
     *miss = 0;
     for (int i = 0; i < rows->count; i++) {
         double one = rows->is_kept[i] ? 0 : miss_of(rows, i, x, y, count);
@@ -76,15 +70,17 @@ static int worst_row(const CurveRows *rows, double *miss)
     return worst;
 }
 
-static CurveRows shining_rows(const double *level, const double *cd_m2, int rows,
-                              bool has_black, Arena *scratch)
-{
+static CurveRows shining_rows(const double *level, const double *cd_m2, int rows, bool has_black,
+                              Arena *scratch) {
     double black = has_black ? cd_m2[0] : 0;
-    int    first = has_black;
+    int first = has_black;
     double least = black + LEVEL_SHARE_LEAST * (cd_m2[rows - 1] - black);
     while (first < rows - 1 && (!(cd_m2[first] > least) || level[first] < LEVEL_STEP)) first++;
-    CurveRows out = {.level = level + first, .cd_m2 = cd_m2 + first, .count = rows - first,
-                     .black_cd_m2 = black, .full_cd_m2 = cd_m2[rows - 1] - black};
+    CurveRows out = {.level = level + first,
+                     .cd_m2 = cd_m2 + first,
+                     .count = rows - first,
+                     .black_cd_m2 = black,
+                     .full_cd_m2 = cd_m2[rows - 1] - black};
     out.log_level = ARENA_NEW(scratch, float, out.count);
     out.log_share = ARENA_NEW(scratch, float, out.count);
     out.is_kept = ARENA_NEW(scratch, bool, out.count);
@@ -101,8 +97,7 @@ static CurveRows shining_rows(const double *level, const double *cd_m2, int rows
 #define SMOOTH_LEVELS 32 /* about: even in the cube root of the code, as lightness is */
 
 /* A row's weight where its luminance is compared with a floor, and the logarithm is fitted. */
-static double weight_of(const CurveRows *rows, int i)
-{
+static double weight_of(const CurveRows *rows, int i) {
     double part = share_of(rows, i) * rows->full_cd_m2;
     double of = part / (rows->cd_m2[i] + LEVEL_CURVE_FLOOR * rows->full_cd_m2);
     return of * of;
@@ -110,8 +105,7 @@ static double weight_of(const CurveRows *rows, int i)
 
 /* At a code the weighted least-squares line through the rows between two others, which count
  * the less the further away they are; NAN: there are none. */
-static double line_at(const CurveRows *rows, double from, double at, double to)
-{
+static double line_at(const CurveRows *rows, double from, double at, double to) {
     double w = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (int i = 0; i < rows->count; i++) {
         double d = (double)rows->log_level[i] - log_d(at);
@@ -130,13 +124,12 @@ static double line_at(const CurveRows *rows, double from, double at, double to)
 }
 
 /* Few whole codes, and what the rows around each say together; full level stays. */
-static void smooth_rows(const CurveRows *rows, float x[LEVEL_CURVE_MAX],
-                        float y[LEVEL_CURVE_MAX], LevelCurve *out)
-{
+static void smooth_rows(const CurveRows *rows, float x[LEVEL_CURVE_MAX], float y[LEVEL_CURVE_MAX],
+                        LevelCurve *out) {
     double first = fmax(1, ceil(rows->level[0])), code[SMOOTH_LEVELS];
     double low = pow_d(first, 1.0 / 3);
     double step = (pow_d(255, 1.0 / 3) - low) / (SMOOTH_LEVELS - 1);
-    int    count = 0;
+    int count = 0;
     for (int k = 0; k < SMOOTH_LEVELS; k++) {
         double one = rint(pow_d(low + k * step, 3));
         if (!count || one > code[count - 1]) code[count++] = one;
@@ -157,11 +150,10 @@ static void smooth_rows(const CurveRows *rows, float x[LEVEL_CURVE_MAX],
 /* ---- the curve --------------------------------------------------------------------------- */
 
 /* False: the curve would have to follow the rows one by one, so they are noise about it. */
-static bool keep_rows(CurveRows *rows)
-{
+static bool keep_rows(CurveRows *rows) {
     for (int count = rows->count > 1 ? 2 : 1;; count++) {
         double miss;
-        int    worst = worst_row(rows, &miss);
+        int worst = worst_row(rows, &miss);
         if (worst < 0 || miss <= LEVEL_CURVE_MISS) return true;
         if (count == LEVEL_CURVE_MAX) return false;
         rows->is_kept[worst] = true;
@@ -169,10 +161,9 @@ static bool keep_rows(CurveRows *rows)
 }
 
 int level_curve_choose(const double *level, const double *cd_m2, int rows, bool has_black,
-                       Arena scratch, LevelCurve *out)
-{
+                       Arena scratch, LevelCurve *out) {
     CurveRows of = shining_rows(level, cd_m2, rows, has_black, &scratch);
-    float     x[LEVEL_CURVE_MAX], y[LEVEL_CURVE_MAX];
+    float x[LEVEL_CURVE_MAX], y[LEVEL_CURVE_MAX];
     *out = (LevelCurve){.is_smooth = false};
     if (keep_rows(&of)) {
         kept_rows(&of, x, y);

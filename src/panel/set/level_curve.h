@@ -26,12 +26,12 @@
 
 /* One level curve: the levels that are kept, and what they are of full level. */
 typedef struct LevelCurve {
-    int    count;
+    int count;
     double level[LEVEL_CURVE_MAX]; /* codes, rising, above 0 up to 255 */
     double share[LEVEL_CURVE_MAX]; /* rising to 1 */
     double miss, rms;              /* errors at the rows, largest and root of the mean square,
                                       of their luminance and LEVEL_CURVE_FLOOR of full level */
-    bool   is_smooth;              /* fitted through noise */
+    bool is_smooth;                /* fitted through noise */
 } LevelCurve;
 
 /* level: codes, rising to 255; cd_m2: their luminance, which does not fall, and more at the

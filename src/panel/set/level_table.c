@@ -16,30 +16,34 @@
 #define LUMINANCE_MOST 1e9 /* cd/m2: more than the sun's disc at noon is no display */
 
 /* Places of the columns that count; -1: none. */
-typedef enum Place { PLACE_LEVEL, PLACE_RED, PLACE_GREEN, PLACE_BLUE, PLACE_WHITE, PLACE_COUNT
+typedef enum Place {
+    PLACE_LEVEL,
+    PLACE_RED,
+    PLACE_GREEN,
+    PLACE_BLUE,
+    PLACE_WHITE,
+    PLACE_COUNT
 } Place;
 
 typedef struct Columns {
-    int  at[PLACE_COUNT];
+    int at[PLACE_COUNT];
     bool is_percent;  /* of the levels */
     bool is_relative; /* luminance, by a column's name */
 } Columns;
 
 typedef struct PlaceWord {
     const char *word;
-    Place       place;
-    bool        has_case; /* y is a chromaticity, Y a luminance */
+    Place place;
+    bool has_case; /* y is a chromaticity, Y a luminance */
 } PlaceWord;
 
 static const PlaceWord words[] = {
-    {"level", PLACE_LEVEL, false},  {"code", PLACE_LEVEL, false},
-    {"grey", PLACE_LEVEL, false},   {"gray", PLACE_LEVEL, false},
-    {"input", PLACE_LEVEL, false},  {"signal", PLACE_LEVEL, false},
-    {"drive", PLACE_LEVEL, false},  {"digital", PLACE_LEVEL, false},
-    {"red", PLACE_RED, false},      {"r", PLACE_RED, false},
-    {"green", PLACE_GREEN, false},  {"g", PLACE_GREEN, false},
-    {"blue", PLACE_BLUE, false},    {"b", PLACE_BLUE, false},
-    {"white", PLACE_WHITE, false},  {"w", PLACE_WHITE, false},
+    {"level", PLACE_LEVEL, false}, {"code", PLACE_LEVEL, false},    {"grey", PLACE_LEVEL, false},
+    {"gray", PLACE_LEVEL, false},  {"input", PLACE_LEVEL, false},   {"signal", PLACE_LEVEL, false},
+    {"drive", PLACE_LEVEL, false}, {"digital", PLACE_LEVEL, false}, {"red", PLACE_RED, false},
+    {"r", PLACE_RED, false},       {"green", PLACE_GREEN, false},   {"g", PLACE_GREEN, false},
+    {"blue", PLACE_BLUE, false},   {"b", PLACE_BLUE, false},        {"white", PLACE_WHITE, false},
+    {"w", PLACE_WHITE, false},
 };
 
 /* Words that a colour may follow: "luminance", "L_red". */
@@ -54,31 +58,27 @@ static const PlaceWord luminance_words[] = {
 /* ---- columns ---------------------------------------------------------------------------- */
 
 /* The next run of letters at or behind *at; its length, 0 at the end. */
-static int next_word(const char **at)
-{
+static int next_word(const char **at) {
     int length = 0;
     while (**at && !isalpha((unsigned char)**at)) (*at)++;
     while (isalpha((unsigned char)(*at)[length])) length++;
     return length;
 }
 
-static bool is_word(const PlaceWord *known, const char *word, int length)
-{
+static bool is_word(const PlaceWord *known, const char *word, int length) {
     return (int)strlen(known->word) == length &&
            !(known->has_case ? strncmp(known->word, word, (size_t)length)
                              : strncasecmp(known->word, word, (size_t)length));
 }
 
-static int place_of(const PlaceWord *known, int count, const char *word, int length)
-{
+static int place_of(const PlaceWord *known, int count, const char *word, int length) {
     for (int i = 0; i < count; i++)
         if (is_word(&known[i], word, length)) return (int)known[i].place;
     return -1;
 }
 
 /* The Place of a column of that name, "Luminance of red" or "relative L_red"; -1: none. */
-static int column_place(const char *name)
-{
+static int column_place(const char *name) {
     int found = -1, length;
     for (; (length = next_word(&name)) > 0; name += length) {
         int place = place_of(words, COUNT_OF(words), name, length);
@@ -90,23 +90,20 @@ static int column_place(const char *name)
 }
 
 /* A share of full level: "Y (%)", "relative luminance", "L/Lmax". */
-static bool says_relative(const char *name)
-{
+static bool says_relative(const char *name) {
     static const char *const says[] = {"%", "percent", "rel", "norm", "/lmax", "/ymax"};
     for (int i = 0; i < COUNT_OF(says); i++)
         if (strcasestr(name, says[i])) return true;
     return false;
 }
 
-static bool has_primary(const Columns *columns, bool all)
-{
+static bool has_primary(const Columns *columns, bool all) {
     int count = (columns->at[PLACE_RED] >= 0) + (columns->at[PLACE_GREEN] >= 0) +
                 (columns->at[PLACE_BLUE] >= 0);
     return all ? count == 3 : count > 0;
 }
 
-static bool find_columns(const CsvTable *csv, Columns *out, Error *err)
-{
+static bool find_columns(const CsvTable *csv, Columns *out, Error *err) {
     for (int p = 0; p < PLACE_COUNT; p++) out->at[p] = -1;
     for (int c = 0; c < csv->columns; c++) {
         int place = column_place(csv->name[c]);
@@ -136,24 +133,21 @@ static bool find_columns(const CsvTable *csv, Columns *out, Error *err)
 
 /* ---- rows ------------------------------------------------------------------------------- */
 
-static double cell_of(const CsvTable *csv, int row, int column)
-{
+static double cell_of(const CsvTable *csv, int row, int column) {
     return (double)csv->cell[(size_t)row * (size_t)csv->columns + (size_t)column];
 }
 
 typedef struct LevelRow {
     double level;
-    int    row;
+    int row;
 } LevelRow;
 
-static int by_level(const void *a, const void *b)
-{
+static int by_level(const void *a, const void *b) {
     double p = ((const LevelRow *)a)->level, q = ((const LevelRow *)b)->level;
     return p < q ? -1 : p > q;
 }
 
-static bool has_between(const LevelRow *row, int count)
-{
+static bool has_between(const LevelRow *row, int count) {
     for (int i = 0; i < count; i++)
         if (row[i].level > 0 && row[i].level < 1) return true;
     return false;
@@ -162,11 +156,10 @@ static bool has_between(const LevelRow *row, int count)
 /* The level that is full, or 0 with an error. Levels 0 and 1 alone may be codes or shares.
  * level_max: the highest code (0: that of 8, 10, 12 or 16 bits). */
 static double full_level(const CsvTable *csv, const Columns *columns, const LevelRow *row,
-                         double level_max, Error *err)
-{
+                         double level_max, Error *err) {
     static const double codes[] = {255, 1023, 4095, 65535};
     const LevelRow *last = row + csv->rows - 1;
-    double          most = last->level;
+    double most = last->level;
     if (columns->is_percent && most == 100) return 100;
     if (!columns->is_percent && most == 1 && has_between(row, csv->rows)) return 1;
     if (!columns->is_percent && level_max > 0 && most == level_max) return most;
@@ -175,22 +168,24 @@ static double full_level(const CsvTable *csv, const Columns *columns, const Leve
     char where[32];
     snprintf(where, sizeof where, "line %d", csv->line[last->row]);
     if (level_max > 0)
-        error_at(err, ERROR_INPUT, csv->file, where, "the highest level is %g, required: rows "
-                 "up to the highest code, %g as stated", most, level_max);
+        error_at(err, ERROR_INPUT, csv->file, where,
+                 "the highest level is %g, required: rows "
+                 "up to the highest code, %g as stated",
+                 most, level_max);
     else
-        error_at(err, ERROR_INPUT, csv->file, where, "the highest level is %g, so the full "
+        error_at(err, ERROR_INPUT, csv->file, where,
+                 "the highest level is %g, so the full "
                  "level is %s: required are rows up to 255, 1023, 4095 or 65535 (codes), up to "
                  "1 with levels between (shares), or up to 100 in a column with %% in its "
-                 "name; --level-max N states another highest code", most,
-                 most == 1 || most == 100 || most > 255 ? "unclear" : "not there");
+                 "name; --level-max N states another highest code",
+                 most, most == 1 || most == 100 || most > 255 ? "unclear" : "not there");
     return 0;
 }
 
 static bool bad_row(const CsvTable *csv, int row, Error *err, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-static bool bad_row(const CsvTable *csv, int row, Error *err, const char *format, ...)
-{
+static bool bad_row(const CsvTable *csv, int row, Error *err, const char *format, ...) {
     va_list list;
     va_start(list, format);
     error_at_count(err, csv->file, "line", csv->line[row], format, list);
@@ -198,8 +193,7 @@ static bool bad_row(const CsvTable *csv, int row, Error *err, const char *format
     return false;
 }
 
-static bool check_levels(const CsvTable *csv, const LevelRow *row, Error *err)
-{
+static bool check_levels(const CsvTable *csv, const LevelRow *row, Error *err) {
     if (csv->rows < 2 || csv->rows > LEVEL_TABLE_ROWS_MAX)
         return error_at(err, ERROR_INPUT, csv->file, "",
                         "has %d row%s, required: 2 or more (up to %d)", csv->rows,
@@ -208,16 +202,17 @@ static bool check_levels(const CsvTable *csv, const LevelRow *row, Error *err)
         return bad_row(csv, row[0].row, err, "level %g is below zero", row[0].level);
     for (int i = 1; i < csv->rows; i++)
         if (row[i].level == row[i - 1].level)
-            return bad_row(csv, row[i].row, err, "level %g stands in line %d already, "
+            return bad_row(csv, row[i].row, err,
+                           "level %g stands in line %d already, "
                            "required: each level "
-                           "once", row[i].level, csv->line[row[i - 1].row]);
+                           "once",
+                           row[i].level, csv->line[row[i - 1].row]);
     return true;
 }
 
 /* Noise makes neighbours fall: such rows become their mean (the least change that lets nothing
  * fall; Barlow and others 1972, pool adjacent violators). Below zero is zero. */
-static int pool_falls(double *value, int count, Arena scratch)
-{
+static int pool_falls(double *value, int count, Arena scratch) {
     int *size = ARENA_NEW(&scratch, int, count), blocks = 0, pooled = 0;
     for (int i = 0; i < count; i++) {
         value[blocks] = value[i];
@@ -237,55 +232,57 @@ static int pool_falls(double *value, int count, Arena scratch)
 
 /* How far a row may lie below another, or below zero; a neighbour, which has about the same
  * light, further. */
-static double noise_of(double cd_m2, double full_cd_m2, bool is_near)
-{
+static double noise_of(double cd_m2, double full_cd_m2, bool is_near) {
     return fmax((is_near ? LEVEL_NOISE_NEAR : LEVEL_NOISE_SHARE) * cd_m2,
                 LEVEL_NOISE_FULL * full_cd_m2);
 }
 
 /* A column in the order of the levels, which does not fall but by noise. */
 static bool take_luminance(const CsvTable *csv, const LevelRow *row, int column, double *out,
-                           Error *err)
-{
+                           Error *err) {
     const char *name = csv->name[column];
-    int         top = 0, last = csv->rows - 1;
-    double      full = cell_of(csv, row[last].row, column);
+    int top = 0, last = csv->rows - 1;
+    double full = cell_of(csv, row[last].row, column);
     for (int i = 0; i <= last; i++) {
         out[i] = cell_of(csv, row[i].row, column);
         if (out[i] < 0 && !(-out[i] <= noise_of(0, full, false)))
-            return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, required: no "
-                           "luminance below zero", name, out[i]);
+            return bad_row(csv, row[i].row, err,
+                           "column '%s' holds %g cd/m2, required: no "
+                           "luminance below zero",
+                           name, out[i]);
         if (out[i] > LUMINANCE_MOST)
-            return bad_row(csv, row[i].row, err, "column '%s' holds %g cd/m2, required: at "
-                           "most %g", name, out[i], LUMINANCE_MOST);
+            return bad_row(csv, row[i].row, err,
+                           "column '%s' holds %g cd/m2, required: at "
+                           "most %g",
+                           name, out[i], LUMINANCE_MOST);
         bool is_near = row[i].level < LEVEL_NEAR * row[top].level;
         if (out[top] - out[i] > noise_of(out[top], full, is_near))
-            return bad_row(csv, row[i].row, err, "column '%s': %g cd/m2 at level %g is less "
+            return bad_row(csv, row[i].row, err,
+                           "column '%s': %g cd/m2 at level %g is less "
                            "than the %g of level %g (line %d), required: luminance that does "
                            "not fall by more than noise (%g %% of it; %g %% within %g %% of "
                            "the level; %g %% of full level)",
                            name, out[i], row[i].level, out[top], row[top].level,
-                           csv->line[row[top].row], 100 * LEVEL_NOISE_SHARE,
-                           100 * LEVEL_NOISE_NEAR, 100 * (LEVEL_NEAR - 1),
-                           100 * LEVEL_NOISE_FULL);
+                           csv->line[row[top].row], 100 * LEVEL_NOISE_SHARE, 100 * LEVEL_NOISE_NEAR,
+                           100 * (LEVEL_NEAR - 1), 100 * LEVEL_NOISE_FULL);
         if (out[i] > out[top]) top = i;
     }
     return true;
 }
 
-static bool check_light(const CsvTable *csv, const LevelRow *row, int column,
-                        const double *value, Error *err)
-{
+static bool check_light(const CsvTable *csv, const LevelRow *row, int column, const double *value,
+                        Error *err) {
     int last = csv->rows - 1;
     return value[last] > (row[0].level > 0 ? 0 : value[0]) ||
-           bad_row(csv, row[last].row, err, "column '%s': full level has no more light than "
-                   "level 0", csv->name[column]);
+           bad_row(csv, row[last].row, err,
+                   "column '%s': full level has no more light than "
+                   "level 0",
+                   csv->name[column]);
 }
 
 /* Black is in each primary, in white once. Each primary relative to its own full level: with
  * black B it is B / r(0), and white the sum less 2 B. */
-static double black_share_of(const LevelTable *table)
-{
+static double black_share_of(const LevelTable *table) {
     const double *white = table->white_cd_m2;
     double parts = 0;
     if (!table->has_black) return 0;
@@ -299,8 +296,7 @@ static double black_share_of(const LevelTable *table)
 }
 
 /* Values that all end at 1 are relative, whatever their columns are called. */
-static bool ends_at_one(const LevelTable *table)
-{
+static bool ends_at_one(const LevelTable *table) {
     int last = table->rows - 1;
     for (int p = 0; p < 3 && !table->has_white; p++)
         if (table->primary_cd_m2[p][last] != 1) return false;
@@ -308,10 +304,9 @@ static bool ends_at_one(const LevelTable *table)
 }
 
 static bool take_columns(const CsvTable *csv, const Columns *columns, const LevelRow *row,
-                         LevelTable *out, Arena scratch, Error *err)
-{
+                         LevelTable *out, Arena scratch, Error *err) {
     for (int p = PLACE_RED; p < PLACE_COUNT; p++) {
-        bool    is_white = p == PLACE_WHITE;
+        bool is_white = p == PLACE_WHITE;
         double *value = is_white ? out->white_cd_m2 : out->primary_cd_m2[p - PLACE_RED];
         if (!(is_white ? out->has_white : out->has_primaries)) continue;
         if (!take_luminance(csv, row, columns->at[p], value, err)) return false;
@@ -334,8 +329,7 @@ static bool take_columns(const CsvTable *csv, const Columns *columns, const Leve
 
 /* ---- the table --------------------------------------------------------------------------- */
 
-static void take_curves(LevelTable *table, Arena scratch)
-{
+static void take_curves(LevelTable *table, Arena scratch) {
     for (int p = 0; p < 3; p++) {
         const double *of = table->has_primaries ? table->primary_cd_m2[p] : table->white_cd_m2;
         int dark = level_curve_choose(table->level, of, table->rows, table->has_black, scratch,
@@ -345,10 +339,9 @@ static void take_curves(LevelTable *table, Arena scratch)
 }
 
 bool level_table_read(const char *file, double level_max, Arena *arena, LevelTable *out,
-                      Error *err)
-{
-    CsvTable   csv;
-    Columns    columns = {.is_percent = false};
+                      Error *err) {
+    CsvTable csv;
+    Columns columns = {.is_percent = false};
     LevelTable table = {.file = arena_string(arena, file, strlen(file))};
     if (!csv_table_read(table.file, arena, &csv, err) || !find_columns(&csv, &columns, err))
         return false;
@@ -379,9 +372,8 @@ bool level_table_read(const char *file, double level_max, Arena *arena, LevelTab
 }
 
 bool level_table_check_white(const LevelTable *table, double white_cd_m2, const char *source,
-                             Error *err)
-{
-    char   where[32];
+                             Error *err) {
+    char where[32];
     double full = table->white_cd_m2[table->rows - 1];
     if (table->is_relative || fabs(full - white_cd_m2) <= LEVEL_TABLE_FULL_MISS * white_cd_m2)
         return true;
@@ -390,12 +382,11 @@ bool level_table_check_white(const LevelTable *table, double white_cd_m2, const 
                     "full level has %g cd/m2, but the set's white on the axis %g (%s): %.3g %% "
                     "apart, required: within %g %%; do both belong to one panel, one "
                     "backlight? (a column of relative luminance is named so: 'relative')",
-                    full, white_cd_m2, source,
-                    100 * fabs(full - white_cd_m2) / white_cd_m2, 100 * LEVEL_TABLE_FULL_MISS);
+                    full, white_cd_m2, source, 100 * fabs(full - white_cd_m2) / white_cd_m2,
+                    100 * LEVEL_TABLE_FULL_MISS);
 }
 
-const char *level_table_text(const LevelTable *table, Arena *arena)
-{
+const char *level_table_text(const LevelTable *table, Arena *arena) {
     Text text = {.arena = arena};
     const char *as = table->is_relative ? "relative_" : "";
     text_format(&text, "# from %s; level 0 to 255, %s on the axis, black in it\nlevel",
@@ -413,23 +404,30 @@ const char *level_table_text(const LevelTable *table, Arena *arena)
     return text.data;
 }
 
-const char *level_table_note(const LevelTable *table, Arena *arena)
-{
+const char *level_table_note(const LevelTable *table, Arena *arena) {
     const LevelCurve *most = &table->curve[0];
     for (int p = 1; p < 3; p++)
         if (table->curve[p].count > most->count) most = &table->curve[p];
-    const char *noise = !table->noise_rows ? "" : arena_format(arena, "; %d rows that fall by "
-        "noise have their neighbours' mean", table->noise_rows);
-    const char *fit = most->is_smooth
-        ? arena_format(arena, "of which %d levels are made through the noise, %.2g %% (rms) "
-                       "and at most %.2g %%", most->count, 100 * most->rms, 100 * most->miss)
-        : arena_format(arena, "of which %d keep all within %.2g %%", most->count,
-                       100 * fmax(LEVEL_CURVE_MISS, most->miss));
-    return arena_format(arena, "levels from %s: %d rows%s, %s (of their luminance and %g %% of "
+    const char *noise = !table->noise_rows ? ""
+                                           : arena_format(arena,
+                                                          "; %d rows that fall by "
+                                                          "noise have their neighbours' mean",
+                                                          table->noise_rows);
+    const char *fit =
+        most->is_smooth
+            ? arena_format(arena,
+                           "of which %d levels are made through the noise, %.2g %% (rms) "
+                           "and at most %.2g %%",
+                           most->count, 100 * most->rms, 100 * most->miss)
+            : arena_format(arena, "of which %d keep all within %.2g %%", most->count,
+                           100 * fmax(LEVEL_CURVE_MISS, most->miss));
+    return arena_format(
+        arena,
+        "levels from %s: %d rows%s, %s (of their luminance and %g %% of "
         "full level); black is %.3g of white%s%s%s; the angular shape of white serves every "
         "level and black, an approximation",
         path_name(table->file), table->rows, table->is_relative ? " of relative luminance" : "",
-        fit, 100 * LEVEL_CURVE_FLOOR,
-        table->black_share, table->has_black ? "" : " (no row of level 0)",
+        fit, 100 * LEVEL_CURVE_FLOOR, table->black_share,
+        table->has_black ? "" : " (no row of level 0)",
         most->count > 1 ? "" : "; no level between, so a power of 2.2 is taken", noise);
 }

@@ -30,26 +30,26 @@
 #include "base/error.h"
 #include "panel/set/level_curve.h"
 
-#define LEVEL_NOISE_SHARE 0.01  /* of luminance, by which it may fall; */
-#define LEVEL_NOISE_NEAR 0.05   /* the same below a level less than LEVEL_NEAR times lower */
+#define LEVEL_NOISE_SHARE 0.01 /* of luminance, by which it may fall; */
+#define LEVEL_NOISE_NEAR 0.05  /* the same below a level less than LEVEL_NEAR times lower */
 #define LEVEL_NEAR 1.05
-#define LEVEL_NOISE_FULL 1e-4   /* of full level: the same */
+#define LEVEL_NOISE_FULL 1e-4 /* of full level: the same */
 #define LEVEL_TABLE_ROWS_MAX 65536
 #define LEVEL_TABLE_FULL_MISS 0.05 /* of full level to the set's white */
 
 typedef struct LevelTable {
     const char *file;
-    int         rows;
-    double     *level;          /* codes, rising */
-    int        *line;           /* of the rows, in the file */
-    bool        has_white, has_primaries, has_black; /* black: a row of level 0 */
-    bool        is_relative;    /* what stands below as cd/m2: each column in its own scale */
-    int         noise_rows;     /* that fell by noise, in the column with most of them */
-    double     *white_cd_m2;    /* rows; measured, or the sum of the primaries */
-    double     *primary_cd_m2[3];
-    double      black_share;
-    int         dark_rows;      /* above level 0 without more light than black: left out */
-    LevelCurve  curve[3];       /* of red, green, blue; all white's without their columns */
+    int rows;
+    double *level;                            /* codes, rising */
+    int *line;                                /* of the rows, in the file */
+    bool has_white, has_primaries, has_black; /* black: a row of level 0 */
+    bool is_relative;    /* what stands below as cd/m2: each column in its own scale */
+    int noise_rows;      /* that fell by noise, in the column with most of them */
+    double *white_cd_m2; /* rows; measured, or the sum of the primaries */
+    double *primary_cd_m2[3];
+    double black_share;
+    int dark_rows;       /* above level 0 without more light than black: left out */
+    LevelCurve curve[3]; /* of red, green, blue; all white's without their columns */
 } LevelTable;
 
 /* level_max: the highest code; 0: not stated. */

@@ -12,11 +12,10 @@
 /* ---- emission ---------------------------------------------------------------------------- */
 
 #define OWNER ManifestTable
-static const RecordRow GRID[] = {
-    PATH("X", MUST | RECORD_FILLED, file[0], NULL),
-    PATH("Y", MUST | RECORD_FILLED, file[1], NULL),
-    PATH("Z", MUST | RECORD_FILLED, file[2], NULL),
-    {0}};
+static const RecordRow GRID[] = {PATH("X", MUST | RECORD_FILLED, file[0], NULL),
+                                 PATH("Y", MUST | RECORD_FILLED, file[1], NULL),
+                                 PATH("Z", MUST | RECORD_FILLED, file[2], NULL),
+                                 {0}};
 static const RecordFormat grid_format = {"grid", sizeof(OWNER), GRID,
                                          .doc = "A polar grid, one file a component."};
 static const RecordRow TABLE_FORMS[] = {
@@ -25,30 +24,33 @@ static const RecordRow TABLE_FORMS[] = {
     {0}};
 #undef OWNER
 
-#define TABLE(key, member, words)                                                              \
+#define TABLE(key, member, words) \
     {key, RECORD_EITHER, RECORD_AT(OWNER, member), .forms = TABLE_FORMS, .doc = words}
 
 #define OWNER ManifestLevel
 static const RecordRow LEVEL_TABLE = TABLE("table", table, NULL);
 #undef OWNER
 
-static bool check_level(const JsonView *view, void *item, Error *err)
-{
+static bool check_level(const JsonView *view, void *item, Error *err) {
     ManifestLevel *level = item;
-    char          *after;
+    char *after;
     level->level = strtod(level->name, &after);
     return (after != level->name && !*after && level->level > 0 && level->level <= 255) ||
-           record_fails(view, level->name, err, "is no grey level, required: a number above 0 "
-                                                "and up to 255");
+           record_fails(view, level->name, err,
+                        "is no grey level, required: a number above 0 "
+                        "and up to 255");
 }
 
 static const RecordFormat level_format = {"level", sizeof(ManifestLevel), .check = check_level,
                                           .value = &LEVEL_TABLE};
 
 #define OWNER ManifestEmission
-#define LEVELS(key, which)                                                                     \
-    {key, RECORD_MAP, RECORD_MANY(OWNER, primary[which], level_count[which]),                  \
-     RECORD_COUNT(0, MEASUREMENT_LEVELS_MAX), .of = &level_format,                             \
+#define LEVELS(key, which) \
+    {key, \
+     RECORD_MAP, \
+     RECORD_MANY(OWNER, primary[which], level_count[which]), \
+     RECORD_COUNT(0, MEASUREMENT_LEVELS_MAX), \
+     .of = &level_format, \
      .doc = "Grey level (above 0, up to 255) to the table of it."}
 
 static const RecordRow EMISSION[] = {
@@ -63,64 +65,64 @@ static const RecordRow EMISSION[] = {
     {0}};
 #undef OWNER
 
-static int by_level(const void *a, const void *b)
-{
+static int by_level(const void *a, const void *b) {
     double p = ((const ManifestLevel *)a)->level, q = ((const ManifestLevel *)b)->level;
     return p < q ? -1 : p > q;
 }
 
-static bool sort_levels(const JsonView *view, const char *primary, ManifestLevel *levels,
-                        int count, Error *err)
-{
+static bool sort_levels(const JsonView *view, const char *primary, ManifestLevel *levels, int count,
+                        Error *err) {
     qsort(levels, (size_t)count, sizeof *levels, by_level);
     for (int i = 1; i < count; i++)
         if (levels[i].level == levels[i - 1].level)
-            return record_fails(view, arena_format(view->arena, "%s/%s", primary,
-                                                   levels[i].name),
+            return record_fails(view, arena_format(view->arena, "%s/%s", primary, levels[i].name),
                                 err, "is the same grey level as '%s'", levels[i - 1].name);
-    return count > 0 || record_fails(view, primary, err, "has no grey levels, required: at "
-                                                         "least \"255\"");
+    return count > 0 || record_fails(view, primary, err,
+                                     "has no grey levels, required: at "
+                                     "least \"255\"");
 }
 
-static bool check_white(const JsonView *view, Error *err)
-{
+static bool check_white(const JsonView *view, Error *err) {
     for (int p = 0; p < 3; p++)
         if (record_has(view, primary_names[p]))
             return error_at(err, ERROR_INPUT, view->file, view->path,
                             "has both 'white' and '%s', required: either the white table or "
-                            "the three primaries", primary_names[p]);
+                            "the three primaries",
+                            primary_names[p]);
     return !record_has(view, "black") ||
            error_at(err, ERROR_INPUT, view->file, view->path,
                     "has both 'white' and 'black'; a white-only set has a black of 0, or that "
                     "of its 'levels'");
 }
 
-static bool check_emission(const JsonView *view, void *item, Error *err)
-{
+static bool check_emission(const JsonView *view, void *item, Error *err) {
     ManifestEmission *emission = item;
     if (record_has(view, "white")) return check_white(view, err);
     if (record_has(view, "levels"))
-        return record_fails(view, "levels", err, "is for a set of 'white' alone; these "
-                                                 "primaries' levels are measured");
+        return record_fails(view, "levels", err,
+                            "is for a set of 'white' alone; these "
+                            "primaries' levels are measured");
     if (!record_has(view, "black"))
         return error_at(err, ERROR_INPUT, view->file, view->path,
                         "key 'black' is missing: the black pattern's table");
     for (int p = 0; p < 3; p++) {
-        if (!record_has(view, primary_names[p]))
-            return record_misses(view, primary_names[p], err);
-        if (!sort_levels(view, primary_names[p], emission->primary[p],
-                         emission->level_count[p], err))
+        if (!record_has(view, primary_names[p])) return record_misses(view, primary_names[p], err);
+        if (!sort_levels(view, primary_names[p], emission->primary[p], emission->level_count[p],
+                         err))
             return false;
     }
     return true;
 }
 
-#define GREY_LEVELS                                                                            \
-    "{'minProperties': 1, 'propertyNames': {'pattern': '^(?!0*\\\\.?0*$)(0*([0-9]{1,2}|"       \
+#define GREY_LEVELS \
+    "{'minProperties': 1, 'propertyNames': {'pattern': '^(?!0*\\\\.?0*$)(0*([0-9]{1,2}|" \
     "1[0-9]{2}|2[0-4][0-9]|25[0-4])?(\\\\.[0-9]*)?|0*255(\\\\.0*)?)$'}}"
 
 static const RecordFormat emission_format = {
-    "emission", sizeof(ManifestEmission), EMISSION, .check = check_emission,
+    "emission",
+    sizeof(ManifestEmission),
+    EMISSION,
+    .check = check_emission,
     .rules = "{'dependentRequired': {'levels': ['white']}, 'oneOf': ["
              "{'required': ['black', 'red', 'green', 'blue'], "
              "'properties': {'white': false}}, "
@@ -151,17 +153,15 @@ static const RecordRow REFLECTION[] = {
 #undef OWNER
 
 static bool check_rising(const JsonView *view, const char *key, const double *value, int count,
-                         Error *err)
-{
+                         Error *err) {
     for (int i = 1; i < count; i++)
         if (!(value[i] > value[i - 1]))
-            return record_fails(view, key, err, "%g follows %g, required: rising values",
-                                value[i], value[i - 1]);
+            return record_fails(view, key, err, "%g follows %g, required: rising values", value[i],
+                                value[i - 1]);
     return true;
 }
 
-static bool check_reflection(const JsonView *view, void *item, Error *err)
-{
+static bool check_reflection(const JsonView *view, void *item, Error *err) {
     ManifestReflection *r = item;
     r->path = view->path;
     if (!check_rising(view, "wavelengths_nm", r->wavelength_nm, r->wavelength_count, err) ||
@@ -171,15 +171,20 @@ static bool check_reflection(const JsonView *view, void *item, Error *err)
     if (!strstr(r->files, "{incidence}"))
         return record_fails(view, "files", err, "required: a pattern that holds {incidence}");
     if (r->azimuth_count && !strstr(r->files, "{azimuth}"))
-        return record_fails(view, "files", err, "required: a pattern that holds {azimuth}, "
-                                                "because incidence_phi_deg is there");
+        return record_fails(view, "files", err,
+                            "required: a pattern that holds {azimuth}, "
+                            "because incidence_phi_deg is there");
     return !record_has(view, "specular") || !record_has(view, "gloss") ||
-           error_at(err, ERROR_INPUT, view->file, view->path, "has both 'specular' and "
+           error_at(err, ERROR_INPUT, view->file, view->path,
+                    "has both 'specular' and "
                     "'gloss', required: one of them: a specular table says more");
 }
 
 static const RecordFormat reflection_format = {
-    "reflection", sizeof(ManifestReflection), REFLECTION, .check = check_reflection,
+    "reflection",
+    sizeof(ManifestReflection),
+    REFLECTION,
+    .check = check_reflection,
     .rules = "{'not': {'required': ['specular', 'gloss']}, "
              "'allOf': [{'properties': {'files': {'pattern': '\\\\{incidence\\\\}'}}}],"
              "'if': {'required': ['incidence_phi_deg']}, "
@@ -189,9 +194,9 @@ static const RecordFormat reflection_format = {
 
 /* ---- spots ------------------------------------------------------------------------------- */
 
-#define PARTS                                                                                  \
-    PART("emission", emission, emission.is_there, emission_format, NULL),                      \
-    PART("reflection", reflection, reflection.is_there, reflection_format, NULL)
+#define PARTS \
+    PART("emission", emission, emission.is_there, emission_format, NULL), \
+        PART("reflection", reflection, reflection.is_there, reflection_format, NULL)
 
 #define OWNER ManifestSpot
 static const RecordRow SPOT[] = {
@@ -202,15 +207,13 @@ static const RecordRow SPOT[] = {
     {0}};
 #undef OWNER
 
-static void start_spot(void *item)
-{
+static void start_spot(void *item) {
     *(ManifestSpot *)item = (ManifestSpot){.position_mm = {-1, -1}};
 }
 
-static bool check_position(const JsonView *view, ManifestSpot *spot, Error *err)
-{
+static bool check_position(const JsonView *view, ManifestSpot *spot, Error *err) {
     const double *size_mm = ((const Manifest *)view->whole)->set.size_mm;
-    bool          is_mm = record_has(view, "position_mm");
+    bool is_mm = record_has(view, "position_mm");
     if (is_mm == record_has(view, "position"))
         return error_at(err, ERROR_INPUT, view->file, view->path,
                         is_mm ? "has both 'position' and 'position_mm', required: one of them"
@@ -228,8 +231,7 @@ static bool check_position(const JsonView *view, ManifestSpot *spot, Error *err)
     return true;
 }
 
-static bool check_spot(const JsonView *view, void *item, Error *err)
-{
+static bool check_spot(const JsonView *view, void *item, Error *err) {
     ManifestSpot *spot = item;
     spot->path = view->path;
     return check_position(view, spot, err) &&
@@ -239,21 +241,25 @@ static bool check_spot(const JsonView *view, void *item, Error *err)
 }
 
 static const RecordFormat spot_format = {
-    "spot", sizeof(ManifestSpot), SPOT, start_spot, check_spot,
+    "spot",
+    sizeof(ManifestSpot),
+    SPOT,
+    start_spot,
+    check_spot,
     .rules = "{'oneOf': [{'required': ['position']}, {'required': ['position_mm']}], "
              "'anyOf': [{'required': ['emission']}, {'required': ['reflection']}]}"};
 
 /* What a spot lacks the manifest has; no two are at one place. */
-static bool check_spots(const JsonView *root, const Manifest *m, Error *err)
-{
+static bool check_spots(const JsonView *root, const Manifest *m, Error *err) {
     for (int i = 0; i < m->spot_count; i++) {
         const ManifestSpot *spot = &m->spot[i];
-        bool lacks_emission = m->set.spots_emit && !spot->emission.is_there &&
-                              !m->emission.is_there;
-        bool lacks_reflection = m->set.spots_reflect && !spot->reflection.is_there &&
-                                !m->reflection.is_there;
+        bool lacks_emission =
+            m->set.spots_emit && !spot->emission.is_there && !m->emission.is_there;
+        bool lacks_reflection =
+            m->set.spots_reflect && !spot->reflection.is_there && !m->reflection.is_there;
         if (lacks_emission || lacks_reflection)
-            return error_at(err, ERROR_INPUT, root->file, spot->path, "has no '%s' as other "
+            return error_at(err, ERROR_INPUT, root->file, spot->path,
+                            "has no '%s' as other "
                             "spots have, and the manifest has none that would serve",
                             lacks_emission ? "emission" : "reflection");
         for (int k = 0; k < i; k++)
@@ -299,37 +305,40 @@ static const RecordRow MANIFEST[] = {
     {0}};
 #undef OWNER
 
-static void start(void *item)
-{
+static void start(void *item) {
     Manifest *manifest = item;
-    *manifest = (Manifest){.set = {.panel = "", .instrument = "", .date = "",
-        .operator_name = "", .conditions = "", .note = "", 
-        .traits = {.zones.compensates = true}}};
+    *manifest = (Manifest){.set = {.panel = "",
+                                   .instrument = "",
+                                   .date = "",
+                                   .operator_name = "",
+                                   .conditions = "",
+                                   .note = "",
+                                   .traits = {.zones.compensates = true}}};
 }
 
 /* Keys that say something of the emitted light; two of them in place of its spectra. */
-static bool check_emitted(const JsonView *root, bool emits, Error *err)
-{
-    static const char *const keys[] = {"polarisation", "local_dimming", "backlight",
-                                       "peaks_nm"};
+static bool check_emitted(const JsonView *root, bool emits, Error *err) {
+    static const char *const keys[] = {"polarisation", "local_dimming", "backlight", "peaks_nm"};
     for (int i = 0; i < COUNT_OF(keys); i++) {
         if (!record_has(root, keys[i])) continue;
         if (!emits)
-            return record_fails(root, keys[i], err, "tells of the emitted light, but the set "
-                                                    "has no 'emission'");
+            return record_fails(root, keys[i], err,
+                                "tells of the emitted light, but the set "
+                                "has no 'emission'");
         if (i >= 2 && record_has(root, "primaries"))
-            return record_fails(root, keys[i], err, "is for a set without 'primaries': their "
-                                                    "spectra are measured");
+            return record_fails(root, keys[i], err,
+                                "is for a set without 'primaries': their "
+                                "spectra are measured");
     }
     return emits || !record_has(root, "uniformity") ||
-           record_fails(root, "uniformity", err, "says how even the emission is, but the set "
-                                                 "has none");
+           record_fails(root, "uniformity", err,
+                        "says how even the emission is, but the set "
+                        "has none");
 }
 
-static bool check(const JsonView *root, void *item, Error *err)
-{
-    Manifest     *m = item;
-    Measurement  *set = &m->set;
+static bool check(const JsonView *root, void *item, Error *err) {
+    Manifest *m = item;
+    Measurement *set = &m->set;
     const double *peak = set->peaks_nm;
     set->backlight += record_has(root, "backlight");
     for (int i = 0; i < m->spot_count; i++) {
@@ -343,15 +352,21 @@ static bool check(const JsonView *root, void *item, Error *err)
         !check_emitted(root, m->emission.is_there || set->spots_emit, err))
         return false;
     if (m->uniformity.camera_mm > 0 && !(set->size_mm[0] > 0))
-        return record_fails(root, "uniformity/camera_mm", err, "is there, but the manifest has "
+        return record_fails(root, "uniformity/camera_mm", err,
+                            "is there, but the manifest has "
                             "no 'size_mm' to compare it with");
     return !(peak[0] > 0) || (peak[0] > peak[1] && peak[1] > peak[2]) ||
-           record_fails(root, "peaks_nm", err, "required are three wavelengths that fall: of "
-                                               "red, green and blue");
+           record_fails(root, "peaks_nm", err,
+                        "required are three wavelengths that fall: of "
+                        "red, green and blue");
 }
 
 const RecordFormat manifest_format = {
-    "measurement_set", sizeof(Manifest), MANIFEST, start, check,
+    "measurement_set",
+    sizeof(Manifest),
+    MANIFEST,
+    start,
+    check,
     .rules = "{'anyOf': [{'required': ['spots']}, {'required': ['emission']}, "
              "{'required': ['reflection']}], "
              "'allOf': [{'if': {'anyOf': [{'required': ['polarisation']}, "

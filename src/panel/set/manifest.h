@@ -16,46 +16,46 @@ typedef struct ManifestTable {
 } ManifestTable;
 
 typedef struct ManifestLevel {
-    const char   *name; /* "255" */
+    const char *name; /* "255" */
     ManifestTable table;
-    double        level;
+    double level;
 } ManifestLevel;
 
 typedef struct ManifestEmission {
-    bool           is_there;
-    ManifestTable  black, white;
+    bool is_there;
+    ManifestTable black, white;
     ManifestLevel *primary[3]; /* red, green, blue: levels, rising */
-    int            level_count[3];
-    const char    *levels;     /* of white: a gamma table; NULL: none */
+    int level_count[3];
+    const char *levels; /* of white: a gamma table; NULL: none */
 } ManifestEmission;
 
 typedef struct ManifestReflection {
-    bool                is_there;
-    const char         *path;
-    const double       *wavelength_nm, *incidence_deg, *azimuth_deg; /* each rising */
-    int                 wavelength_count, incidence_count, azimuth_count; /* 0: isotropic */
-    const char         *files; /* a pattern with {incidence}, {azimuth}, {wavelength} */
-    SpecularFile        specular;
+    bool is_there;
+    const char *path;
+    const double *wavelength_nm, *incidence_deg, *azimuth_deg; /* each rising */
+    int wavelength_count, incidence_count, azimuth_count;      /* 0: isotropic */
+    const char *files; /* a pattern with {incidence}, {azimuth}, {wavelength} */
+    SpecularFile specular;
     const GlossReading *gloss;
-    int                 gloss_count;
+    int gloss_count;
 } ManifestReflection;
 
 typedef struct ManifestSpot {
-    const char        *path;
-    double             position[2]; /* shares, right and down from the upper left corner */
-    double             position_mm[2]; /* below 0: position is given */
-    ManifestEmission   emission;
+    const char *path;
+    double position[2];    /* shares, right and down from the upper left corner */
+    double position_mm[2]; /* below 0: position is given */
+    ManifestEmission emission;
     ManifestReflection reflection;
 } ManifestSpot;
 
 typedef struct Manifest {
-    Measurement         set; /* all but what tables hold */
-    ManifestEmission    emission;
-    ManifestReflection  reflection;
+    Measurement set; /* all but what tables hold */
+    ManifestEmission emission;
+    ManifestReflection reflection;
     const ManifestSpot *spot;
-    int                 spot_count;
-    UniformityFiles     uniformity;
-    const char         *primaries; /* their spectra; NULL: not measured */
+    int spot_count;
+    UniformityFiles uniformity;
+    const char *primaries; /* their spectra; NULL: not measured */
 } Manifest;
 
 extern const RecordFormat manifest_format;

@@ -13,12 +13,12 @@
 bool measurement_read(const char *path, Arena *arena, Measurement *out, Error *err);
 
 /* The same; tables may also lie below `folder` (--root). NULL: no such folder. */
-bool measurement_read_below(const char *path, const char *folder, Arena *arena,
-                            Measurement *out, Error *err);
+bool measurement_read_below(const char *path, const char *folder, Arena *arena, Measurement *out,
+                            Error *err);
 
 /* Gives a set of white alone the levels of a gamma table (level_table.h), in place of what it
  * had. level_max: its highest code (0: as in level_table.h). Its full level, unless relative,
  * must be within LEVEL_TABLE_FULL_MISS of white nearest to the normal (compared up to 10
  * degrees from it). On failure the set stays as it was. */
-bool measurement_read_levels(Measurement *set, const char *file, double level_max,
-                             Arena *arena, Error *err);
+bool measurement_read_levels(Measurement *set, const char *file, double level_max, Arena *arena,
+                             Error *err);

@@ -8,19 +8,16 @@
 #include "hemisphere/tree/tree_stop.h"
 #include "panel/query/panel_opened.h"
 
-static double growth(double difference)
-{
+static double growth(double difference) {
     return exp_d(difference) - 1;
 }
 
-static double squared_growth(double difference)
-{
+static double squared_growth(double difference) {
     double by = growth(difference);
     return by * by;
 }
 
-static int least(int a, int b)
-{
+static int least(int a, int b) {
     return a < b ? a : b;
 }
 
@@ -29,24 +26,20 @@ typedef struct Differences {
     double largest, squares, count;
 } Differences;
 
-static double relative(double difference)
-{
+static double relative(double difference) {
     return growth(fabs(difference)); /* the other side, 1 - exp(-x), is less */
 }
 
-static double rms(const Differences *d)
-{
+static double rms(const Differences *d) {
     return d->count > 0 ? sqrt(d->squares / d->count) : 0;
 }
 
 /* Components at all points: the level's less the whole tree's. */
-static float *component_differences(const Tree *tree, int level, uint32_t *points,
-                                    Arena *arena)
-{
+static float *component_differences(const Tree *tree, int level, uint32_t *points, Arena *arena) {
     size_t count = *points = tree_point_count(tree);
     count *= (size_t)tree->components;
     float *coarse = ARENA_NEW(arena, float, count), *whole = ARENA_NEW(arena, float, count);
-    Tree   stopped = *tree;
+    Tree stopped = *tree;
     tree_stop(&stopped, level, arena);
     tree_expand_points(&stopped, tree->level, coarse);
     tree_expand_points(tree, tree->level, whole);
@@ -54,8 +47,7 @@ static float *component_differences(const Tree *tree, int level, uint32_t *point
     return coarse;
 }
 
-static bool is_nothing(const float *component, int count)
-{
+static bool is_nothing(const float *component, int count) {
     for (int k = 0; k < count; k++)
         if (component[k] != 0) return false;
     return true;
@@ -64,9 +56,8 @@ static bool is_nothing(const float *component, int count)
 /* ---- emission -------------------------------------------------------------------------- */
 
 /* A row of PanelEmission.code_rows or black_rows: ln X, Y, Z. */
-static void add_row(const PanelEmission *e, const float *row, const float *component,
-                    bool is_full, Differences *out)
-{
+static void add_row(const PanelEmission *e, const float *row, const float *component, bool is_full,
+                    Differences *out) {
     for (int j = 0; j < 3; j++) {
         double sum = 0;
         for (int k = 0; k < e->components; k++)
@@ -76,11 +67,10 @@ static void add_row(const PanelEmission *e, const float *row, const float *compo
     }
 }
 
-static void compare_emission(const Panel *panel, int level, Arena scratch, Differences *out)
-{
+static void compare_emission(const Panel *panel, int level, Arena scratch, Differences *out) {
     const PanelEmission *e = panel->emission;
-    int          size = 4 * (e->components + 1);
-    uint32_t     points;
+    int size = 4 * (e->components + 1);
+    uint32_t points;
     const float *at = component_differences(&panel->emission_tree, level, &points, &scratch);
     *out = (Differences){.count = 9.0 * points};
     for (uint32_t i = 0; i < points; i++, at += e->components) {
@@ -96,16 +86,15 @@ static void compare_emission(const Panel *panel, int level, Arena scratch, Diffe
 
 /* The largest sum of the weights' magnitudes between incidences: by so much can differences of
  * tables grow there. */
-static double weight_growth(const PanelReflection *r)
-{
+static double weight_growth(const PanelReflection *r) {
     double largest = 1;
     for (uint32_t i = 0; i + 1 < r->steps; i++)
         for (int s = 0; s <= 256; s++) {
             double u = s / 256.0, sum = 0;
             for (int k = 0; k < 4; k++) {
-                const float (*c)[4] = r->step_cubic[i];
-                sum += fabs((double)c[0][k] + u * ((double)c[1][k] + u * ((double)c[2][k] +
-                                                   u * (double)c[3][k])));
+                const float(*c)[4] = r->step_cubic[i];
+                sum += fabs((double)c[0][k] +
+                            u * ((double)c[1][k] + u * ((double)c[2][k] + u * (double)c[3][k])));
             }
             largest = fmax(largest, sum);
         }
@@ -113,8 +102,7 @@ static double weight_growth(const PanelReflection *r)
 }
 
 static void add_table(const PanelReflection *r, uint32_t table, const float *component,
-                      Differences *out)
-{
+                      Differences *out) {
     float coefficient[(PANEL_COEFFICIENTS_MAX + 3) / 4 * 4] = {0};
     const float *row = r->loading + (size_t)table * r->components * r->padded_coefficients;
     for (uint32_t c = 0; c < r->components; c++, row += r->padded_coefficients)
@@ -128,10 +116,9 @@ static void add_table(const PanelReflection *r, uint32_t table, const float *com
     }
 }
 
-static void compare_reflection(const Panel *panel, int level, Arena scratch, Differences *out)
-{
+static void compare_reflection(const Panel *panel, int level, Arena scratch, Differences *out) {
     const PanelReflection *r = panel->reflection;
-    uint32_t     points;
+    uint32_t points;
     const float *at = component_differences(&panel->reflection_tree, level, &points, &scratch);
     *out = (Differences){0};
     for (uint32_t i = 0; i < points; i++, at += r->components) {
@@ -148,10 +135,9 @@ typedef void Compare(const Panel *panel, int level, Arena scratch, Differences *
 
 /* Keeps the worst of several panels. */
 static void add_part(const Panel *panel, const Tree *tree, int level, Compare *compare,
-                     Arena scratch, PanelCoarsePart *out)
-{
+                     Arena scratch, PanelCoarsePart *out) {
     Differences found;
-    int         read = least(level, tree->level);
+    int read = least(level, tree->level);
     compare(panel, read, scratch, &found);
     out->is_asked = true;
     out->level = read > out->level ? read : out->level;
@@ -161,19 +147,16 @@ static void add_part(const Panel *panel, const Tree *tree, int level, Compare *c
 }
 
 static void add_panel(const Panel *panel, int level, unsigned parts, Arena scratch,
-                      PanelCoarse *out)
-{
+                      PanelCoarse *out) {
     if (panel->emission && parts & PANEL_COARSE_EMISSION)
-        add_part(panel, &panel->emission_tree, level, compare_emission, scratch,
-                 &out->emission);
+        add_part(panel, &panel->emission_tree, level, compare_emission, scratch, &out->emission);
     if (panel->reflection && parts & PANEL_COARSE_REFLECTION)
         add_part(panel, &panel->reflection_tree, level, compare_reflection, scratch,
                  &out->reflection);
 }
 
 void panel_coarse_compare(const Panel *panel, int level, unsigned parts, Arena scratch,
-                          PanelCoarse *out)
-{
+                          PanelCoarse *out) {
     const PanelPlaces *places = panel->places;
     *out = (PanelCoarse){.level = level};
     add_panel(panel, level, parts, scratch, out);

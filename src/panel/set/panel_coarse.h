@@ -27,13 +27,13 @@
  * the primaries at code 255; the BRDF of all tables at all measured wavelengths. With several
  * spots both are the worst of theirs. */
 typedef struct PanelCoarsePart {
-    bool   is_asked; /* and there; else the rest is 0 */
-    int    level, finest;
+    bool is_asked; /* and there; else the rest is 0 */
+    int level, finest;
     double max, rms;
 } PanelCoarsePart;
 
 typedef struct PanelCoarse {
-    int             level; /* as it was requested; a tree that ends before is read whole */
+    int level; /* as it was requested; a tree that ends before is read whole */
     PanelCoarsePart emission, reflection;
 } PanelCoarse;
 

@@ -8,31 +8,30 @@
 #include "base/mathd.h"
 #include "panel/shape/spectral_warp.h"
 
-const char *const primary_backlights[] = {"wled-ysf", "wled-ksf", "oled", "qd", "rgb-led",
-                                          "laser", NULL};
+const char *const primary_backlights[] = {"wled-ysf", "wled-ksf", "oled", "qd",
+                                          "rgb-led",  "laser",    NULL};
 
 /* Peaks and widths at half height, of red, green and blue. */
-static const struct { double peak_nm[3], fwhm_nm[3]; } kinds[] = {
-    {{605, 540, 450}, {80, 75, 22}}, {{631, 540, 448}, {20, 55, 20}},
-    {{622, 530, 458}, {45, 38, 28}}, {{632, 530, 450}, {30, 35, 22}},
-    {{630, 525, 460}, {20, 34, 22}}, {{638, 525, 460}, {2, 2, 2}}};
+static const struct {
+    double peak_nm[3], fwhm_nm[3];
+} kinds[] = {{{605, 540, 450}, {80, 75, 22}}, {{631, 540, 448}, {20, 55, 20}},
+             {{622, 530, 458}, {45, 38, 28}}, {{632, 530, 450}, {30, 35, 22}},
+             {{630, 525, 460}, {20, 34, 22}}, {{638, 525, 460}, {2, 2, 2}}};
 
-int primary_backlight_named(const char *name)
-{
+int primary_backlight_named(const char *name) {
     for (int i = 0; primary_backlights[i]; i++)
         if (!strcmp(name, primary_backlights[i])) return i + 1;
     return 0;
 }
 
-const char *primary_backlight_names(Arena *arena)
-{
+const char *primary_backlight_names(Arena *arena) {
     const char *text = primary_backlights[0];
     for (int i = 1; primary_backlights[i]; i++)
         text = arena_format(arena, "%s, %s", text, primary_backlights[i]);
     return text;
 }
 
-#define MOVES 30        /* nm that a peak may move to either side, where none is stated */
+#define MOVES 30 /* nm that a peak may move to either side, where none is stated */
 #define PEAKS (2 * MOVES + 1)
 #define FAR 1e30
 #define BELL 2.772588722239781 /* 4 ln 2 */
@@ -43,12 +42,11 @@ static const double shares[] = {1, 0.85, 0.7, 0.55, 0.4, 0.3, 0.2, 0.1, 0.05, 0.
 /* ---- bands ------------------------------------------------------------------------------- */
 
 /* A bell at multiples of a step that is fine beside it, linear between. */
-static void draw_band(double peak_nm, double fwhm_nm, float *out)
-{
+static void draw_band(double peak_nm, double fwhm_nm, float *out) {
     int step = fwhm_nm >= 40 ? 10 : fwhm_nm >= 20 ? 5 : fwhm_nm >= 8 ? 2 : 1;
     fwhm_nm = fmax(fwhm_nm, 0.8); /* else it may lie between whole nm */
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
-        int    nm = SPECTRAL_FIRST_NM + i, low = nm / step * step;
+        int nm = SPECTRAL_FIRST_NM + i, low = nm / step * step;
         double a = (low - peak_nm) / fwhm_nm, b = (low + step - peak_nm) / fwhm_nm;
         double t = (double)(nm - low) / step;
         double from = exp_d(-BELL * a * a), to = exp_d(-BELL * b * b);
@@ -62,15 +60,13 @@ typedef struct BandSearch {
     double band[3][PEAKS][3]; /* XYZ of a band at each of its peaks */
 } BandSearch;
 
-static void bands_uv(const double xyz[3], double uv[2])
-{
+static void bands_uv(const double xyz[3], double uv[2]) {
     double d = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
     uv[0] = 4 * xyz[0] / d;
     uv[1] = 9 * xyz[1] / d;
 }
 
-static double uv_apart(const double a[3], const double b[3])
-{
+static double uv_apart(const double a[3], const double b[3]) {
     double p[2], q[2];
     bands_uv(a, p);
     bands_uv(b, q);
@@ -78,17 +74,15 @@ static double uv_apart(const double a[3], const double b[3])
     return sqrt(dx * dx + dy * dy);
 }
 
-static double det3(const double *a, const double *b, const double *c)
-{
+static double det3(const double *a, const double *b, const double *c) {
     return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
            a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
 /* Parts of the bands in a colour, none below 0; returns its delta u'v'. */
-static double mix(const double *const band[3], const double xyz[3], double part[3])
-{
+static double mix(const double *const band[3], const double xyz[3], double part[3]) {
     double all = det3(band[0], band[1], band[2]), found[3] = {0, 0, 0};
-    bool   is_inside = true;
+    bool is_inside = true;
     if (!(fabs(all) > 0)) return FAR;
     part[0] = det3(xyz, band[1], band[2]) / all;
     part[1] = det3(band[0], xyz, band[2]) / all;
@@ -104,8 +98,7 @@ static double mix(const double *const band[3], const double xyz[3], double part[
 }
 
 /* The misses of the three, a sum; stops beyond `most`. */
-static double miss_of(const double *const band[3], const double (*xyz)[3], double most)
-{
+static double miss_of(const double *const band[3], const double (*xyz)[3], double most) {
     double miss = 0, part[3];
     for (int p = 0; p < 3 && miss <= most; p++) miss += mix(band, xyz[p], part);
     return miss;
@@ -113,8 +106,7 @@ static double miss_of(const double *const band[3], const double (*xyz)[3], doubl
 
 /* ---- the search -------------------------------------------------------------------------- */
 
-static void fill_bands(BandSearch *s, const double fwhm_nm[3], double step)
-{
+static void fill_bands(BandSearch *s, const double fwhm_nm[3], double step) {
     float spectrum[SPECTRAL_COUNT];
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < PEAKS; i++) {
@@ -124,10 +116,9 @@ static void fill_bands(BandSearch *s, const double fwhm_nm[3], double step)
 }
 
 /* Peaks with the least miss up to `enough`, of those the least moved; the miss. */
-static double choose_peaks(const BandSearch *s, int reach, double enough, int best[3])
-{
+static double choose_peaks(const BandSearch *s, int reach, double enough, int best[3]) {
     double least = FAR;
-    int    moved = 0, at[3];
+    int moved = 0, at[3];
     for (at[0] = MOVES - reach; at[0] <= MOVES + reach; at[0]++)
         for (at[1] = MOVES - reach; at[1] <= MOVES + reach; at[1]++)
             for (at[2] = MOVES - reach; at[2] <= MOVES + reach; at[2]++) {
@@ -146,8 +137,7 @@ static double choose_peaks(const BandSearch *s, int reach, double enough, int be
 }
 
 /* Moves the centres to the best peaks in steps; the miss. */
-static double move_peaks(BandSearch *s, const double fwhm_nm[3], double step, int reach)
-{
+static double move_peaks(BandSearch *s, const double fwhm_nm[3], double step, int reach) {
     int best[3] = {MOVES, MOVES, MOVES};
     fill_bands(s, fwhm_nm, step);
     double miss = choose_peaks(s, reach, 0.1 * PRIMARY_BANDS_MISS, best);
@@ -158,9 +148,8 @@ static double move_peaks(BandSearch *s, const double fwhm_nm[3], double step, in
 /* The widest share of the kind's widths that reaches, from `first` on; stated peaks stay if
  * they can. */
 static void choose_share(BandSearch *s, int kind, const double *peak_nm, int first,
-                         double fwhm_nm[3])
-{
-    bool   is_stated = peak_nm[0] > 0;
+                         double fwhm_nm[3]) {
+    bool is_stated = peak_nm[0] > 0;
     double miss = FAR;
     const double *start = is_stated ? peak_nm : kinds[kind].peak_nm;
     for (int i = first; is_stated && i < COUNT_OF(shares) && miss > PRIMARY_BANDS_MISS; i++) {
@@ -181,9 +170,8 @@ static void choose_share(BandSearch *s, int kind, const double *peak_nm, int fir
 
 /* Returns the largest miss. */
 static double mix_spectra(const BandSearch *s, const double fwhm_nm[3],
-                          float out[3][SPECTRAL_COUNT])
-{
-    float  band[3][SPECTRAL_COUNT];
+                          float out[3][SPECTRAL_COUNT]) {
+    float band[3][SPECTRAL_COUNT];
     double xyz[3][3], part[3], miss = 0;
     for (int k = 0; k < 3; k++) {
         draw_band(s->centre_nm[k], fwhm_nm[k], band[k]);
@@ -200,8 +188,7 @@ static double mix_spectra(const BandSearch *s, const double fwhm_nm[3],
 }
 
 /* Transmittance of filter f: two tilted panes, then edges. */
-static double filter_at(int f, double nm)
-{
+static double filter_at(int f, double nm) {
     double tilt = fmin(1, fmax(0, (nm - 400) / 300));
     if (f < 2) return f ? 1 - 0.5 * tilt : 0.5 + 0.5 * tilt;
     return nm > 480 + 20 * (f - 2) ? 1 : 0;
@@ -209,8 +196,7 @@ static double filter_at(int f, double nm)
 
 #define FILTERS 10
 
-static void white_behind(const float spectrum[3][SPECTRAL_COUNT], int f, double xyz[3])
-{
+static void white_behind(const float spectrum[3][SPECTRAL_COUNT], int f, double xyz[3]) {
     float white[SPECTRAL_COUNT];
     for (int i = 0; i < SPECTRAL_COUNT; i++)
         white[i] = (float)filter_at(f, SPECTRAL_FIRST_NM + i) *
@@ -218,22 +204,20 @@ static void white_behind(const float spectrum[3][SPECTRAL_COUNT], int f, double 
     panel_spectrum_xyz(white, xyz);
 }
 
-static void compare_filtered(const float narrow[3][SPECTRAL_COUNT], PrimaryBands *out)
-{
+static void compare_filtered(const float narrow[3][SPECTRAL_COUNT], PrimaryBands *out) {
     for (int f = 0; f < FILTERS; f++) {
         double a[3], b[3], *off = f < 2 ? &out->off_uv : &out->off_edge;
-        white_behind((const float (*)[SPECTRAL_COUNT])out->spectrum, f, a);
+        white_behind((const float(*)[SPECTRAL_COUNT])out->spectrum, f, a);
         white_behind(narrow, f, b);
         if (a[1] > 0 && b[1] > 0) *off = fmax(*off, uv_apart(a, b));
     }
 }
 
 bool primary_bands_find(int backlight, const double peak_nm[3], const double xyz[3][3],
-                        PrimaryBands *out)
-{
-    int        kind = backlight ? backlight - 1 : 0;
-    double     narrow_nm[3];
-    float      narrow[3][SPECTRAL_COUNT];
+                        PrimaryBands *out) {
+    int kind = backlight ? backlight - 1 : 0;
+    double narrow_nm[3];
+    float narrow[3][SPECTRAL_COUNT];
     BandSearch search = {.xyz = xyz};
     *out = (PrimaryBands){.backlight = kind};
     choose_share(&search, kind, peak_nm, 0, out->fwhm_nm);
@@ -242,6 +226,6 @@ bool primary_bands_find(int backlight, const double peak_nm[3], const double xyz
     if (out->miss > PRIMARY_BANDS_MOST) return false;
     choose_share(&search, kind, peak_nm, COUNT_OF(shares) - 1, narrow_nm);
     mix_spectra(&search, narrow_nm, narrow);
-    compare_filtered((const float (*)[SPECTRAL_COUNT])narrow, out);
+    compare_filtered((const float(*)[SPECTRAL_COUNT])narrow, out);
     return true;
 }

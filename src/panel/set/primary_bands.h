@@ -25,19 +25,20 @@ int primary_backlight_named(const char *name);
 /* All of them, with commas between. */
 const char *primary_backlight_names(Arena *arena);
 
-#define PRIMARY_BANDS_MISS 1e-4 /* delta u'v' of a colour that counts as reached; what lies
+#define PRIMARY_BANDS_MISS \
+    1e-4                        /* delta u'v' of a colour that counts as reached; what lies \
                                    beyond the spectrum's own locus is not */
 #define PRIMARY_BANDS_MOST 2e-3 /* further off the bands are not the display's */
 
 typedef struct PrimaryBands {
-    int    backlight; /* a place in the list */
+    int backlight; /* a place in the list */
     double peak_nm[3], fwhm_nm[3];
     double miss;     /* largest delta u'v' of a primary */
     double off_uv;   /* of white behind a filter, to the narrowest bands of the same colours: */
     double off_edge; /* a pane whose transmittance halves from 400 to 700 nm or rises so; an
                         edge at 480, 500, ... 620 nm */
-    float  spectrum[3][SPECTRAL_COUNT]; /* their XYZ are those that were given, but for a
-                                           factor for all */
+    float spectrum[3][SPECTRAL_COUNT]; /* their XYZ are those that were given, but for a
+                                          factor for all */
 } PrimaryBands;
 
 /* backlight: 1 + a place in the list, 0: not stated; peak_nm: stated (0: not), which stay if

@@ -11,10 +11,9 @@
 #define NOISE_MOST 0.02 /* below zero, of a column's largest */
 
 /* Linear between measured wavelengths, zero outside them. */
-static void resample_spectrum(const CsvTable *csv, int nm_column, int column, float *out)
-{
+static void resample_spectrum(const CsvTable *csv, int nm_column, int column, float *out) {
     size_t width = (size_t)csv->columns;
-    int    last = 0;
+    int last = 0;
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
         float nm = (float)(SPECTRAL_FIRST_NM + i);
         while (last + 2 < csv->rows &&
@@ -22,15 +21,14 @@ static void resample_spectrum(const CsvTable *csv, int nm_column, int column, fl
             last++;
         const float *a = csv->cell + (size_t)last * width;
         const float *b = csv->rows > 1 ? a + width : a;
-        float t = b[nm_column] > a[nm_column] ? (nm - a[nm_column]) /
-                                                (b[nm_column] - a[nm_column]) : 0;
+        float t =
+            b[nm_column] > a[nm_column] ? (nm - a[nm_column]) / (b[nm_column] - a[nm_column]) : 0;
         float value = a[column] + (b[column] - a[column]) * t;
         out[i] = t >= 0 && t <= 1 && value > 0 ? value : 0;
     }
 }
 
-static bool check_spectra(const CsvTable *csv, int nm_column, Arena *arena, Error *err)
-{
+static bool check_spectra(const CsvTable *csv, int nm_column, Arena *arena, Error *err) {
     for (int i = 0; i < csv->rows; i++) {
         const float *row = csv->cell + (size_t)i * (size_t)csv->columns;
         if (i && !(row[nm_column] > row[nm_column - csv->columns]))
@@ -41,25 +39,24 @@ static bool check_spectra(const CsvTable *csv, int nm_column, Arena *arena, Erro
     return true;
 }
 
-bool primary_spectrum_reaches(const PrimaryColumn *column, double *beyond, Error *err)
-{
-    double    first_nm = column->nm[0], last_nm = column->nm[column->count - 1];
+bool primary_spectrum_reaches(const PrimaryColumn *column, double *beyond, Error *err) {
+    double first_nm = column->nm[0], last_nm = column->nm[column->count - 1];
     CurveEnds dark = curve_dark_ends(column->value, column->count, NOISE_MOST);
     *beyond = fmax(*beyond, curve_beyond(first_nm, last_nm, dark));
     return curve_reaches(first_nm, last_nm, dark) ||
-           error_at(err, ERROR_INPUT, column->file, "", "column '%s' goes from %g to %g nm and "
-                    "ends in light, required: %d to %d nm or beyond", column->name,
-                    first_nm, last_nm, CURVE_SEEN_FIRST_NM, CURVE_SEEN_LAST_NM);
+           error_at(err, ERROR_INPUT, column->file, "",
+                    "column '%s' goes from %g to %g nm and "
+                    "ends in light, required: %d to %d nm or beyond",
+                    column->name, first_nm, last_nm, CURVE_SEEN_FIRST_NM, CURVE_SEEN_LAST_NM);
 }
 
 /* Noise below zero is left out; more is no light. Wavelengths that are not measured count as
  * dark. */
 static bool check_light(const CsvTable *csv, int nm_column, int column, Arena scratch,
-                        double *beyond, Error *err)
-{
+                        double *beyond, Error *err) {
     double *nm = ARENA_NEW(&scratch, double, csv->rows);
     double *value = ARENA_NEW(&scratch, double, csv->rows), least = 0, most = 0;
-    int     darkest = 0;
+    int darkest = 0;
     for (int i = 0; i < csv->rows; i++) {
         const float *row = csv->cell + (size_t)i * (size_t)csv->columns;
         nm[i] = (double)row[nm_column];
@@ -70,21 +67,20 @@ static bool check_light(const CsvTable *csv, int nm_column, int column, Arena sc
     if (-least > NOISE_MOST * most)
         return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, darkest, &scratch),
                         "column '%s' holds %g, required: 0 or more (noise up to %g %% of its "
-                        "largest, %g)", csv->name[column], least, 100 * NOISE_MOST, most);
+                        "largest, %g)",
+                        csv->name[column], least, 100 * NOISE_MOST, most);
     return primary_spectrum_reaches(
         &(PrimaryColumn){csv->file, csv->name[column], nm, value, csv->rows}, beyond, err);
 }
 
-static bool spectrum_has_light(const float *spectrum)
-{
+static bool spectrum_has_light(const float *spectrum) {
     for (int i = 0; i < SPECTRAL_COUNT; i++)
         if (spectrum[i] > 0 && spectral_table[i].y > 0) return true;
     return false;
 }
 
 bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPECTRAL_COUNT],
-                          double *beyond, Error *err)
-{
+                          double *beyond, Error *err) {
     static const char *const known[] = {"nm", "red", "green", "blue", "black"};
     CsvTable csv;
     if (!csv_table_read(file, arena, &csv, err)) return false;
@@ -92,16 +88,17 @@ bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPEC
     int nm = csv_table_column(&csv, "nm");
     for (int i = 0; i < 4; i++)
         if (csv_table_column(&csv, known[i]) < 0)
-            return error_at(err, ERROR_INPUT, file, "header line", "has no column '%s'",
-                            known[i]);
+            return error_at(err, ERROR_INPUT, file, "header line", "has no column '%s'", known[i]);
     if (!check_spectra(&csv, nm, arena, err)) return false;
     for (int p = 0; p < 3; p++) {
         int column = csv_table_column(&csv, primary_names[p]);
         if (!check_light(&csv, nm, column, *arena, beyond, err)) return false;
         resample_spectrum(&csv, nm, column, spectrum[p]);
         if (!spectrum_has_light(spectrum[p]))
-            return error_at(err, ERROR_INPUT, file, "", "column '%s' holds no light between "
-                            "360 and 830 nm", primary_names[p]);
+            return error_at(err, ERROR_INPUT, file, "",
+                            "column '%s' holds no light between "
+                            "360 and 830 nm",
+                            primary_names[p]);
     }
     return true;
 }

@@ -11,9 +11,9 @@
 
 /* One primary's column; nm rising. */
 typedef struct PrimaryColumn {
-    const char   *file, *name;
+    const char *file, *name;
     const double *nm, *value;
-    int           count;
+    int count;
 } PrimaryColumn;
 
 /* From 400 to 700 nm, but where the light has ended. *beyond rises to the share of V(lambda)

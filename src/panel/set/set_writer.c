@@ -14,32 +14,29 @@
 
 typedef struct SetFile {
     struct SetFile *next;
-    const char     *path;
-    FileWriter      bytes;  /* open until the file has its name */
-    bool            is_new; /* nothing had its name before */
-    bool            is_open, has_its_name;
+    const char *path;
+    FileWriter bytes; /* open until the file has its name */
+    bool is_new;      /* nothing had its name before */
+    bool is_open, has_its_name;
 } SetFile;
 
 typedef struct SetFolder {
     struct SetFolder *before;
-    const char       *path;
+    const char *path;
 } SetFolder;
 
-static bool exists(const char *path)
-{
+static bool exists(const char *path) {
     struct stat status;
     return stat(path, &status) == 0;
 }
 
-static bool is_folder(const char *path)
-{
+static bool is_folder(const char *path) {
     struct stat status;
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
 /* A file that stands there already may be replaced, unless the set is made from it. */
-static bool check_replaced(const Lines *inputs, const char *path, Error *err)
-{
+static bool check_replaced(const Lines *inputs, const char *path, Error *err) {
     for (int i = 0; i < inputs->count; i++)
         if (file_is_same(inputs->list[i], path))
             return error_at(err, ERROR_OUTPUT, path, "",
@@ -49,8 +46,7 @@ static bool check_replaced(const Lines *inputs, const char *path, Error *err)
 }
 
 /* A set has some hundred tables, and each is an open file until all are there. */
-static void allow_open_files(void)
-{
+static void allow_open_files(void) {
     struct rlimit limit;
     if (getrlimit(RLIMIT_NOFILE, &limit)) return;
     limit.rlim_cur = limit.rlim_max;
@@ -58,25 +54,24 @@ static void allow_open_files(void)
 }
 
 /* The folder that `path` stands in; NULL: the working folder, or the root. */
-static const char *folder_of(const char *path, Arena *arena)
-{
+static const char *folder_of(const char *path, Arena *arena) {
     size_t length = (size_t)(path_name(path) - path);
     return length < 2 ? NULL : arena_string(arena, path, length - 1);
 }
 
 /* What is not a folder cannot become one. */
-static bool check_folder(const char *folder, Error *err)
-{
+static bool check_folder(const char *folder, Error *err) {
     if (!exists(folder)) return file_check_writable(folder, err);
     return is_folder(folder) ||
            error_at(err, ERROR_OUTPUT, folder, "", "cannot be made: %s", strerror(ENOTDIR));
 }
 
-bool set_writer_open(const char *manifest, const Lines *inputs, SetWriter *out, Error *err)
-{
+bool set_writer_open(const char *manifest, const Lines *inputs, SetWriter *out, Error *err) {
     if (exists(manifest) && !check_replaced(inputs, manifest, err)) return false;
-    SetWriter made = {.manifest = manifest, .inputs = inputs,
-                      .arena = arena_reserve((size_t)1 << 30), .err = err};
+    SetWriter made = {.manifest = manifest,
+                      .inputs = inputs,
+                      .arena = arena_reserve((size_t)1 << 30),
+                      .err = err};
     const char *folder = folder_of(manifest, &made.arena);
     if (folder && !check_folder(folder, err)) {
         arena_release(&made.arena);
@@ -89,8 +84,7 @@ bool set_writer_open(const char *manifest, const Lines *inputs, SetWriter *out, 
 }
 
 /* The file's place in the list, a new one at its end; NULL when it may not be replaced. */
-static SetFile *find_file(SetWriter *writer, const char *path)
-{
+static SetFile *find_file(SetWriter *writer, const char *path) {
     for (SetFile *file = writer->first; file; file = file->next)
         if (!strcmp(file->path, path)) return file;
     bool is_new = !exists(path);
@@ -102,9 +96,8 @@ static SetFile *find_file(SetWriter *writer, const char *path)
     return writer->last = file;
 }
 
-bool set_writer_add(SetWriter *writer, const char *name, const Text *text)
-{
-    Arena   *arena = &writer->arena;
+bool set_writer_add(SetWriter *writer, const char *name, const Text *text) {
+    Arena *arena = &writer->arena;
     SetFile *file = find_file(writer, path_beside(writer->manifest, name, arena));
     if (!file) return false;
     if (file->is_open) file_writer_discard(&file->bytes);
@@ -116,8 +109,7 @@ bool set_writer_add(SetWriter *writer, const char *name, const Text *text)
     return error_in_file(writer->err, file->path);
 }
 
-bool set_writer_add_manifest(SetWriter *writer, const json_t *root, int digits)
-{
+bool set_writer_add_manifest(SetWriter *writer, const json_t *root, int digits) {
     Text text = {.arena = &writer->arena};
     if (!json_dump_text(&text, root, JSON_INDENT(2) | JSON_REAL_PRECISION((size_t)digits)))
         return error_set(writer->err, ERROR_MEMORY, "no memory for the manifest");
@@ -127,8 +119,7 @@ bool set_writer_add_manifest(SetWriter *writer, const json_t *root, int digits)
 
 /* ---- all files get their names ----------------------------------------------------------- */
 
-static bool make_folder(SetWriter *writer, const char *folder)
-{
+static bool make_folder(SetWriter *writer, const char *folder) {
     if (is_folder(folder)) return true;
     if (mkdir(folder, 0777))
         return error_at(writer->err, ERROR_OUTPUT, folder, "", "cannot be made: %s",
@@ -140,10 +131,9 @@ static bool make_folder(SetWriter *writer, const char *folder)
 }
 
 /* The manifest's, and those of a name beside it, the outer ones first. */
-static bool make_folders(SetWriter *writer, const char *path)
-{
+static bool make_folders(SetWriter *writer, const char *path) {
     const char *root = folder_of(writer->manifest, &writer->arena);
-    size_t      before = (size_t)(path_name(writer->manifest) - writer->manifest);
+    size_t before = (size_t)(path_name(writer->manifest) - writer->manifest);
     if (root && !make_folder(writer, root)) return false;
     for (size_t i = before; path[i]; i++)
         if (path[i] == '/' && !make_folder(writer, arena_string(&writer->arena, path, i)))
@@ -151,18 +141,15 @@ static bool make_folders(SetWriter *writer, const char *path)
     return true;
 }
 
-static void undo(const SetWriter *writer)
-{
+static void undo(const SetWriter *writer) {
     for (SetFile *file = writer->first; file; file = file->next) {
         if (file->is_open) file_writer_discard(&file->bytes);
         else if (file->has_its_name && file->is_new) file_remove(file->path);
     }
-    for (SetFolder *folder = writer->made; folder; folder = folder->before)
-        rmdir(folder->path);
+    for (SetFolder *folder = writer->made; folder; folder = folder->before) rmdir(folder->path);
 }
 
-static bool commit(SetWriter *writer)
-{
+static bool commit(SetWriter *writer) {
     for (SetFile *file = writer->first; file; file = file->next) {
         if (!make_folders(writer, file->path)) return false;
         file->is_open = false;
@@ -172,8 +159,7 @@ static bool commit(SetWriter *writer)
     return true;
 }
 
-bool set_writer_close(SetWriter *writer, bool is_whole)
-{
+bool set_writer_close(SetWriter *writer, bool is_whole) {
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, &before); /* who stops it finds all files or none */

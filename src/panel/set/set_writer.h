@@ -19,14 +19,14 @@
 #include "text/text.h"
 
 typedef struct SetWriter {
-    const char       *manifest;
-    const Lines      *inputs;
-    struct SetFile   *first, *last;
+    const char *manifest;
+    const Lines *inputs;
+    struct SetFile *first, *last;
     struct SetFolder *made; /* the latest first */
-    const char       *place; /* beside it the files lie until they have their names */
-    int               count; /* that were opened */
-    Arena             arena;
-    Error            *err;
+    const char *place;      /* beside it the files lie until they have their names */
+    int count;              /* that were opened */
+    Arena arena;
+    Error *err;
 } SetWriter;
 
 /* Refuses when a manifest stands there that may not be replaced. inputs: files that the set is
@@ -48,24 +48,21 @@ bool set_writer_close(SetWriter *writer, bool is_whole);
 /* The directions in which an instrument's table stands: rings of equal theta, degrees. */
 typedef struct PolarGrid {
     double theta_step, phi_step;
-    int    rings, azimuths; /* without the normal, which stands once */
+    int rings, azimuths; /* without the normal, which stands once */
 } PolarGrid;
 
 /* phi_step becomes the nearest one that divides the circle. */
-static inline PolarGrid polar_grid(double theta_step, double phi_step, int rings)
-{
+static inline PolarGrid polar_grid(double theta_step, double phi_step, int rings) {
     int azimuths = (int)round(360 / phi_step);
     return (PolarGrid){theta_step, 360.0 / azimuths, rings, azimuths};
 }
 
-static inline int polar_grid_count(const PolarGrid *grid)
-{
+static inline int polar_grid_count(const PolarGrid *grid) {
     return 1 + grid->rings * grid->azimuths;
 }
 
 /* Direction i, theta and phi; 0 is the normal. */
-static inline void polar_grid_direction(const PolarGrid *grid, int i, double degrees[2])
-{
+static inline void polar_grid_direction(const PolarGrid *grid, int i, double degrees[2]) {
     degrees[0] = i ? ((i - 1) / grid->azimuths + 1) * grid->theta_step : 0;
     degrees[1] = i ? (i - 1) % grid->azimuths * grid->phi_step : 0;
 }

@@ -18,9 +18,9 @@
 #define SPECULAR_APERTURE_MOST_DEG 30.0
 
 typedef struct SpecularTable {
-    const char   *file;      /* the table's, or the manifest's */
-    bool          is_gloss;
-    int           rows, wavelengths;
+    const char *file; /* the table's, or the manifest's */
+    bool is_gloss;
+    int rows, wavelengths;
     const double *incidence; /* radians, rising */
     const double *aperture;  /* per row: full angle, radians; 0: the mirror alone */
     const double *nm;        /* rising */
@@ -40,7 +40,7 @@ typedef struct GlossReading {
 
 /* Readings of gloss meters, each geometry once. */
 typedef struct Gloss {
-    int          count;
+    int count;
     GlossReading reading[GLOSS_METERS];
 } Gloss;
 
@@ -49,8 +49,8 @@ bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err
 
 /* The key `gloss` of a document, a list of GlossReading; and what its rows cannot say. */
 extern const RecordFormat gloss_format;
-bool specular_gloss_collect(const JsonView *view, const GlossReading *list, int count,
-                            Gloss *out, Error *err);
+bool specular_gloss_collect(const JsonView *view, const GlossReading *list, int count, Gloss *out,
+                            Error *err);
 
 /* file: for messages later. */
 void specular_table_from_gloss(const Gloss *gloss, const char *file, Arena *arena,
@@ -59,7 +59,7 @@ void specular_table_from_gloss(const Gloss *gloss, const char *file, Arena *aren
 /* The key `specular` of a manifest: a table's path, or that with the aperture. */
 typedef struct SpecularFile {
     const char *file; /* NULL: there is none */
-    double      aperture_deg;
+    double aperture_deg;
 } SpecularFile;
 
 extern const RecordRow specular_forms[];
@@ -68,5 +68,4 @@ extern const RecordRow specular_forms[];
 const char *specular_table_text(const SpecularTable *table, Arena *arena);
 
 /* At an incidence and wavelength; *aperture is that of the nearest row. */
-double specular_table_at(const SpecularTable *table, double incidence, double nm,
-                         double *aperture);
+double specular_table_at(const SpecularTable *table, double incidence, double nm, double *aperture);

@@ -49,30 +49,30 @@
 #define SYNTHETIC_SPOTS_MAX 49
 
 typedef struct SyntheticPrimary {
-    double luminance_cd_m2; /* of this primary alone at level 255 on the axis */
-    double shift[3];        /* exponents of X, Y, Z over sin^2 theta */
-    int    peak_count, fwhm_count, weight_count; /* equal */
+    double luminance_cd_m2;                   /* of this primary alone at level 255 on the axis */
+    double shift[3];                          /* exponents of X, Y, Z over sin^2 theta */
+    int peak_count, fwhm_count, weight_count; /* equal */
     double peak_nm[SYNTHETIC_PEAKS_MAX], fwhm_nm[SYNTHETIC_PEAKS_MAX];
     double weight[SYNTHETIC_PEAKS_MAX];
-    double white_xyz[3];    /* W_p above, cd m^-2 */
+    double white_xyz[3]; /* W_p above, cd m^-2 */
 } SyntheticPrimary;
 
 typedef struct SyntheticEmission {
     SyntheticPrimary primary[3];
     double gamma, gamma_drop;
-    double cosine_power[2];  /* n_h, n_v */
+    double cosine_power[2]; /* n_h, n_v */
     double black_cd_m2, leak;
     double lobe_theta, lobe_phi, lobe_width, lobe_gain; /* radians; gain 0: none */
-    int    level_count;
+    int level_count;
     double level[SYNTHETIC_LEVELS_MAX]; /* measured codes, rising, without 0 */
 } SyntheticEmission;
 
 typedef struct SyntheticReflection {
-    bool   exists;
+    bool exists;
     double coating, coating_blue;
     double haze_share, haze_width, haze_power; /* w without unit, s above 1 */
     double lambertian_albedo;
-    int    incidence_count, wavelength_count;
+    int incidence_count, wavelength_count;
     double incidence_deg[SYNTHETIC_INCIDENCES_MAX];
     double wavelength_nm[SYNTHETIC_WAVELENGTHS_MAX];
 } SyntheticReflection;
@@ -88,8 +88,8 @@ typedef struct SyntheticInstrument {
 
 typedef struct SyntheticPlaces {
     double u[SYNTHETIC_SPOTS_MAX], v[SYNTHETIC_SPOTS_MAX];
-    int    spots, rows; /* equal; 0: one measurement, of the middle */
-    double map[2]; /* pixels, whole; 0: no map */
+    int spots, rows; /* equal; 0: one measurement, of the middle */
+    double map[2];   /* pixels, whole; 0: no map */
     double slope[2], mura, mura_cycles[2], tint, clouding, lobe_slope, haze_slope;
     double bend; /* radians; above 0: concave */
 } SyntheticPlaces;
@@ -99,11 +99,11 @@ typedef struct SyntheticPanel {
     const char *name, *note;
     double pixels[2], size_mm[2];
     double refractive_index;
-    SyntheticEmission   emission;
+    SyntheticEmission emission;
     SyntheticReflection reflection;
     SyntheticInstrument instrument;
-    SyntheticPlaces     places; /* all 0: the same everywhere */
-    DisplayTraits       traits; /* no formula above depends on them */
+    SyntheticPlaces places; /* all 0: the same everywhere */
+    DisplayTraits traits;   /* no formula above depends on them */
 } SyntheticPanel;
 
 /* Spectral shape of a primary, relative. */
@@ -139,5 +139,4 @@ double closed_form_instrument_brdf(const SyntheticPanel *panel, double theta_i, 
 
 /* Reflectance within a round aperture (full angle) around the mirror direction: the mirror
  * part, and the haze and lambertian part there. */
-double closed_form_specular(const SyntheticPanel *panel, double theta, double aperture,
-                            double nm);
+double closed_form_specular(const SyntheticPanel *panel, double theta, double aperture, double nm);

@@ -22,11 +22,11 @@
 
 typedef struct UniformityMap {
     const char *file;
-    int    width, height;
-    int    white_channels, black_channels; /* 1: X, Y and Z alike; black 0: as white */
-    const float *value[6];                 /* planes of white, then of black; from 0 up */
+    int width, height;
+    int white_channels, black_channels; /* 1: X, Y and Z alike; black 0: as white */
+    const float *value[6];              /* planes of white, then of black; from 0 up */
     /* The camera saw all places from one point, and not each along its own normal: */
-    bool   is_seen;
+    bool is_seen;
     double camera_mm; /* the camera's distance from the middle, along the normal; 0: infinite */
     double bend;      /* radians: angle between the normals at the left and right edge, of a
                          display bent around its vertical axis; above 0: towards the viewer
@@ -36,8 +36,8 @@ typedef struct UniformityMap {
 /* The key as it stands. */
 typedef struct UniformityFiles {
     const char *file, *black; /* NULL: none */
-    double      camera_mm;    /* 0: it saw each place along its own normal */
-    double      bend;         /* radians */
+    double camera_mm;         /* 0: it saw each place along its own normal */
+    double bend;              /* radians */
 } UniformityFiles;
 
 extern const RecordFormat uniformity_format;

@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-void least_squares_factor(double *m, size_t n)
-{
+void least_squares_factor(double *m, size_t n) {
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j <= i; j++) {
             double sum = m[i * n + j];
@@ -13,8 +12,7 @@ void least_squares_factor(double *m, size_t n)
         }
 }
 
-double least_squares_solve(const double *m, double *right, size_t n)
-{
+double least_squares_solve(const double *m, double *right, size_t n) {
     double gain = 0;
     for (size_t i = 0; i < n; i++) {
         for (size_t k = 0; k < i; k++) right[i] -= m[i * n + k] * right[k];

@@ -12,11 +12,10 @@ _Static_assert(sizeof(PanelBeamHead) == 32, "the file's layout");
 #define STEP_MOST 1e3f /* a component that bears more than this does nothing */
 
 size_t panel_beam_pack(const PanelBeamHead *head, const float *coefficient, const float *step,
-                       int components, Arena *arena, const void **bytes)
-{
+                       int components, Arena *arena, const void **bytes) {
     size_t knots = head->knots, steps = sizeof(float) * (size_t)components;
-    unsigned char *out = ARENA_NEW(arena, unsigned char,
-        sizeof *head + steps + 2 * knots * (size_t)components);
+    unsigned char *out =
+        ARENA_NEW(arena, unsigned char, sizeof *head + steps + 2 * knots * (size_t)components);
     unsigned char *at = out + sizeof *head + steps;
     memcpy(out, head, sizeof *head);
     for (int k = 0; k < components; k++) {
@@ -35,8 +34,7 @@ size_t panel_beam_pack(const PanelBeamHead *head, const float *coefficient, cons
     return (size_t)(at - out);
 }
 
-static bool head_fits(const PanelBeamHead *head)
-{
+static bool head_fits(const PanelBeamHead *head) {
     Vec3 c = vec3(head->centre[0], head->centre[1], head->centre[2]);
     Vec3 n = vec3(head->narrow[0], head->narrow[1], head->narrow[2]);
     return fabsf(vec3_dot(c, c) - 1) < 1e-3f && c.z >= 0 &&
@@ -44,17 +42,16 @@ static bool head_fits(const PanelBeamHead *head)
            head->core <= 1 && head->knots >= 4 && head->knots <= PANEL_BEAM_KNOTS_MAX;
 }
 
-bool panel_beam_open(const void *bytes, size_t size, int components, Arena *arena,
-                     PanelBeam *out, size_t *used)
-{
-    PanelBeamHead        head;
+bool panel_beam_open(const void *bytes, size_t size, int components, Arena *arena, PanelBeam *out,
+                     size_t *used) {
+    PanelBeamHead head;
     const unsigned char *at = bytes, *end = at + size;
-    size_t               steps = sizeof(float) * (size_t)components;
+    size_t steps = sizeof(float) * (size_t)components;
     if (size < sizeof head + steps) return false;
     memcpy(&head, at, sizeof head);
     if (!head_fits(&head)) return false;
     const unsigned char *step = at + sizeof head;
-    int    stride = (components + 3) / 4 * 4;
+    int stride = (components + 3) / 4 * 4;
     float *rows = ARENA_NEW(arena, float, (head.knots + 3) * stride);
     at = step + steps;
     for (int k = 0; k < components; k++) {
@@ -70,8 +67,11 @@ bool panel_beam_open(const void *bytes, size_t size, int components, Arena *aren
     }
     *out = (PanelBeam){.centre = vec3(head.centre[0], head.centre[1], head.centre[2]),
                        .narrow = vec3(head.narrow[0], head.narrow[1], head.narrow[2]),
-                       .core = head.core, .core_squares = 1 / (head.core * head.core),
-                       .knots = head.knots, .stride = stride, .coefficient = rows};
+                       .core = head.core,
+                       .core_squares = 1 / (head.core * head.core),
+                       .knots = head.knots,
+                       .stride = stride,
+                       .coefficient = rows};
     *used = (size_t)(at - (const unsigned char *)bytes);
     return true;
 }

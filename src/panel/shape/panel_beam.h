@@ -25,24 +25,23 @@
 #define PANEL_BEAMS_MAX 4
 
 typedef struct PanelBeamHead {
-    float   centre[3]; /* a unit vector */
-    float   narrow[3]; /* across the centre; 0: round */
-    float   core;      /* chord */
+    float centre[3]; /* a unit vector */
+    float narrow[3]; /* across the centre; 0: round */
+    float core;      /* chord */
     uint8_t knots, reserved[3];
 } PanelBeamHead;
 
 /* Ready for queries. coefficient[knots + 3][stride], the last three rows 0. */
 typedef struct PanelBeam {
-    Vec3         centre, narrow;
-    float        core;
-    float        core_squares; /* core^-2 */
-    int          knots, stride;
+    Vec3 centre, narrow;
+    float core;
+    float core_squares; /* core^-2 */
+    int knots, stride;
     const float *coefficient;
 } PanelBeam;
 
 /* The four weights of coefficients from a knot on, t in [0, 1] behind it. */
-static inline void panel_beam_weights(float t, float weight[4])
-{
+static inline void panel_beam_weights(float t, float weight[4]) {
     float s = 1 - t;
     weight[0] = s * s * s * (1.0f / 6);
     weight[1] = (3 * t * t * t - 6 * t * t + 4) * (1.0f / 6);
@@ -57,5 +56,5 @@ size_t panel_beam_pack(const PanelBeamHead *head, const float *coefficient, cons
 
 /* Checks and expands stored bytes; *used: how many of them. False: no beam of so many
  * components. */
-bool panel_beam_open(const void *bytes, size_t size, int components, Arena *arena,
-                     PanelBeam *out, size_t *used);
+bool panel_beam_open(const void *bytes, size_t size, int components, Arena *arena, PanelBeam *out,
+                     size_t *used);

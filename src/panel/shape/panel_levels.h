@@ -10,7 +10,7 @@
  * the channel's mean curve, as first-order changes of it. Exact on the mean curve, linear in
  * the levels' logarithms. */
 typedef struct PanelLevelWeights {
-    int   first;     /* level of weight[0] */
+    int first;       /* level of weight[0] */
     float weight[4]; /* of logarithms; those beyond the last level are 0 */
     float offset;    /* to be added: power laws of a single level */
 } PanelLevelWeights;

@@ -30,8 +30,8 @@
 
 /* Rings from the pole (theta[0] = 0) and azimuths, rising. A cell is ring * phis + azimuth. */
 typedef struct PanelAxes {
-    int          thetas, phis; /* at least 3 rings */
-    const float *theta, *phi;  /* phi in [0, 2 pi) */
+    int thetas, phis;         /* at least 3 rings */
+    const float *theta, *phi; /* phi in [0, 2 pi) */
 } PanelAxes;
 
 /* The azimuth opposite to one, or the nearest to it. */
@@ -42,16 +42,16 @@ double panel_profiles_cubic(const double x[4], const double y[4], double at);
 
 typedef struct PanelProfiles {
     PanelAxes grid;
-    int       channels, bright; /* bright: the channel of Y whose edges count */
-    int       lit;       /* channels of the primaries; three of a black pattern may follow */
-    double    rest;      /* radians: so near a sample its value stands */
-    int       nodes;     /* of a profile */
-    double   *theta;     /* nodes */
-    float    *light;     /* azimuths x nodes x channels: E, cd m^-2 */
-    double   *variation; /* azimuths x nodes: V, and a little of theta; rising, 0 to 1 */
-    bool     *follows;   /* azimuths: between this and the next edges move */
-    double   *least;     /* channels: ratios count above this, cd m^-2 */
-    double    seen;      /* what shines less bounds no edge, cd m^-2 */
+    int channels, bright; /* bright: the channel of Y whose edges count */
+    int lit;              /* channels of the primaries; three of a black pattern may follow */
+    double rest;          /* radians: so near a sample its value stands */
+    int nodes;            /* of a profile */
+    double *theta;        /* nodes */
+    float *light;         /* azimuths x nodes x channels: E, cd m^-2 */
+    double *variation;    /* azimuths x nodes: V, and a little of theta; rising, 0 to 1 */
+    bool *follows;        /* azimuths: between this and the next edges move */
+    double *least;        /* channels: ratios count above this, cd m^-2 */
+    double seen;          /* what shines less bounds no edge, cd m^-2 */
 } PanelProfiles;
 
 /* What counts as light. cells: thetas x phis x channels, above 0, three channels a table;
@@ -69,7 +69,7 @@ void panel_profiles_make(PanelProfiles *started, const float *cells, double rest
  * Shares of an azimuth's light that its neighbours miss, the mean: as chosen; all at the same
  * theta. */
 typedef struct PanelFollowing {
-    int    intervals;
+    int intervals;
     double missed, missed_still;
     double shared; /* by how many of the azimuths, as a share: 1, all miss as much */
 } PanelFollowing;
@@ -77,5 +77,4 @@ PanelFollowing panel_profiles_follow(PanelProfiles *profiles, Arena scratch);
 
 /* E of every channel at a direction, above 0. Beyond the last ring it stays what it is
  * there. */
-void panel_profiles_light(const PanelProfiles *profiles, double theta, double phi,
-                          float *light);
+void panel_profiles_light(const PanelProfiles *profiles, double theta, double phi, float *light);

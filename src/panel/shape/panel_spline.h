@@ -28,7 +28,7 @@
 
 /* B-splines that are not zero at an angle, in stored coefficients. */
 typedef struct PanelSplineTaps {
-    int   first;
+    int first;
     float weight[4];
 } PanelSplineTaps;
 
@@ -36,16 +36,15 @@ typedef struct PanelSplineTaps {
 PanelSplineTaps panel_spline_taps(int harmonic, double theta);
 
 /* The harmonic of a term. */
-static inline int panel_spline_harmonic(int term)
-{
+static inline int panel_spline_harmonic(int term) {
     return (term + 1) / 2;
 }
 
 /* Ready for queries. table[angle][term][stride], power[term][stride]. */
 typedef struct PanelSpline {
-    int          terms, stride; /* stride: a multiple of 4 */
-    int          harmonics;                 /* the highest */
-    uint8_t      term[PANEL_SPLINE_TERMS_MAX];
+    int terms, stride; /* stride: a multiple of 4 */
+    int harmonics;     /* the highest */
+    uint8_t term[PANEL_SPLINE_TERMS_MAX];
     const float *table, *power;
 } PanelSpline;
 
@@ -57,8 +56,8 @@ void panel_spline_expand(const uint8_t *term, int terms, int components, const f
  * step[k]: the coarsest rounding that component k bears. *bytes in the arena. */
 typedef struct PanelSplineNumbers {
     const uint8_t *term; /* rising */
-    int            terms, components;
-    const float   *numbers, *step;
+    int terms, components;
+    const float *numbers, *step;
 } PanelSplineNumbers;
 size_t panel_spline_pack(const PanelSplineNumbers *in, Arena *arena, const void **bytes);
 

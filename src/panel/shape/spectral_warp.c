@@ -6,12 +6,11 @@
 
 #include "base/sort.h"
 
-#define WARP_LIMIT 24.0 /* largest |c1|, |c2| that counts as a solution */
+#define WARP_LIMIT 24.0                 /* largest |c1|, |c2| that counts as a solution */
 #define HALVES (2 * SPECTRAL_COUNT - 1) /* whole and half nm */
 
 /* e^x and ln x in double precision (to about 1e-13), from nothing that a library decides. */
-static double exp_d(double x)
-{
+static double exp_d(double x) {
     if (x < -700) return 0;
     if (x > 700) x = 700;
     double n = floor(x * 1.4426950408889634 + 0.5), r = x - n * 0.6931471805599453;
@@ -23,8 +22,7 @@ static double exp_d(double x)
     return ldexp(sum, (int)n);
 }
 
-static double log_d(double x)
-{
+static double log_d(double x) {
     double y = (double)log_f((float)x);
     for (int k = 0; k < 2; k++) {
         double e = exp_d(y);
@@ -35,8 +33,7 @@ static double log_d(double x)
 
 /* ---- spectra --------------------------------------------------------------------------- */
 
-static double observer(const SpectralRow *row, int j)
-{
+static double observer(const SpectralRow *row, int j) {
     return (double)(j == 0 ? row->x : j == 1 ? row->y : row->z);
 }
 
@@ -44,22 +41,21 @@ static double observer(const SpectralRow *row, int j)
  * what is linear between whole nm. Few numbers count where the light is in few places. */
 typedef struct WarpSource {
     double t_first, t_step;
-    int    first, count;
+    int first, count;
     double part[3][HALVES];
     double spectrum[HALVES];
     double peak; /* of the spectrum per unit of luminance */
 } WarpSource;
 
-static void fill_source(const float *spectrum, WarpSource *out)
-{
+static void fill_source(const float *spectrum, WarpSource *out) {
     int last = -1;
-    *out = (WarpSource){.t_first = (SPECTRAL_FIRST_NM - 560) / 180.0, .t_step = 0.5 / 180,
-                        .first = HALVES};
+    *out = (WarpSource){
+        .t_first = (SPECTRAL_FIRST_NM - 560) / 180.0, .t_step = 0.5 / 180, .first = HALVES};
     for (int h = 0; h < HALVES; h++) {
-        int    i = h / 2;
+        int i = h / 2;
         double weight = h == 0 || h == HALVES - 1 ? 1.0 / 6 : h % 2 ? 4.0 / 6 : 2.0 / 6;
-        double s = h % 2 ? 0.5 * ((double)spectrum[i] + (double)spectrum[i + 1])
-                         : (double)spectrum[i];
+        double s =
+            h % 2 ? 0.5 * ((double)spectrum[i] + (double)spectrum[i + 1]) : (double)spectrum[i];
         if (!(s > 0)) continue;
         out->spectrum[h] = s;
         out->peak = fmax(out->peak, s);
@@ -76,8 +72,7 @@ static void fill_source(const float *spectrum, WarpSource *out)
 
 /* Integrals of S x-bar_j t^k for c0 = 0; the largest factor along the spectrum. The factor's
  * steps are those of a geometric series whose quotient is one too. */
-static double moments(const WarpSource *s, const double c[3], double moment[3][3])
-{
+static double moments(const WarpSource *s, const double c[3], double moment[3][3]) {
     double t0 = s->t_first + s->first * s->t_step, d = s->t_step, most = 0;
     double factor = exp_d(c[1] * t0 + c[2] * t0 * t0);
     double quotient = exp_d(c[1] * d + c[2] * (2 * t0 * d + d * d));
@@ -99,34 +94,32 @@ static double moments(const WarpSource *s, const double c[3], double moment[3][3
     return most;
 }
 
-void panel_spectrum_xyz(const float *spectrum, double xyz[3])
-{
+void panel_spectrum_xyz(const float *spectrum, double xyz[3]) {
     WarpSource source;
-    double     moment[3][3], zero[3] = {0, 0, 0};
+    double moment[3][3], zero[3] = {0, 0, 0};
     fill_source(spectrum, &source);
     moments(&source, zero, moment);
     for (int j = 0; j < 3; j++) xyz[j] = moment[j][0];
 }
 
-bool panel_spectrum_normalise(float *spectrum)
-{
+bool panel_spectrum_normalise(float *spectrum) {
     double xyz[3];
     panel_spectrum_xyz(spectrum, xyz);
     if (!(xyz[0] > 0 && xyz[1] > 0 && xyz[2] > 0)) return false;
-    for (int i = 0; i < SPECTRAL_COUNT; i++)
-        spectrum[i] = (float)((double)spectrum[i] / xyz[1]);
+    for (int i = 0; i < SPECTRAL_COUNT; i++) spectrum[i] = (float)((double)spectrum[i] / xyz[1]);
     return true;
 }
 
-void panel_spectrum_default(PanelSpectraKind kind, int primary, float *out)
-{
-    static const struct { double nm, fwhm; } typical[3] = {{625, 40}, {535, 50}, {455, 25}};
+void panel_spectrum_default(PanelSpectraKind kind, int primary, float *out) {
+    static const struct {
+        double nm, fwhm;
+    } typical[3] = {{625, 40}, {535, 50}, {455, 25}};
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
         const SpectralRow *row = &spectral_table[i];
-        float  share = primary == 0 ? row->red : primary == 1 ? row->green : row->blue;
+        float share = primary == 0 ? row->red : primary == 1 ? row->green : row->blue;
         double d = (SPECTRAL_FIRST_NM + i - typical[primary].nm) / typical[primary].fwhm;
         out[i] = kind == PANEL_SPECTRA_REC709 ? share * row->d65
-                 : (float)(exp_d(-2.772588722239781 * d * d) + 1e-4);
+                                              : (float)(exp_d(-2.772588722239781 * d * d) + 1e-4);
     }
 }
 
@@ -134,8 +127,7 @@ void panel_spectrum_default(PanelSpectraKind kind, int primary, float *out)
 
 /* Rows: ln X - ln Y - u, ln Z - ln Y - v, over c1, c2 (c0 follows from Y). */
 static double warp_rest(const double moment[3][3], const double ratio[2], double rest[2],
-                        double jacobian[4])
-{
+                        double jacobian[4]) {
     double mean[3][2];
     for (int j = 0; j < 3; j++)
         for (int k = 0; k < 2; k++) mean[j][k] = moment[j][k + 1] / moment[j][0];
@@ -149,13 +141,12 @@ static double warp_rest(const double moment[3][3], const double ratio[2], double
 
 /* Newton from c, which holds the result. At the same luminance, the spectrum must nowhere be
  * four times as high as its highest peak was: extreme coefficients blow up the tails. */
-static bool warp_to(const WarpSource *source, const double ratio[2], double c[3])
-{
+static bool warp_to(const WarpSource *source, const double ratio[2], double c[3]) {
     double moment[3][3], rest[2], jacobian[4], at[3] = {0, c[1], c[2]};
     for (int step = 0; step < 40; step++) {
         double most = moments(source, at, moment);
         if (!(moment[0][0] > 0 && moment[1][0] > 0 && moment[2][0] > 0)) return false;
-        double miss = warp_rest((const double (*)[3])moment, ratio, rest, jacobian);
+        double miss = warp_rest((const double(*)[3])moment, ratio, rest, jacobian);
         if (miss < 1e-9) {
             c[0] = -log_d(moment[1][0]);
             c[1] = at[1];
@@ -177,8 +168,7 @@ static bool warp_to(const WarpSource *source, const double ratio[2], double c[3]
 /* From a colour that was reached (`from`, with coefficients c) as far towards `to` as warping
  * goes, by halving the way. True when it goes all the way. */
 static bool warp_along(const WarpSource *source, const double from[2], const double to[2],
-                       double c[3])
-{
+                       double c[3]) {
     double good = 0, bad = 1, trial[3] = {c[0], c[1], c[2]};
     if (warp_to(source, to, trial)) {
         memcpy(c, trial, sizeof trial);
@@ -203,30 +193,27 @@ static bool warp_along(const WarpSource *source, const double from[2], const dou
 
 /* (ln X/Y, ln Z/Y) at a node. */
 static void node_ratio(const SpectralWarpRange *range, double along, double across,
-                       double ratio[2])
-{
+                       double ratio[2]) {
     double ax = (double)range->along[0], ay = (double)range->along[1];
     ratio[0] = (double)range->origin[0] + along * ax - across * ay;
     ratio[1] = (double)range->origin[1] + along * ay + across * ax;
 }
 
-static double node_at(const SpectralWarpRange *range, int coordinate, int index)
-{
+static double node_at(const SpectralWarpRange *range, int coordinate, int index) {
     double low = (double)range->low[coordinate], high = (double)range->high[coordinate];
     return low + (high - low) * index / (SPECTRAL_WARP_SIDE - 1);
 }
 
 /* From the middle of the row to either side, each start its neighbour's solution. */
 static int fill_across(const WarpSource *source, int i, double along, const double start[3],
-                       bool is_reached, SpectralWarp *warp)
-{
+                       bool is_reached, SpectralWarp *warp) {
     double middle[2];
-    int    missed = 0, centre = SPECTRAL_WARP_SIDE / 2;
+    int missed = 0, centre = SPECTRAL_WARP_SIDE / 2;
     node_ratio(&warp->range, along, 0, middle);
     for (int side = 0; side < 2; side++) {
         double c[3] = {start[0], start[1], start[2]}, from[2] = {middle[0], middle[1]}, to[2];
-        bool   goes_on = is_reached;
-        int    j = side ? centre - 1 : centre;
+        bool goes_on = is_reached;
+        int j = side ? centre - 1 : centre;
         for (; j >= 0 && j < SPECTRAL_WARP_SIDE; j += side ? -1 : 1) {
             node_ratio(&warp->range, along, node_at(&warp->range, 1, j), to);
             goes_on = goes_on && warp_along(source, from, to, c);
@@ -239,12 +226,11 @@ static int fill_across(const WarpSource *source, int i, double along, const doub
     return missed;
 }
 
-int spectral_warp_fill(const float *spectrum, SpectralWarp *warp)
-{
+int spectral_warp_fill(const float *spectrum, SpectralWarp *warp) {
     WarpSource source;
-    double     moment[3][3], zero[3] = {0, 0, 0}, from[2], to[2], c[3] = {0, 0, 0};
-    int        missed = 0;
-    bool       is_reached = true;
+    double moment[3][3], zero[3] = {0, 0, 0}, from[2], to[2], c[3] = {0, 0, 0};
+    int missed = 0;
+    bool is_reached = true;
     fill_source(spectrum, &source);
     moments(&source, zero, moment);
     from[0] = log_d(moment[0][0] / moment[1][0]);
@@ -263,8 +249,7 @@ int spectral_warp_fill(const float *spectrum, SpectralWarp *warp)
 /* ---- where colours lie ------------------------------------------------------------------ */
 
 /* The centre of the cloud and the direction of its largest spread. */
-static void cloud_axes(float *const ratio[2], int count, SpectralWarpRange *out)
-{
+static void cloud_axes(float *const ratio[2], int count, SpectralWarpRange *out) {
     double mean[2] = {0, 0}, m[3] = {0, 0, 0};
     for (int i = 0; i < count; i++)
         for (int k = 0; k < 2; k++) mean[k] += (double)ratio[k][i] / count;
@@ -281,8 +266,7 @@ static void cloud_axes(float *const ratio[2], int count, SpectralWarpRange *out)
 }
 
 /* Half a percent at either end is left out, a margin is added. */
-SpectralWarpRange spectral_warp_range(float *const ratio[2], int count)
-{
+SpectralWarpRange spectral_warp_range(float *const ratio[2], int count) {
     SpectralWarpRange out = {.along = {1, 0}, .low = {-1, -1}, .high = {1, 1}};
     if (!count) return out;
     cloud_axes(ratio, count, &out);

@@ -53,11 +53,10 @@ void panel_spectrum_default(PanelSpectraKind kind, int primary, float *out);
 /* ---- a query ----------------------------------------------------------------------------- */
 
 /* Weights of a Catmull-Rom cubic over four neighbours of an even row. */
-static inline int spectral_warp_cell(float at, float low, float high, float weight[4])
-{
+static inline int spectral_warp_cell(float at, float low, float high, float weight[4]) {
     float s = (at - low) / (high - low) * (SPECTRAL_WARP_SIDE - 1);
     s = clampf(s, 0, SPECTRAL_WARP_SIDE - 1);
-    int   cell = (int)s;
+    int cell = (int)s;
     if (cell > SPECTRAL_WARP_SIDE - 2) cell = SPECTRAL_WARP_SIDE - 2;
     float t = s - (float)cell, t2 = t * t, t3 = t2 * t;
     weight[0] = 0.5f * (2 * t2 - t3 - t);
@@ -79,15 +78,14 @@ static inline int spectral_warp_cell(float at, float low, float high, float weig
 
 /* HOT. c0, c1, c2 of a source of 1 cd m^-2 for ln XYZ (only the ratios count). */
 static inline void spectral_warp_at(const SpectralWarp *warp, const float logs[3],
-                                    float coefficient[3])
-{
+                                    float coefficient[3]) {
     float wu[4], wv[4];
     float du = logs[0] - logs[1] - warp->range.origin[0];
     float dv = logs[2] - logs[1] - warp->range.origin[1];
     float along = du * warp->range.along[0] + dv * warp->range.along[1];
     float across = dv * warp->range.along[0] - du * warp->range.along[1];
-    int   u = spectral_warp_cell(along, warp->range.low[0], warp->range.high[0], wu);
-    int   v = spectral_warp_cell(across, warp->range.low[1], warp->range.high[1], wv);
+    int u = spectral_warp_cell(along, warp->range.low[0], warp->range.high[0], wu);
+    int v = spectral_warp_cell(across, warp->range.low[1], warp->range.high[1], wv);
     coefficient[0] = coefficient[1] = coefficient[2] = 0;
     for (int j = 0; j < 4; j++)
         for (int i = 0; i < 4; i++) {

@@ -18,24 +18,24 @@
 
 #include "base/arena.h"
 
-#define SPOT_GROUND_MAX 49   /* places */
-#define SPOT_GROUND_COUNT 4  /* that count at once */
+#define SPOT_GROUND_MAX 49  /* places */
+#define SPOT_GROUND_COUNT 4 /* that count at once */
 
 typedef struct SpotGround {
-    int          count;
+    int count;
     const float (*at)[2];
-    int          columns, rows; /* 0: no grid */
-    float        u[SPOT_GROUND_MAX], v[SPOT_GROUND_MAX]; /* rising */
-    uint8_t      of_cell[SPOT_GROUND_MAX];               /* row * columns + column */
-    int          triangles, edges;
-    uint8_t    (*triangle)[3];
-    uint8_t    (*edge)[2]; /* the border; of places on one line the pieces between them */
+    int columns, rows;                            /* 0: no grid */
+    float u[SPOT_GROUND_MAX], v[SPOT_GROUND_MAX]; /* rising */
+    uint8_t of_cell[SPOT_GROUND_MAX];             /* row * columns + column */
+    int triangles, edges;
+    uint8_t (*triangle)[3];
+    uint8_t (*edge)[2]; /* the border; of places on one line the pieces between them */
 } SpotGround;
 
 /* Which places count at a place, and how much. */
 typedef struct SpotWeights {
-    int   count;
-    int   spot[SPOT_GROUND_COUNT];
+    int count;
+    int spot[SPOT_GROUND_COUNT];
     float weight[SPOT_GROUND_COUNT];
 } SpotWeights;
 

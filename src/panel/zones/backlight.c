@@ -8,8 +8,7 @@
 #include "base/mathf.h"
 
 /* Zone i of a row of `count` and of its mirror images. */
-static int folded(long i, int count)
-{
+static int folded(long i, int count) {
     long period = 2L * count, at = i % period;
     if (at < 0) at += period;
     return (int)(at < count ? at : period - 1 - at);
@@ -18,35 +17,31 @@ static int folded(long i, int count)
 #define GAUSSIAN_REACH 6.0 /* sigmas: beyond, 2e-8 of the middle */
 #define FINE_SAMPLES 12.0  /* in a sigma; of a table twice as many in its half width */
 #define SAMPLES_MOST 4000000.0
-#define WORK_MOST 4e8      /* products of a table's spread */
+#define WORK_MOST 4e8 /* products of a table's spread */
 
 /* A Gaussian of twice the display's side, folded at both ends, is even to 1e-8: no wider one is
  * summed up. */
-static double sigma_along(const DimmingZones *zones, int k)
-{
+static double sigma_along(const DimmingZones *zones, int k) {
     return fmin(zones->sigma_mm, 2 * zones->size_mm[k]);
 }
 
-static double pitch(const DimmingZones *zones, int k)
-{
+static double pitch(const DimmingZones *zones, int k) {
     return zones->size_mm[k] / zones->count[k];
 }
 
 /* How far the light of a zone counts, in zones. */
-static int reach(const DimmingZones *zones, int k)
-{
+static int reach(const DimmingZones *zones, int k) {
     double mm = zones->sigma_mm > 0 ? GAUSSIAN_REACH * sigma_along(zones, k)
                                     : zones->spread.at[zones->spread.rows - 1];
     return (int)ceil(mm / pitch(zones, k)) + 1;
 }
 
 /* Where the spread is half of what it is in the middle. */
-static double half_width(const DimmingZones *zones)
-{
+static double half_width(const DimmingZones *zones) {
     double most = zones->spread.at[zones->spread.rows - 1], mm = most;
     for (int i = 256; i >= 1; i--)
-        if (dimming_zones_spread(zones, most * i / 256) <=
-            0.5 * dimming_zones_spread(zones, 0)) mm = most * i / 256;
+        if (dimming_zones_spread(zones, most * i / 256) <= 0.5 * dimming_zones_spread(zones, 0))
+            mm = most * i / 256;
     return mm;
 }
 
@@ -55,29 +50,27 @@ static double half_width(const DimmingZones *zones)
 /* A map while it is made. */
 typedef struct MapWork {
     const DimmingZones *zones;
-    const double       *drive;
-    int                 fine[2]; /* samples in a zone */
-    int                 size[2]; /* of the map */
-    float              *out;     /* Backlight.light */
+    const double *drive;
+    int fine[2]; /* samples in a zone */
+    int size[2]; /* of the map */
+    float *out;  /* Backlight.light */
 } MapWork;
 
-static void keep(MapWork *work, int x, int y, double light)
-{
+static void keep(MapWork *work, int x, int y, double light) {
     float *out = work->out + (size_t)y * (size_t)work->size[0] + x;
-    float  b = light > 1 - 1e-6 ? 1 : (float)fmax(light, (double)BACKLIGHT_DARK);
+    float b = light > 1 - 1e-6 ? 1 : (float)fmax(light, (double)BACKLIGHT_DARK);
     *out = work->zones->sigma_mm > 0 ? log_f(b) : b;
 }
 
 /* The shares of a row's zones at each sample along axis k: [sample][zone], adding up to 1. A
  * Gaussian is a product of its axes. */
-static double *axis_shares(const MapWork *work, int k, Arena *scratch)
-{
+static double *axis_shares(const MapWork *work, int k, Arena *scratch) {
     const DimmingZones *zones = work->zones;
-    int     count = zones->count[k], far = reach(zones, k);
+    int count = zones->count[k], far = reach(zones, k);
     double *share = ARENA_NEW(scratch, double, (size_t)work->size[k] * (size_t)count);
     for (int i = 0; i < work->size[k]; i++) {
         double *row = share + (size_t)i * (size_t)count, full = 0;
-        double  at = (i + 0.5) / work->fine[k] - 0.5;
+        double at = (i + 0.5) / work->fine[k] - 0.5;
         for (long z = lround(at) - far; z <= lround(at) + far; z++) {
             double over = ((double)z - at) * pitch(zones, k) / sigma_along(zones, k);
             double one = exp_d(-0.5 * over * over);
@@ -89,9 +82,8 @@ static double *axis_shares(const MapWork *work, int k, Arena *scratch)
     return share;
 }
 
-static void map_gaussian(MapWork *work, Arena scratch)
-{
-    int     columns = work->zones->count[0], rows = work->zones->count[1];
+static void map_gaussian(MapWork *work, Arena scratch) {
+    int columns = work->zones->count[0], rows = work->zones->count[1];
     double *across = axis_shares(work, 0, &scratch), *down = axis_shares(work, 1, &scratch);
     double *line = ARENA_NEW(&scratch, double, columns);
     for (int y = 0; y < work->size[1]; y++) {
@@ -104,7 +96,7 @@ static void map_gaussian(MapWork *work, Arena scratch)
         }
         for (int x = 0; x < work->size[0]; x++) {
             const double *share = across + (size_t)x * (size_t)columns;
-            double        light = 0;
+            double light = 0;
             for (int c = 0; c < columns; c++) light += share[c] * line[c];
             keep(work, x, y, light);
         }
@@ -113,8 +105,7 @@ static void map_gaussian(MapWork *work, Arena scratch)
 
 /* Light of the zones around a sample: which in a zone, and which zone. */
 static double around(const MapWork *work, const double *kernel, const int reaches[2],
-                     const int zone[2])
-{
+                     const int zone[2]) {
     double light = 0;
     for (int dy = -reaches[1]; dy <= reaches[1]; dy++) {
         int row = folded(zone[1] + dy, work->zones->count[1]);
@@ -127,11 +118,10 @@ static double around(const MapWork *work, const double *kernel, const int reache
 }
 
 /* A table's spread: one kernel for each place in a zone, which serves all zones. */
-static void map_table(MapWork *work, Arena scratch)
-{
+static void map_table(MapWork *work, Arena scratch) {
     const DimmingZones *zones = work->zones;
-    int     reaches[2] = {reach(zones, 0), reach(zones, 1)}, in[2], zone[2];
-    int     wide = 2 * reaches[0] + 1, all = wide * (2 * reaches[1] + 1);
+    int reaches[2] = {reach(zones, 0), reach(zones, 1)}, in[2], zone[2];
+    int wide = 2 * reaches[0] + 1, all = wide * (2 * reaches[1] + 1);
     double *kernel = ARENA_NEW(&scratch, double, all);
     for (int s = 0; s < work->fine[0] * work->fine[1]; s++) {
         double at[2], full = 0;
@@ -150,49 +140,44 @@ static void map_table(MapWork *work, Arena scratch)
     }
 }
 
-static void choose_fineness(MapWork *work)
-{
+static void choose_fineness(MapWork *work) {
     const DimmingZones *zones = work->zones;
     double width = zones->sigma_mm > 0 ? zones->sigma_mm : 0.5 * half_width(zones);
     double most = SAMPLES_MOST;
     if (!(zones->sigma_mm > 0))
-        most = fmin(most, WORK_MOST / ((2.0 * reach(zones, 0) + 1) *
-                                       (2.0 * reach(zones, 1) + 1)));
+        most = fmin(most, WORK_MOST / ((2.0 * reach(zones, 0) + 1) * (2.0 * reach(zones, 1) + 1)));
     for (int k = 0; k < 2; k++)
         work->fine[k] = (int)fmin(fmax(ceil(FINE_SAMPLES * pitch(zones, k) / width), 1), 64);
-    for (int k = 0; ; k = !k) { /* coarser, one axis after the other */
-        double samples = (double)work->fine[0] * work->fine[1] * zones->count[0] *
-                         zones->count[1];
+    for (int k = 0;; k = !k) { /* coarser, one axis after the other */
+        double samples = (double)work->fine[0] * work->fine[1] * zones->count[0] * zones->count[1];
         if (samples <= most || work->fine[0] + work->fine[1] <= 2) break;
         if (work->fine[k] > 1) work->fine[k]--;
     }
     for (int k = 0; k < 2; k++) work->size[k] = work->fine[k] * zones->count[k];
 }
 
-static const float (*log_shares(const LevelShares *levels, Arena *arena))[256]
-{
-    float (*out)[256] = arena_alloc(arena, sizeof *out, _Alignof(float), 3);
+static const float (*log_shares(const LevelShares *levels, Arena *arena))[256] {
+    float(*out)[256] = arena_alloc(arena, sizeof *out, _Alignof(float), 3);
     for (int p = 0; p < 3; p++)
         for (int i = 0; i < 256; i++) out[p][i] = log_f(fmaxf(levels->share[p][i], 1e-12f));
-    return (const float (*)[256])out;
+    return (const float(*)[256])out;
 }
 
 const Backlight *backlight_make(const DimmingZones *zones, const LevelShares *levels,
-                                const double *drive, Arena *arena)
-{
+                                const double *drive, Arena *arena) {
     Backlight *out = ARENA_NEW(arena, Backlight, 1);
-    MapWork    work = {.zones = zones, .drive = drive};
-    int        count = zones->count[0] * zones->count[1];
+    MapWork work = {.zones = zones, .drive = drive};
+    int count = zones->count[0] * zones->count[1];
     choose_fineness(&work);
     work.out = ARENA_NEW(arena, float, (size_t)work.size[0] * (size_t)work.size[1]);
-    *out = (Backlight){.width = work.size[0], .height = work.size[1], .light = work.out,
+    *out = (Backlight){.width = work.size[0],
+                       .height = work.size[1],
+                       .light = work.out,
                        .is_log = zones->sigma_mm > 0,
                        .compensates = zones->compensates,
                        .log_share = log_shares(levels, arena)};
     for (int i = 0; i < count; i++) out->mean_drive += drive[i] / count;
-    if (zones->sigma_mm > 0)
-        map_gaussian(&work, *arena);
-    else
-        map_table(&work, *arena);
+    if (zones->sigma_mm > 0) map_gaussian(&work, *arena);
+    else map_table(&work, *arena);
     return out;
 }

@@ -32,12 +32,12 @@
 #include "panel/zones/zone_drives.h"
 
 typedef struct Backlight {
-    int          width, height; /* samples, evenly over the active area */
-    const float *light;         /* at the middles of width x height cells, from the top */
-    bool         is_log;        /* light is ln b, of a Gaussian spread; else b */
-    bool         compensates;
+    int width, height;  /* samples, evenly over the active area */
+    const float *light; /* at the middles of width x height cells, from the top */
+    bool is_log;        /* light is ln b, of a Gaussian spread; else b */
+    bool compensates;
     const float (*log_share)[256]; /* ln of LevelShares, of compensation; [0] is unused */
-    double       mean_drive;    /* the backlight's power over its full power */
+    double mean_drive;             /* the backlight's power over its full power */
 } Backlight;
 
 #define BACKLIGHT_DARK 1e-6f /* the least b that is kept */

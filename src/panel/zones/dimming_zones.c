@@ -6,8 +6,7 @@
 
 #include "base/mathd.h"
 
-double zone_table_at(const ZoneTable *table, double at)
-{
+double zone_table_at(const ZoneTable *table, double at) {
     int last = table->rows - 1, i = 0;
     if (!(at > table->at[0])) return table->value[0];
     if (at >= table->at[last]) return table->value[last];
@@ -16,19 +15,16 @@ double zone_table_at(const ZoneTable *table, double at)
     return table->value[i] + t * (table->value[i + 1] - table->value[i]);
 }
 
-double dimming_zones_spread(const DimmingZones *zones, double mm)
-{
+double dimming_zones_spread(const DimmingZones *zones, double mm) {
     double over = mm / zones->sigma_mm;
     if (zones->sigma_mm > 0) return exp_d(-0.5 * over * over);
-    return mm > zones->spread.at[zones->spread.rows - 1] ? 0
-                                                         : zone_table_at(&zones->spread, mm);
+    return mm > zones->spread.at[zones->spread.rows - 1] ? 0 : zone_table_at(&zones->spread, mm);
 }
 
 /* ---- what is wrong ----------------------------------------------------------------------- */
 
 /* Values from 0 to `most`. */
-static bool is_table(const ZoneTable *table, double most)
-{
+static bool is_table(const ZoneTable *table, double most) {
     if (table->rows != table->values || table->rows < 2 || table->rows > ZONE_ROWS_MAX)
         return false;
     for (int i = 0; i < table->rows; i++)
@@ -38,8 +34,7 @@ static bool is_table(const ZoneTable *table, double most)
     return true;
 }
 
-static const char *zones_fault(const DimmingZones *zones)
-{
+static const char *zones_fault(const DimmingZones *zones) {
     for (int k = 0; k < 2; k++) {
         if (zones->count[k] < 1 || zones->count[k] > ZONES_SIDE_MAX)
             return "has too many, required: 1 to 512 columns and 1 to 512 rows";
@@ -47,18 +42,16 @@ static const char *zones_fault(const DimmingZones *zones)
             return "has no size of the active area, required: 1 to 100000 mm";
     }
     return zones->count[0] * zones->count[1] > ZONES_MOST
-               ? "has too many, required: at most 65536 in all" : NULL;
+               ? "has too many, required: at most 65536 in all"
+               : NULL;
 }
 
-static const char *spread_fault(const DimmingZones *zones)
-{
-    double wide = zones->size_mm[0] / zones->count[0], high = zones->size_mm[1] /
-                                                              zones->count[1];
+static const char *spread_fault(const DimmingZones *zones) {
+    double wide = zones->size_mm[0] / zones->count[0], high = zones->size_mm[1] / zones->count[1];
     if (zones->sigma_mm > 0 && zones->spread.rows)
         return "has both 'sigma_mm' and a table, required: one of them";
     if (zones->sigma_mm > 0)
-        return zones->sigma_mm >= ZONE_SIGMA_LEAST * fmax(wide, high) &&
-                       zones->sigma_mm <= 1e6
+        return zones->sigma_mm >= ZONE_SIGMA_LEAST * fmax(wide, high) && zones->sigma_mm <= 1e6
                    ? NULL
                    : "has a sigma_mm that leaves it dark between zones, required: an eighth of "
                      "a zone's longer side at least";
@@ -70,11 +63,11 @@ static const char *spread_fault(const DimmingZones *zones)
         return "has a table that leaves it dark between zones, required: light at half a "
                "zone's diagonal";
     return reach <= ZONE_REACH_MAX * fmin(wide, high)
-               ? NULL : "has a table that reaches too far, required: at most over 64 zones";
+               ? NULL
+               : "has a table that reaches too far, required: at most over 64 zones";
 }
 
-static const char *drive_fault(const DimmingZones *zones)
-{
+static const char *drive_fault(const DimmingZones *zones) {
     const ZoneTable *drive = &zones->drive;
     if (!(zones->least >= 0 && zones->least <= 1))
         return "has a least drive that is none, required: 0 to 1";
@@ -87,8 +80,7 @@ static const char *drive_fault(const DimmingZones *zones)
     return NULL;
 }
 
-const char *dimming_zones_fault(const DimmingZones *zones, const char **key)
-{
+const char *dimming_zones_fault(const DimmingZones *zones, const char **key) {
     const char *fault = zones_fault(zones);
     *key = "zones";
     if (fault) return fault;

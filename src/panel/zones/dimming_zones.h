@@ -10,9 +10,9 @@
 #include <stdbool.h>
 
 #define ZONES_SIDE_MAX 512
-#define ZONES_MOST 65536    /* in all */
-#define ZONE_ROWS_MAX 64    /* of a table */
-#define ZONE_REACH_MAX 64   /* a table's spread, in zones */
+#define ZONES_MOST 65536       /* in all */
+#define ZONE_ROWS_MAX 64       /* of a table */
+#define ZONE_REACH_MAX 64      /* a table's spread, in zones */
 #define ZONE_SIGMA_LEAST 0.125 /* of a zone's longer side: less would leave it dark between */
 
 typedef enum ZoneRule {
@@ -22,19 +22,19 @@ typedef enum ZoneRule {
 
 /* Straight lines between rows; `at` rises. No rows: there is no table. */
 typedef struct ZoneTable {
-    int    rows, values; /* equal, but while a file is read */
+    int rows, values; /* equal, but while a file is read */
     double at[ZONE_ROWS_MAX], value[ZONE_ROWS_MAX];
 } ZoneTable;
 
 typedef struct DimmingZones {
-    int       count[2];    /* columns and rows; 0: the backlight is one, always full */
-    double    size_mm[2];  /* of the active area */
-    double    sigma_mm;    /* of the Gaussian of a zone's light; 0: `spread` says it */
-    ZoneTable spread;      /* mm from the zone's middle; relative light, 0 behind it */
-    int       rule;        /* ZoneRule */
-    ZoneTable drive;       /* code to drive; no rows: the drive is the light of the code */
-    double    least;       /* drive of any zone */
-    bool      compensates; /* the controller opens pixels as their backlight falls */
+    int count[2];      /* columns and rows; 0: the backlight is one, always full */
+    double size_mm[2]; /* of the active area */
+    double sigma_mm;   /* of the Gaussian of a zone's light; 0: `spread` says it */
+    ZoneTable spread;  /* mm from the zone's middle; relative light, 0 behind it */
+    int rule;          /* ZoneRule */
+    ZoneTable drive;   /* code to drive; no rows: the drive is the light of the code */
+    double least;      /* drive of any zone */
+    bool compensates;  /* the controller opens pixels as their backlight falls */
 } DimmingZones;
 
 /* Why a backlight cannot be so, in words that follow the place: "has ..., required: ..."; NULL:

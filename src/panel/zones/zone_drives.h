@@ -14,7 +14,7 @@ typedef struct LevelShares {
 
 /* A picture as a display shows it: codes 0 to 255 at a place, and how fine it is. */
 typedef struct ShownPicture {
-    int   columns, rows; /* pixels over the active area, at least 1 */
+    int columns, rows; /* pixels over the active area, at least 1 */
     void (*codes)(const void *user, const float place[2], float codes[3]);
     const void *user;
 } ShownPicture;

@@ -7,8 +7,7 @@
 
 #define SHARP_ALPHA 0.2f /* of GGX: what ways follow besides mirrors */
 
-static bool is_sharp(const Surface *surface)
-{
+static bool is_sharp(const Surface *surface) {
     return bsdf_sharpest(&surface->bsdf) <= SHARP_ALPHA;
 }
 
@@ -16,15 +15,14 @@ static bool is_sharp(const Surface *surface)
 
 /* A ray that a vertex sends out: it follows mirrors, and ends behind a sharp lobe. */
 typedef struct DistantWay {
-    PathCollector  base;
+    PathCollector base;
     const PathDistant *distant;
-    float          pdf; /* of its direction behind that lobe, sr^-1; 0: none yet */
+    float pdf; /* of its direction behind that lobe, sr^-1; 0: none yet */
 } DistantWay;
 
 /* Does the way end? Vertices behind a sharp lobe send out their own. */
 static bool refuse(PathCollector *c, PathState *path, const Surface *surface,
-                   const BsdfSample *next)
-{
+                   const BsdfSample *next) {
     (void)path;
     DistantWay *way = (DistantWay *)c;
     if (way->pdf > 0) return true;
@@ -34,8 +32,7 @@ static bool refuse(PathCollector *c, PathState *path, const Surface *surface,
     return false;
 }
 
-static bool leave_by_way(PathCollector *c, PathState *path)
-{
+static bool leave_by_way(PathCollector *c, PathState *path) {
     const DistantWay *way = (const DistantWay *)c;
     if (path->last.is_delta || way->pdf > 0)
         way->distant->add_escaped(way->distant->user, path->ray.direction, path->bounce,
@@ -50,14 +47,13 @@ static const CollectorKind way_kind = {
 /* Sends a way into a direction that the surface scatters to; its mirror direction is followed
  * by the path itself. */
 static void send_way(const DistantCollector *questions, const PathState *from,
-                     const Surface *surface, Vec3 wo, const Guiding *guiding, int i)
-{
-    PathState  path = *from;
+                     const Surface *surface, Vec3 wo, const Guiding *guiding, int i) {
+    PathState path = *from;
     DistantWay way = {{&way_kind, NULL}, questions->distant, 0};
     SheetStack stack;
-    Guiding    guidings[2] = {*guiding, *guiding};
+    Guiding guidings[2] = {*guiding, *guiding};
     BsdfSample next;
-    float      u[4];
+    float u[4];
     path.steps += STEPS_FAR * (SPLITS + 1) * (1 + i);
     numbers_for(&path, NUMBERS_SCATTER);
     sampler_4d(path.sampler, u);
@@ -77,25 +73,23 @@ static void send_way(const DistantCollector *questions, const PathState *from,
  * ring would depend on a handful of paths. Ways cost a ray or two; a vertex samples
  * hundreds. */
 static void send_ways(const DistantCollector *questions, const PathState *path,
-                      const Surface *surface, Vec3 wo, const Guiding *guiding)
-{
+                      const Surface *surface, Vec3 wo, const Guiding *guiding) {
     if (!questions->distant->has_ways || path->bounce + 1 >= path->context->max_bounces) return;
     for (int i = 0; i < PATH_WAYS; i++) send_way(questions, path, surface, wo, guiding, i);
 }
 
 /* ---- questions --------------------------------------------------------------------------- */
 
-static void sample_all(const DistantCollector *questions, PathState *path,
-                       const Surface *surface, Vec3 wo, const Guiding *guiding)
-{
+static void sample_all(const DistantCollector *questions, PathState *path, const Surface *surface,
+                       Vec3 wo, const Guiding *guiding) {
     const PathDistant *distant = questions->distant;
     Vec3 local_wo = surface->local_wo;
-    int  ways = questions->sent_ways && is_sharp(surface) ? PATH_WAYS : 0;
+    int ways = questions->sent_ways && is_sharp(surface) ? PATH_WAYS : 0;
     for (int i = 0; i < distant->count; i++) {
         LightSample light = {.wi = distant->towards[i], .distance = INFINITY};
-        Vec3        local_wi = frame_to_local(&surface->frame, light.wi);
-        ShadowRay   ray;
-        float       pdf;
+        Vec3 local_wi = frame_to_local(&surface->frame, light.wi);
+        ShadowRay ray;
+        float pdf;
         if (!direct_sides_agree(surface, local_wi, light.wi, wo)) continue;
         if (!bsdf_reaches(&surface->bsdf, local_wo, local_wi)) continue;
         Spectrum passed = direct_visibility(path, surface, &light, &ray);
@@ -109,8 +103,7 @@ static void sample_all(const DistantCollector *questions, PathState *path,
 }
 
 static bool at_hit(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                const Guiding *guiding)
-{
+                   const Guiding *guiding) {
     const DistantCollector *questions = (const DistantCollector *)c;
     if (path->bounce < path->context->max_bounces && bsdf_scatters(&surface->bsdf)) {
         sample_all(questions, path, surface, wo, guiding);
@@ -122,38 +115,36 @@ static bool at_hit(PathCollector *c, PathState *path, const Surface *surface, Ve
 /* Chooses the mirror direction of a first display, so that chance leaves none of it out;
  * false: the mirror alone is not requested, or this is no such display. */
 static bool choose_mirror(PathCollector *c, PathState *path, const Surface *surface,
-                          BsdfSample *next)
-{
+                          BsdfSample *next) {
     Vec3 local_wo = surface->local_wo;
     if (!((DistantCollector *)c)->distant->is_of_mirror || path->bounce ||
         !surface_is_display(path->context->scene, surface))
         return false;
-    *next = (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .pdf = 1,
-                         .weight = bsdf_mirror(&surface->bsdf, local_wo), .is_delta = true};
+    *next = (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z),
+                         .pdf = 1,
+                         .weight = bsdf_mirror(&surface->bsdf, local_wo),
+                         .is_delta = true};
     return true;
 }
 
 static void turn_from(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                      const BsdfSample *next)
-{
+                      const BsdfSample *next) {
     (void)path, (void)surface, (void)wo;
     DistantCollector *questions = (DistantCollector *)c;
     if (questions->distant->has_ways) questions->sent_ways |= !next->is_delta;
 }
 
 /* Vertices that scatter have sampled lights themselves. */
-static bool leave(PathCollector *c, PathState *path)
-{
+static bool leave(PathCollector *c, PathState *path) {
     const DistantCollector *questions = (const DistantCollector *)c;
-    const PathDistant  *distant = questions->distant;
+    const PathDistant *distant = questions->distant;
     if (!questions->sent_ways && path->last.is_delta)
         distant->add_escaped(distant->user, path->ray.direction, path->bounce,
                              (const float *)&path->throughput, 0);
     return true;
 }
 
-DistantCollector distant_collector(const PathDistant *distant)
-{
+DistantCollector distant_collector(const PathDistant *distant) {
     static const CollectorKind kind = {
         .size = sizeof(DistantCollector),
         .steer = {.vertex = at_hit, .choose = choose_mirror, .escape = leave},

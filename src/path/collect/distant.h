@@ -11,7 +11,7 @@
 
 typedef struct PathDistant {
     const Vec3 *towards; /* unit; every scattering vertex samples all of them */
-    int         count;
+    int count;
     /* share: of the radiance from towards[i], per steradian, what comes to the eye via
      * vertex `bounce` (0: the first surface that scatters), per lane; of a luxmeter to
      * tristimulus values in lx. pdf: with which ways find that direction from there, too,
@@ -21,15 +21,15 @@ typedef struct PathDistant {
      * radiance from there. pdf: 0, or of a way that left by a sharp lobe, sr^-1. */
     void (*add_escaped)(void *user, Vec3 direction, int bounce, const float *share, float pdf);
     void *user;
-    bool  is_of_mirror; /* where a display comes first, its mirror alone is followed */
-    bool  has_ways; /* vertices send out PATH_WAYS rays each, which follow mirrors and sharp
-                       lobes: what leaves the scene so is added for these, not for paths */
+    bool is_of_mirror; /* where a display comes first, its mirror alone is followed */
+    bool has_ways;     /* vertices send out PATH_WAYS rays each, which follow mirrors and sharp
+                          lobes: what leaves the scene so is added for these, not for paths */
 } PathDistant;
 
 typedef struct DistantCollector {
-    PathCollector  base;
+    PathCollector base;
     const PathDistant *distant;
-    bool           sent_ways; /* from the last vertex that scattered; mirrors may lie between */
+    bool sent_ways; /* from the last vertex that scattered; mirrors may lie between */
 } DistantCollector;
 
 /* The path must be dark (PathManner). */

@@ -6,8 +6,7 @@
 
 /* The place alone counts, not its light. */
 static bool note_place(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                       const Guiding *guiding)
-{
+                       const Guiding *guiding) {
     (void)path;
     PathPlaces *places = ((TrainingPlaces *)c)->out;
     if (!guiding->is_wide || places->count == PATH_PLACES_MAX) return true;
@@ -16,14 +15,12 @@ static bool note_place(PathCollector *c, PathState *path, const Surface *surface
     return true;
 }
 
-static bool end_without_light(PathCollector *c, PathState *path)
-{
+static bool end_without_light(PathCollector *c, PathState *path) {
     (void)c, (void)path;
     return true;
 }
 
-TrainingPlaces training_places(PathPlaces *out)
-{
+TrainingPlaces training_places(PathPlaces *out) {
     static const CollectorKind kind = {
         .size = sizeof(TrainingPlaces),
         .steer = {.vertex = note_place, .escape = end_without_light}};
@@ -31,8 +28,7 @@ TrainingPlaces training_places(PathPlaces *out)
     return (TrainingPlaces){{&kind, NULL}, out};
 }
 
-static void take_sky(PathCollector *c, PathState *path, Spectrum *radiance)
-{
+static void take_sky(PathCollector *c, PathState *path, Spectrum *radiance) {
     float xyz[3] = {0};
     if (path->bounce != 1) return;
     spectrum_add_xyz(path->wavelengths, path->throughput * *radiance, xyz);
@@ -43,8 +39,7 @@ static void take_sky(PathCollector *c, PathState *path, Spectrum *radiance)
 /* What lights the first dull surface without another is most of what it sends, and half of what
  * the whole path costs. */
 static bool ends_at(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                    const Guiding *guiding)
-{
+                    const Guiding *guiding) {
     (void)path, (void)surface, (void)wo;
     TrainingSky *sky = (TrainingSky *)c;
     sky->wide += guiding->is_wide;
@@ -52,14 +47,12 @@ static bool ends_at(PathCollector *c, PathState *path, const Surface *surface, V
 }
 
 static bool has_ended(PathCollector *c, PathState *path, const Surface *surface,
-                      const BsdfSample *next)
-{
+                      const BsdfSample *next) {
     (void)path, (void)surface, (void)next;
     return ((const TrainingSky *)c)->wide > 1;
 }
 
-TrainingSky training_sky(float *sky_cd_m2)
-{
+TrainingSky training_sky(float *sky_cd_m2) {
     static const CollectorKind kind = {
         .size = sizeof(TrainingSky),
         .steer = {.sky = take_sky, .vertex = ends_at, .refuse = has_ended}};

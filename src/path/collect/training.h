@@ -11,13 +11,13 @@
 
 /* Where a path scattered widely: just off the surfaces, on the side that was looked at. */
 typedef struct PathPlaces {
-    int      count;
+    int count;
     LitPoint place[PATH_PLACES_MAX];
 } PathPlaces;
 
 typedef struct TrainingPlaces {
     PathCollector base;
-    PathPlaces   *out;
+    PathPlaces *out;
 } TrainingPlaces;
 
 /* The context must have a guide, trained or not. */
@@ -28,8 +28,8 @@ TrainingPlaces training_places(PathPlaces *out);
  * surface that scatters widely: a training pass, no measurement. */
 typedef struct TrainingSky {
     PathCollector base;
-    float        *sky_cd_m2;
-    int           wide; /* surfaces so far that scatter widely */
+    float *sky_cd_m2;
+    int wide; /* surfaces so far that scatter widely */
 } TrainingSky;
 
 TrainingSky training_sky(float *sky_cd_m2);

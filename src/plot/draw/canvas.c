@@ -9,45 +9,44 @@
 #define FACE "DejaVu Sans"
 #define FACE_WIDTH 0.92 /* the face is drawn a little narrower than it is cut */
 
-Ink ink_hex(unsigned rgb)
-{
+Ink ink_hex(unsigned rgb) {
     return (Ink){(rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 1};
 }
 
-Ink ink_alpha(Ink ink, double alpha)
-{
+Ink ink_alpha(Ink ink, double alpha) {
     ink.alpha = alpha;
     return ink;
 }
 
-Ink ink_mix(Ink a, Ink b, double t)
-{
+Ink ink_mix(Ink a, Ink b, double t) {
     return (Ink){a.red + t * (b.red - a.red), a.green + t * (b.green - a.green),
                  a.blue + t * (b.blue - a.blue), a.alpha + t * (b.alpha - a.alpha)};
 }
 
-Theme theme_light(void)
-{
-    return (Theme){
-        .paper = ink_hex(0xffffff), .ink = ink_hex(0x1b2128), .soft = ink_hex(0x57616b),
-        .faint = ink_hex(0x98a1a9), .grid = ink_hex(0xe7eaed),
-        .primary = {ink_hex(0xc7362b), ink_hex(0x1e8a4f), ink_hex(0x2858c6)},
-        .accent = ink_hex(0xc77a12)};
+Theme theme_light(void) {
+    return (Theme){.paper = ink_hex(0xffffff),
+                   .ink = ink_hex(0x1b2128),
+                   .soft = ink_hex(0x57616b),
+                   .faint = ink_hex(0x98a1a9),
+                   .grid = ink_hex(0xe7eaed),
+                   .primary = {ink_hex(0xc7362b), ink_hex(0x1e8a4f), ink_hex(0x2858c6)},
+                   .accent = ink_hex(0xc77a12)};
 }
 
-Theme theme_dark(void)
-{
-    return (Theme){
-        .paper = ink_hex(0x14181c), .ink = ink_hex(0xeef1f3), .soft = ink_hex(0xadb5bd),
-        .faint = ink_hex(0x6f7881), .grid = ink_hex(0x2b3238),
-        .primary = {ink_hex(0xff7a6e), ink_hex(0x5fcf90), ink_hex(0x7fa6ff)},
-        .accent = ink_hex(0xf0b35a), .is_dark = true};
+Theme theme_dark(void) {
+    return (Theme){.paper = ink_hex(0x14181c),
+                   .ink = ink_hex(0xeef1f3),
+                   .soft = ink_hex(0xadb5bd),
+                   .faint = ink_hex(0x6f7881),
+                   .grid = ink_hex(0x2b3238),
+                   .primary = {ink_hex(0xff7a6e), ink_hex(0x5fcf90), ink_hex(0x7fa6ff)},
+                   .accent = ink_hex(0xf0b35a),
+                   .is_dark = true};
 }
 
 /* ---- letters ---------------------------------------------------------------------------- */
 
-static void set_face(Canvas *canvas, double size, bool is_bold)
-{
+static void set_face(Canvas *canvas, double size, bool is_bold) {
     cairo_matrix_t matrix;
     cairo_select_font_face(canvas->cr, FACE, CAIRO_FONT_SLANT_NORMAL,
                            is_bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
@@ -55,16 +54,14 @@ static void set_face(Canvas *canvas, double size, bool is_bold)
     cairo_set_font_matrix(canvas->cr, &matrix);
 }
 
-double canvas_text_width(Canvas *canvas, double size, bool is_bold, const char *text)
-{
+double canvas_text_width(Canvas *canvas, double size, bool is_bold, const char *text) {
     cairo_text_extents_t extents;
     set_face(canvas, size, is_bold);
     cairo_text_extents(canvas->cr, text, &extents);
     return extents.x_advance;
 }
 
-void canvas_text(Canvas *canvas, double x, double y, Letters letters, const char *text)
-{
+void canvas_text(Canvas *canvas, double x, double y, Letters letters, const char *text) {
     double width = canvas_text_width(canvas, letters.size, letters.is_bold, text);
     double rise = 0.73 * letters.size; /* height of a capital of this face */
     cairo_t *cr = canvas->cr;
@@ -86,16 +83,14 @@ void canvas_text(Canvas *canvas, double x, double y, Letters letters, const char
 }
 
 /* Bytes of the UTF-8 letter at `text`. */
-static size_t letter_bytes(const char *text)
-{
+static size_t letter_bytes(const char *text) {
     size_t n = 1;
     while (utf8_continues(text[n])) n++;
     return n;
 }
 
 const char *canvas_fit_text(Canvas *canvas, double size, bool is_bold, double width,
-                            const char *text)
-{
+                            const char *text) {
     if (canvas_text_width(canvas, size, is_bold, text) <= width) return text;
     size_t fits = 0;
     for (size_t n = 0; text[n]; n += letter_bytes(text + n)) {
@@ -109,33 +104,32 @@ const char *canvas_fit_text(Canvas *canvas, double size, bool is_bold, double wi
 
 /* ---- lines and areas -------------------------------------------------------------------- */
 
-void canvas_stroke(Canvas *canvas, Stroke stroke)
-{
-    static const struct { int count; double length[2]; } DASHES[] = {
-        [DASH_NONE] = {0, {0}}, [DASH_LONG] = {2, {7, 3}}, [DASH_SHORT] = {2, {3.2, 2.2}},
-        [DASH_DOT] = {2, {0.1, 2.6}}};
+void canvas_stroke(Canvas *canvas, Stroke stroke) {
+    static const struct {
+        int count;
+        double length[2];
+    } DASHES[] = {[DASH_NONE] = {0, {0}},
+                  [DASH_LONG] = {2, {7, 3}},
+                  [DASH_SHORT] = {2, {3.2, 2.2}},
+                  [DASH_DOT] = {2, {0.1, 2.6}}};
     cairo_t *cr = canvas->cr;
-    double   scale = stroke.width > 1 ? sqrt(stroke.width) : 1, length[2];
+    double scale = stroke.width > 1 ? sqrt(stroke.width) : 1, length[2];
     for (int i = 0; i < 2; i++) length[i] = DASHES[stroke.dash].length[i] * scale;
     cairo_set_dash(cr, length, DASHES[stroke.dash].count, 0);
-    cairo_set_line_cap(cr, stroke.dash == DASH_DOT ? CAIRO_LINE_CAP_ROUND
-                                                   : CAIRO_LINE_CAP_BUTT);
+    cairo_set_line_cap(cr, stroke.dash == DASH_DOT ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_width(cr, stroke.width);
-    cairo_set_source_rgba(cr, stroke.ink.red, stroke.ink.green, stroke.ink.blue,
-                          stroke.ink.alpha);
+    cairo_set_source_rgba(cr, stroke.ink.red, stroke.ink.green, stroke.ink.blue, stroke.ink.alpha);
     cairo_stroke(cr);
 }
 
-void canvas_fill(Canvas *canvas, Ink ink)
-{
+void canvas_fill(Canvas *canvas, Ink ink) {
     cairo_set_source_rgba(canvas->cr, ink.red, ink.green, ink.blue, ink.alpha);
     cairo_fill(canvas->cr);
 }
 
 /* Distance of point i from the segment a b. */
-static double distance_from(const double *x, const double *y, int i, int a, int b)
-{
+static double distance_from(const double *x, const double *y, int i, int a, int b) {
     double dx = x[b] - x[a], dy = y[b] - y[a], px = x[i] - x[a], py = y[i] - y[a];
     double length2 = dx * dx + dy * dy;
     double t = length2 > 0 ? fmin(fmax((px * dx + py * dy) / length2, 0), 1) : 0;
@@ -144,14 +138,13 @@ static double distance_from(const double *x, const double *y, int i, int a, int 
 
 /* Douglas and Peucker 1973: a stretch is straight when no point is off by more than the
  * tolerance; else its furthest point is kept and both halves are looked at. */
-static void keep_points(const double *x, const double *y, int count, bool *is_kept, int *stack)
-{
+static void keep_points(const double *x, const double *y, int count, bool *is_kept, int *stack) {
     int depth = 0;
     stack[depth++] = 0;
     stack[depth++] = count - 1;
     is_kept[0] = is_kept[count - 1] = true;
     while (depth > 0) {
-        int    b = stack[--depth], a = stack[--depth], furthest = -1;
+        int b = stack[--depth], a = stack[--depth], furthest = -1;
         double most = 0.04;
         for (int i = a + 1; i < b; i++) {
             double d = distance_from(x, y, i, a, b);
@@ -168,8 +161,7 @@ static void keep_points(const double *x, const double *y, int count, bool *is_ke
     }
 }
 
-void canvas_polyline(Canvas *canvas, const double *x, const double *y, int count)
-{
+void canvas_polyline(Canvas *canvas, const double *x, const double *y, int count) {
     if (count < 2) return;
     Arena scratch = *canvas->arena;
     bool *is_kept = ARENA_NEW(&scratch, bool, count);
@@ -179,28 +171,24 @@ void canvas_polyline(Canvas *canvas, const double *x, const double *y, int count
         if (is_kept[i]) cairo_line_to(canvas->cr, x[i], y[i]);
 }
 
-void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1, Stroke stroke)
-{
+void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1, Stroke stroke) {
     cairo_move_to(canvas->cr, x0, y0);
     cairo_line_to(canvas->cr, x1, y1);
     canvas_stroke(canvas, stroke);
 }
 
-void canvas_circle(Canvas *canvas, double x, double y, double radius)
-{
+void canvas_circle(Canvas *canvas, double x, double y, double radius) {
     cairo_new_sub_path(canvas->cr);
     cairo_arc(canvas->cr, x, y, radius, 0, 2 * PI);
 }
 
-void canvas_image(Canvas *canvas, Box box, const CanvasRaster *raster)
-{
-    int              columns = raster->columns, rows = raster->rows;
-    cairo_t         *cr = canvas->cr;
+void canvas_image(Canvas *canvas, Box box, const CanvasRaster *raster) {
+    int columns = raster->columns, rows = raster->rows;
+    cairo_t *cr = canvas->cr;
     cairo_surface_t *image = cairo_image_surface_create(raster->format, columns, rows);
-    unsigned char   *bytes = cairo_image_surface_get_data(image);
+    unsigned char *bytes = cairo_image_surface_get_data(image);
     for (int row = 0; row < rows && bytes; row++) {
-        uint32_t *pixel = (uint32_t *)(void *)(bytes +
-                                               row * cairo_image_surface_get_stride(image));
+        uint32_t *pixel = (uint32_t *)(void *)(bytes + row * cairo_image_surface_get_stride(image));
         for (int column = 0; column < columns; column++)
             pixel[column] = raster->pixel(raster->context, column, row);
     }
@@ -209,15 +197,13 @@ void canvas_image(Canvas *canvas, Box box, const CanvasRaster *raster)
     cairo_translate(cr, box.x, box.y);
     cairo_scale(cr, box.w / columns, box.h / rows);
     cairo_set_source_surface(cr, image, 0, 0);
-    if (raster->has_cells)
-        cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
+    if (raster->has_cells) cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
     cairo_paint(cr);
     cairo_restore(cr);
     cairo_surface_destroy(image);
 }
 
-void canvas_hatch(Canvas *canvas, Box area)
-{
+void canvas_hatch(Canvas *canvas, Box area) {
     cairo_t *cr = canvas->cr;
     cairo_rectangle(cr, area.x, area.y, area.w, area.h);
     canvas_fill(canvas, ink_alpha(canvas->theme.paper, 0.55));

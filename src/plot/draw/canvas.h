@@ -18,9 +18,9 @@ typedef struct Ink {
 
 /* The few inks of a page. */
 typedef struct Theme {
-    Ink  paper, ink, soft, faint, grid;
-    Ink  primary[3];   /* red, green, blue of a display */
-    Ink  accent;
+    Ink paper, ink, soft, faint, grid;
+    Ink primary[3]; /* red, green, blue of a display */
+    Ink accent;
     bool is_dark;
 } Theme;
 
@@ -29,9 +29,9 @@ Theme theme_dark(void);
 
 typedef struct Canvas {
     cairo_t *cr;
-    Theme    theme;
-    double   pixels_per_point; /* of the finished picture, for rasters inside it */
-    Arena   *arena;
+    Theme theme;
+    double pixels_per_point; /* of the finished picture, for rasters inside it */
+    Arena *arena;
 } Canvas;
 
 typedef struct Box {
@@ -47,12 +47,12 @@ typedef struct Box {
 #define SIZE_SMALL 8.5
 
 typedef struct Letters {
-    double size;  /* points */
-    Ink    ink;
+    double size; /* points */
+    Ink ink;
     double across, down; /* 0 left/top .. 0.5 middle .. 1 right/bottom of the text is at x, y */
     double angle;
-    bool   is_bold;
-    Ink    halo;  /* alpha 0: none */
+    bool is_bold;
+    Ink halo; /* alpha 0: none */
 } Letters;
 
 /* UTF-8. */
@@ -68,9 +68,9 @@ const char *canvas_fit_text(Canvas *canvas, double size, bool is_bold, double wi
 typedef enum Dash { DASH_NONE, DASH_LONG, DASH_SHORT, DASH_DOT } Dash;
 
 typedef struct Stroke {
-    Ink    ink;
+    Ink ink;
     double width;
-    Dash   dash;
+    Dash dash;
 } Stroke;
 
 /* The current path of canvas->cr, which is emptied. */
@@ -90,11 +90,11 @@ typedef uint32_t CanvasPixel(const void *context, int column, int row);
 
 /* Rasters are smooth between their pixels, or every pixel is a cell of its own. */
 typedef struct CanvasRaster {
-    int            columns, rows;
+    int columns, rows;
     cairo_format_t format; /* CAIRO_FORMAT_RGB24 where all is opaque */
-    bool           has_cells;
-    CanvasPixel   *pixel;
-    const void    *context;
+    bool has_cells;
+    CanvasPixel *pixel;
+    const void *context;
 } CanvasRaster;
 
 /* The raster, spread over the box. */
@@ -103,6 +103,6 @@ void canvas_image(Canvas *canvas, Box box, const CanvasRaster *raster);
 /* The area inside the present clip is dimmed with paper and hatched: not measured. */
 void canvas_hatch(Canvas *canvas, Box area);
 
-Ink  ink_hex(unsigned rgb);
-Ink  ink_alpha(Ink ink, double alpha);
-Ink  ink_mix(Ink a, Ink b, double t);
+Ink ink_hex(unsigned rgb);
+Ink ink_alpha(Ink ink, double alpha);
+Ink ink_mix(Ink a, Ink b, double t);

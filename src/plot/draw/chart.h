@@ -9,27 +9,27 @@
 #include "plot/draw/canvas.h"
 
 typedef struct AxisSpec {
-    double      low, high;
-    bool        is_log;
-    const char *title; /* "Luminance, cd/m²" */
-    double      step;  /* between ticks; 0: chosen */
+    double low, high;
+    bool is_log;
+    const char *title;  /* "Luminance, cd/m²" */
+    double step;        /* between ticks; 0: chosen */
     const char *suffix; /* behind every tick's number: "°"; NULL: none */
 } AxisSpec;
 
 typedef struct CurveName {
     const char *text;
-    double      x, y; /* where the curve ends, points */
-    Ink         ink;
+    double x, y; /* where the curve ends, points */
+    Ink ink;
 } CurveName;
 
 #define CURVE_NAMES_MAX 24
 
 typedef struct Chart {
-    Canvas  *canvas;
-    Box      box;    /* the whole figure */
-    Box      plot;   /* where the curves are */
+    Canvas *canvas;
+    Box box;  /* the whole figure */
+    Box plot; /* where the curves are */
     AxisSpec x, y;
-    int       name_count;
+    int name_count;
     CurveName name[CURVE_NAMES_MAX];
 } Chart;
 

@@ -9,42 +9,36 @@
 
 #define THETA_LAST (PI / 2 - 1e-3) /* just above the surface */
 
-Field field_new(int side, double theta_rim, Arena *arena)
-{
-    Field field = {side, theta_rim, ARENA_NEW(arena, float, (size_t)side * (size_t)side)};
+Field field_new(int side, double theta_rim, Arena *arena) {
+    Field field = {side, theta_rim, ARENA_NEW(arena, float, (size_t)side *(size_t)side)};
     for (int i = 0; i < side * side; i++) field.value[i] = NAN;
     return field;
 }
 
-static double grid_theta(const Field *field, int row, int column, double *phi)
-{
+static double grid_theta(const Field *field, int row, int column, double *phi) {
     double half = (field->side - 1) / 2.0, x = (column - half) / half, y = (half - row) / half;
     *phi = atan2(y, x);
     return hypot(x, y) * field->theta_rim;
 }
 
-Vec3 field_direction(const Field *field, int row, int column)
-{
+Vec3 field_direction(const Field *field, int row, int column) {
     double phi, theta = grid_theta(field, row, column, &phi);
     double limit = fmin(field->theta_rim, THETA_LAST);
     theta = theta < limit ? theta : limit;
-    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
-                (float)cos(theta));
+    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)), (float)cos(theta));
 }
 
-void field_place(const Field *field, double theta, double phi, double *column, double *row)
-{
+void field_place(const Field *field, double theta, double phi, double *column, double *row) {
     double half = (field->side - 1) / 2.0, r = half * theta / field->theta_rim;
     *column = half + r * cos(phi);
     *row = half - r * sin(phi);
 }
 
-double field_at(const Field *field, double column, double row)
-{
+double field_at(const Field *field, double column, double row) {
     double last = field->side - 1.0;
     column = fmin(fmax(column, 0), last);
     row = fmin(fmax(row, 0), last);
-    int    c = (int)fmin(column, last - 1), r = (int)fmin(row, last - 1);
+    int c = (int)fmin(column, last - 1), r = (int)fmin(row, last - 1);
     double fx = column - c, fy = row - r;
     const float *v = field->value + (size_t)r * (size_t)field->side + (size_t)c;
     const float *w = v + field->side;
@@ -52,10 +46,9 @@ double field_at(const Field *field, double column, double row)
            fy * ((1 - fx) * (double)w[0] + fx * (double)w[1]);
 }
 
-FieldRange field_range(const Field *field, double theta_limit)
-{
+FieldRange field_range(const Field *field, double theta_limit) {
     FieldRange range = {.low = INFINITY, .high = -INFINITY};
-    double     limit = fmin(theta_limit, field->theta_rim) + 1e-9;
+    double limit = fmin(theta_limit, field->theta_rim) + 1e-9;
     for (int row = 0; row < field->side; row++) {
         for (int column = 0; column < field->side; column++) {
             double phi, theta = grid_theta(field, row, column, &phi);
@@ -72,14 +65,13 @@ FieldRange field_range(const Field *field, double theta_limit)
     return range.high < range.low ? (FieldRange){0} : range;
 }
 
-double field_quantile(const Field *field, double theta_limit, double share, Arena scratch)
-{
-    float *sorted = ARENA_NEW(&scratch, float, (size_t)field->side * (size_t)field->side);
-    int    count = 0;
+double field_quantile(const Field *field, double theta_limit, double share, Arena scratch) {
+    float *sorted = ARENA_NEW(&scratch, float, (size_t)field->side *(size_t)field->side);
+    int count = 0;
     for (int row = 0; row < field->side; row++)
         for (int column = 0; column < field->side; column++) {
             double phi, theta = grid_theta(field, row, column, &phi);
-            float  v = field->value[row * field->side + column];
+            float v = field->value[row * field->side + column];
             if (theta <= theta_limit && isfinite(v)) sorted[count++] = v;
         }
     sort_floats(sorted, count);
@@ -93,26 +85,23 @@ double field_quantile(const Field *field, double theta_limit, double share, Aren
  * segments hang together as chains through `other`. */
 typedef struct Tracer {
     const float *value;
-    int          side;
-    double       level;
-    int         *link[2]; /* per edge: the edges at the far ends of its segments, -1 none */
-    bool        *is_done;
+    int side;
+    double level;
+    int *link[2]; /* per edge: the edges at the far ends of its segments, -1 none */
+    bool *is_done;
 } Tracer;
 
-static double above(const Tracer *t, int row, int column)
-{
+static double above(const Tracer *t, int row, int column) {
     return (double)t->value[(size_t)row * (size_t)t->side + (size_t)column] - t->level;
 }
 
-static void join(Tracer *t, int a, int b)
-{
+static void join(Tracer *t, int a, int b) {
     t->link[t->link[0][a] < 0 ? 0 : 1][a] = b;
     t->link[t->link[0][b] < 0 ? 0 : 1][b] = a;
 }
 
 /* The cell's edges in order: top, right, bottom, left. */
-static void cell_edges(const Tracer *t, int row, int column, int edge[4])
-{
+static void cell_edges(const Tracer *t, int row, int column, int edge[4]) {
     int here = row * t->side + column;
     edge[0] = 2 * here;
     edge[1] = 2 * (here + 1) + 1;
@@ -121,10 +110,9 @@ static void cell_edges(const Tracer *t, int row, int column, int edge[4])
 }
 
 /* One or two segments; at a saddle the centre's mean decides which corners are joined. */
-static void march_cell(Tracer *t, int row, int column)
-{
-    double v[4] = {above(t, row, column), above(t, row, column + 1),
-                   above(t, row + 1, column + 1), above(t, row + 1, column)};
+static void march_cell(Tracer *t, int row, int column) {
+    double v[4] = {above(t, row, column), above(t, row, column + 1), above(t, row + 1, column + 1),
+                   above(t, row + 1, column)};
     int edge[4], crossed[4], count = 0;
     cell_edges(t, row, column, edge);
     for (int i = 0; i < 4; i++) {
@@ -143,17 +131,15 @@ static void march_cell(Tracer *t, int row, int column)
     }
 }
 
-static ContourPoint crossing(const Tracer *t, int edge)
-{
-    int    at = edge / 2, row = at / t->side, column = at % t->side, down = edge % 2;
+static ContourPoint crossing(const Tracer *t, int edge) {
+    int at = edge / 2, row = at / t->side, column = at % t->side, down = edge % 2;
     double a = above(t, row, column), b = above(t, row + down, column + !down);
     double f = a == b ? 0.5 : a / (a - b);
     return (ContourPoint){column + (down ? 0 : f), row + (down ? f : 0)};
 }
 
 /* Along the chain from an edge to its end, or round to the start. */
-static ContourLine trace(Tracer *t, int start, Arena *arena)
-{
+static ContourLine trace(Tracer *t, int start, Arena *arena) {
     int length = 0, edge = start, before = -1;
     for (;;) { /* length first, then the points in one piece */
         t->is_done[edge] = true;
@@ -177,9 +163,8 @@ static ContourLine trace(Tracer *t, int start, Arena *arena)
     return line;
 }
 
-ContourSet contour_lines(const float *value, int side, double level, Arena *arena)
-{
-    int    edges = 2 * side * side, capacity = 0;
+ContourSet contour_lines(const float *value, int side, double level, Arena *arena) {
+    int edges = 2 * side * side, capacity = 0;
     Tracer t = {.value = value, .side = side, .level = level};
     for (int k = 0; k < 2; k++) {
         t.link[k] = ARENA_NEW(arena, int, edges);

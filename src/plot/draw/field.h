@@ -14,7 +14,7 @@
 #include "base/vec.h"
 
 typedef struct Field {
-    int    side;      /* odd: the centre is a grid point */
+    int side;         /* odd: the centre is a grid point */
     double theta_rim; /* at the disc's edge */
     float *value;     /* side x side */
 } Field;
@@ -32,8 +32,8 @@ void field_place(const Field *field, double theta, double phi, double *column, d
 double field_at(const Field *field, double column, double row);
 
 typedef struct FieldRange {
-    double low, high;         /* over directions inside the disc, finite values only */
-    double theta, phi;        /* of the highest, radians */
+    double low, high;  /* over directions inside the disc, finite values only */
+    double theta, phi; /* of the highest, radians */
 } FieldRange;
 
 /* The value that `share` of the disc's area inside theta_limit stays below. */
@@ -51,13 +51,13 @@ typedef struct ContourPoint {
 } ContourPoint;
 
 typedef struct ContourLine {
-    int           count;
-    bool          is_closed; /* the last point is the first one again */
+    int count;
+    bool is_closed; /* the last point is the first one again */
     ContourPoint *point;
 } ContourLine;
 
 typedef struct ContourSet {
-    int          count;
+    int count;
     ContourLine *line;
 } ContourSet;
 

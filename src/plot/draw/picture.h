@@ -11,7 +11,7 @@
 
 typedef struct PlotBytes {
     unsigned char *data; /* data[size] is 0 */
-    size_t         size;
+    size_t size;
 } PlotBytes;
 
 typedef void PictureDraw(Canvas *canvas, const void *context);
@@ -19,10 +19,10 @@ typedef void PictureDraw(Canvas *canvas, const void *context);
 typedef struct PictureSpec {
     double width, height; /* points */
     double scale;         /* pixels per point */
-    bool   is_svg, is_dark;
-    const char  *inline_prefix; /* SVG inside a page of HTML: its ids begin so; NULL: a file */
+    bool is_svg, is_dark;
+    const char *inline_prefix; /* SVG inside a page of HTML: its ids begin so; NULL: a file */
     PictureDraw *draw;
-    const void  *context;
+    const void *context;
 } PictureSpec;
 
 bool picture_draw(const PictureSpec *spec, Arena *arena, PlotBytes *out, Error *err);

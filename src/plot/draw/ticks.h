@@ -9,10 +9,10 @@
 #define TICKS_MAX 64
 
 typedef struct Ticks {
-    int    count;
+    int count;
     double value[TICKS_MAX];
-    bool   is_labelled[TICKS_MAX]; /* false: a minor tick of a logarithmic axis */
-    double step;                   /* linear: between ticks; logarithmic: 0 */
+    bool is_labelled[TICKS_MAX]; /* false: a minor tick of a logarithmic axis */
+    double step;                 /* linear: between ticks; logarithmic: 0 */
 } Ticks;
 
 /* Multiples of 1, 2, 2.5 or 5 times a power of ten in [low, high]: as many as possible, at most

@@ -6,8 +6,7 @@
 #include "plot/draw/ticks.h"
 #include "plot/panel/panel_chart.h"
 
-static const char *at_angles(Arena *arena, double theta, double phi)
-{
+static const char *at_angles(Arena *arena, double theta, double phi) {
     double degrees = degrees_from_radians(phi);
     if (theta < radians_from_degrees(0.75)) return "at the normal";
     return arena_format(arena, "at θ %.0f°, φ %.0f°", degrees_from_radians(theta),
@@ -16,8 +15,7 @@ static const char *at_angles(Arena *arena, double theta, double phi)
 
 /* Round levels inside (low, high), not so near the ends or the strong level that they show
  * nothing. */
-static void choose_levels(PolarMap *map, double low, double high, int most)
-{
+static void choose_levels(PolarMap *map, double low, double high, int most) {
     Ticks ticks = ticks_linear(low, high, most);
     map->step = ticks.step;
     for (int i = 0; i < ticks.count; i++)
@@ -30,12 +28,10 @@ static void choose_levels(PolarMap *map, double low, double high, int most)
 
 /* The user's lines in place of ours, lettered as they were requested. */
 static bool take_contours(Canvas *canvas, PolarMap *map, const PlotContours *wanted,
-                          double on_axis)
-{
+                          double on_axis) {
     for (int i = 0; i < wanted->count; i++) {
         map->level[i] = plot_contours_level(wanted, i, on_axis);
-        map->level_text[i] = arena_format(canvas->arena, wanted->is_percent[i] ? "%.6g %%"
-                                                                                : "%.6g",
+        map->level_text[i] = arena_format(canvas->arena, wanted->is_percent[i] ? "%.6g %%" : "%.6g",
                                           wanted->value[i]);
     }
     map->level_count = wanted->count;
@@ -45,62 +41,65 @@ static bool take_contours(Canvas *canvas, PolarMap *map, const PlotContours *wan
 /* ---- luminance -------------------------------------------------------------------------- */
 
 /* Within two percent everywhere: over all colours that would be a map of noise. */
-static bool is_even(FieldRange range)
-{
+static bool is_even(FieldRange range) {
     return range.high - range.low < 0.02 * range.high;
 }
 
-static void draw_luminance(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
-{
+static void draw_luminance(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
     const PlotData *s = shown->data;
-    const Field   *field = &s->xyz[shown->index][1];
-    FieldRange     range = field_range(field, s->cone);
+    const Field *field = &s->xyz[shown->index][1];
+    FieldRange range = field_range(field, s->cone);
     double low = range.low > 0.6 * range.high ? range.low : 0;
     if (is_even(range)) low = 0.9 * range.low;
-    PolarMap map = {.field = field, .map = MAP_AMOUNT, .low = low, .high = range.high,
-                    .strong = NAN, .theta_measured = s->cone, .unit = "cd/m²"};
+    PolarMap map = {.field = field,
+                    .map = MAP_AMOUNT,
+                    .low = low,
+                    .high = range.high,
+                    .strong = NAN,
+                    .theta_measured = s->cone,
+                    .unit = "cd/m²"};
     double normal = (double)s->normal[shown->index][1], half = 0.5 * normal;
-    bool   is_labelled = take_contours(canvas, &map, &s->source.contours, normal);
-    if (!is_labelled && shown->index != PATTERN_BLACK && range.low < half &&
-        half < range.high) {
+    bool is_labelled = take_contours(canvas, &map, &s->source.contours, normal);
+    if (!is_labelled && shown->index != PATTERN_BLACK && range.low < half && half < range.high) {
         map.strong = half;
         map.strong_text = "½";
     }
-    if (!is_labelled && !is_even(range))
-        choose_levels(&map, fmax(range.low, low), range.high, 8);
+    if (!is_labelled && !is_even(range)) choose_levels(&map, fmax(range.low, low), range.high, 8);
     panel_chart_polar(canvas, box, &map, out);
 }
 
-static void add_luminance(PanelChartList *list, const PlotData *s, Pattern pattern)
-{
+static void add_luminance(PanelChartList *list, const PlotData *s, Pattern pattern) {
     FieldRange range = field_range(&s->xyz[pattern][1], s->cone);
-    char       normal[32], high[32];
+    char normal[32], high[32];
     if (!(range.high > 0)) return;
-    double      at_normal = (double)s->normal[pattern][1];
-    const char *most = s->azimuths ? arena_format(s->arena, "; %s", s->azimuths)
+    double at_normal = (double)s->normal[pattern][1];
+    const char *most =
+        s->azimuths ? arena_format(s->arena, "; %s", s->azimuths)
         : range.high > 1.002 * at_normal
-        ? arena_format(s->arena, ", at most %s %s", figure_text(range.high, high),
-                       at_angles(s->arena, range.theta, range.phi)) : "";
-    const char *subtitle = arena_format(s->arena, "%s cd/m² at the normal%s%s",
-                                        figure_text(at_normal, normal),
-                                        is_even(range) ? ", nearly constant" : "", most);
-    panel_chart_add(list, &(PanelChart){PLOT_LUMINANCE,
-        arena_format(s->arena, "Luminance, %s", pattern_word(pattern)), subtitle,
-        "Luminance in cd/m² over the viewing hemisphere: θ from the normal outwards, "
-        "φ counter-clockwise from the viewer's right. The strong ring, where there is one, is "
-        "half the luminance of the normal.", draw_luminance, s, pattern,
-        SHEET_ALWAYS, pattern != PATTERN_WHITE});
+            ? arena_format(s->arena, ", at most %s %s", figure_text(range.high, high),
+                           at_angles(s->arena, range.theta, range.phi))
+            : "";
+    const char *subtitle =
+        arena_format(s->arena, "%s cd/m² at the normal%s%s", figure_text(at_normal, normal),
+                     is_even(range) ? ", nearly constant" : "", most);
+    panel_chart_add(
+        list,
+        &(PanelChart){
+            PLOT_LUMINANCE, arena_format(s->arena, "Luminance, %s", pattern_word(pattern)),
+            subtitle,
+            "Luminance in cd/m² over the viewing hemisphere: θ from the normal outwards, "
+            "φ counter-clockwise from the viewer's right. The strong ring, where there is one, is "
+            "half the luminance of the normal.",
+            draw_luminance, s, pattern, SHEET_ALWAYS, pattern != PATTERN_WHITE});
 }
 
 /* index 0: in the dark; else under the light before it in the user's list. */
-static Field contrast_field(const PlotData *s, int index, Arena *arena)
-{
+static Field contrast_field(const PlotData *s, int index, Arena *arena) {
     return index ? ambient_contrast_field(s, &s->source.ambient.light[index - 1], arena)
                  : plot_data_contrast(s, arena);
 }
 
-static double contrast_on_axis(const PlotData *s, int index)
-{
+static double contrast_on_axis(const PlotData *s, int index) {
     return index ? ambient_contrast(s, 0, 0, &s->source.ambient.light[index - 1])
                  : (double)(s->normal[PATTERN_WHITE][1] / s->normal[PATTERN_BLACK][1]);
 }
@@ -110,21 +109,25 @@ static double contrast_on_axis(const PlotData *s, int index)
 
 /* ---- contrast --------------------------------------------------------------------------- */
 
-static void draw_contrast(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
-{
-    static const double LEVELS[] = {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000,
-                                    20000, 50000, 100000};
+static void draw_contrast(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+    static const double LEVELS[] = {2,    5,    10,   20,    50,    100,   200,   500,
+                                    1000, 2000, 5000, 10000, 20000, 50000, 100000};
     const PlotData *s = shown->data;
-    Field      *field = ARENA_NEW(canvas->arena, Field, 1);
+    Field *field = ARENA_NEW(canvas->arena, Field, 1);
     *field = contrast_field(s, shown->index, canvas->arena);
-    FieldRange  range = field_range(field, fmin(s->cone, GRAZING));
+    FieldRange range = field_range(field, fmin(s->cone, GRAZING));
     range.low = fmin(range.low, field_range(field, s->cone).low);
-    PolarMap    map = {.field = field, .map = MAP_RATIO, .is_log = true, .strong = NAN,
-                       .low = round_down(fmax(range.low, range.high / 1e5)),
-                       .high = round_up(range.high), .theta_measured = s->cone, .unit = ": 1"};
+    PolarMap map = {.field = field,
+                    .map = MAP_RATIO,
+                    .is_log = true,
+                    .strong = NAN,
+                    .low = round_down(fmax(range.low, range.high / 1e5)),
+                    .high = round_up(range.high),
+                    .theta_measured = s->cone,
+                    .unit = ": 1"};
     if (map.high < 2 * map.low) map.low = map.high / 2;
-    bool is_labelled = take_contours(canvas, &map, &s->source.contours,
-                                 contrast_on_axis(s, shown->index));
+    bool is_labelled =
+        take_contours(canvas, &map, &s->source.contours, contrast_on_axis(s, shown->index));
     for (int i = 0; i < 15 && !is_labelled; i++)
         if (LEVELS[i] > range.low && LEVELS[i] < range.high)
             map.level[map.level_count++] = LEVELS[i];
@@ -132,80 +135,86 @@ static void draw_contrast(Canvas *canvas, Box box, const PanelChart *shown, Pane
 }
 
 /* What is said behind the contrast at the normal. */
-static const char *least_text(const PlotData *s, double low)
-{
+static const char *least_text(const PlotData *s, double low) {
     char text[32];
     return s->azimuths ? arena_format(s->arena, "; %s", s->azimuths)
                        : arena_format(s->arena, ", at least %s", figure_text(low, text));
 }
 
-static void add_ambient(PanelChartList *list, const PlotData *s, int index)
-{
+static void add_ambient(PanelChartList *list, const PlotData *s, int index) {
     const PlotLight *light = &s->source.ambient.light[index - 1];
-    Field      field = contrast_field(s, index, s->arena);
+    Field field = contrast_field(s, index, s->arena);
     FieldRange range = field_range(&field, s->cone);
-    char       normal[32];
-    panel_chart_add(list, &(PanelChart){PLOT_CONTRAST,
-        arena_format(s->arena, "Contrast ratio, %s", ambient_text(light, s->arena)),
-        arena_format(s->arena, "in %s light: %s at the normal%s",
-                     light->directed_lux <= 0 ? "even diffuse" : light->lux <= 0 ? "directed"
-                                                               : "even and directed",
-                     figure_text(contrast_on_axis(s, index), normal),
-                     least_text(s, range.low)),
-        "Contrast in ambient light, " AMBIENT_FORMULA ". Logarithmic colours.",
-        draw_contrast, s, index, SHEET_ALWAYS, false});
+    char normal[32];
+    panel_chart_add(
+        list,
+        &(PanelChart){PLOT_CONTRAST,
+                      arena_format(s->arena, "Contrast ratio, %s", ambient_text(light, s->arena)),
+                      arena_format(s->arena, "in %s light: %s at the normal%s",
+                                   light->directed_lux <= 0 ? "even diffuse"
+                                   : light->lux <= 0        ? "directed"
+                                                            : "even and directed",
+                                   figure_text(contrast_on_axis(s, index), normal),
+                                   least_text(s, range.low)),
+                      "Contrast in ambient light, " AMBIENT_FORMULA ". Logarithmic colours.",
+                      draw_contrast, s, index, SHEET_ALWAYS, false});
 }
 
-static void add_contrast(PanelChartList *list, const PlotData *s)
-{
-    Field      field = plot_data_contrast(s, s->arena);
+static void add_contrast(PanelChartList *list, const PlotData *s) {
+    Field field = plot_data_contrast(s, s->arena);
     FieldRange range = field_range(&field, s->cone);
-    char       normal[32];
-    panel_chart_add(list, &(PanelChart){PLOT_CONTRAST, "Contrast ratio",
-        arena_format(s->arena, "white over black: %s at the normal%s",
-                     figure_text(contrast_on_axis(s, 0), normal), least_text(s, range.low)),
-        "Luminance of white over that of black in a dark room, logarithmic colours.",
-        draw_contrast, s, 0, SHEET_ALWAYS, true});
+    char normal[32];
+    panel_chart_add(
+        list,
+        &(PanelChart){PLOT_CONTRAST, "Contrast ratio",
+                      arena_format(s->arena, "white over black: %s at the normal%s",
+                                   figure_text(contrast_on_axis(s, 0), normal),
+                                   least_text(s, range.low)),
+                      "Luminance of white over that of black in a dark room, logarithmic colours.",
+                      draw_contrast, s, 0, SHEET_ALWAYS, true});
 }
 
 /* ---- colour shift ----------------------------------------------------------------------- */
 
-static const double SHIFT_LEVELS[] = {0.002, 0.005, 0.01, 0.02, 0.04, 0.06, 0.08, 0.1, 0.15,
-                                      0.2, 0.3};
+static const double SHIFT_LEVELS[] = {0.002, 0.005, 0.01, 0.02, 0.04, 0.06,
+                                      0.08,  0.1,   0.15, 0.2,  0.3};
 
-static void draw_shift(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
-{
+static void draw_shift(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
     const PlotData *s = shown->data;
-    Field      *field = ARENA_NEW(canvas->arena, Field, 1);
+    Field *field = ARENA_NEW(canvas->arena, Field, 1);
     *field = plot_data_shift(s, (Pattern)shown->index, canvas->arena);
-    FieldRange  range = field_range(field, s->cone);
-    PolarMap    map = {.field = field, .map = MAP_DIFFERENCE, .strong = NAN,
-                       .high = fmax(range.high, 0.005), .theta_measured = s->cone,
-                       .unit = "Δu′v′"};
+    FieldRange range = field_range(field, s->cone);
+    PolarMap map = {.field = field,
+                    .map = MAP_DIFFERENCE,
+                    .strong = NAN,
+                    .high = fmax(range.high, 0.005),
+                    .theta_measured = s->cone,
+                    .unit = "Δu′v′"};
     for (int i = 0; i < 11; i++)
         if (SHIFT_LEVELS[i] < range.high && SHIFT_LEVELS[i] > range.high / 12)
             map.level[map.level_count++] = SHIFT_LEVELS[i];
     panel_chart_polar(canvas, box, &map, out);
 }
 
-static void add_shift(PanelChartList *list, const PlotData *s, Pattern pattern)
-{
-    Field      field = plot_data_shift(s, pattern, s->arena);
+static void add_shift(PanelChartList *list, const PlotData *s, Pattern pattern) {
+    Field field = plot_data_shift(s, pattern, s->arena);
     FieldRange range = field_range(&field, s->cone);
-    char       high[32];
-    panel_chart_add(list, &(PanelChart){PLOT_COLOUR_SHIFT,
-        arena_format(s->arena, "Colour shift, %s", pattern_word(pattern)),
-        s->azimuths ? s->azimuths
-                    : arena_format(s->arena, "Δu′v′ from the normal, at most %s %s",
-                                   figure_text(range.high, high),
-                                   at_angles(s->arena, range.theta, range.phi)),
-        "Distance Δu′v′ in the CIE 1976 chromaticity plane between the colour at an angle and "
-        "the colour at the normal.", draw_shift, s, pattern,
-        pattern == PATTERN_WHITE ? SHEET_ALWAYS : SHEET_NEVER, pattern != PATTERN_WHITE});
+    char high[32];
+    panel_chart_add(
+        list,
+        &(PanelChart){
+            PLOT_COLOUR_SHIFT, arena_format(s->arena, "Colour shift, %s", pattern_word(pattern)),
+            s->azimuths ? s->azimuths
+                        : arena_format(s->arena, "Δu′v′ from the normal, at most %s %s",
+                                       figure_text(range.high, high),
+                                       at_angles(s->arena, range.theta, range.phi)),
+            "Distance Δu′v′ in the CIE 1976 chromaticity plane between the colour at an angle and "
+            "the colour at the normal.",
+            draw_shift, s, pattern, pattern == PATTERN_WHITE ? SHEET_ALWAYS : SHEET_NEVER,
+            pattern != PATTERN_WHITE});
 }
 
-static void add_emission(PanelChartList *list, const PlotData *s)
-{
+static void add_emission(PanelChartList *list, const PlotData *s) {
     if (!s->emits) return;
     add_luminance(list, s, PATTERN_WHITE);
     for (int p = PATTERN_RED; p <= PATTERN_BLACK; p++) add_luminance(list, s, (Pattern)p);

@@ -14,7 +14,7 @@
 #define GREY_INVERSION_LEAST 0.01
 
 typedef struct GreyLevels {
-    int    count; /* 0: fewer than two were measured at angles */
+    int count;                              /* 0: fewer than two were measured at angles */
     double code[PANEL_INFO_LEVELS_MAX + 1]; /* rising, black first */
 } GreyLevels;
 

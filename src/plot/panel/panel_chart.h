@@ -15,45 +15,47 @@ struct PanelChart;
  * page. */
 typedef struct PanelChartMap {
     enum { PANEL_CHART_PLAIN, PANEL_CHART_POLAR, PANEL_CHART_AXES } kind;
-    PolarPlace  disc;
-    Field       field; /* polar: the values */
+    PolarPlace disc;
+    Field field; /* polar: the values */
     const char *unit;
-    Box         plot;  /* chart: the axes' rectangle */
-    double      low[2], high[2];
-    bool        is_log[2];
+    Box plot; /* chart: the axes' rectangle */
+    double low[2], high[2];
+    bool is_log[2];
     const char *axis[2];
 } PanelChartMap;
 
 typedef enum SheetRole {
-    SHEET_NEVER, SHEET_SPARE, SHEET_ALWAYS /* spare: where a row of the sheet has room left */
+    SHEET_NEVER,
+    SHEET_SPARE,
+    SHEET_ALWAYS /* spare: where a row of the sheet has room left */
 } SheetRole;
 
 typedef void PanelChartDraw(Canvas *canvas, Box box, const struct PanelChart *chart,
                             PanelChartMap *map);
 
 typedef struct PanelChart {
-    PlotKind       kind;
-    const char    *title;
-    const char    *subtitle; /* "" or one line of small letters */
-    const char    *caption;  /* for the report: what one sees, with units */
-    PanelChartDraw    *draw;
+    PlotKind kind;
+    const char *title;
+    const char *subtitle; /* "" or one line of small letters */
+    const char *caption;  /* for the report: what one sees, with units */
+    PanelChartDraw *draw;
     const PlotData *data;
-    int            index;    /* which pattern, which section: the drawer's own */
-    SheetRole      role;
-    bool           needs_primaries; /* means nothing without measured primaries and levels */
+    int index; /* which pattern, which section: the drawer's own */
+    SheetRole role;
+    bool needs_primaries; /* means nothing without measured primaries and levels */
 } PanelChart;
 
 #define PANEL_CHARTS_MAX 48
 
 typedef struct PanelChartList {
-    int    count;
+    int count;
     PanelChart chart[PANEL_CHARTS_MAX];
 } PanelChartList;
 
 /* The charts of some kinds: `add` adds those that the data allow. */
 typedef struct PanelCharts {
     PlotKind first, last;
-    void   (*add)(PanelChartList *list, const PlotData *data);
+    void (*add)(PanelChartList *list, const PlotData *data);
 } PanelCharts;
 
 /* Each in the file of its name. */

@@ -18,20 +18,20 @@
 
 /* Reads a number above 0 and moves behind it. */
 static bool next_number(const char *option, const char *text, const char **at, double *out,
-                        Error *err)
-{
+                        Error *err) {
     char *after;
     *out = strtod(*at, &after);
     if (after == *at || !(*out > 0 && *out <= LARGEST))
-        return error_set(err, ERROR_USAGE, "%s is '%s', required: numbers above 0 and up to "
-                                           "1e7 with commas between", option, text);
+        return error_set(err, ERROR_USAGE,
+                         "%s is '%s', required: numbers above 0 and up to "
+                         "1e7 with commas between",
+                         option, text);
     *at = after;
     return true;
 }
 
 /* True behind a comma; false at the end (*ok) or at anything else. */
-static bool goes_on(const char *option, const char *text, const char **at, bool *ok, Error *err)
-{
+static bool goes_on(const char *option, const char *text, const char **at, bool *ok, Error *err) {
     *ok = !**at;
     if (*ok) return false;
     if (**at == ',') {
@@ -42,8 +42,7 @@ static bool goes_on(const char *option, const char *text, const char **at, bool 
     return false;
 }
 
-static bool is_full(const char *option, int count, int most, Error *err)
-{
+static bool is_full(const char *option, int count, int most, Error *err) {
     if (count < most) return false;
     error_set(err, ERROR_USAGE, "%s has more than %d values", option, most);
     return true;
@@ -51,15 +50,13 @@ static bool is_full(const char *option, int count, int most, Error *err)
 
 /* has_percent: % may stand behind a value. */
 static bool read_list(const char *option, const char *text, int most, bool has_percent,
-                      PlotContours *out, Error *err)
-{
-    const char  *at = text;
+                      PlotContours *out, Error *err) {
+    const char *at = text;
     PlotContours found = {.count = 0};
-    bool         ok = false;
+    bool ok = false;
     do {
         int i = found.count;
-        if (is_full(option, i, most, err) ||
-            !next_number(option, text, &at, &found.value[i], err))
+        if (is_full(option, i, most, err) || !next_number(option, text, &at, &found.value[i], err))
             return false;
         found.is_percent[i] = has_percent && *at == '%';
         at += found.is_percent[i];
@@ -69,15 +66,13 @@ static bool read_list(const char *option, const char *text, int most, bool has_p
     return ok;
 }
 
-bool plot_contours_read(const char *text, PlotContours *out, Error *err)
-{
+bool plot_contours_read(const char *text, PlotContours *out, Error *err) {
     return read_list("--contour", text, PLOT_CONTOURS_MAX, true, out, err);
 }
 
 #define DIRECTED_DEG 45.0
 
-bool plot_ambient_read(const char *ambient, const char *directed, PlotAmbient *out, Error *err)
-{
+bool plot_ambient_read(const char *ambient, const char *directed, PlotAmbient *out, Error *err) {
     PlotContours even = {.count = 0}, beam = {.value = {0, DIRECTED_DEG}};
     if ((ambient && !read_list("--ambient", ambient, PLOT_AMBIENT_MAX, false, &even, err)) ||
         (directed && !read_list("--directed", directed, 2, false, &beam, err)))
@@ -94,64 +89,55 @@ bool plot_ambient_read(const char *ambient, const char *directed, PlotAmbient *o
     return true;
 }
 
-double plot_contours_level(const PlotContours *contours, int i, double on_axis)
-{
+double plot_contours_level(const PlotContours *contours, int i, double on_axis) {
     return contours->is_percent[i] ? contours->value[i] / 100 * on_axis : contours->value[i];
 }
 
-const char *plot_kind_name(PlotKind kind)
-{
-    static const char *const NAMES[] = {"all", "luminance", "contrast", "colour-shift",
-        "grey-inversion", "grey-levels", "sections", "chromaticity", "spectra", "brdf",
-        "brdf-spectrum", "brdf-map", "mirror", "fit", "uniformity", "halo"};
+const char *plot_kind_name(PlotKind kind) {
+    static const char *const NAMES[] = {
+        "all",      "luminance",    "contrast",   "colour-shift", "grey-inversion", "grey-levels",
+        "sections", "chromaticity", "spectra",    "brdf",         "brdf-spectrum",  "brdf-map",
+        "mirror",   "fit",          "uniformity", "halo"};
     return NAMES[kind];
 }
 
 #define SIDE 301 /* grid of the maps: 0.6 degrees a step */
 
-static Vec3 direction(double theta, double phi)
-{
+static Vec3 direction(double theta, double phi) {
     double limit = PI / 2 - 1e-4;
     theta = fmin(fmax(theta, -limit), limit);
-    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
-                (float)cos(theta));
+    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)), (float)cos(theta));
 }
 
-const char *pattern_name(Pattern pattern)
-{
+const char *pattern_name(Pattern pattern) {
     static const char *const NAMES[] = {"White", "Red", "Green", "Blue", "Black"};
     return NAMES[pattern];
 }
 
-const char *pattern_word(Pattern pattern)
-{
+const char *pattern_word(Pattern pattern) {
     static const char *const WORDS[] = {"white", "red", "green", "blue", "black"};
     return WORDS[pattern];
 }
 
-void pattern_codes(Pattern pattern, float rgb[3])
-{
+void pattern_codes(Pattern pattern, float rgb[3]) {
     for (int c = 0; c < 3; c++)
         rgb[c] = pattern == PATTERN_WHITE || (int)pattern == 1 + c ? 255.0f : 0.0f;
 }
 
-void uv_of(const double xyz[3], double uv[2])
-{
+void uv_of(const double xyz[3], double uv[2]) {
     double d = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
     uv[0] = d > 0 ? 4 * xyz[0] / d : NAN;
     uv[1] = d > 0 ? 9 * xyz[1] / d : NAN;
 }
 
-void plot_data_normal_uv(const PlotData *data, Pattern pattern, double uv[2])
-{
+void plot_data_normal_uv(const PlotData *data, Pattern pattern, double uv[2]) {
     double xyz[3];
     for (int c = 0; c < 3; c++) xyz[c] = (double)data->normal[pattern][c];
     uv_of(xyz, uv);
 }
 
 void plot_data_xyz(const PlotData *data, double theta, double phi, const float rgb[3],
-                   double xyz[3])
-{
+                   double xyz[3]) {
     float found[3];
     panel_emission_xyz(data->source.panel, direction(theta, phi), rgb, found);
     for (int c = 0; c < 3; c++) xyz[c] = (double)found[c];
@@ -159,12 +145,11 @@ void plot_data_xyz(const PlotData *data, double theta, double phi, const float r
 
 /* ---- sampling, row by row over the threads ---------------------------------------------- */
 
-static void sample_emission_row(void *context, int item, int worker)
-{
+static void sample_emission_row(void *context, int item, int worker) {
     PlotData *s = context;
-    Pattern  pattern = (Pattern)(item / SIDE);
-    int      row = item % SIDE;
-    float    rgb[3], xyz[3];
+    Pattern pattern = (Pattern)(item / SIDE);
+    int row = item % SIDE;
+    float rgb[3], xyz[3];
     (void)worker;
     pattern_codes(pattern, rgb);
     for (int column = 0; column < SIDE; column++) {
@@ -174,8 +159,7 @@ static void sample_emission_row(void *context, int item, int worker)
     }
 }
 
-static void sample_emission(PlotData *s)
-{
+static void sample_emission(PlotData *s) {
     for (int p = 0; p < PATTERN_COUNT; p++) {
         float rgb[3];
         pattern_codes((Pattern)p, rgb);
@@ -190,8 +174,7 @@ static void sample_emission(PlotData *s)
     if (s->cone > radians_from_degrees(89.9)) s->cone = PI / 2;
 }
 
-static void look_at_reflection(PlotData *s)
-{
+static void look_at_reflection(PlotData *s) {
     s->wavelength_count = panel_info_wavelengths(s->source.panel, s->wavelength_nm);
     double azimuths[PANEL_INFO_AZIMUTHS_MAX];
     s->incidence_count = panel_info_incidences(s->source.panel, s->incidence);
@@ -202,8 +185,7 @@ static void look_at_reflection(PlotData *s)
 }
 
 /* Sixteen wavelengths from 420 to 690 nm, 18 nm apart, or all of them nm. */
-static Wavelengths lanes(double nm)
-{
+static Wavelengths lanes(double nm) {
     Wavelengths wavelengths = {0};
     for (int i = 0; i < SPECTRUM_LANES; i++)
         wavelengths.nm[i] = nm > 0 ? (float)nm : 420 + 18 * (float)i;
@@ -211,8 +193,7 @@ static Wavelengths lanes(double nm)
 }
 
 /* The eye's mean of the lanes. */
-static double luminous_mean(Spectrum value, const Wavelengths *wavelengths)
-{
+static double luminous_mean(Spectrum value, const Wavelengths *wavelengths) {
     double sum = 0, weights = 0;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         double weight = (double)spectral_row((double)wavelengths->nm[i]).y;
@@ -228,8 +209,7 @@ static double luminous_mean(Spectrum value, const Wavelengths *wavelengths)
 #define EVEN_AZIMUTHS 8 /* of an anisotropic panel */
 
 /* Base 2 or 3 with its digits mirrored at the point (van der Corput, Halton 1960). */
-static float mirrored_digits(int number, int base)
-{
+static float mirrored_digits(int number, int base) {
     double value = 0, digit = 1.0 / base;
     for (; number; number /= base, digit /= base) value += digit * (number % base);
     return (float)fmin(value, 1 - 1e-7);
@@ -237,17 +217,17 @@ static float mirrored_digits(int number, int base)
 
 /* The integral of f cos theta_i over the light's hemisphere, by directions drawn as the panel's
  * own sampling has it, so that narrow lobes are met. Luminous mean as brdf's. */
-static void sample_even_light(void *context, int item, int worker)
-{
-    PlotData   *s = context;
+static void sample_even_light(void *context, int item, int worker) {
+    PlotData *s = context;
     Wavelengths wavelengths = lanes(0);
-    double      theta = radians_from_degrees(item), sum = 0;
+    double theta = radians_from_degrees(item), sum = 0;
     (void)worker;
     for (int i = 0; i < EVEN_SAMPLES; i++) {
         float u[3] = {((float)i + 0.5f) / EVEN_SAMPLES, mirrored_digits(i, 2),
-                      mirrored_digits(i, 3)}, pdf;
-        Vec3  wi, wo = direction(theta, s->is_anisotropic ? 2 * PI * (i % EVEN_AZIMUTHS) /
-                                                                EVEN_AZIMUTHS : 0);
+                      mirrored_digits(i, 3)},
+              pdf;
+        Vec3 wi, wo = direction(
+                     theta, s->is_anisotropic ? 2 * PI * (i % EVEN_AZIMUTHS) / EVEN_AZIMUTHS : 0);
         if (!panel_sample(s->source.panel, wo, u, &wi, &pdf)) continue;
         Spectrum f = panel_brdf(s->source.panel, wo, wi, &wavelengths);
         sum += luminous_mean(f, &wavelengths) * (double)(wi.z / pdf);
@@ -256,19 +236,17 @@ static void sample_even_light(void *context, int item, int worker)
 }
 
 /* emission.azimuths_deg of the file's report: there where most lies between them. */
-static const char *few_azimuths(const json_t *emission, Arena *arena)
-{
+static const char *few_azimuths(const json_t *emission, Arena *arena) {
     const json_t *list = json_object_get(emission, "azimuths_deg"), *one;
-    const char   *text = "measured at φ";
-    size_t        i;
-    json_array_foreach(list, i, one)
-        text = arena_format(arena, "%s%s %.4g°", text, i ? "," : "", json_number_value(one));
+    const char *text = "measured at φ";
+    size_t i;
+    json_array_foreach(list, i, one) text =
+        arena_format(arena, "%s%s %.4g°", text, i ? "," : "", json_number_value(one));
     return json_array_size(list) ? arena_format(arena, "%s alone", text) : NULL;
 }
 
-PlotData *plot_data_new(const PlotSource *source, Arena *arena)
-{
-    PlotData    *s = ARENA_NEW(arena, PlotData, 1);
+PlotData *plot_data_new(const PlotSource *source, Arena *arena) {
+    PlotData *s = ARENA_NEW(arena, PlotData, 1);
     const char *name = json_string_value(json_object_get(source->report, "panel"));
     s->source = *source;
     s->arena = arena;
@@ -279,8 +257,8 @@ PlotData *plot_data_new(const PlotSource *source, Arena *arena)
     const json_t *emission = json_object_get(source->report, "emission");
     s->azimuths = few_azimuths(emission, arena);
     s->is_white_only = json_is_true(json_object_get(emission, "white_only"));
-    s->has_gamma_table = s->is_white_only &&
-                         json_is_true(json_object_get(emission, "levels_measured"));
+    s->has_gamma_table =
+        s->is_white_only && json_is_true(json_object_get(emission, "levels_measured"));
     s->emits = panel_info_emits(source->panel);
     s->reflects = panel_reflects(source->panel);
     if (s->emits) sample_emission(s);
@@ -290,8 +268,7 @@ PlotData *plot_data_new(const PlotSource *source, Arena *arena)
     return s;
 }
 
-Field plot_data_contrast(const PlotData *s, Arena *arena)
-{
+Field plot_data_contrast(const PlotData *s, Arena *arena) {
     Field field = field_new(SIDE, PI / 2, arena);
     for (int i = 0; i < SIDE * SIDE; i++) {
         float white = s->xyz[PATTERN_WHITE][1].value[i];
@@ -301,9 +278,8 @@ Field plot_data_contrast(const PlotData *s, Arena *arena)
     return field;
 }
 
-Field plot_data_shift(const PlotData *s, Pattern pattern, Arena *arena)
-{
-    Field  field = field_new(SIDE, PI / 2, arena);
+Field plot_data_shift(const PlotData *s, Pattern pattern, Arena *arena) {
+    Field field = field_new(SIDE, PI / 2, arena);
     double at_normal[2], uv[2], xyz[3];
     plot_data_normal_uv(s, pattern, at_normal);
     for (int i = 0; i < SIDE * SIDE; i++) {
@@ -316,41 +292,36 @@ Field plot_data_shift(const PlotData *s, Pattern pattern, Arena *arena)
 
 /* ---- reflection ------------------------------------------------------------------------- */
 
-static double brdf(const PlotData *s, double incidence, Vec3 wo, double nm)
-{
+static double brdf(const PlotData *s, double incidence, Vec3 wo, double nm) {
     Wavelengths wavelengths = lanes(nm);
-    Vec3        wi = direction(incidence, s->source.incidence_phi);
-    Spectrum    f = panel_brdf(s->source.panel, wo, wi, &wavelengths);
+    Vec3 wi = direction(incidence, s->source.incidence_phi);
+    Spectrum f = panel_brdf(s->source.panel, wo, wi, &wavelengths);
     return nm > 0 ? (double)f[0] : luminous_mean(f, &wavelengths);
 }
 
 /* The azimuth of the panel from one that counts from the mirror direction. */
-static double panel_phi(const PlotData *s, double phi)
-{
+static double panel_phi(const PlotData *s, double phi) {
     return phi + s->source.incidence_phi - PI;
 }
 
-double plot_data_brdf(const PlotData *s, double incidence, double theta, double phi, double nm)
-{
+double plot_data_brdf(const PlotData *s, double incidence, double theta, double phi, double nm) {
     return brdf(s, incidence, direction(theta, panel_phi(s, phi)), nm);
 }
 
-bool plot_data_brdf_is_measured(const PlotData *s, double incidence, double theta, double phi)
-{
+bool plot_data_brdf_is_measured(const PlotData *s, double incidence, double theta, double phi) {
     return panel_brdf_is_measured(s->source.panel, direction(theta, panel_phi(s, phi)),
                                   direction(incidence, s->source.incidence_phi));
 }
 
-const Field *plot_data_brdf_measured(const PlotData *s, double incidence, Arena *arena)
-{
+const Field *plot_data_brdf_measured(const PlotData *s, double incidence, Arena *arena) {
     Field *field = ARENA_NEW(arena, Field, 1);
-    bool   is_whole = true;
+    bool is_whole = true;
     *field = field_new(SIDE, PI / 2, arena);
     for (int i = 0; i < SIDE * SIDE; i++) {
-        Vec3   d = field_direction(field, i / SIDE, i % SIDE);
+        Vec3 d = field_direction(field, i / SIDE, i % SIDE);
         double theta = atan2(hypot((double)d.x, (double)d.y), (double)d.z);
-        bool   is_measured = plot_data_brdf_is_measured(s, incidence, theta,
-                                                        atan2((double)d.y, (double)d.x));
+        bool is_measured =
+            plot_data_brdf_is_measured(s, incidence, theta, atan2((double)d.y, (double)d.x));
         field->value[i] = is_measured;
         is_whole &= is_measured || theta > s->brdf_cone;
     }
@@ -359,12 +330,11 @@ const Field *plot_data_brdf_measured(const PlotData *s, double incidence, Arena 
 
 typedef struct BrdfWork {
     const PlotData *data;
-    Field          field;
-    double         incidence;
+    Field field;
+    double incidence;
 } BrdfWork;
 
-static void sample_brdf_row(void *context, int row, int worker)
-{
+static void sample_brdf_row(void *context, int row, int worker) {
     const BrdfWork *work = context;
     double turn = panel_phi(work->data, 0);
     (void)worker;
@@ -377,31 +347,27 @@ static void sample_brdf_row(void *context, int row, int worker)
     }
 }
 
-Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena)
-{
+Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena) {
     BrdfWork work = {data, field_new(SIDE, PI / 2, arena), incidence};
     parallel_for(data->source.threads, SIDE, sample_brdf_row, &work);
     return work.field;
 }
 
-double plot_data_albedo(const PlotData *data, double theta)
-{
+double plot_data_albedo(const PlotData *data, double theta) {
     return (double)panel_haze_albedo(data->source.panel, (float)cos(theta));
 }
 
-double plot_data_lambertian(const PlotData *data, double theta)
-{
-    PanelLanes  at;
+double plot_data_lambertian(const PlotData *data, double theta) {
+    PanelLanes at;
     Wavelengths wavelengths = lanes(0);
-    Vec3        wi = direction(theta, data->source.incidence_phi);
-    Vec3        wo = direction(theta, data->source.incidence_phi + PI);
+    Vec3 wi = direction(theta, data->source.incidence_phi);
+    Vec3 wo = direction(theta, data->source.incidence_phi + PI);
     panel_lanes(data->source.panel, &wavelengths, &at);
     Spectrum brdf = panel_brdf_at(data->source.panel, wo, wi, &at);
     return luminous_mean(panel_lambertian_at(data->source.panel, brdf, wi, &at), &wavelengths);
 }
 
-double plot_data_mirror(const PlotData *data, double theta, double nm)
-{
+double plot_data_mirror(const PlotData *data, double theta, double nm) {
     Wavelengths wavelengths = lanes(nm);
     Spectrum r = panel_mirror(data->source.panel, (float)cos(theta), &wavelengths);
     return nm > 0 ? (double)r[0] : luminous_mean(r, &wavelengths);
@@ -409,42 +375,35 @@ double plot_data_mirror(const PlotData *data, double theta, double nm)
 
 /* ---- contrast under diffuse light -------------------------------------------------------- */
 
-double ambient_reflectance(const PlotData *data, double theta)
-{
+double ambient_reflectance(const PlotData *data, double theta) {
     double at = degrees_from_radians(fmin(fmax(theta, 0), PI / 2 - 1e-4));
-    int    i = (int)at < PLOT_REFLECTANCES - 2 ? (int)at : PLOT_REFLECTANCES - 2;
+    int i = (int)at < PLOT_REFLECTANCES - 2 ? (int)at : PLOT_REFLECTANCES - 2;
     const double *diffuse = data->diffuse_reflectance;
-    return diffuse[i] + (diffuse[i + 1] - diffuse[i]) * (at - i) +
-           plot_data_mirror(data, theta, 0);
+    return diffuse[i] + (diffuse[i + 1] - diffuse[i]) * (at - i) + plot_data_mirror(data, theta, 0);
 }
 
-static double contrast_of(double white, double black, double reflected)
-{
+static double contrast_of(double white, double black, double reflected) {
     return black + reflected > 0 ? (white + reflected) / (black + reflected) : NAN;
 }
 
 /* f of the directed source, sr^-1; 0 without one. */
-static double directed_brdf(const PlotData *data, Vec3 d, const PlotLight *light)
-{
+static double directed_brdf(const PlotData *data, Vec3 d, const PlotLight *light) {
     return light->directed_lux > 0 ? brdf(data, light->directed_theta, d, 0) : 0;
 }
 
-double ambient_reflected(const PlotData *data, double theta, double phi, const PlotLight *light)
-{
+double ambient_reflected(const PlotData *data, double theta, double phi, const PlotLight *light) {
     double even = ambient_reflectance(data, fabs(theta)) * light->lux / PI;
     return even + directed_brdf(data, direction(theta, phi), light) * light->directed_lux;
 }
 
-double ambient_contrast(const PlotData *data, double theta, double phi, const PlotLight *light)
-{
+double ambient_contrast(const PlotData *data, double theta, double phi, const PlotLight *light) {
     double white[3], black[3];
     plot_data_xyz(data, theta, phi, (float[3]){255, 255, 255}, white);
     plot_data_xyz(data, theta, phi, (float[3]){0, 0, 0}, black);
     return contrast_of(white[1], black[1], ambient_reflected(data, theta, phi, light));
 }
 
-const char *ambient_text(const PlotLight *light, Arena *arena)
-{
+const char *ambient_text(const PlotLight *light, Arena *arena) {
     if (!(light->directed_lux > 0)) return arena_format(arena, "%.6g lx", light->lux);
     const char *even = light->lux > 0 ? arena_format(arena, "%.6g lx and ", light->lux) : "";
     return arena_format(arena, "%s%.6g lx from %.3g°", even, light->directed_lux,
@@ -454,33 +413,30 @@ const char *ambient_text(const PlotLight *light, Arena *arena)
 /* R at every half degree: it depends on theta alone. */
 enum { AMBIENT_STEPS = 181 };
 
-static void fill_reflectance(const PlotData *data, double value[AMBIENT_STEPS])
-{
+static void fill_reflectance(const PlotData *data, double value[AMBIENT_STEPS]) {
     for (int i = 0; i < AMBIENT_STEPS; i++)
-        value[i] = ambient_reflectance(data, fmin(i * PI / (2 * (AMBIENT_STEPS - 1)),
-                                                  PI / 2 - 1e-4));
+        value[i] =
+            ambient_reflectance(data, fmin(i * PI / (2 * (AMBIENT_STEPS - 1)), PI / 2 - 1e-4));
 }
 
-static double reflectance_at(const double value[AMBIENT_STEPS], double theta)
-{
+static double reflectance_at(const double value[AMBIENT_STEPS], double theta) {
     double at = fmin(fmax(theta / (PI / 2) * (AMBIENT_STEPS - 1), 0), AMBIENT_STEPS - 1);
-    int    i = at < AMBIENT_STEPS - 2 ? (int)at : AMBIENT_STEPS - 2;
+    int i = at < AMBIENT_STEPS - 2 ? (int)at : AMBIENT_STEPS - 2;
     return value[i] + (value[i + 1] - value[i]) * (at - i);
 }
 
-Field ambient_contrast_field(const PlotData *data, const PlotLight *light, Arena *arena)
-{
+Field ambient_contrast_field(const PlotData *data, const PlotLight *light, Arena *arena) {
     const Field *white = &data->xyz[PATTERN_WHITE][1], *black = &data->xyz[PATTERN_BLACK][1];
-    Field  field = field_new(white->side, white->theta_rim, arena);
+    Field field = field_new(white->side, white->theta_rim, arena);
     double reflectance[AMBIENT_STEPS];
     fill_reflectance(data, reflectance);
     for (int i = 0; i < field.side * field.side; i++) {
-        Vec3   d = field_direction(&field, i / field.side, i % field.side);
+        Vec3 d = field_direction(&field, i / field.side, i % field.side);
         double theta = atan2(hypot((double)d.x, (double)d.y), (double)d.z);
         double reflected = reflectance_at(reflectance, theta) * light->lux / PI +
                            directed_brdf(data, d, light) * light->directed_lux;
-        field.value[i] = (float)contrast_of((double)white->value[i], (double)black->value[i],
-                                            reflected);
+        field.value[i] =
+            (float)contrast_of((double)white->value[i], (double)black->value[i], reflected);
     }
     return field;
 }

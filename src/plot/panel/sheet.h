@@ -12,19 +12,19 @@
 
 typedef struct SheetSpec {
     const PanelChartList *list;
-    const PlotData    *data;
+    const PlotData *data;
     PlotKind kind;
-    int      width, height; /* pixels; 0: chosen */
-    bool     is_dark, is_svg; /* else a PNG */
+    int width, height;    /* pixels; 0: chosen */
+    bool is_dark, is_svg; /* else a PNG */
 } SheetSpec;
 
 /* The picture of a whole page with heading and legend. */
 bool sheet_picture(const SheetSpec *spec, Arena *arena, PlotBytes *out, Error *err);
 
 typedef struct SheetChartFrame {
-    double      width, height; /* points */
-    const char *prefix;        /* of the drawing's ids */
-    bool        is_dark;
+    double width, height; /* points */
+    const char *prefix;   /* of the drawing's ids */
+    bool is_dark;
 } SheetChartFrame;
 
 /* One chart alone, without its title, to stand inside another document. */

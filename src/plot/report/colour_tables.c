@@ -6,22 +6,20 @@
 
 #include "spectrum/gamut.h"
 
-static GamutTriangle own_triangle(const PlotData *s)
-{
+static GamutTriangle own_triangle(const PlotData *s) {
     GamutTriangle out;
     for (int p = 0; p < 3; p++) {
         const float *xyz = s->normal[PATTERN_RED + p];
-        double       sum = (double)xyz[0] + (double)xyz[1] + (double)xyz[2];
+        double sum = (double)xyz[0] + (double)xyz[1] + (double)xyz[2];
         for (int c = 0; c < 2; c++) out.at[p][c] = (double)xyz[c] / sum;
     }
     return out;
 }
 
-static void add_primaries(Report *report, const PlotData *s, const GamutTriangle *xy)
-{
+static void add_primaries(Report *report, const PlotData *s, const GamutTriangle *xy) {
     GamutTriangle uv = gamut_in_uv(xy);
-    ReportTable  *table = report_add(report, "primaries", "Primaries",
-        "At the normal, each alone at full drive, black included.");
+    ReportTable *table = report_add(report, "primaries", "Primaries",
+                                    "At the normal, each alone at full drive, black included.");
     report_column(table, "primary", "Primary");
     report_column(table, "luminance_cd_m2", "L, cd/m²");
     report_column(table, "x", "x");
@@ -37,10 +35,10 @@ static void add_primaries(Report *report, const PlotData *s, const GamutTriangle
     }
 }
 
-static void add_gamut(Report *report, const GamutTriangle *xy)
-{
+static void add_gamut(Report *report, const GamutTriangle *xy) {
     GamutTriangle uv = gamut_in_uv(xy);
-    ReportTable  *table = report_add(report, "gamut", "Gamut",
+    ReportTable *table = report_add(
+        report, "gamut", "Gamut",
         "Area: the triangle of the primaries over the standard's. Coverage: the share of the "
         "standard's triangle that lies inside. In CIE 1931 xy and in CIE 1976 u′v′; they "
         "differ, so state the plane with the figure.");
@@ -60,11 +58,11 @@ static void add_gamut(Report *report, const GamutTriangle *xy)
     }
 }
 
-void report_colour(Report *report, const PlotData *data)
-{
+void report_colour(Report *report, const PlotData *data) {
     if (!data->emits) return;
     if (data->is_white_only) {
-        report_missing(report, "gamut", "Primaries and gamut", "Only white was measured: the "
+        report_missing(report, "gamut", "Primaries and gamut",
+                       "Only white was measured: the "
                        "panel's primaries are assumed, and no gamut is stated.");
         return;
     }

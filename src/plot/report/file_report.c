@@ -20,7 +20,7 @@ typedef enum Style { STYLE_PLAIN, STYLE_BYTES, STYLE_SHARE, STYLE_RATIO } Style;
 
 typedef struct ReportWord {
     const char *key, *name;
-    Style       style;
+    Style style;
 } ReportWord;
 
 static const ReportWord WORDS[] = {
@@ -47,19 +47,16 @@ static const ReportWord WORDS[] = {
     {"source_hash_xxh3", "source's hash (XXH3)", STYLE_PLAIN},
 };
 
-static ReportWord word_of(const char *key)
-{
+static ReportWord word_of(const char *key) {
     for (size_t i = 0; i < sizeof WORDS / sizeof *WORDS; i++)
         if (!strcmp(WORDS[i].key, key)) return WORDS[i];
     size_t length = strlen(key);
-    Style  style = length > 6 && !strcmp(key + length - 6, "_error") ? STYLE_SHARE
-                                                                     : STYLE_PLAIN;
+    Style style = length > 6 && !strcmp(key + length - 6, "_error") ? STYLE_SHARE : STYLE_PLAIN;
     return (ReportWord){key, key, style};
 }
 
 /* The name with blanks for underscores. */
-static const char *readable(const char *name, Arena *arena)
-{
+static const char *readable(const char *name, Arena *arena) {
     char *copy = arena_string(arena, name, strlen(name));
     for (char *c = copy; *c; c++)
         if (*c == '_') *c = ' ';
@@ -69,10 +66,9 @@ static const char *readable(const char *name, Arena *arena)
 #define NARROW_SPACE "\u202f" /* one that no line breaks at */
 
 /* 1 234 567 with narrow blanks. */
-static void add_grouped(Text *text, double value)
-{
+static void add_grouped(Text *text, double value) {
     char digits[32];
-    int  length = snprintf(digits, sizeof digits, "%.0f", value);
+    int length = snprintf(digits, sizeof digits, "%.0f", value);
     for (int i = 0; i < length; i++) {
         bool is_first = i == 0 || digits[i - 1] == '-';
         if (!is_first && (length - i) % 3 == 0) text_add(text, NARROW_SPACE);
@@ -80,24 +76,20 @@ static void add_grouped(Text *text, double value)
     }
 }
 
-static void add_number(Text *text, double value, Style style)
-{
+static void add_number(Text *text, double value, Style style) {
     char number[32];
     switch (style) {
     case STYLE_BYTES: add_grouped(text, value); break;
     case STYLE_SHARE:
         text_format(text, "%s" NARROW_SPACE "%%", figure_text(100 * value, number));
         break;
-    case STYLE_RATIO:
-        text_format(text, "%.*f", value < 10 ? 2 : value < 100 ? 1 : 0, value);
-        break;
+    case STYLE_RATIO: text_format(text, "%.*f", value < 10 ? 2 : value < 100 ? 1 : 0, value); break;
     default: text_format(text, "%.6g", value);
     }
 }
 
-static void add_value(Text *text, const json_t *value, Style style)
-{
-    size_t  i;
+static void add_value(Text *text, const json_t *value, Style style) {
+    size_t i;
     json_t *item;
     if (json_is_string(value)) text_add(text, json_string_value(value));
     else if (json_is_boolean(value)) text_add(text, json_is_true(value) ? "yes" : "no");
@@ -108,8 +100,7 @@ static void add_value(Text *text, const json_t *value, Style style)
     }
 }
 
-static const char *value_text(const json_t *value, Style style, Arena *arena)
-{
+static const char *value_text(const json_t *value, Style style, Arena *arena) {
     Text text = {.arena = arena};
     add_value(&text, value, style);
     return text.data ? text.data : "";
@@ -118,10 +109,9 @@ static const char *value_text(const json_t *value, Style style, Arena *arena)
 /* ---- the table of tables ---------------------------------------------------------------- */
 
 static void add_row(json_t *rows, const json_t *keys, const json_t *row, bool is_total,
-                    Arena scratch)
-{
+                    Arena scratch) {
     const char *key;
-    json_t     *unused, *cells = report_add_row(rows, is_total);
+    json_t *unused, *cells = report_add_row(rows, is_total);
     json_object_foreach((json_t *)keys, key, unused) {
         const json_t *value = json_object_get(row, key);
         report_add_cell(cells, value_text(value, word_of(key).style, &scratch),
@@ -130,15 +120,13 @@ static void add_row(json_t *rows, const json_t *keys, const json_t *row, bool is
 }
 
 /* Of objects of the same keys, with their total. */
-static json_t *table_values(const json_t *list, const json_t *total, Arena scratch)
-{
-    size_t      i;
-    json_t     *row, *value, *to = json_object(), *columns = json_array(), *rows = json_array();
+static json_t *table_values(const json_t *list, const json_t *total, Arena scratch) {
+    size_t i;
+    json_t *row, *value, *to = json_object(), *columns = json_array(), *rows = json_array();
     const char *key;
-    json_t     *first = json_array_get(list, 0);
+    json_t *first = json_array_get(list, 0);
     json_object_foreach(first, key, value)
-        report_add_column(columns, readable(word_of(key).name, &scratch),
-                          json_is_number(value));
+        report_add_column(columns, readable(word_of(key).name, &scratch), json_is_number(value));
     json_array_foreach(list, i, row) add_row(rows, first, row, false, scratch);
     if (total) add_row(rows, first, total, true, scratch);
     report_set_columns(to, "", columns, rows);
@@ -147,32 +135,28 @@ static json_t *table_values(const json_t *list, const json_t *total, Arena scrat
 
 /* ---- everything else -------------------------------------------------------------------- */
 
-static bool is_plain(const json_t *value)
-{
+static bool is_plain(const json_t *value) {
     if (json_is_object(value)) return false;
     return !json_is_array(value) || !json_is_object(json_array_get(value, 0));
 }
 
 /* Numbers that were not given stand as zeros in the report. */
-static bool is_all_zero(const json_t *list)
-{
-    size_t  i;
+static bool is_all_zero(const json_t *list) {
+    size_t i;
     json_t *item;
-    json_array_foreach(list, i, item)
-        if (!json_is_number(item) || json_number_value(item) != 0) return false;
+    json_array_foreach(list, i, item) if (!json_is_number(item) ||
+                                          json_number_value(item) != 0) return false;
     return true;
 }
 
-static bool is_shown(const char *key, const json_t *value)
-{
-    bool is_empty = (json_is_string(value) && !*json_string_value(value)) ||
-                    json_is_null(value) || !strcmp(key, "notes") || !strcmp(key, "reasons") ||
+static bool is_shown(const char *key, const json_t *value) {
+    bool is_empty = (json_is_string(value) && !*json_string_value(value)) || json_is_null(value) ||
+                    !strcmp(key, "notes") || !strcmp(key, "reasons") ||
                     (json_is_array(value) && is_all_zero(value));
     return is_plain(value) && !is_empty;
 }
 
-static json_t *add_list(json_t *lists, const char *title)
-{
+static json_t *add_list(json_t *lists, const char *title) {
     json_t *to = page_add(lists);
     page_set(to, "title", title);
     page_set(to, "columns_of", NULL);
@@ -180,10 +164,9 @@ static json_t *add_list(json_t *lists, const char *title)
     return to;
 }
 
-static void set_facts(json_t *to, const json_t *object, Arena scratch)
-{
+static void set_facts(json_t *to, const json_t *object, Arena scratch) {
     const char *key;
-    json_t     *value, *facts = json_array();
+    json_t *value, *facts = json_array();
     json_object_foreach((json_t *)object, key, value) {
         if (!is_shown(key, value)) continue;
         json_t *fact = page_add(facts);
@@ -195,10 +178,9 @@ static void set_facts(json_t *to, const json_t *object, Arena scratch)
 }
 
 /* Everything else but the notes: choices, sizes, provenance. */
-static json_t *lists_values(const json_t *report, Arena scratch)
-{
+static json_t *lists_values(const json_t *report, Arena scratch) {
     const char *key;
-    json_t     *value, *lists = json_array();
+    json_t *value, *lists = json_array();
     set_facts(add_list(lists, "Panel and source"), report, scratch);
     json_object_foreach((json_t *)report, key, value) {
         if (!strcmp(key, "tables") || !strcmp(key, "total") || is_plain(value)) continue;
@@ -210,23 +192,21 @@ static json_t *lists_values(const json_t *report, Arena scratch)
 }
 
 static void set_sentences(json_t *to, const char *name, const char *flag, const json_t *list,
-                          Arena scratch)
-{
+                          Arena scratch) {
     json_t *texts = json_array();
     for (size_t i = 0; i < json_array_size(list); i++)
-        json_array_append_new(texts, json_text(value_text(json_array_get(list, i), STYLE_PLAIN,
-                                                          &scratch)));
+        json_array_append_new(
+            texts, json_text(value_text(json_array_get(list, i), STYLE_PLAIN, &scratch)));
     page_set_flag(to, flag, json_array_size(texts) > 0);
     json_object_set_new(to, name, texts);
 }
 
-void report_of_file(json_t *to, const json_t *report, Arena scratch)
-{
+void report_of_file(json_t *to, const json_t *report, Arena scratch) {
     const json_t *tables = json_object_get(report, "tables");
-    bool          has_sizes = json_is_object(json_array_get(tables, 0));
+    bool has_sizes = json_is_object(json_array_get(tables, 0));
     json_object_set_new(to, "sizes",
-                        has_sizes ? table_values(tables, json_object_get(report, "total"),
-                                                 scratch) : json_null());
+                        has_sizes ? table_values(tables, json_object_get(report, "total"), scratch)
+                                  : json_null());
     json_object_set_new(to, "lists", lists_values(report, scratch));
     set_sentences(to, "reasons", "has_reasons", json_object_get(report, "reasons"), scratch);
     set_sentences(to, "notes", "has_notes", json_object_get(report, "notes"), scratch);

@@ -3,8 +3,7 @@
 
 #include "panel/query/panel_place.h"
 
-static void add_row(Report *report, ReportTable *table, const PlotData *s, Pattern pattern)
-{
+static void add_row(Report *report, ReportTable *table, const PlotData *s, Pattern pattern) {
     float rgb[3];
     pattern_codes(pattern, rgb);
     PanelEvenness e = panel_evenness(s->source.panel, rgb);
@@ -15,15 +14,16 @@ static void add_row(Report *report, ReportTable *table, const PlotData *s, Patte
     report_fixed(report, table, 100 * panel_non_uniformity(e.nine_least, e.nine_most), 1);
 }
 
-void report_places(Report *report, const PlotData *data)
-{
+void report_places(Report *report, const PlotData *data) {
     if (!data->emits) return;
     if (!panel_varies(data->source.panel)) {
-        report_missing(report, "uniformity", "Over the active area", "One place was measured: "
+        report_missing(report, "uniformity", "Over the active area",
+                       "One place was measured: "
                        "how even the panel is, is not known.");
         return;
     }
-    ReportTable *table = report_add(report, "uniformity", "Over the active area",
+    ReportTable *table = report_add(
+        report, "uniformity", "Over the active area",
         "Luminance along the local normal, cd/m², at nine points, a tenth, a half and nine "
         "tenths of width and height, row by row from the upper left corner (SID, IDMS). "
         "Non-uniformity is 1 − least / most of the nine. All other tables are of the place "

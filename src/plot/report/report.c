@@ -25,29 +25,26 @@
 
 /* ---- what was measured, by whom, when ---------------------------------------------------- */
 
-static const char *const STATED[] = {"panel", "instrument", "date", "operator", "conditions",
-                                     "source", "source_hash_xxh3", "verdict"};
+static const char *const STATED[] = {
+    "panel",  "instrument",       "date",   "operator", "conditions",
+    "source", "source_hash_xxh3", "verdict"};
 
-static const char *stated(const PlotData *s, int i)
-{
+static const char *stated(const PlotData *s, int i) {
     const char *text = json_string_value(json_object_get(s->source.report, STATED[i]));
     return text && *text ? arena_printable(s->arena, text) : NULL;
 }
 
 /* Degrees without the rounding of a cosine in the file. */
-static json_t *degrees_json(bool is_there, double radians)
-{
+static json_t *degrees_json(bool is_there, double radians) {
     return is_there ? json_real(round(degrees_from_radians(radians) * 1e4) / 1e4) : json_null();
 }
 
-static json_t *facts_json(const PlotData *s)
-{
+static json_t *facts_json(const PlotData *s) {
     json_t *out = json_object();
     for (int i = 0; i < COUNT_OF(STATED); i++)
         json_object_set_new(out, STATED[i], json_text_or_null(stated(s, i)));
     json_object_set_new(out, "file", json_text(s->source.file));
-    json_object_set_new(out, "emission_to_theta_deg",
-                        degrees_json(s->emits, s->cone));
+    json_object_set_new(out, "emission_to_theta_deg", degrees_json(s->emits, s->cone));
     json_object_set_new(out, "reflection_to_incidence_deg",
                         degrees_json(s->reflects, s->last_incidence));
     return out;
@@ -55,13 +52,11 @@ static json_t *facts_json(const PlotData *s)
 
 /* ---- the values looked at first --------------------------------------------------------- */
 
-static void set_number(json_t *to, const char *name, double value)
-{
+static void set_number(json_t *to, const char *name, double value) {
     json_object_set_new(to, name, json_figure(value));
 }
 
-static void set_white(json_t *to, const PlotData *s)
-{
+static void set_white(json_t *to, const PlotData *s) {
     double uv[2];
     plot_data_normal_uv(s, PATTERN_WHITE, uv);
     ColourTemperature white = colour_temperature(uv);
@@ -71,22 +66,20 @@ static void set_white(json_t *to, const PlotData *s)
     set_number(to, "white_duv", white.duv);
 }
 
-static void set_inversion(json_t *to, const PlotData *s)
-{
-    GreyLevels    levels = grey_levels(s);
+static void set_inversion(json_t *to, const PlotData *s) {
+    GreyLevels levels = grey_levels(s);
     GreyInversion most = {0};
     if (levels.count) most = grey_inversion_most(s, &levels);
     page_set_flag(to, "no_inversion", levels.count && !(most.share > 0));
     if (!(most.share > 0)) return;
-    json_object_set_new(
-        to, "inversion",
-        json_pack("{s:f, s:f, s:f, s:f, s:f}", "percent", 100 * most.share, "theta_deg",
-                  degrees_from_radians(most.theta), "phi_deg", degrees_from_radians(most.phi),
-                  "low", most.low, "high", most.high));
+    json_object_set_new(to, "inversion",
+                        json_pack("{s:f, s:f, s:f, s:f, s:f}", "percent", 100 * most.share,
+                                  "theta_deg", degrees_from_radians(most.theta), "phi_deg",
+                                  degrees_from_radians(most.phi), "low", most.low, "high",
+                                  most.high));
 }
 
-static void set_emission(json_t *to, const PlotData *s)
-{
+static void set_emission(json_t *to, const PlotData *s) {
     double white = (double)s->normal[PATTERN_WHITE][1];
     double black = (double)s->normal[PATTERN_BLACK][1];
     set_number(to, "cone_deg", degrees_from_radians(s->cone));
@@ -99,8 +92,7 @@ static void set_emission(json_t *to, const PlotData *s)
     set_inversion(to, s);
 }
 
-static void set_reflection(json_t *to, const PlotData *s)
-{
+static void set_reflection(json_t *to, const PlotData *s) {
     set_number(to, "incidence_deg", degrees_from_radians(s->last_incidence));
     set_number(to, "leaving_deg", degrees_from_radians(s->brdf_cone));
     set_number(to, "albedo_percent", 100 * plot_data_albedo(s, radians_from_degrees(8)));
@@ -109,20 +101,18 @@ static void set_reflection(json_t *to, const PlotData *s)
 
 /* ---- the page ---------------------------------------------------------------------------- */
 
-static const char *figure_words(double value, Arena *arena)
-{
+static const char *figure_words(double value, Arena *arena) {
     char number[32];
     return arena_format(arena, "%s", figure_text(value, number));
 }
 
 /* Takes the facts. */
 static bool write_page(json_t *to, const PlotData *s, const Report *report,
-                       const PlotOptions *options, const char *path, Error *err)
-{
+                       const PlotOptions *options, const char *path, Error *err) {
     static const PageFormat FORMATS[] = {{"figure", figure_words}, {NULL, NULL}};
     Arena *arena = s->arena;
-    const PageHead head = {.title = s->name, .command = "panel report",
-                           .is_dark = options->is_dark};
+    const PageHead head = {
+        .title = s->name, .command = "panel report", .is_dark = options->is_dark};
     page_set(to, "name", s->name);
     page_set(to, "file_name", s->file_name);
     json_object_set(to, "note", json_object_get(s->source.report, "note"));
@@ -134,15 +124,13 @@ static bool write_page(json_t *to, const PlotData *s, const Report *report,
     json_object_set_new(to, "tables", report_values(report));
     report_of_file(to, s->source.report, *arena);
     if (page_set_head(to, &head, err) &&
-        report_figures(to, plot_charts(s, PLOT_ALL, arena), options->is_dark, arena,
-                       err))
+        report_figures(to, plot_charts(s, PLOT_ALL, arena), options->is_dark, arena, err))
         return page_write_values("panel.html", to, FORMATS, path, err);
     json_decref(to);
     return false;
 }
 
-static Report *make_tables(const PlotData *data, Arena *arena)
-{
+static Report *make_tables(const PlotData *data, Arena *arena) {
     Report *report = ARENA_NEW(arena, Report, 1);
     report->arena = arena;
     report_viewing(report, data);
@@ -156,21 +144,19 @@ static Report *make_tables(const PlotData *data, Arena *arena)
 }
 
 bool panel_report_write(const PlotInput *input, const PlotOptions *options,
-                        const ReportOutput *output, Arena *arena, json_t **answer, Error *err)
-{
-    json_t     *source = NULL;
+                        const ReportOutput *output, Arena *arena, json_t **answer, Error *err) {
+    json_t *source = NULL;
     PlotOptions all = *options;
     all.kind = PLOT_ALL;
     all.wants_reflectance = true;
     PlotData *data = plot_query(input, &all, arena, &source, err);
     if (!data) return false;
     const Report *report = make_tables(data, arena);
-    json_t       *document = facts_json(data);
+    json_t *document = facts_json(data);
     json_object_set_new(document, "tables", report_json(report));
-    bool ok = (!output->tables ||
-               report_write_csv(report, document, output->tables, input->file, err)) &&
-              (!output->page || write_page(facts_json(data), data, report, options,
-                                              output->page, err));
+    bool ok =
+        (!output->tables || report_write_csv(report, document, output->tables, input->file, err)) &&
+        (!output->page || write_page(facts_json(data), data, report, options, output->page, err));
     if (ok) *answer = document;
     else json_decref(document);
     json_decref(source);

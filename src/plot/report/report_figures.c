@@ -17,20 +17,20 @@
 #define READ_ROWS 46    /* every 2 degrees of theta */
 #define READ_COLUMNS 60 /* every 6 degrees of phi */
 
-static void add_polar_values(Text *html, const PanelChartMap *map)
-{
+static void add_polar_values(Text *html, const PanelChartMap *map) {
     const Field *field = &map->field;
-    text_format(html, "{\"kind\":\"polar\",\"x\":%.2f,\"y\":%.2f,\"r\":%.2f,\"rim\":%g,"
-                "\"rows\":%d,\"columns\":%d,\"unit\":\"", map->disc.x, map->disc.y,
-                map->disc.radius, degrees_from_radians(field->theta_rim), READ_ROWS,
-                READ_COLUMNS);
+    text_format(html,
+                "{\"kind\":\"polar\",\"x\":%.2f,\"y\":%.2f,\"r\":%.2f,\"rim\":%g,"
+                "\"rows\":%d,\"columns\":%d,\"unit\":\"",
+                map->disc.x, map->disc.y, map->disc.radius, degrees_from_radians(field->theta_rim),
+                READ_ROWS, READ_COLUMNS);
     text_add(html, map->unit);
     text_add(html, "\",\"v\":[");
     for (int i = 0; i < READ_ROWS; i++)
         for (int j = 0; j < READ_COLUMNS; j++) {
             double column, row;
-            field_place(field, field->theta_rim * i / (READ_ROWS - 1),
-                        2 * PI * j / READ_COLUMNS, &column, &row);
+            field_place(field, field->theta_rim * i / (READ_ROWS - 1), 2 * PI * j / READ_COLUMNS,
+                        &column, &row);
             double v = field_at(field, column, row);
             if (i + j > 0) text_add(html, ",");
             if (isfinite(v)) text_format(html, "%.4g", v);
@@ -40,14 +40,13 @@ static void add_polar_values(Text *html, const PanelChartMap *map)
 }
 
 /* An axis's name without its unit and explanation. */
-static const char *short_name(Arena *arena, const char *title)
-{
+static const char *short_name(Arena *arena, const char *title) {
     return arena_string(arena, title, strcspn(title, ",("));
 }
 
-static void add_chart_values(Text *html, const PanelChartMap *map, Arena *arena)
-{
-    text_format(html, "{\"kind\":\"chart\",\"x\":%.2f,\"y\":%.2f,\"w\":%.2f,\"h\":%.2f,"
+static void add_chart_values(Text *html, const PanelChartMap *map, Arena *arena) {
+    text_format(html,
+                "{\"kind\":\"chart\",\"x\":%.2f,\"y\":%.2f,\"w\":%.2f,\"h\":%.2f,"
                 "\"low\":[%.9g,%.9g],\"high\":[%.9g,%.9g],\"log\":[%d,%d],\"names\":[\"",
                 map->plot.x, map->plot.y, map->plot.w, map->plot.h, map->low[0], map->low[1],
                 map->high[0], map->high[1], map->is_log[0], map->is_log[1]);
@@ -58,17 +57,16 @@ static void add_chart_values(Text *html, const PanelChartMap *map, Arena *arena)
 }
 
 /* chart: the index-th of its list; a caption that the one before has is not repeated. */
-static bool add_chart(json_t *list, const PanelChart *chart, int index, bool is_dark,
-                      Arena scratch, Error *err)
-{
-    PlotBytes   svg = {0};
-    PanelChartMap   map = {0};
+static bool add_chart(json_t *list, const PanelChart *chart, int index, bool is_dark, Arena scratch,
+                      Error *err) {
+    PlotBytes svg = {0};
+    PanelChartMap map = {0};
     SheetChartFrame frame = {CHART_WIDTH, CHART_HEIGHT, arena_format(&scratch, "f%d-", index),
-                         is_dark};
+                             is_dark};
     if (!sheet_chart_svg(chart, &frame, &scratch, &svg, &map, err)) return false;
-    Text    values = {.arena = &scratch};
+    Text values = {.arena = &scratch};
     json_t *to = page_add(list);
-    bool    is_told = index == 0 || strcmp(chart[-1].caption, chart->caption) != 0;
+    bool is_told = index == 0 || strcmp(chart[-1].caption, chart->caption) != 0;
     if (map.kind == PANEL_CHART_POLAR) add_polar_values(&values, &map);
     else if (map.kind == PANEL_CHART_AXES) add_chart_values(&values, &map, &scratch);
     page_set(to, "map", values.data);
@@ -81,7 +79,10 @@ static bool add_chart(json_t *list, const PanelChart *chart, int index, bool is_
 
 /* ---- the figures under their headings --------------------------------------------------- */
 
-static const struct { PlotKind first, last; const char *title; } CHAPTERS[] = {
+static const struct {
+    PlotKind first, last;
+    const char *title;
+} CHAPTERS[] = {
     {PLOT_LUMINANCE, PLOT_COLOUR_SHIFT, "Luminance, contrast and colour over the hemisphere"},
     {PLOT_SECTIONS, PLOT_SECTIONS, "Sections"},
     {PLOT_GREY_INVERSION, PLOT_GREY_LEVELS, "Grey levels"},
@@ -92,27 +93,24 @@ static const struct { PlotKind first, last; const char *title; } CHAPTERS[] = {
     {PLOT_FIT, PLOT_FIT, "Measured against fitted"}};
 
 /* Charts of what was assumed and not measured are for panel plot. */
-static bool is_in_chapter(const PanelChart *chart, int chapter)
-{
+static bool is_in_chapter(const PanelChart *chart, int chapter) {
     if (chart->needs_primaries && chart->data->is_white_only) return false;
     return chart->kind >= CHAPTERS[chapter].first && chart->kind <= CHAPTERS[chapter].last;
 }
 
 bool report_figures(json_t *values, const PanelChartList *list, bool is_dark, Arena *arena,
-                    Error *err)
-{
+                    Error *err) {
     json_t *chapters = json_array();
     json_object_set_new(values, "chapters", chapters);
     for (int chapter = 0; chapter < COUNT_OF(CHAPTERS); chapter++) {
         json_t *figures = json_array();
-        bool    ok = true;
+        bool ok = true;
         for (int i = 0; i < list->count && ok; i++)
             if (is_in_chapter(&list->chart[i], chapter))
                 ok = add_chart(figures, &list->chart[i], i, is_dark, *arena, err);
         if (json_array_size(figures) > 0)
             json_array_append_new(chapters, json_pack("{s:s, s:O}", "title",
-                                                      CHAPTERS[chapter].title, "figures",
-                                                      figures));
+                                                      CHAPTERS[chapter].title, "figures", figures));
         json_decref(figures);
         if (!ok) return false;
     }

@@ -13,45 +13,38 @@
 
 /* ---- making ------------------------------------------------------------------------------ */
 
-ReportTable *report_add(Report *report, const char *key, const char *title, const char *note)
-{
+ReportTable *report_add(Report *report, const char *key, const char *title, const char *note) {
     ReportTable *table = &report->table[report->count++];
     *table = (ReportTable){.key = key, .title = title, .note = note};
-    table->row = arena_alloc(report->arena, sizeof *table->row, _Alignof(ReportCell),
-                             REPORT_ROWS_MAX);
+    table->row =
+        arena_alloc(report->arena, sizeof *table->row, _Alignof(ReportCell), REPORT_ROWS_MAX);
     return table;
 }
 
-void report_column(ReportTable *table, const char *key, const char *title)
-{
+void report_column(ReportTable *table, const char *key, const char *title) {
     table->column[table->column_count++] = (ReportColumn){key, title};
 }
 
-void report_missing(Report *report, const char *key, const char *title, const char *why)
-{
-    report->table[report->count++] = (ReportTable){.key = key, .title = title, .note = "",
-                                                   .missing = why};
+void report_missing(Report *report, const char *key, const char *title, const char *why) {
+    report->table[report->count++] =
+        (ReportTable){.key = key, .title = title, .note = "", .missing = why};
 }
 
-void report_row(Report *report, ReportTable *table)
-{
+void report_row(Report *report, ReportTable *table) {
     (void)report;
     table->row_count++;
     table->filled = 0;
 }
 
-static void add_cell(ReportTable *table, ReportCell cell)
-{
+static void add_cell(ReportTable *table, ReportCell cell) {
     table->row[table->row_count - 1][table->filled++] = cell;
 }
 
-void report_text(ReportTable *table, const char *text)
-{
+void report_text(ReportTable *table, const char *text) {
     add_cell(table, (ReportCell){text, false});
 }
 
-void report_fixed(Report *report, ReportTable *table, double value, int decimals)
-{
+void report_fixed(Report *report, ReportTable *table, double value, int decimals) {
     if (!isfinite(value)) {
         report_text(table, NOTHING);
         return;
@@ -60,8 +53,7 @@ void report_fixed(Report *report, ReportTable *table, double value, int decimals
     add_cell(table, (ReportCell){arena_format(report->arena, "%.*f", decimals, value), true});
 }
 
-void report_figure(Report *report, ReportTable *table, double value)
-{
+void report_figure(Report *report, ReportTable *table, double value) {
     double size = fabs(value);
     if (size > 0 && size < 1e-4 && isfinite(value)) {
         add_cell(table, (ReportCell){arena_format(report->arena, "%.3e", value), true});
@@ -71,51 +63,44 @@ void report_figure(Report *report, ReportTable *table, double value)
     report_fixed(report, table, value, digits > 3 ? 0 : 3 - digits);
 }
 
-void report_beyond(Report *report, ReportTable *table, double last_deg)
-{
+void report_beyond(Report *report, ReportTable *table, double last_deg) {
     report_text(table, arena_format(report->arena, "> %.4g", last_deg));
 }
 
 /* ---- on the page ------------------------------------------------------------------------- */
 
-static bool is_number_column(const ReportTable *table, int c)
-{
+static bool is_number_column(const ReportTable *table, int c) {
     bool is_number = false;
     for (int r = 0; r < table->row_count; r++) is_number |= table->row[r][c].is_number;
     return is_number;
 }
 
-void report_set_columns(json_t *to, const char *kind, json_t *columns, json_t *rows)
-{
+void report_set_columns(json_t *to, const char *kind, json_t *columns, json_t *rows) {
     page_set(to, "kind", kind);
     json_object_set_new(to, "columns", columns);
     json_object_set_new(to, "rows", rows);
 }
 
-void report_add_cell(json_t *cells, const char *text, bool is_number)
-{
+void report_add_cell(json_t *cells, const char *text, bool is_number) {
     json_t *cell = page_add(cells);
     page_set(cell, "text", text);
     page_set_flag(cell, "n", is_number);
 }
 
-json_t *report_add_row(json_t *rows, bool is_total)
-{
+json_t *report_add_row(json_t *rows, bool is_total) {
     json_t *row = page_add(rows), *cells = json_array();
     page_set_flag(row, "is_total", is_total);
     json_object_set_new(row, "cells", cells);
     return cells;
 }
 
-void report_add_column(json_t *columns, const char *title, bool is_number)
-{
+void report_add_column(json_t *columns, const char *title, bool is_number) {
     json_t *column = page_add(columns);
     page_set(column, "title", title);
     page_set_flag(column, "n", is_number);
 }
 
-static json_t *table_values(const ReportTable *table)
-{
+static json_t *table_values(const ReportTable *table) {
     json_t *to = json_object(), *columns = json_array(), *rows = json_array();
     page_set(to, "title", table->title);
     page_set(to, "missing", table->missing);
@@ -131,8 +116,7 @@ static json_t *table_values(const ReportTable *table)
     return to;
 }
 
-json_t *report_values(const Report *report)
-{
+json_t *report_values(const Report *report) {
     json_t *list = json_array();
     for (int i = 0; i < report->count; i++)
         json_array_append_new(list, table_values(&report->table[i]));
@@ -141,13 +125,11 @@ json_t *report_values(const Report *report)
 
 /* ---- JSON and CSV ------------------------------------------------------------------------ */
 
-static json_t *cell_json(const ReportCell *cell)
-{
+static json_t *cell_json(const ReportCell *cell) {
     return cell->is_number ? json_real(strtod(cell->text, NULL)) : json_text(cell->text);
 }
 
-json_t *report_json(const Report *report)
-{
+json_t *report_json(const Report *report) {
     json_t *tables = json_array();
     for (int i = 0; i < report->count; i++) {
         const ReportTable *table = &report->table[i];
@@ -158,16 +140,16 @@ json_t *report_json(const Report *report)
                 json_object_set_new(row, table->column[c].key, cell_json(&table->row[r][c]));
             json_array_append_new(rows, row);
         }
-        json_array_append_new(tables, json_pack("{s:s, s:s, s:o, s:o, s:o}", "name", table->key,
-            "title", table->title, "note", json_text(table->note), "missing",
-            json_text_or_null(table->missing), "rows", rows));
+        json_array_append_new(tables,
+                              json_pack("{s:s, s:s, s:o, s:o, s:o}", "name", table->key, "title",
+                                        table->title, "note", json_text(table->note), "missing",
+                                        json_text_or_null(table->missing), "rows", rows));
     }
     return tables;
 }
 
 /* In quotes where a comma, a quote or a line's end is in it (RFC 4180). */
-static void add_field(Text *csv, const char *text)
-{
+static void add_field(Text *csv, const char *text) {
     if (!strpbrk(text, ",\"\r\n")) {
         text_add(csv, text);
         return;
@@ -177,8 +159,7 @@ static void add_field(Text *csv, const char *text)
     text_add(csv, "\"");
 }
 
-static Text table_csv(const ReportTable *table, Arena *arena)
-{
+static Text table_csv(const ReportTable *table, Arena *arena) {
     Text csv = {.arena = arena};
     for (int c = 0; c < table->column_count; c++)
         text_format(&csv, "%s%s", c ? "," : "", table->column[c].key);
@@ -194,11 +175,10 @@ static Text table_csv(const ReportTable *table, Arena *arena)
 }
 
 bool report_write_csv(const Report *report, const json_t *answer, const char *folder,
-                      const char *input, Error *err)
-{
+                      const char *input, Error *err) {
     SetWriter writer;
-    Arena     arena = *report->arena;
-    Lines     inputs = {.arena = &arena};
+    Arena arena = *report->arena;
+    Lines inputs = {.arena = &arena};
     lines_put(&inputs, input);
     const char *document = arena_format(&arena, "%s/report.json", folder);
     if (!set_writer_open(document, &inputs, &writer, err)) return false;

@@ -23,22 +23,22 @@ typedef struct ReportColumn {
 
 typedef struct ReportCell {
     const char *text;
-    bool        is_number;
+    bool is_number;
 } ReportCell;
 
 typedef struct ReportTable {
-    const char  *key, *title;
-    const char  *note;    /* how the figures are defined */
-    const char  *missing; /* why there is none; NULL: there is one */
-    int          column_count, row_count;
+    const char *key, *title;
+    const char *note;    /* how the figures are defined */
+    const char *missing; /* why there is none; NULL: there is one */
+    int column_count, row_count;
     ReportColumn column[REPORT_COLUMNS_MAX];
     ReportCell (*row)[REPORT_COLUMNS_MAX];
-    int          filled; /* cells of the last row */
+    int filled; /* cells of the last row */
 } ReportTable;
 
 typedef struct Report {
-    Arena      *arena;
-    int         count;
+    Arena *arena;
+    int count;
     ReportTable table[REPORT_TABLES_MAX];
 } Report;
 
@@ -60,10 +60,10 @@ void report_beyond(Report *report, ReportTable *table, double last_deg);
 
 /* What the template panel_table.html shows; of all tables of the report, and made by hand. */
 json_t *report_values(const Report *report);
-void    report_add_column(json_t *columns, const char *title, bool is_number);
+void report_add_column(json_t *columns, const char *title, bool is_number);
 json_t *report_add_row(json_t *rows, bool is_total); /* its cells, borrowed */
-void    report_add_cell(json_t *cells, const char *text, bool is_number);
-void    report_set_columns(json_t *to, const char *kind, json_t *columns, json_t *rows);
+void report_add_cell(json_t *cells, const char *text, bool is_number);
+void report_set_columns(json_t *to, const char *kind, json_t *columns, json_t *rows);
 
 json_t *report_json(const Report *report);
 

@@ -13,17 +13,19 @@
 
 typedef enum ViewingKind { VIEWING_CONTRAST, VIEWING_LUMINANCE, VIEWING_SHIFT } ViewingKind;
 
-static const struct { ViewingKind kind; double limit; const char *key, *text; } CRITERIA[] = {
-    {VIEWING_CONTRAST, 100, "contrast_100", "Contrast ratio ≥ 100 : 1"},
-    {VIEWING_CONTRAST, 10, "contrast_10", "Contrast ratio ≥ 10 : 1"},
-    {VIEWING_LUMINANCE, 0.5, "half_luminance", "Luminance ≥ half of the normal's"},
-    {VIEWING_SHIFT, 0.01, "shift_0.01", "Δu′v′ of white ≤ 0.01"},
-    {VIEWING_SHIFT, 0.02, "shift_0.02", "Δu′v′ of white ≤ 0.02"}};
+static const struct {
+    ViewingKind kind;
+    double limit;
+    const char *key, *text;
+} CRITERIA[] = {{VIEWING_CONTRAST, 100, "contrast_100", "Contrast ratio ≥ 100 : 1"},
+                {VIEWING_CONTRAST, 10, "contrast_10", "Contrast ratio ≥ 10 : 1"},
+                {VIEWING_LUMINANCE, 0.5, "half_luminance", "Luminance ≥ half of the normal's"},
+                {VIEWING_SHIFT, 0.01, "shift_0.01", "Δu′v′ of white ≤ 0.01"},
+                {VIEWING_SHIFT, 0.02, "shift_0.02", "Δu′v′ of white ≤ 0.02"}};
 
-static double shift_at(const PlotData *s, Pattern pattern, double theta, double phi)
-{
+static double shift_at(const PlotData *s, Pattern pattern, double theta, double phi) {
     double uv[2], at_normal[2], xyz[3];
-    float  rgb[3];
+    float rgb[3];
     pattern_codes(pattern, rgb);
     plot_data_xyz(s, theta, phi, rgb, xyz);
     uv_of(xyz, uv);
@@ -32,8 +34,7 @@ static double shift_at(const PlotData *s, Pattern pattern, double theta, double 
 }
 
 /* Above 0 where the limit is held. */
-static double margin_at(const PlotData *s, int criterion, double theta, double phi)
-{
+static double margin_at(const PlotData *s, int criterion, double theta, double phi) {
     const PlotLight dark = {0};
     double xyz[3], limit = CRITERIA[criterion].limit;
     switch (CRITERIA[criterion].kind) {
@@ -47,8 +48,7 @@ static double margin_at(const PlotData *s, int criterion, double theta, double p
 
 /* The first theta, degrees, at which the limit is crossed, by quarters and then halved; 0: it
  * is not held at the normal. NaN: it is held as far as was measured. */
-static double crossing_deg(const PlotData *s, int criterion, double phi)
-{
+static double crossing_deg(const PlotData *s, int criterion, double phi) {
     double last = degrees_from_radians(s->cone), low = 0, high = 0;
     if (margin_at(s, criterion, 0, phi) < 0) return 0;
     for (;; low = high) {
@@ -64,8 +64,7 @@ static double crossing_deg(const PlotData *s, int criterion, double phi)
     return 0.5 * (low + high);
 }
 
-static void add_crossings(Report *report, ReportTable *table, const PlotData *s, int criterion)
-{
+static void add_crossings(Report *report, ReportTable *table, const PlotData *s, int criterion) {
     report_row(report, table);
     report_text(table, CRITERIA[criterion].text);
     bool is_contrast = CRITERIA[criterion].kind == VIEWING_CONTRAST;
@@ -81,15 +80,18 @@ static void add_crossings(Report *report, ReportTable *table, const PlotData *s,
     }
 }
 
-static void add_viewing_angles(Report *report, const PlotData *s)
-{
-    const char *note = arena_format(report->arena, "The polar angle θ in degrees, from the "
+static void add_viewing_angles(Report *report, const PlotData *s) {
+    const char *note = arena_format(
+        report->arena,
+        "The polar angle θ in degrees, from the "
         "normal outwards, at which the limit is first crossed; “> %.4g”: it is held as far "
         "as was measured; “not at 0”: not even at the normal. Full white over black in the "
-        "dark; Δu′v′ from white at the normal.%s", degrees_from_radians(s->cone),
-        !s->has_black ? " Black was not measured, or gives no light: no contrast is stated."
+        "dark; Δu′v′ from white at the normal.%s",
+        degrees_from_radians(s->cone),
+        !s->has_black      ? " Black was not measured, or gives no light: no contrast is stated."
         : s->is_white_only ? " Black was measured at the normal only: no contrast is stated at "
-                             "other angles." : "");
+                             "other angles."
+                           : "");
     ReportTable *table = report_add(report, "viewing_angle", "Viewing angle", note);
     report_column(table, "limit", "Limit");
     report_azimuth_columns(report, table);
@@ -100,14 +102,13 @@ static void add_viewing_angles(Report *report, const PlotData *s)
 
 static const int ANGLES_DEG[] = {30, 45, 60};
 
-static bool is_measured(const PlotData *s, int deg, int azimuth)
-{
+static bool is_measured(const PlotData *s, int deg, int azimuth) {
     return radians_from_degrees(deg) <= s->cone + 1e-6 && report_has_azimuth(s, azimuth);
 }
 
-static void add_shifts(Report *report, const PlotData *s)
-{
-    ReportTable *table = report_add(report, "colour_shift", "Colour shift with the angle",
+static void add_shifts(Report *report, const PlotData *s) {
+    ReportTable *table = report_add(
+        report, "colour_shift", "Colour shift with the angle",
         s->is_white_only ? "Δu′v′ from white at the normal, CIE 1976. Only white was measured."
                          : "Δu′v′ from the same pattern at the normal, CIE 1976; each primary "
                            "alone at full drive, black included.");
@@ -121,19 +122,18 @@ static void add_shifts(Report *report, const PlotData *s)
             report_fixed(report, table, ANGLES_DEG[k], 0);
             for (int i = 0; i < REPORT_AZIMUTHS; i++)
                 if (is_measured(s, ANGLES_DEG[k], i))
-                    report_fixed(report, table, shift_at(s, (Pattern)p,
-                        radians_from_degrees(ANGLES_DEG[k]), i * PI / 4), 4);
+                    report_fixed(
+                        report, table,
+                        shift_at(s, (Pattern)p, radians_from_degrees(ANGLES_DEG[k]), i * PI / 4),
+                        4);
                 else report_text(table, NOT_MEASURED);
         }
 }
 
 /* The row of one direction; azimuth -1: the normal. */
-static void add_white(Report *report, ReportTable *table, const PlotData *s, int deg,
-                      int azimuth)
-{
+static void add_white(Report *report, ReportTable *table, const PlotData *s, int deg, int azimuth) {
     double xyz[3], uv[2], sum;
-    plot_data_xyz(s, radians_from_degrees(deg), azimuth * PI / 4,
-                  (float[3]){255, 255, 255}, xyz);
+    plot_data_xyz(s, radians_from_degrees(deg), azimuth * PI / 4, (float[3]){255, 255, 255}, xyz);
     uv_of(xyz, uv);
     sum = xyz[0] + xyz[1] + xyz[2];
     ColourTemperature white = colour_temperature(uv);
@@ -151,16 +151,22 @@ static void add_white(Report *report, ReportTable *table, const PlotData *s, int
     else report_text(table, "not defined");
 }
 
-static void add_whites(Report *report, const PlotData *s)
-{
-    ReportTable *table = report_add(report, "white", "White and its colour temperature",
+static void add_whites(Report *report, const PlotData *s) {
+    ReportTable *table = report_add(
+        report, "white", "White and its colour temperature",
         "Correlated colour temperature (CIE 15): of the black body nearest in the CIE 1960 "
         "plane; Duv the distance from it, above 0 on the green side. Not defined further than "
         "0.05 away, below 1,000 or above 25,000 K. Directions that were not measured have no "
         "row.");
-    static const ReportColumn COLUMNS[] = {{"theta_deg", "θ, °"}, {"phi_deg", "φ, °"},
-        {"luminance_cd_m2", "L, cd/m²"}, {"x", "x"}, {"y", "y"}, {"u", "u′"}, {"v", "v′"},
-        {"cct_k", "CCT, K"}, {"duv", "Duv"}};
+    static const ReportColumn COLUMNS[] = {{"theta_deg", "θ, °"},
+                                           {"phi_deg", "φ, °"},
+                                           {"luminance_cd_m2", "L, cd/m²"},
+                                           {"x", "x"},
+                                           {"y", "y"},
+                                           {"u", "u′"},
+                                           {"v", "v′"},
+                                           {"cct_k", "CCT, K"},
+                                           {"duv", "Duv"}};
     for (int i = 0; i < COUNT_OF(COLUMNS); i++)
         report_column(table, COLUMNS[i].key, COLUMNS[i].title);
     add_white(report, table, s, 0, 0);
@@ -169,10 +175,10 @@ static void add_whites(Report *report, const PlotData *s)
             if (is_measured(s, ANGLES_DEG[k], i)) add_white(report, table, s, ANGLES_DEG[k], i);
 }
 
-void report_viewing(Report *report, const PlotData *data)
-{
+void report_viewing(Report *report, const PlotData *data) {
     if (!data->emits) {
-        report_missing(report, "viewing_angle", "Viewing angle", "The emission was not "
+        report_missing(report, "viewing_angle", "Viewing angle",
+                       "The emission was not "
                        "measured: no luminance, contrast, colour or grey levels are stated.");
         return;
     }

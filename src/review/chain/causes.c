@@ -14,33 +14,31 @@
 
 /* ---- causes ------------------------------------------------------------------------------ */
 
-static const CaseRay *rays_of(const Chain *chain, int most, int *count, Arena *arena)
-{
+static const CaseRay *rays_of(const Chain *chain, int most, int *count, Arena *arena) {
     *count = chain->ray_count < most ? chain->ray_count : most;
     CaseRay *rays = ARENA_NEW(arena, CaseRay, *count);
     for (int i = 0; i < *count; i++) {
         const ChainRay *from = &chain->rays[i];
-        Vec3           *points = ARENA_NEW(arena, Vec3, from->count);
+        Vec3 *points = ARENA_NEW(arena, Vec3, from->count);
         for (int k = 0; k < from->count; k++) points[k] = from->point[k];
         rays[i] = (CaseRay){points, from->count};
     }
     return rays;
 }
 
-static CaseCause cause_of(ChainFigure figure, const Chains *chains, const ReviewCase *c)
-{
+static CaseCause cause_of(ChainFigure figure, const Chains *chains, const ReviewCase *c) {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double all = chains->all.cd_m2;
     double left = fmax(l->reflected - figure.cd_m2, 0);
-    return (CaseCause){.share = all > 0 ? figure.cd_m2 / all : 0, .cd_m2 = figure.cd_m2,
-                       .low = figure.low, .high = figure.high,
-                       .contrast_without =
-                           luminance_contrast(l->foreground, l->background, left)};
+    return (CaseCause){.share = all > 0 ? figure.cd_m2 / all : 0,
+                       .cd_m2 = figure.cd_m2,
+                       .low = figure.low,
+                       .high = figure.high,
+                       .contrast_without = luminance_contrast(l->foreground, l->background, left)};
 }
 
-static CaseCause all_other(const Chains *chains, const ReviewCase *c, Arena *arena)
-{
-    CaseCause    cause = cause_of(chains->rest, chains, c);
+static CaseCause all_other(const Chains *chains, const ReviewCase *c, Arena *arena) {
+    CaseCause cause = cause_of(chains->rest, chains, c);
     const char **words = ARENA_NEW(arena, const char *, 1);
     words[0] = "all other ways";
     cause.chain = words;
@@ -49,11 +47,10 @@ static CaseCause all_other(const Chains *chains, const ReviewCase *c, Arena *are
 }
 
 /* What comes straight off the seat's back, by its part that sends most. */
-static void set_seat(const Chains *chains, ReviewCase *c, Arena *arena)
-{
+static void set_seat(const Chains *chains, ReviewCase *c, Arena *arena) {
     const double *by_seat = chains->by_seat;
-    double        all = chains->all.cd_m2;
-    int           most = 0;
+    double all = chains->all.cd_m2;
+    int most = 0;
     if (!by_seat) return;
     for (int i = 1; i < chains->scene->part_count; i++)
         if (by_seat[i] > by_seat[most]) most = i;
@@ -71,14 +68,13 @@ static void set_seat(const Chains *chains, ReviewCase *c, Arena *arena)
 /* A group that grows. */
 typedef struct Growing {
     CaseShare *list;
-    int        count;
-    double     all; /* cd m^-2 */
-    Arena     *arena;
+    int count;
+    double all; /* cd m^-2 */
+    Arena *arena;
 } Growing;
 
 /* Things of the same name count as one: a row of street lamps. */
-static void add(Growing *to, const char *what, double cd_m2)
-{
+static void add(Growing *to, const char *what, double cd_m2) {
     int i = 0;
     if (!(cd_m2 > 0)) return;
     while (i < to->count && strcmp(to->list[i].what, what) != 0) i++;
@@ -87,45 +83,39 @@ static void add(Growing *to, const char *what, double cd_m2)
     to->list[i].share = to->list[i].cd_m2 / to->all;
 }
 
-static Growing grow(const Chains *chains, Arena *arena)
-{
+static Growing grow(const Chains *chains, Arena *arena) {
     int most = chains->scene->part_count + chains->scene->light_count + LIGHT_SETS + 1;
     return (Growing){ARENA_NEW(arena, CaseShare, most), 0, chains->all.cd_m2, arena};
 }
 
-static void add_parts(Growing *to, const Scene *scene, const double *by_part)
-{
+static void add_parts(Growing *to, const Scene *scene, const double *by_part) {
     for (int i = 0; i < scene->part_count; i++)
         if (by_part[i] > 0) add(to, chain_part_words(scene, i, to->arena), by_part[i]);
 }
 
-static Growing by_light(const Chains *chains, Arena *arena)
-{
+static Growing by_light(const Chains *chains, Arena *arena) {
     const ChainGroups *groups = &chains->groups;
-    const Scene       *scene = chains->scene;
-    Growing            light = grow(chains, arena);
+    const Scene *scene = chains->scene;
+    Growing light = grow(chains, arena);
     add(&light, "sun", groups->by_set[LIGHTS_SUN]);
     add(&light, "sky", groups->by_set[LIGHTS_SKY]);
     add_parts(&light, scene, groups->by_emitter);
     for (int i = 0; i < scene->light_count; i++)
         if (groups->by_lamp[i] > 0)
-            add(&light, chain_source_words(scene, LIGHTS_PUNCTUAL, i, arena),
-                groups->by_lamp[i]);
+            add(&light, chain_source_words(scene, LIGHTS_PUNCTUAL, i, arena), groups->by_lamp[i]);
     return light;
 }
 
-static Growing by_opening(const Chains *chains, Arena *arena)
-{
+static Growing by_opening(const Chains *chains, Arena *arena) {
     Growing opening = grow(chains, arena);
     add_parts(&opening, chains->scene, chains->groups.by_pane);
     add(&opening, "through no pane", chains->groups.by_no_pane);
     return opening;
 }
 
-static Growing by_surface(const Chains *chains, Arena *arena)
-{
+static Growing by_surface(const Chains *chains, Arena *arena) {
     const double *straight = chains->groups.straight;
-    Growing       surface = grow(chains, arena);
+    Growing surface = grow(chains, arena);
     add_parts(&surface, chains->scene, chains->groups.by_surface);
     add(&surface, "the sun itself", straight[LIGHTS_SUN]);
     add(&surface, "the sky itself", straight[LIGHTS_SKY]);
@@ -133,18 +123,16 @@ static Growing by_surface(const Chains *chains, Arena *arena)
     return surface;
 }
 
-static int compare(const void *a, const void *b)
-{
+static int compare(const void *a, const void *b) {
     const CaseShare *x = a, *y = b;
     if (x->cd_m2 != y->cd_m2) return x->cd_m2 > y->cd_m2 ? -1 : 1;
     return strcmp(x->what, y->what);
 }
 
 /* A single one that is left is listed by its name, not as "other". */
-static CaseGroup listed(Growing *group)
-{
+static CaseGroup listed(Growing *group) {
     double sum = 0, other = 0;
-    int    count = 0;
+    int count = 0;
     if (group->count) qsort(group->list, (size_t)group->count, sizeof *group->list, compare);
     while (count < group->count && count < GROUP_MOST && sum < GROUP_LISTED)
         sum += group->list[count++].share;
@@ -155,14 +143,12 @@ static CaseGroup listed(Growing *group)
     return (CaseGroup){group->list, count};
 }
 
-static double without_data(const Chains *chains)
-{
+static double without_data(const Chains *chains) {
     double all = chains->all.cd_m2;
     return all > 0 ? chains->groups.without_data / all : 0;
 }
 
-static void set_groups(const Chains *chains, ReviewCase *c, Arena *arena)
-{
+static void set_groups(const Chains *chains, ReviewCase *c, Arena *arena) {
     Growing of[CAUSE_GROUPS] = {[GROUP_LIGHT] = by_light(chains, arena),
                                 [GROUP_OPENING] = by_opening(chains, arena),
                                 [GROUP_SURFACE] = by_surface(chains, arena)};
@@ -175,8 +161,7 @@ static void set_groups(const Chains *chains, ReviewCase *c, Arena *arena)
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-void case_causes_of(const Chains *chains, int rays, ReviewCase *c, Arena *arena)
-{
+void case_causes_of(const Chains *chains, int rays, ReviewCase *c, Arena *arena) {
     CaseCause *causes = ARENA_NEW(arena, CaseCause, chains->count + 1);
     for (int i = 0; i < chains->count; i++) {
         const Chain *chain = &chains->list[i];
@@ -193,35 +178,34 @@ void case_causes_of(const Chains *chains, int rays, ReviewCase *c, Arena *arena)
     set_seat(chains, c, arena);
 }
 
-void case_causes(const CauseArgs *args, ReviewCase *c, Arena *arena)
-{
-    Arena     scratch = arena_reserve((size_t)1 << 28);
-    ChainArgs chain_args = {.aim = args->aim, .tools = args->tools, .paths = args->paths,
-                            .most = CAUSES_MOST, .seat = args->seat};
-    Chains    chains = chains_find(&chain_args, &scratch);
+void case_causes(const CauseArgs *args, ReviewCase *c, Arena *arena) {
+    Arena scratch = arena_reserve((size_t)1 << 28);
+    ChainArgs chain_args = {.aim = args->aim,
+                            .tools = args->tools,
+                            .paths = args->paths,
+                            .most = CAUSES_MOST,
+                            .seat = args->seat};
+    Chains chains = chains_find(&chain_args, &scratch);
     case_causes_of(&chains, args->rays, c, arena);
     arena_release(&scratch);
 }
 
-double case_data_share(const CauseArgs *args, Arena scratch)
-{
-    ChainArgs chains = {.aim = args->aim, .tools = args->tools, .paths = args->paths,
-                       .most = CAUSES_MOST};
-    Chains   found = chains_find(&chains, &scratch);
+double case_data_share(const CauseArgs *args, Arena scratch) {
+    ChainArgs chains = {
+        .aim = args->aim, .tools = args->tools, .paths = args->paths, .most = CAUSES_MOST};
+    Chains found = chains_find(&chains, &scratch);
     return without_data(&found);
 }
 
 /* ---- what hides it ----------------------------------------------------------------------- */
 
-static int compare_hiders(const void *a, const void *b)
-{
+static int compare_hiders(const void *a, const void *b) {
     const CaseHider *x = a, *y = b;
     if (x->share != y->share) return x->share > y->share ? -1 : 1;
     return strcmp(x->what, y->what);
 }
 
-static void add_hider(CaseHider *list, int *count, const char *what, double share)
-{
+static void add_hider(CaseHider *list, int *count, const char *what, double share) {
     int i = 0;
     if (!(share > 0)) return;
     while (i < *count && strcmp(list[i].what, what) != 0) i++;
@@ -229,19 +213,16 @@ static void add_hider(CaseHider *list, int *count, const char *what, double shar
     list[i].share += share;
 }
 
-void case_hiders(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
-                 ReviewCase *c, Arena *arena)
-{
+void case_hiders(const SymbolSurface *surface, const PathContext *context, Vec3 eye, ReviewCase *c,
+                 Arena *arena) {
     const Scene *scene = context->scene;
     SymbolHiding hiding = symbol_hiding(surface, context, eye, arena);
-    CaseHider   *list = ARENA_NEW(arena, CaseHider, scene->part_count + 1);
+    CaseHider *list = ARENA_NEW(arena, CaseHider, scene->part_count + 1);
     c->hider_count = 0;
-    add_hider(list, &c->hider_count, "the display's own back",
-              hiding.turned_away);
+    add_hider(list, &c->hider_count, "the display's own back", hiding.turned_away);
     for (int i = 0; i < scene->part_count; i++)
         if (hiding.by_part[i] > 0)
-            add_hider(list, &c->hider_count, chain_part_words(scene, i, arena),
-                      hiding.by_part[i]);
+            add_hider(list, &c->hider_count, chain_part_words(scene, i, arena), hiding.by_part[i]);
     qsort(list, (size_t)c->hider_count, sizeof *list, compare_hiders);
     c->hiders = list;
 }
@@ -261,65 +242,61 @@ typedef struct ChunkLight {
 
 typedef struct LightSearch {
     const ChainArgs *args;
-    ChunkLight     *chunks;
+    ChunkLight *chunks;
 } LightSearch;
 
 /* Weight of a lane's radiance in its band: wavelength_steps is the integral of the
  * density, in 2^-24, and the density constant within a nanometre (wavelengths.c). */
-static double lane_weight(double nm, int *band)
-{
+static double lane_weight(double nm, int *band) {
     int cell = (int)nm - SPECTRAL_FIRST_NM;
     if (cell < 0) cell = 0;
     if (cell > SPECTRAL_COUNT - 2) cell = SPECTRAL_COUNT - 2;
-    double density = ((double)wavelength_steps[cell + 1] - (double)wavelength_steps[cell]) *
-                     0x1p-24;
+    double density =
+        ((double)wavelength_steps[cell + 1] - (double)wavelength_steps[cell]) * 0x1p-24;
     *band = cell / PIXEL_BAND_NM;
     return 1 / (SPECTRUM_LANES * density * PIXEL_BAND_NM);
 }
 
-static void on_light(void *user, const PathHistory *history, const float xyz[3])
-{
-    ChunkLight  *to = user;
+static void on_light(void *user, const PathHistory *history, const float xyz[3]) {
+    ChunkLight *to = user;
     const float *nm = (const float *)&history->wavelengths->nm;
     for (int i = 0; i < 3; i++) to->sum[i] += (double)xyz[i];
     for (int i = 0; i < SPECTRUM_LANES; i++) {
-        int    band;
+        int band;
         double weight = lane_weight((double)nm[i], &band);
         to->sum[3 + band] += weight * (double)history->lanes[i];
     }
 }
 
-static void trace_chunk(void *user, int item, int worker)
-{
+static void trace_chunk(void *user, int item, int worker) {
     (void)worker;
     const LightSearch *search = user;
-    PathListener   listener = {.on_light = on_light, .user = &search->chunks[item],
-                               .with_lanes = true};
+    PathListener listener = {
+        .on_light = on_light, .user = &search->chunks[item], .with_lanes = true};
     PathStatistics statistics = {0};
     search->args->tools->kernel->trace(search->args->aim, item * CHAIN_CHUNK,
-                                     (item + 1) * CHAIN_CHUNK, &listener, &statistics);
+                                       (item + 1) * CHAIN_CHUNK, &listener, &statistics);
 }
 
 /* Batches as those of chains: an error of Y is that of their sum. */
-static PixelFigure figure_of(const ChunkLight *chunks, int count, int k)
-{
+static PixelFigure figure_of(const ChunkLight *chunks, int count, int k) {
     EstimateSums sums = {.batches = count < CHAIN_BATCHES ? count : CHAIN_BATCHES,
-                         .paths = (long)count * CHAIN_CHUNK, .piece = CHAIN_CHUNK, .share = 1};
+                         .paths = (long)count * CHAIN_CHUNK,
+                         .piece = CHAIN_CHUNK,
+                         .share = 1};
     for (int i = 0; i < count; i++) sums.batch[i % sums.batches] += chunks[i].sum[k];
     Estimate estimate = estimate_of(&sums);
     return (PixelFigure){estimate.mean, estimate.sigma};
 }
 
-PixelLight pixel_light_find(const ChainArgs *args)
-{
-    int         count = (int)((args->paths + CHAIN_CHUNK - 1) / CHAIN_CHUNK);
-    Arena       own = arena_reserve((size_t)1 << 30);
+PixelLight pixel_light_find(const ChainArgs *args) {
+    int count = (int)((args->paths + CHAIN_CHUNK - 1) / CHAIN_CHUNK);
+    Arena own = arena_reserve((size_t)1 << 30);
     LightSearch search = {args, ARENA_NEW(&own, ChunkLight, count)};
-    PixelLight  out;
+    PixelLight out;
     parallel_for(args->tools->threads, count, trace_chunk, &search);
     for (int i = 0; i < 3; i++) out.xyz[i] = figure_of(search.chunks, count, i);
-    for (int i = 0; i < PIXEL_BANDS; i++)
-        out.radiance[i] = figure_of(search.chunks, count, 3 + i);
+    for (int i = 0; i < PIXEL_BANDS; i++) out.radiance[i] = figure_of(search.chunks, count, 3 + i);
     arena_release(&own);
     return out;
 }

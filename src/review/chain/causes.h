@@ -20,10 +20,10 @@
 
 typedef struct CauseArgs {
     const ReadingTools *tools;
-    const ProbeAim     *aim;
-    long                paths;
-    int                 rays;        /* of each cause, at most CHAIN_RAYS */
-    const ChainSeat    *seat;        /* that should not be empty; NULL: it is not */
+    const ProbeAim *aim;
+    long paths;
+    int rays;              /* of each cause, at most CHAIN_RAYS */
+    const ChainSeat *seat; /* that should not be empty; NULL: it is not */
 } CauseArgs;
 
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the
@@ -40,8 +40,8 @@ double case_data_share(const CauseArgs *args, Arena scratch);
 
 /* Sets the case's hiders, by the names of nodes and materials; what has the same name counts as
  * one. */
-void case_hiders(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
-                 ReviewCase *c, Arena *arena);
+void case_hiders(const SymbolSurface *surface, const PathContext *context, Vec3 eye, ReviewCase *c,
+                 Arena *arena);
 
 /* The light that an aim's paths bring to the eye: tristimulus values and
  * spectrum.

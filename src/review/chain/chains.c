@@ -19,50 +19,48 @@
 
 typedef struct ChunkChain {
     ChainKey key;
-    double   sum;
+    double sum;
     BrightSamples bright;
-    double   draw; /* the ray's: the least is kept */
+    double draw; /* the ray's: the least is kept */
     ChainRay ray;
-    bool     is_used;
+    bool is_used;
 } ChunkChain;
 
 typedef struct ChainChunk {
-    ChunkChain *table;   /* [CHUNK_ROOM] */
-    int         count;
-    double      all, mirror, own, reflected;
+    ChunkChain *table; /* [CHUNK_ROOM] */
+    int count;
+    double all, mirror, own, reflected;
     BrightSamples bright, bright_reflected; /* as all, as reflected */
     ChainGroups groups;
-    double     *by_seat; /* NULL: none is requested */
-    uint32_t    draws;
+    double *by_seat; /* NULL: none is requested */
+    uint32_t draws;
 } ChainChunk;
 
 /* Shared by all chunks. */
 typedef struct ChainSearch {
     const ChainArgs *args;
-    const Scene    *scene;
-    const int      *alike;
-    const bool     *lacks_data, *is_guessed; /* [part] */
-    float           far_m; /* length of a ray drawn towards a distant source */
-    int             chunks, batches;
-    int             first; /* chunk of this round */
-    ChainChunk      *sums;  /* one a chunk of the round */
+    const Scene *scene;
+    const int *alike;
+    const bool *lacks_data, *is_guessed; /* [part] */
+    float far_m;                         /* length of a ray drawn towards a distant source */
+    int chunks, batches;
+    int first;        /* chunk of this round */
+    ChainChunk *sums; /* one a chunk of the round */
 } ChainSearch;
 
 typedef struct ChunkListener {
     const ChainSearch *search;
-    ChainChunk         *sums;
-    int                chunk;
+    ChainChunk *sums;
+    int chunk;
 } ChunkListener;
 
-static int alike_or_none(const int *alike, int part_id)
-{
+static int alike_or_none(const int *alike, int part_id) {
     return part_id == NO_ID ? NO_ID : alike[part_id];
 }
 
-static ChainKey key_of(const ChainSearch *search, const PathHistory *history)
-{
+static ChainKey key_of(const ChainSearch *search, const PathHistory *history) {
     const int *alike = search->alike;
-    bool       with_first = search->args->with_first_pane;
+    bool with_first = search->args->with_first_pane;
     ChainKey key;
     memset(&key, 0, sizeof key);
     for (int i = 0; i < path_steps_kept(history) && i < CHAIN_STEPS; i++) {
@@ -74,13 +72,11 @@ static ChainKey key_of(const ChainSearch *search, const PathHistory *history)
     key.is_longer = history->count > key.count;
     key.pane_id = alike_or_none(alike, history->pane_id);
     key.source = (int)history->source;
-    key.source_id = key.source == LIGHTS_EMITTERS ? alike[history->source_id]
-                                                  : history->source_id;
+    key.source_id = key.source == LIGHTS_EMITTERS ? alike[history->source_id] : history->source_id;
     return key;
 }
 
-static uint32_t hash_key(const ChainKey *key)
-{
+static uint32_t hash_key(const ChainKey *key) {
     const unsigned char *bytes = (const unsigned char *)key;
     uint32_t hash = 2166136261u;
     for (size_t i = 0; i < sizeof *key; i++) hash = (hash ^ bytes[i]) * 16777619u;
@@ -88,8 +84,7 @@ static uint32_t hash_key(const ChainKey *key)
 }
 
 /* NULL: the table is full. */
-static ChunkChain *chunk_chain(ChainChunk *sums, const ChainKey *key)
-{
+static ChunkChain *chunk_chain(ChainChunk *sums, const ChainKey *key) {
     for (uint32_t i = hash_key(key);; i++) {
         ChunkChain *chain = &sums->table[i & (CHUNK_ROOM - 1)];
         if (chain->is_used && !memcmp(&chain->key, key, sizeof *key)) return chain;
@@ -103,18 +98,16 @@ static ChunkChain *chunk_chain(ChainChunk *sums, const ChainKey *key)
     }
 }
 
-static ChainRay ray_of(const ChainSearch *search, const PathHistory *history)
-{
+static ChainRay ray_of(const ChainSearch *search, const PathHistory *history) {
     ChainRay ray = {.count = 0};
-    int      kept = path_steps_kept(history);
+    int kept = path_steps_kept(history);
     ray.point[ray.count++] = search->args->aim->eye;
     for (int i = 0; i < kept; i++) ray.point[ray.count++] = history->step[i].position;
     ray.is_cut = history->count > kept;
     if (!ray.is_cut)
         ray.point[ray.count] =
-            history->is_distant ? vec3_along(ray.point[ray.count - 1], history->from,
-                                             search->far_m)
-                         : history->from;
+            history->is_distant ? vec3_along(ray.point[ray.count - 1], history->from, search->far_m)
+                                : history->from;
     ray.count += !ray.is_cut;
     return ray;
 }
@@ -122,18 +115,16 @@ static ChainRay ray_of(const ChainSearch *search, const PathHistory *history)
 /* Rays with a chance that goes with their light, one pass, any order: the least of
  * -ln(u) / light (Efraimidis and Spirakis 2006). */
 static void draw_ray(const ChunkListener *to, ChunkChain *chain, const PathHistory *history,
-                     double y)
-{
+                     double y) {
     uint32_t bits = hash_combine(hash_u32((uint32_t)to->chunk), to->sums->draws++);
-    double   draw = -log((bits + 0.5) * 0x1p-32) / y;
+    double draw = -log((bits + 0.5) * 0x1p-32) / y;
     if (!(draw < chain->draw)) return;
     chain->draw = draw;
     chain->ray = ray_of(to->search, history);
 }
 
 /* Beyond a pane is outside. */
-static void add_seat(const ChunkListener *to, const PathHistory *history, double y)
-{
+static void add_seat(const ChunkListener *to, const PathHistory *history, double y) {
     const PathStep *next = &history->step[1];
     if (history->count < 2 || next->pane_id != NO_ID) return;
     if (seat_is_back(to->search->args->seat, next->position))
@@ -141,23 +132,20 @@ static void add_seat(const ChunkListener *to, const PathHistory *history, double
 }
 
 /* A source by itself; an emitter counts as a surface that is met. */
-static void add_straight(const ChunkListener *to, const PathHistory *history, double y)
-{
+static void add_straight(const ChunkListener *to, const PathHistory *history, double y) {
     ChainGroups *groups = &to->sums->groups;
     if (history->source == LIGHTS_EMITTERS)
         groups->by_surface[to->search->alike[history->source_id]] += y;
     else groups->straight[history->source] += y;
 }
 
-static bool is_off_any(const PathHistory *history, const bool *is_any)
-{
+static bool is_off_any(const PathHistory *history, const bool *is_any) {
     for (int i = 0; i < path_steps_kept(history); i++)
         if (is_any[history->step[i].part_id]) return true;
     return false;
 }
 
-static bool is_through_any(const PathHistory *history, const bool *is_any)
-{
+static bool is_through_any(const PathHistory *history, const bool *is_any) {
     for (int i = 0; i < path_steps_kept(history); i++) {
         int pane = history->step[i].pane_id;
         if (pane != NO_ID && is_any[pane]) return true;
@@ -165,10 +153,9 @@ static bool is_through_any(const PathHistory *history, const bool *is_any)
     return history->pane_id != NO_ID && is_any[history->pane_id];
 }
 
-static void add_groups(const ChunkListener *to, const PathHistory *history, double y)
-{
+static void add_groups(const ChunkListener *to, const PathHistory *history, double y) {
     ChainGroups *groups = &to->sums->groups;
-    const int   *alike = to->search->alike;
+    const int *alike = to->search->alike;
     groups->by_set[history->source] += y;
     if (history->source == LIGHTS_EMITTERS) groups->by_emitter[alike[history->source_id]] += y;
     if (history->source == LIGHTS_PUNCTUAL) groups->by_lamp[history->source_id] += y;
@@ -183,21 +170,19 @@ static void add_groups(const ChunkListener *to, const PathHistory *history, doub
     if (history->is_extrapolated) groups->extrapolated += y;
 }
 
-static int display_of(const Scene *scene, int part_id)
-{
+static int display_of(const Scene *scene, int part_id) {
     return scene->materials[scene->parts[part_id].material_id].display_id;
 }
 
-static void on_light(void *user, const PathHistory *history, const float xyz[3])
-{
+static void on_light(void *user, const PathHistory *history, const float xyz[3]) {
     const ChunkListener *to = user;
-    const Scene         *scene = to->search->scene;
-    ChainChunk           *sums = to->sums;
-    double               y = (double)xyz[1];
+    const Scene *scene = to->search->scene;
+    ChainChunk *sums = to->sums;
+    double y = (double)xyz[1];
     if (!(y > 0) || (history->count == 0 && !to->search->args->with_direct)) return;
-    ChainKey    key = key_of(to->search, history);
+    ChainKey key = key_of(to->search, history);
     ChunkChain *chain = chunk_chain(sums, &key);
-    int         display = history->count ? display_of(scene, history->step[0].part_id) : NO_ID;
+    int display = history->count ? display_of(scene, history->step[0].part_id) : NO_ID;
     sums->all += y;
     if (history->count) {
         sums->reflected += y;
@@ -217,28 +202,25 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
 }
 
 /* A batch's chunks follow each other in a random stream of its own. */
-static int batch_of(const ChainSearch *search, int chunk)
-{
+static int batch_of(const ChainSearch *search, int chunk) {
     return chunk % search->batches;
 }
 
-static void trace_chunk(void *user, int item, int worker)
-{
+static void trace_chunk(void *user, int item, int worker) {
     (void)worker;
     const ChainSearch *search = user;
-    int            chunk = search->first + item, place = chunk;
-    ChunkListener  to = {search, &search->sums[item], chunk};
-    PathListener   listener = {.on_light = on_light, .user = &to,
-                                   .with_extrapolated = true};
+    int chunk = search->first + item, place = chunk;
+    ChunkListener to = {search, &search->sums[item], chunk};
+    PathListener listener = {.on_light = on_light, .user = &to, .with_extrapolated = true};
     PathStatistics statistics = {0};
-    ProbeAim       aim = *search->args->aim;
+    ProbeAim aim = *search->args->aim;
     if (!aim.pixel) {
         aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)batch_of(search, chunk));
         aim.is_spread = true;
         place = chunk / search->batches;
     }
     search->args->tools->kernel->trace(&aim, place * CHAIN_CHUNK, (place + 1) * CHAIN_CHUNK,
-                                     &listener, &statistics);
+                                       &listener, &statistics);
 }
 
 /* ---- all chunks -------------------------------------------------------------------------- */
@@ -250,37 +232,34 @@ typedef struct FoundSums {
 } FoundSums;
 
 typedef struct FoundChain {
-    Chain     chain;
-    double    draw[CHAIN_RAYS]; /* its rays', rising */
+    Chain chain;
+    double draw[CHAIN_RAYS]; /* its rays', rising */
     FoundSums sums;
-    double    sure;             /* its mean less one standard error: one lucky path has 0 */
-    int       id;
-    bool      is_kept;
+    double sure; /* its mean less one standard error: one lucky path has 0 */
+    int id;
+    bool is_kept;
 } FoundChain;
 
 typedef struct FoundChains {
-    FoundChain **table;  /* [ROOM] */
+    FoundChain **table; /* [ROOM] */
     FoundChain **by_id;
-    int          count;
-    FoundSums    all, mirror, reflected;
-    double       own;
+    int count;
+    FoundSums all, mirror, reflected;
+    double own;
 } FoundChains;
 
-static void add_sum(FoundSums *sums, int batch, double sum)
-{
+static void add_sum(FoundSums *sums, int batch, double sum) {
     sums->sum += sum;
     sums->by_batch[batch] += sum;
 }
 
-static void add_bright(FoundSums *sums, const BrightSamples *more)
-{
+static void add_bright(FoundSums *sums, const BrightSamples *more) {
     sums->bright.squares += more->squares;
     sums->bright.fourths += more->fourths;
 }
 
 /* NULL: the table is full. */
-static FoundChain *found_chain(FoundChains *found, const ChainKey *key, Arena *own)
-{
+static FoundChain *found_chain(FoundChains *found, const ChainKey *key, Arena *own) {
     for (uint32_t i = hash_key(key);; i++) {
         FoundChain **place = &found->table[i & (ROOM - 1)], *f = *place;
         if (f && !memcmp(&f->chain.key, key, sizeof *key)) return f;
@@ -294,8 +273,7 @@ static FoundChain *found_chain(FoundChains *found, const ChainKey *key, Arena *o
     }
 }
 
-static void keep_ray(FoundChain *f, const ChunkChain *from)
-{
+static void keep_ray(FoundChain *f, const ChunkChain *from) {
     int count = f->chain.ray_count;
     int at = count < CHAIN_RAYS ? count : CHAIN_RAYS - 1;
     if (count == CHAIN_RAYS && !(from->draw < f->draw[at])) return;
@@ -308,8 +286,7 @@ static void keep_ray(FoundChain *f, const ChunkChain *from)
     if (count < CHAIN_RAYS) f->chain.ray_count++;
 }
 
-static void add_chunk(FoundChains *found, const ChainChunk *sums, int batch, Arena *own)
-{
+static void add_chunk(FoundChains *found, const ChainChunk *sums, int batch, Arena *own) {
     add_sum(&found->all, batch, sums->all);
     add_bright(&found->all, &sums->bright);
     add_sum(&found->mirror, batch, sums->mirror);
@@ -318,7 +295,7 @@ static void add_chunk(FoundChains *found, const ChainChunk *sums, int batch, Are
     found->own += sums->own;
     for (int i = 0; i < CHUNK_ROOM; i++) {
         const ChunkChain *from = &sums->table[i];
-        FoundChain       *to = from->is_used ? found_chain(found, &from->key, own) : NULL;
+        FoundChain *to = from->is_used ? found_chain(found, &from->key, own) : NULL;
         if (!to) continue;
         add_sum(&to->sums, batch, from->sum);
         add_bright(&to->sums, &from->bright);
@@ -326,22 +303,19 @@ static void add_chunk(FoundChains *found, const ChainChunk *sums, int batch, Are
     }
 }
 
-static ChainGroups fresh_groups(const Scene *scene, Arena *arena)
-{
+static ChainGroups fresh_groups(const Scene *scene, Arena *arena) {
     return (ChainGroups){.by_emitter = ARENA_NEW(arena, double, scene->part_count),
                          .by_lamp = ARENA_NEW(arena, double, scene->light_count),
                          .by_pane = ARENA_NEW(arena, double, scene->part_count),
                          .by_surface = ARENA_NEW(arena, double, scene->part_count)};
 }
 
-static void add_all(double *to, const double *from, int count, double scale)
-{
+static void add_all(double *to, const double *from, int count, double scale) {
     for (int i = 0; i < count; i++) to[i] += scale * from[i];
 }
 
 static void merge_groups(ChainGroups *to, const ChainGroups *from, const Scene *scene,
-                         double scale)
-{
+                         double scale) {
     add_all(to->by_set, from->by_set, LIGHT_SETS, scale);
     add_all(to->straight, from->straight, LIGHT_SETS, scale);
     add_all(to->by_emitter, from->by_emitter, scene->part_count, scale);
@@ -354,23 +328,20 @@ static void merge_groups(ChainGroups *to, const ChainGroups *from, const Scene *
     to->extrapolated += scale * from->extrapolated;
 }
 
-static bool *parts_without_data(const Scene *scene, Arena *arena)
-{
+static bool *parts_without_data(const Scene *scene, Arena *arena) {
     bool *lacks_data = ARENA_NEW(arena, bool, scene->part_count);
     for (int i = 0; i < scene->part_count; i++) lacks_data[i] = !part_has_data(scene, i);
     return lacks_data;
 }
 
-static bool *guessed_parts(const Scene *scene, Arena *arena)
-{
+static bool *guessed_parts(const Scene *scene, Arena *arena) {
     bool *is_guessed = ARENA_NEW(arena, bool, scene->part_count);
     for (int i = 0; i < scene->part_count; i++)
         is_guessed[i] = scene->materials[scene->parts[i].material_id].guessed_as != NULL;
     return is_guessed;
 }
 
-static ChainChunk *fresh_sums(int count, const Scene *scene, bool has_seat, Arena *arena)
-{
+static ChainChunk *fresh_sums(int count, const Scene *scene, bool has_seat, Arena *arena) {
     ChainChunk *sums = ARENA_NEW(arena, ChainChunk, count);
     for (int i = 0; i < count; i++) {
         sums[i].table = ARENA_NEW(arena, ChunkChain, CHUNK_ROOM);
@@ -380,39 +351,36 @@ static ChainChunk *fresh_sums(int count, const Scene *scene, bool has_seat, Aren
     return sums;
 }
 
-static ChainFigure figure_of(const FoundSums *found, const ChainSearch *search)
-{
-    EstimateSums sums = {.bright = found->bright, .batches = search->batches,
-                         .paths = (long)search->chunks * CHAIN_CHUNK, .piece = CHAIN_CHUNK,
+static ChainFigure figure_of(const FoundSums *found, const ChainSearch *search) {
+    EstimateSums sums = {.bright = found->bright,
+                         .batches = search->batches,
+                         .paths = (long)search->chunks * CHAIN_CHUNK,
+                         .piece = CHAIN_CHUNK,
                          .share = 1};
     for (int i = 0; i < search->batches; i++) sums.batch[i] = found->by_batch[i];
     Estimate estimate = estimate_of(&sums);
-    return (ChainFigure){found->sum / (double)sums.paths, estimate.sigma,
-                         estimate.interval.low, estimate.interval.high};
+    return (ChainFigure){found->sum / (double)sums.paths, estimate.sigma, estimate.interval.low,
+                         estimate.interval.high};
 }
 
 /* Greatest first; of equals the one that was found first. */
-static int compare(double x, double y, const FoundChain *a, const FoundChain *b)
-{
+static int compare(double x, double y, const FoundChain *a, const FoundChain *b) {
     if (x != y) return x < y ? 1 : -1;
     return (a->id > b->id) - (a->id < b->id);
 }
 
-static int by_sum(const void *a, const void *b)
-{
+static int by_sum(const void *a, const void *b) {
     const FoundChain *x = *(FoundChain *const *)a, *y = *(FoundChain *const *)b;
     return compare(x->sums.sum, y->sums.sum, x, y);
 }
 
-static int by_sureness(const void *a, const void *b)
-{
+static int by_sureness(const void *a, const void *b) {
     const FoundChain *x = *(FoundChain *const *)a, *y = *(FoundChain *const *)b;
     return compare(x->sure, y->sure, x, y);
 }
 
 /* Light by chains that are not kept. */
-static ChainFigure rest_of(const FoundChains *found, const ChainSearch *search)
-{
+static ChainFigure rest_of(const FoundChains *found, const ChainSearch *search) {
     FoundSums rest = {.sum = 0, .bright = found->all.bright};
     for (int k = 0; k < search->batches; k++) {
         double left = found->all.by_batch[k];
@@ -430,10 +398,9 @@ static ChainFigure rest_of(const FoundChains *found, const ChainSearch *search)
 }
 
 static void keep_greatest(const FoundChains *found, const ChainSearch *search, Arena own,
-                          Chains *out)
-{
+                          Chains *out) {
     FoundChain **list = ARENA_NEW(&own, FoundChain *, found->count);
-    int          most = search->args->most;
+    int most = search->args->most;
     for (int i = 0; i < found->count; i++) {
         list[i] = found->by_id[i];
         list[i]->chain.figure = figure_of(&list[i]->sums, search);
@@ -450,8 +417,7 @@ static void keep_greatest(const FoundChains *found, const ChainSearch *search, A
     out->rest = rest_of(found, search);
 }
 
-static const int *alike_parts(const Scene *scene, Arena *arena)
-{
+static const int *alike_parts(const Scene *scene, Arena *arena) {
     int *alike = ARENA_NEW(arena, int, scene->part_count);
     for (int i = 0; i < scene->part_count; i++) {
         const Part *part = &scene->parts[i];
@@ -467,8 +433,7 @@ static const int *alike_parts(const Scene *scene, Arena *arena)
 #define FAR_LEAST 0.5f
 #define FAR_MOST 20.0f
 
-static float far_length(const Scene *scene)
-{
+static float far_length(const Scene *scene) {
     float size = vec3_length(vec3_sub(scene->bounds_max, scene->bounds_min));
     return fminf(fmaxf(0.5f * size, FAR_LEAST), FAR_MOST);
 }
@@ -476,32 +441,35 @@ static float far_length(const Scene *scene)
 /* Address space: what is not touched costs nothing. */
 #define OWN_BYTES ((size_t)1 << 32)
 
-Chains chains_find(const ChainArgs *args, Arena *arena)
-{
+Chains chains_find(const ChainArgs *args, Arena *arena) {
     const Scene *scene = args->aim->context->scene;
-    int    chunks = (int)((args->paths + CHAIN_CHUNK - 1) / CHAIN_CHUNK);
-    Arena  own = arena_reserve(OWN_BYTES);
-    Chains out = {.scene = scene, .list = ARENA_NEW(arena, Chain, args->most),
+    int chunks = (int)((args->paths + CHAIN_CHUNK - 1) / CHAIN_CHUNK);
+    Arena own = arena_reserve(OWN_BYTES);
+    Chains out = {.scene = scene,
+                  .list = ARENA_NEW(arena, Chain, args->most),
                   .by_seat = args->seat ? ARENA_NEW(arena, double, scene->part_count) : NULL,
                   .groups = fresh_groups(scene, arena),
-                  .alike = alike_parts(scene, arena), .paths = (long)chunks * CHAIN_CHUNK};
-    ChainSearch search = {.args = args, .scene = scene, .alike = out.alike,
+                  .alike = alike_parts(scene, arena),
+                  .paths = (long)chunks * CHAIN_CHUNK};
+    ChainSearch search = {.args = args,
+                          .scene = scene,
+                          .alike = out.alike,
                           .lacks_data = parts_without_data(scene, &own),
-                          .is_guessed = guessed_parts(scene, &own), .chunks = chunks,
+                          .is_guessed = guessed_parts(scene, &own),
+                          .chunks = chunks,
                           .batches = chunks < CHAIN_BATCHES ? chunks : CHAIN_BATCHES,
                           .far_m = far_length(scene)};
     FoundChains found = {.table = ARENA_NEW(&own, FoundChain *, ROOM),
                          .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_KEPT)};
     Arena rounds = arena_reserve(OWN_BYTES);
     for (; search.first < chunks; search.first += ROUND) {
-        int   count = chunks - search.first < ROUND ? chunks - search.first : ROUND;
+        int count = chunks - search.first < ROUND ? chunks - search.first : ROUND;
         Arena room = rounds;
         search.sums = fresh_sums(count, scene, args->seat, &room);
         parallel_for(args->tools->threads, count, trace_chunk, &search);
         for (int i = 0; i < count; i++) {
             add_chunk(&found, &search.sums[i], batch_of(&search, search.first + i), &own);
-            merge_groups(&out.groups, &search.sums[i].groups, scene,
-                         1.0 / CHAIN_CHUNK / chunks);
+            merge_groups(&out.groups, &search.sums[i].groups, scene, 1.0 / CHAIN_CHUNK / chunks);
             if (args->seat)
                 add_all(out.by_seat, search.sums[i].by_seat, scene->part_count,
                         1.0 / CHAIN_CHUNK / chunks);
@@ -519,59 +487,52 @@ Chains chains_find(const ChainArgs *args, Arena *arena)
 
 /* ---- words ------------------------------------------------------------------------------- */
 
-static const char *event_word(int event)
-{
+static const char *event_word(int event) {
     static const char *const words[] = {"scatters", "reflects", "transmits"};
     return words[event];
 }
 
-const char *chain_part_words(const Scene *scene, int part_id, Arena *arena)
-{
+const char *chain_part_words(const Scene *scene, int part_id, Arena *arena) {
     const Part *part = &scene->parts[part_id];
     return arena_format(arena, "%s (%s)", part->name, scene->materials[part->material_id].name);
 }
 
-const char *chain_source_words(const Scene *scene, int source, int source_id, Arena *arena)
-{
+const char *chain_source_words(const Scene *scene, int source, int source_id, Arena *arena) {
     switch ((LightSet)source) {
     case LIGHTS_SUN: return "sun";
     case LIGHTS_SKY: return "sky";
     case LIGHTS_EMITTERS: return chain_part_words(scene, source_id, arena);
-    case LIGHTS_PUNCTUAL:
-        return arena_format(arena, "lamp %s", scene->lights[source_id].name);
+    case LIGHTS_PUNCTUAL: return arena_format(arena, "lamp %s", scene->lights[source_id].name);
     default: return "";
     }
 }
 
-static const char *first_words(const Scene *scene, int part_id, Arena *arena)
-{
+static const char *first_words(const Scene *scene, int part_id, Arena *arena) {
     int display_id = scene->materials[scene->parts[part_id].material_id].display_id;
     return display_id == NO_ID
                ? chain_part_words(scene, part_id, arena)
                : arena_format(arena, "display %s", scene->displays[display_id].name);
 }
 
-const char *const *chain_words(const Scene *scene, const ChainKey *key, int *links,
-                               Arena *arena)
-{
+const char *const *chain_words(const Scene *scene, const ChainKey *key, int *links, Arena *arena) {
     const char **out = ARENA_NEW(arena, const char *, 2 * CHAIN_STEPS + 3);
-    const char  *source = chain_source_words(scene, key->source, key->source_id, arena);
-    int          count = 0;
+    const char *source = chain_source_words(scene, key->source, key->source_id, arena);
+    int count = 0;
     for (int i = 0; i < key->count; i++) {
         const ChainLink *link = &key->link[i];
         const char *what = i ? chain_part_words(scene, link->part_id, arena)
                              : first_words(scene, link->part_id, arena);
         if (link->pane_id != NO_ID)
-            out[count++] = arena_format(arena, "%s: through",
-                                        chain_part_words(scene, link->pane_id, arena));
+            out[count++] =
+                arena_format(arena, "%s: through", chain_part_words(scene, link->pane_id, arena));
         out[count++] = arena_format(arena, "%s: %s", what, event_word(link->event));
     }
     if (key->is_longer) out[count++] = "further surfaces";
     if (key->pane_id != NO_ID)
-        out[count++] = arena_format(arena, "%s: through",
-                                    chain_part_words(scene, key->pane_id, arena));
-    out[count++] = key->source == LIGHTS_EMITTERS ? arena_format(arena, "%s: emits", source)
-                                                  : source;
+        out[count++] =
+            arena_format(arena, "%s: through", chain_part_words(scene, key->pane_id, arena));
+    out[count++] =
+        key->source == LIGHTS_EMITTERS ? arena_format(arena, "%s: emits", source) : source;
     *links = count;
     return out;
 }

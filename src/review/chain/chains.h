@@ -20,7 +20,7 @@
 #include "review/chain/seat.h"
 #include "review/light/reading.h"
 
-#define CHAIN_CHUNK 64 /* paths of a chunk */
+#define CHAIN_CHUNK 64                 /* paths of a chunk */
 #define CHAIN_BATCHES ESTIMATE_BATCHES /* fewer where there are fewer chunks */
 #define CHAIN_STEPS 4
 #define CHAIN_RAYS 8
@@ -46,8 +46,8 @@ typedef struct ChainKey {
  * way towards it. */
 typedef struct ChainRay {
     Vec3 point[CHAIN_POINTS];
-    int  count;
-    int  is_cut; /* its further surfaces are left out */
+    int count;
+    int is_cut; /* its further surfaces are left out */
 } ChainRay;
 
 typedef struct ChainFigure {
@@ -56,55 +56,55 @@ typedef struct ChainFigure {
 } ChainFigure;
 
 typedef struct Chain {
-    ChainKey    key;
+    ChainKey key;
     ChainFigure figure;
-    ChainRay    rays[CHAIN_RAYS]; /* drawn with a chance that goes with their light */
-    int         ray_count;        /* one of a chunk of paths at most */
+    ChainRay rays[CHAIN_RAYS]; /* drawn with a chance that goes with their light */
+    int ray_count;             /* one of a chunk of paths at most */
 } Chain;
 
 /* cd m^-2 of `all` by one thing of each path: each kind adds up to it. Parts that count as one
  * at their first. */
 typedef struct ChainGroups {
-    double  by_set[LIGHT_SETS]; /* where the light began; emitters and lamps one by one: */
-    double *by_emitter;         /* [part] */
-    double *by_lamp;            /* [light] */
-    double *by_pane;            /* [part], by the last pane that it passed; */
-    double  by_no_pane;         /* and past none */
-    double *by_surface;         /* [part], by what is met next behind what is seen first, an
-                                   emitter among it; */
-    double  straight[LIGHT_SETS]; /* and what shines there by itself */
-    double  without_data;       /* via any material without data (material_data.h), each
-                                   path once */
-    double  guessed;            /* via any that was guessed (Material.guessed_as), or
-                                   through one: likewise */
-    double  extrapolated;       /* as the panel of the display that is seen first extrapolates
-                                   its reflection */
+    double by_set[LIGHT_SETS];   /* where the light began; emitters and lamps one by one: */
+    double *by_emitter;          /* [part] */
+    double *by_lamp;             /* [light] */
+    double *by_pane;             /* [part], by the last pane that it passed; */
+    double by_no_pane;           /* and past none */
+    double *by_surface;          /* [part], by what is met next behind what is seen first, an
+                                    emitter among it; */
+    double straight[LIGHT_SETS]; /* and what shines there by itself */
+    double without_data;         /* via any material without data (material_data.h), each
+                                    path once */
+    double guessed;              /* via any that was guessed (Material.guessed_as), or
+                                    through one: likewise */
+    double extrapolated;         /* as the panel of the display that is seen first extrapolates
+                                    its reflection */
 } ChainGroups;
 
 typedef struct Chains {
     const Scene *scene;
-    Chain      *list;   /* the greatest, greatest first */
-    int         count;
-    int         others; /* how many more there are */
-    ChainFigure rest;   /* theirs */
+    Chain *list; /* the greatest, greatest first */
+    int count;
+    int others;              /* how many more there are */
+    ChainFigure rest;        /* theirs */
     ChainFigure all, mirror; /* mirror: via the mirror of a display that is seen first */
     ChainFigure reflected;   /* all that does not come straight from its source */
-    double      own;    /* cd m^-2 of `all` that began at the display that is seen first */
+    double own;              /* cd m^-2 of `all` that began at the display that is seen first */
     ChainGroups groups;
-    double     *by_seat; /* [part] cd m^-2 that came to a display straight off the seat's back; of
-                            parts that count as one at their first; NULL: none was asked for */
-    const int  *alike;  /* [part] the first of those that count as one */
-    long        paths;
+    double *by_seat;  /* [part] cd m^-2 that came to a display straight off the seat's back; of
+                         parts that count as one at their first; NULL: none was asked for */
+    const int *alike; /* [part] the first of those that count as one */
+    long paths;
 } Chains;
 
 typedef struct ChainArgs {
-    const ProbeAim     *aim;         /* not a luxmeter */
+    const ProbeAim *aim; /* not a luxmeter */
     const ReadingTools *tools;
-    long                paths;       /* at least CHAIN_PATHS_LEAST; rounded up to a chunk */
-    int                 most;        /* chains that are kept */
-    bool                with_direct; /* sources that the eye sees by themselves count, too */
-    const ChainSeat    *seat;        /* light off its back is kept apart; NULL: none */
-    bool                with_first_pane; /* a pane before the first surface is in the key */
+    long paths;            /* at least CHAIN_PATHS_LEAST; rounded up to a chunk */
+    int most;              /* chains that are kept */
+    bool with_direct;      /* sources that the eye sees by themselves count, too */
+    const ChainSeat *seat; /* light off its back is kept apart; NULL: none */
+    bool with_first_pane;  /* a pane before the first surface is in the key */
 } ChainArgs;
 
 #define CHAIN_PATHS_LEAST (2 * CHAIN_CHUNK) /* an error takes two batches */
@@ -113,8 +113,7 @@ Chains chains_find(const ChainArgs *args, Arena *arena);
 
 /* A chain in words, in the order in which the eye's ray meets it: "display cluster: reflects",
  * "Window_FL (glass): through", "sky". Texts and list live in the arena. */
-const char *const *chain_words(const Scene *scene, const ChainKey *key, int *links,
-                               Arena *arena);
+const char *const *chain_words(const Scene *scene, const ChainKey *key, int *links, Arena *arena);
 
 /* "FrontSeat_L (leather)" */
 const char *chain_part_words(const Scene *scene, int part_id, Arena *arena);

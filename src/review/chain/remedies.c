@@ -11,26 +11,24 @@
 #define BRIGHTER_MOST 10.0 /* times as bright: more is not built */
 
 typedef struct Remedying {
-    const Profile    *profile;
+    const Profile *profile;
     const ReviewCase *c;
-    int               limit; /* that it is for */
-    Arena            *arena;
+    int limit; /* that it is for */
+    Arena *arena;
 } Remedying;
 
 /* ---- judged again ------------------------------------------------------------------------ */
 
-static double own_light(const ReviewCase *c)
-{
+static double own_light(const ReviewCase *c) {
     return isnan(c->own_reflected) ? 0 : fmin(c->own_reflected, c->luminance_cd_m2.reflected);
 }
 
 /* The case with the display that many times as bright, judged again; other: cd m^-2 that it
  * reflects beside its own light. The doubt is in proportion. */
-static ReviewCase judged_with(const Remedying *m, double brighter, double other)
-{
-    ReviewCase      out = *m->c;
+static ReviewCase judged_with(const Remedying *m, double brighter, double other) {
+    ReviewCase out = *m->c;
     CaseLuminances *l = &out.luminance_cd_m2;
-    double          before = l->reflected;
+    double before = l->reflected;
     l->foreground *= brighter;
     l->background *= brighter;
     l->reflected = other + brighter * own_light(m->c);
@@ -44,53 +42,45 @@ static ReviewCase judged_with(const Remedying *m, double brighter, double other)
     return out;
 }
 
-static bool keeps_limit(const Remedying *m, const ReviewCase *then)
-{
-    return then->limit_count == m->c->limit_count &&
-           then->limits[m->limit].verdict == VERDICT_PASS;
+static bool keeps_limit(const Remedying *m, const ReviewCase *then) {
+    return then->limit_count == m->c->limit_count && then->limits[m->limit].verdict == VERDICT_PASS;
 }
 
 /* As much more is reflected as the interval is wide: fresh paths find what is kept then kept as
  * well. */
-static double doubt_of(const Remedying *m)
-{
+static double doubt_of(const Remedying *m) {
     double half = 0.5 * (m->c->reflected_range.high - m->c->reflected_range.low);
     return limit_wants_less(&m->c->limits[m->limit]) ? -half : half;
 }
 
 /* Of the limits that hang on the light, count and are missed, or that no paths decide, the one
  * that is missed by most; -1. */
-static int limit_to_mend(const ReviewCase *c)
-{
+static int limit_to_mend(const ReviewCase *c) {
     int worst = -1;
     for (int i = 0; i < c->limit_count; i++) {
         const LimitVerdict *limit = &c->limits[i];
-        LimitKind           kind = limit_kind_named(limit->kind);
+        LimitKind kind = limit_kind_named(limit->kind);
         bool is_known = limit->verdict == VERDICT_FAIL || limit->verdict == VERDICT_TOO_CLOSE;
         bool is_missed = limit->margin < 0 || case_is_undecidable(c);
-        if (limit->is_advice || !is_known || !is_missed || !limit_kinds[kind].is_of_light)
-            continue;
+        if (limit->is_advice || !is_known || !is_missed || !limit_kinds[kind].is_of_light) continue;
         if (worst < 0 || limit->margin < c->limits[worst].margin) worst = i;
     }
     return worst;
 }
 
-static double ratio_needed(const Remedying *m)
-{
+static double ratio_needed(const Remedying *m) {
     const LimitVerdict *limit = &m->c->limits[m->limit];
     return ratio_from_contrast(limit_kind_named(limit->kind), limit->value);
 }
 
-static double veil_of(const Remedying *m)
-{
+static double veil_of(const Remedying *m) {
     double veil = m->c->luminance_cd_m2.veil;
-    bool   counts = m->profile->uses_veil && !m->c->must_not_be_read;
+    bool counts = m->profile->uses_veil && !m->c->must_not_be_read;
     return counts && veil > 0 ? veil : 0;
 }
 
 /* With as much more reflected as the interval is wide. */
-static ReviewCase judged_brighter(const Remedying *m, double factor)
-{
+static ReviewCase judged_brighter(const Remedying *m, double factor) {
     double other = m->c->luminance_cd_m2.reflected - own_light(m->c);
     return judged_with(m, factor, fmax(other + doubt_of(m), 0));
 }
@@ -98,14 +88,12 @@ static ReviewCase judged_brighter(const Remedying *m, double factor)
 /* ---- what no closed form gives ----------------------------------------------------------- */
 
 /* A level of visibility, and an image in glass. */
-static bool is_searched(const Remedying *m)
-{
+static bool is_searched(const Remedying *m) {
     const LimitVerdict *limit = &m->c->limits[m->limit];
     return limit->by_pane || limit_kind_named(limit->kind) == LIMIT_VISIBILITY_LEVEL;
 }
 
-static double margin_by(const Remedying *m, double factor)
-{
+static double margin_by(const Remedying *m, double factor) {
     ReviewCase then = judged_brighter(m, factor);
     return then.limit_count == m->c->limit_count ? then.limits[m->limit].margin : (double)NAN;
 }
@@ -114,8 +102,7 @@ static double margin_by(const Remedying *m, double factor)
 
 /* The factor between 1 and `end`, nearest to 1, with which the limit's figure keeps it; NaN:
  * even `end` does not. */
-static double factor_by(const Remedying *m, double end)
-{
+static double factor_by(const Remedying *m, double end) {
     double misses = 1, keeps = end;
     if (!(margin_by(m, end) >= 0)) return (double)NAN;
     for (int i = 0; i < HALVINGS; i++) {
@@ -128,8 +115,7 @@ static double factor_by(const Remedying *m, double end)
 /* ---- brightness -------------------------------------------------------------------------- */
 
 /* To three digits, away from 1. */
-static double rounded_out(double factor)
-{
+static double rounded_out(double factor) {
     double digit = pow_d(10, floor(log10_d(factor)) - 2);
     return digit * (factor > 1 ? ceil(factor / digit) : floor(factor / digit));
 }
@@ -137,16 +123,14 @@ static double rounded_out(double factor)
 /* By how much the display must be brighter, or darker, for a contrast,
  * (H x + R + O x) / (L x + R + O x) = C, O its own light that is reflected, or scattered in the
  * eye, R all other; NaN: no brightness does it. */
-static double brighter_for(const CaseLuminances *l, double own, double other, double needed)
-{
+static double brighter_for(const CaseLuminances *l, double own, double other, double needed) {
     double high = fmax(l->foreground, l->background), low = fmin(l->foreground, l->background);
     double gain = high + own - needed * (low + own);
     return gain > 0 ? other * (needed - 1) / gain : (double)NAN;
 }
 
 /* Nothing that leaves the figure within its interval. */
-static void set_remedy(const Remedying *m, double factor, const ReviewCase *then, ReviewCase *c)
-{
+static void set_remedy(const Remedying *m, double factor, const ReviewCase *then, ReviewCase *c) {
     const LimitVerdict *before = &c->limits[m->limit], *after = &then->limits[m->limit];
     if (then->limit_count != c->limit_count ||
         !(before->is_upper ? after->found < before->low : after->found > before->high))
@@ -164,21 +148,20 @@ static void set_remedy(const Remedying *m, double factor, const ReviewCase *then
 #define TRY_STEP 1.05 /* the panel's errors are in the interval, too */
 
 /* The least with which the limit is judged to be kept. */
-void case_remedies(const Profile *profile, ReviewCase *c, Arena *arena)
-{
+void case_remedies(const Profile *profile, ReviewCase *c, Arena *arena) {
     Remedying m = {profile, c, limit_to_mend(c), arena};
     if (c->verdict == VERDICT_UNJUDGED || m.limit < 0) return;
-    bool   is_private = c->must_not_be_read;
-    bool   wants_less = limit_wants_less(&c->limits[m.limit]);
+    bool is_private = c->must_not_be_read;
+    bool wants_less = limit_wants_less(&c->limits[m.limit]);
     double own = own_light(c), other = c->luminance_cd_m2.reflected - own;
     double veil = veil_of(&m), grows = veil > 0 ? c->veil_displays : 0;
     double most = fmax(other + veil - grows + 2 * doubt_of(&m), 0);
     double end = is_private ? DIMMEST : wants_less ? 1 / BRIGHTER_MOST : BRIGHTER_MOST;
-    double x = is_searched(&m) ? factor_by(&m, end)
-                               : brighter_for(&c->luminance_cd_m2, own + grows, most,
-                                              ratio_needed(&m));
+    double x = is_searched(&m)
+                   ? factor_by(&m, end)
+                   : brighter_for(&c->luminance_cd_m2, own + grows, most, ratio_needed(&m));
     for (int i = 0; i < TRIES && x > 0 && x < BRIGHTER_MOST; i++) {
-        double     factor = rounded_out(x);
+        double factor = rounded_out(x);
         ReviewCase sure = judged_brighter(&m, factor);
         x *= wants_less ? 1 / TRY_STEP : TRY_STEP;
         if (is_private && factor < DIMMEST) return;
@@ -191,17 +174,15 @@ void case_remedies(const Profile *profile, ReviewCase *c, Arena *arena)
 
 /* ---- as dark as it may be ---------------------------------------------------------------- */
 
-static bool is_least_of_contrast(const LimitVerdict *limit)
-{
+static bool is_least_of_contrast(const LimitVerdict *limit) {
     LimitKind kind = limit_kind_named(limit->kind);
     return kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast && !limit->is_advice &&
            !limit->is_upper;
 }
 
-static bool keeps_all(const Remedying *m, double factor, double other)
-{
-    Remedying  own = *m;
-    Arena      scratch = *m->arena;
+static bool keeps_all(const Remedying *m, double factor, double other) {
+    Remedying own = *m;
+    Arena scratch = *m->arena;
     own.arena = &scratch;
     ReviewCase then = judged_with(&own, factor, other);
     for (int i = 0; i < then.limit_count; i++)
@@ -212,8 +193,7 @@ static bool keeps_all(const Remedying *m, double factor, double other)
 
 /* The least factor from `from` on with which all are judged to be kept; the interval narrows
  * as it grows. */
-static double surely_from(const Remedying *m, double from, double other)
-{
+static double surely_from(const Remedying *m, double from, double other) {
     double low = from, high = BRIGHTER_MOST;
     if (!keeps_all(m, high, other)) return (double)INFINITY;
     for (int i = 0; i < TRIES; i++) {
@@ -223,16 +203,15 @@ static double surely_from(const Remedying *m, double from, double other)
     return high;
 }
 
-CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena scratch)
-{
+CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena scratch) {
     Remedying m = {.profile = profile, .c = c, .arena = &scratch};
-    double    own = own_light(c), other = c->luminance_cd_m2.reflected - own, least = -1;
-    double    veil = veil_of(&m), grows = veil > 0 ? c->veil_displays : 0;
+    double own = own_light(c), other = c->luminance_cd_m2.reflected - own, least = -1;
+    double veil = veil_of(&m), grows = veil > 0 ? c->veil_displays : 0;
     if (c->verdict == VERDICT_UNJUDGED || !(c->level > 0)) return (CaseLeast){NAN, NAN};
     for (m.limit = 0; m.limit < c->limit_count; m.limit++) {
         if (!is_least_of_contrast(&c->limits[m.limit])) continue;
-        double x = brighter_for(&c->luminance_cd_m2, own + grows, other + veil - grows,
-                                ratio_needed(&m));
+        double x =
+            brighter_for(&c->luminance_cd_m2, own + grows, other + veil - grows, ratio_needed(&m));
         least = fmax(least, x <= BRIGHTER_MOST ? x : (double)INFINITY);
     }
     if (least < 0) return (CaseLeast){NAN, NAN};

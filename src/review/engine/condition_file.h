@@ -18,12 +18,12 @@
 
 typedef struct ConditionFound {
     ReviewOutcome own;
-    Review       *variants; /* [request->variant_count] */
-    int           variant_count;
+    Review *variants; /* [request->variant_count] */
+    int variant_count;
     /* of a file: */
-    const char   *path, *identity;
-    const void   *answers;
-    size_t        answer_bytes;
+    const char *path, *identity;
+    const void *answers;
+    size_t answer_bytes;
 } ConditionFound;
 
 /* The text of what decides it, then a line for each word of the command ("word"). */
@@ -31,7 +31,7 @@ const char *condition_identity(const ReviewRun *run, int condition_id, Arena *ar
 
 /* Of such a text: the rest without the lines of a name; the values of these. */
 const char *condition_identity_without(const char *identity, const char *name, Arena *arena);
-Lines       condition_identity_values(const char *identity, const char *name, Arena *arena);
+Lines condition_identity_values(const char *identity, const char *name, Arena *arena);
 
 bool condition_read_identity(const char *path, Arena *arena, const char **out, Error *err);
 

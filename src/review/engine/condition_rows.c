@@ -9,26 +9,30 @@
 #include "review/road_verdict.h"
 
 /* Doubles and longs, from the first through the last: they lie one behind the other. */
-#define NUMBERS(Type, first, last)                                                             \
-    {.kind = PACK_NUMBERS, .offset = offsetof(Type, first),                                    \
+#define NUMBERS(Type, first, last) \
+    {.kind = PACK_NUMBERS, \
+     .offset = offsetof(Type, first), \
      .size = offsetof(Type, last) + sizeof(((Type *)0)->last) - offsetof(Type, first)}
 #define NUMBER(Type, member) NUMBERS(Type, member, member)
-#define FLOATS(Type, first, last)                                                              \
-    {.kind = PACK_FLOATS, .offset = offsetof(Type, first),                                     \
+#define FLOATS(Type, first, last) \
+    {.kind = PACK_FLOATS, \
+     .offset = offsetof(Type, first), \
      .size = offsetof(Type, last) + sizeof(((Type *)0)->last) - offsetof(Type, first)}
-#define INT(Type, member, bottom, top)                                                         \
+#define INT(Type, member, bottom, top) \
     {.kind = PACK_INT, .offset = offsetof(Type, member), .low = (bottom), .high = (top)}
 #define CHOICE(Type, member, count) INT(Type, member, 0, (count) - 1)
 #define FLAG(Type, member) {.kind = PACK_FLAG, .offset = offsetof(Type, member)}
 #define TEXT(Type, member) {.kind = PACK_TEXT, .offset = offsetof(Type, member)}
-#define PART(Type, member, format)                                                             \
+#define PART(Type, member, format) \
     {.kind = PACK_PART, .offset = offsetof(Type, member), .of = &(format)}
-#define ONE(Type, member, format)                                                              \
+#define ONE(Type, member, format) \
     {.kind = PACK_ONE, .offset = offsetof(Type, member), .of = &(format)}
-#define LIST(Type, member, counted, format)                                                    \
-    {.kind = PACK_LIST, .offset = offsetof(Type, member), .count = offsetof(Type, counted),    \
+#define LIST(Type, member, counted, format) \
+    {.kind = PACK_LIST, \
+     .offset = offsetof(Type, member), \
+     .count = offsetof(Type, counted), \
      .of = &(format)}
-#define TEXTS(Type, member, counted)                                                           \
+#define TEXTS(Type, member, counted) \
     {.kind = PACK_TEXTS, .offset = offsetof(Type, member), .count = offsetof(Type, counted)}
 
 #define ROWS(name, ...) static const PackRow name##_rows[] = {__VA_ARGS__}
@@ -75,8 +79,8 @@ ROWS(view, FLOATS(CaseView, eye, forward), FLAG(CaseView, is_perspective),
      INT(CaseView, height, 1, 1 << 20));
 static const PackFormat view = FORMAT(view, CaseView);
 
-ROWS(remedy, TEXT(CaseRemedy, what), NUMBERS(CaseRemedy, contrast_ratio, level), PART(CaseRemedy, then, limit),
-     CHOICE(CaseRemedy, verdict, VERDICTS));
+ROWS(remedy, TEXT(CaseRemedy, what), NUMBERS(CaseRemedy, contrast_ratio, level),
+     PART(CaseRemedy, then, limit), CHOICE(CaseRemedy, verdict, VERDICTS));
 static const PackFormat remedy = FORMAT(remedy, CaseRemedy);
 
 ROWS(level, NUMBER(CaseVisibility, age_years), FLAG(CaseVisibility, is_observer),
@@ -97,8 +101,7 @@ typedef struct Batches {
 ROWS(batches, NUMBER(Batches, each));
 static const PackFormat batches = FORMAT(batches, Batches);
 
-static bool case_is_sound(const void *item)
-{
+static bool case_is_sound(const void *item) {
     const ReviewCase *c = item;
     return c->condition && c->eye && c->symbol && c->limit_id < c->limit_count;
 }
@@ -106,35 +109,31 @@ static bool case_is_sound(const void *item)
 ROWS(review_case, TEXT(ReviewCase, condition), TEXT(ReviewCase, eye), TEXT(ReviewCase, symbol),
      TEXT(ReviewCase, display), CHOICE(ReviewCase, ambient, AMBIENTS), TEXT(ReviewCase, when),
      FLAG(ReviewCase, has_sun), NUMBERS(ReviewCase, sun_azimuth_deg, visibility),
-     LIST(ReviewCase, visibilities, visibility_count, level),
-     NUMBER(ReviewCase, paths), ONE(ReviewCase, batches, batches),
-     NUMBERS(ReviewCase, precision_asked, precision_reached),
+     LIST(ReviewCase, visibilities, visibility_count, level), NUMBER(ReviewCase, paths),
+     ONE(ReviewCase, batches, batches), NUMBERS(ReviewCase, precision_asked, precision_reached),
      CHOICE(ReviewCase, open_by, OPEN_COUNT), NUMBER(ReviewCase, visible_share),
-     LIST(ReviewCase, hiders, hider_count, hider),
-     NUMBERS(ReviewCase, eye_failed_share, origin_m), FLAG(ReviewCase, is_optional),
-     FLAG(ReviewCase, must_not_be_read), LIST(ReviewCase, places, place_count, place),
-     LIST(ReviewCase, images, image_count, image),
+     LIST(ReviewCase, hiders, hider_count, hider), NUMBERS(ReviewCase, eye_failed_share, origin_m),
+     FLAG(ReviewCase, is_optional), FLAG(ReviewCase, must_not_be_read),
+     LIST(ReviewCase, places, place_count, place), LIST(ReviewCase, images, image_count, image),
      NUMBERS(ReviewCase, level, glasses_transmittance), TEXT(ReviewCase, glasses),
      NUMBER(ReviewCase, glasses_display_loss), PART(ReviewCase, panel, panel),
-     NUMBERS(ReviewCase, own_reflected, display_lux),
-     LIST(ReviewCase, limits, limit_count, limit), INT(ReviewCase, limit_id, -1, INT_MAX),
-     NUMBER(ReviewCase, margin), CHOICE(ReviewCase, verdict, VERDICTS),
-     CHOICE(ReviewCase, unjudged, UNJUDGED_COUNT), LIST(ReviewCase, causes, cause_count, cause),
-     PART(ReviewCase, groups[GROUP_LIGHT], group), PART(ReviewCase, groups[GROUP_OPENING], group),
-     PART(ReviewCase, groups[GROUP_SURFACE], group),
+     NUMBERS(ReviewCase, own_reflected, display_lux), LIST(ReviewCase, limits, limit_count, limit),
+     INT(ReviewCase, limit_id, -1, INT_MAX), NUMBER(ReviewCase, margin),
+     CHOICE(ReviewCase, verdict, VERDICTS), CHOICE(ReviewCase, unjudged, UNJUDGED_COUNT),
+     LIST(ReviewCase, causes, cause_count, cause), PART(ReviewCase, groups[GROUP_LIGHT], group),
+     PART(ReviewCase, groups[GROUP_OPENING], group), PART(ReviewCase, groups[GROUP_SURFACE], group),
      NUMBERS(ReviewCase, without_data_share, extrapolated_share), TEXT(ReviewCase, empty_seat),
      NUMBER(ReviewCase, empty_seat_share), LIST(ReviewCase, remedies, remedy_count, remedy));
 static const PackFormat review_case = {sizeof(ReviewCase), review_case_rows,
                                        COUNT_OF(review_case_rows), case_is_sound};
 
-ROWS(sight, INT(CaseSight, case_id, 0, INT_MAX), TEXT(CaseSight, frame),
-     ONE(CaseSight, view, view), LIST(CaseSight, rim, rim_count, point));
+ROWS(sight, INT(CaseSight, case_id, 0, INT_MAX), TEXT(CaseSight, frame), ONE(CaseSight, view, view),
+     LIST(CaseSight, rim, rim_count, point));
 const PackFormat condition_sight = FORMAT(sight, CaseSight);
 
 /* ---- sweeps ------------------------------------------------------------------------------ */
 
-static bool sweep_is_sound(const void *item)
-{
+static bool sweep_is_sound(const void *item) {
     const ReviewSweep *s = item;
     return s->condition && s->eye && s->symbol;
 }
@@ -144,8 +143,10 @@ ROWS(sweep, TEXT(ReviewSweep, condition), TEXT(ReviewSweep, eye), TEXT(ReviewSwe
 static const PackFormat sweep = {sizeof(ReviewSweep), sweep_rows, COUNT_OF(sweep_rows),
                                  sweep_is_sound};
 
-ROWS(step, {.kind = PACK_NUMBERS, .offset = offsetof(StepKept, figures),
-            .size = sizeof(((StepKept *)0)->figures)},
+ROWS(step,
+     {.kind = PACK_NUMBERS,
+      .offset = offsetof(StepKept, figures),
+      .size = sizeof(((StepKept *)0)->figures)},
      CHOICE(StepKept, verdict, VERDICTS));
 static const PackFormat step = FORMAT(step, StepKept);
 
@@ -153,8 +154,7 @@ ROWS(sun, NUMBERS(SweepSun, azimuth_deg, minutes), INT(SweepSun, step, -1, INT_M
      INT(SweepSun, heading_id, 0, INT_MAX), NUMBERS(SweepSun, later_minutes, light));
 static const PackFormat sun = FORMAT(sun, SweepSun);
 
-static bool table_is_sound(const void *item)
-{
+static bool table_is_sound(const void *item) {
     const TableKept *table = item;
     return table->worst < table->step_count;
 }
@@ -198,8 +198,7 @@ static const PackFormat road = FORMAT(road, GazeRoad);
 
 ROWS(gaze, TEXT(GazeFinding, condition), TEXT(GazeFinding, eye), TEXT(GazeFinding, gaze),
      NUMBERS(GazeFinding, sun_deg, mirrored_range), TEXT(GazeFinding, mirrored_by),
-     TEXT(GazeFinding, mirrored_from),
-     NUMBERS(GazeFinding, contrast_behind_glass, contrast_range),
+     TEXT(GazeFinding, mirrored_from), NUMBERS(GazeFinding, contrast_behind_glass, contrast_range),
      ONE(GazeFinding, road, road));
 static const PackFormat gaze = FORMAT(gaze, GazeFinding);
 
@@ -211,11 +210,13 @@ ROWS(pane, TEXT(PaneFinding, condition), TEXT(PaneFinding, eye), TEXT(PaneFindin
      TEXT(PaneFinding, covered_by), TEXT(PaneFinding, none),
      NUMBERS(PaneFinding, right_deg, height_deg),
      LIST(PaneFinding, outline_deg, outline_count, angle),
-     {.kind = PACK_LIST, .offset = offsetof(PaneFinding, corners),
-      .count = offsetof(PaneFinding, outline_count), .low = 2, .of = &point},
-     NUMBERS(PaneFinding, image, ghost_arcmin),
-     TEXT(PaneFinding, area), NUMBER(PaneFinding, off_deg), FLAG(PaneFinding, has_limit),
-     PART(PaneFinding, limit, limit));
+     {.kind = PACK_LIST,
+      .offset = offsetof(PaneFinding, corners),
+      .count = offsetof(PaneFinding, outline_count),
+      .low = 2,
+      .of = &point},
+     NUMBERS(PaneFinding, image, ghost_arcmin), TEXT(PaneFinding, area),
+     NUMBER(PaneFinding, off_deg), FLAG(PaneFinding, has_limit), PART(PaneFinding, limit, limit));
 static const PackFormat pane = FORMAT(pane, PaneFinding);
 
 /* ---- what they rest on ------------------------------------------------------------------- */
@@ -224,19 +225,16 @@ ROWS(rest, CHOICE(ReviewRest, kind, REST_KINDS), CHOICE(ReviewRest, basis, REST_
      TEXT(ReviewRest, name), TEXT(ReviewRest, words), NUMBERS(ReviewRest, count, of));
 static const PackFormat rest = FORMAT(rest, ReviewRest);
 
-static bool file_is_sound(const void *item)
-{
+static bool file_is_sound(const void *item) {
     const ReviewFile *file = item;
     return file->path && file->xxh3;
 }
 
 ROWS(file, TEXT(ReviewFile, path), TEXT(ReviewFile, xxh3));
-static const PackFormat file = {sizeof(ReviewFile), file_rows, COUNT_OF(file_rows),
-                                file_is_sound};
+static const PackFormat file = {sizeof(ReviewFile), file_rows, COUNT_OF(file_rows), file_is_sound};
 
-ROWS(review, LIST(Review, cases, case_count, review_case),
-     LIST(Review, sweeps, sweep_count, sweep), LIST(Review, gazes, gaze_count, gaze),
-     LIST(Review, responses, response_count, response),
+ROWS(review, LIST(Review, cases, case_count, review_case), LIST(Review, sweeps, sweep_count, sweep),
+     LIST(Review, gazes, gaze_count, gaze), LIST(Review, responses, response_count, response),
      LIST(Review, false_suns, false_sun_count, false_sun),
      LIST(Review, pane_images, pane_image_count, pane), TEXT(Review, without_data),
      INT(Review, without_data_count, 0, INT_MAX), LIST(Review, rests_on, rests_on_count, rest),

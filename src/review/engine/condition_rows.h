@@ -17,11 +17,11 @@ extern const PackFormat condition_review;
 
 /* What a frame adds to its case. */
 typedef struct CaseSight {
-    int            case_id; /* review_case_at */
-    const char    *frame;
+    int case_id; /* review_case_at */
+    const char *frame;
     const CaseView *view;
-    const Vec3    *rim;
-    int            rim_count;
+    const Vec3 *rim;
+    int rim_count;
 } CaseSight;
 extern const PackFormat condition_sight;
 
@@ -29,15 +29,15 @@ extern const PackFormat condition_sight;
 enum { STEP_FIGURES = 8 };
 typedef struct StepKept {
     float figures[STEP_FIGURES];
-    int   verdict;
+    int verdict;
 } StepKept;
 
 /* SweepTable, less the suns themselves: they follow from the request. */
 typedef struct TableKept {
-    int             sweep_id, worst;
-    bool            is_private;
-    SweepSun        worst_sun;
+    int sweep_id, worst;
+    bool is_private;
+    SweepSun worst_sun;
     const StepKept *steps;
-    int             step_count;
+    int step_count;
 } TableKept;
 extern const PackFormat condition_table;

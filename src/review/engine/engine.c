@@ -14,48 +14,43 @@
 
 /* The part by which its variants are held against it is all that they need. */
 static bool read_condition(const ReviewRun *run, int id, Arena *arena, ConditionFound *out,
-                           Error *err)
-{
+                           Error *err) {
     const ReviewRequest *request = run->request;
-    ReviewRun            varying = *run;
+    ReviewRun varying = *run;
     *out = (ConditionFound){.variants = ARENA_NEW(arena, Review, request->variant_count)};
     varying.base = &out->own.review;
     if (!review_run_condition(run, id, arena, &out->own, err)) return false;
     for (; out->variant_count < request->variant_count; out->variant_count++) {
         ReviewOutcome varied;
-        if (!review_variant_condition(&varying, &request->variants[out->variant_count], id,
-                                      arena, &varied, err))
+        if (!review_variant_condition(&varying, &request->variants[out->variant_count], id, arena,
+                                      &varied, err))
             return false;
         out->variants[out->variant_count] = varied.review;
     }
     return true;
 }
 
-static void count_as_done(const ReviewRun *run, int id)
-{
+static void count_as_done(const ReviewRun *run, int id) {
     const ReviewRequest *request = run->request;
     int steps = review_condition_steps(request, &request->conditions[id]);
-    progress_update(run->progress,
-                    run->progress->done + steps * (1 + request->variant_count));
+    progress_update(run->progress, run->progress->done + steps * (1 + request->variant_count));
 }
 
 /* One that was stopped has it. What is of another request, scene or program, or damaged, is
  * read again. */
 static bool find_kept(const ReviewRun *run, int id, const char *path, const char *identity,
-                      Arena *arena, ConditionFound *out)
-{
+                      Arena *arena, ConditionFound *out) {
     Error ignored;
     return file_exists(path) && condition_read(run, id, path, arena, out, &ignored) &&
            condition_is_reusable(out, identity, *arena);
 }
 
 static bool take_condition(const ReviewRun *run, int id, Arena *arena, ConditionFound *out,
-                           Error *err)
-{
+                           Error *err) {
     if (run->merged) return condition_read(run, id, run->merged[id], arena, out, err);
     if (!run->unfinished) return read_condition(run, id, arena, out, err);
-    const char *path = arena_format(arena, "%s/%s", run->unfinished,
-                                    condition_file_name(run->request, id, arena));
+    const char *path =
+        arena_format(arena, "%s/%s", run->unfinished, condition_file_name(run->request, id, arena));
     const char *identity = condition_identity(run, id, arena, err);
     if (!identity) return false;
     if (find_kept(run, id, path, identity, arena, out)) {
@@ -71,15 +66,13 @@ static bool take_condition(const ReviewRun *run, int id, Arena *arena, Condition
 /* Those that are reviewed, in the request's order. */
 typedef struct Conditions {
     ConditionFound *list;
-    int            *ids;
-    int             count;
+    int *ids;
+    int count;
 } Conditions;
 
-static bool take_all(const ReviewRun *run, Arena *arena, Conditions *out, Error *err)
-{
+static bool take_all(const ReviewRun *run, Arena *arena, Conditions *out, Error *err) {
     int count = run->request->condition_count;
-    *out = (Conditions){ARENA_NEW(arena, ConditionFound, count), ARENA_NEW(arena, int, count),
-                        0};
+    *out = (Conditions){ARENA_NEW(arena, ConditionFound, count), ARENA_NEW(arena, int, count), 0};
     for (int i = 0; i < count; i++) {
         if (!review_is_wanted(run, i)) continue;
         if (!take_condition(run, i, arena, &out->list[out->count], err)) return false;
@@ -90,8 +83,7 @@ static bool take_all(const ReviewRun *run, Arena *arena, Conditions *out, Error 
 
 /* variant: -1: the review itself. */
 static void join(const ReviewRun *run, const Conditions *all, int variant, Arena *arena,
-                 ReviewOutcome *out)
-{
+                 ReviewOutcome *out) {
     const ReviewOutcome **parts = ARENA_NEW(arena, const ReviewOutcome *, all->count);
     for (int i = 0; i < all->count; i++) {
         ReviewOutcome *varied = variant < 0 ? NULL : ARENA_NEW(arena, ReviewOutcome, 1);
@@ -102,13 +94,12 @@ static void join(const ReviewRun *run, const Conditions *all, int variant, Arena
 }
 
 static void join_variants(const ReviewRun *run, const Conditions *all, Arena *arena,
-                          Review *review)
-{
+                          Review *review) {
     const ReviewRequest *request = run->request;
-    int                  count = request->variant_count;
+    int count = request->variant_count;
     review->variants = ARENA_NEW(arena, ReviewVariantFound, count);
     for (; review->variant_count < count; review->variant_count++) {
-        int            i = review->variant_count;
+        int i = review->variant_count;
         ReviewOutcome *found = ARENA_NEW(arena, ReviewOutcome, 1);
         join(run, all, i, arena, found);
         review_variant_compare(run, &request->variants[i], review, &found->review, arena,
@@ -117,8 +108,7 @@ static void join_variants(const ReviewRun *run, const Conditions *all, Arena *ar
 }
 
 /* What frames show of the cases, into the conditions' own. */
-static void hand_back(const Review *review, Conditions *all)
-{
+static void hand_back(const Review *review, Conditions *all) {
     int cases = 0, sweeps = 0;
     for (int i = 0; i < all->count; i++) {
         Review *own = &all->list[i].own.review;
@@ -127,12 +117,11 @@ static void hand_back(const Review *review, Conditions *all)
     }
 }
 
-static bool keep_parts(const ReviewRun *run, const Review *review, Conditions *all,
-                       Arena scratch, Error *err)
-{
+static bool keep_parts(const ReviewRun *run, const Review *review, Conditions *all, Arena scratch,
+                       Error *err) {
     hand_back(review, all);
     for (int i = 0; i < all->count; i++) {
-        Arena       own = scratch;
+        Arena own = scratch;
         const char *path = arena_format(&own, "%s/conditions/%s", run->folder,
                                         condition_file_name(run->request, all->ids[i], &own));
         const char *identity = condition_identity(run, all->ids[i], &own, err);
@@ -141,29 +130,25 @@ static bool keep_parts(const ReviewRun *run, const Review *review, Conditions *a
     return true;
 }
 
-static bool review_all(const ReviewRun *run, bool is_strict, Arena *arena,
-                       ReviewOutcome *out, Error *err)
-{
+static bool review_all(const ReviewRun *run, bool is_strict, Arena *arena, ReviewOutcome *out,
+                       Error *err) {
     const ReviewRequest *request = run->request;
-    Review              *review = &out->review;
-    Conditions           all;
+    Review *review = &out->review;
+    Conditions all;
     if (!take_all(run, arena, &all, err)) return false;
     join(run, &all, -1, arena, out);
     review_add_notes(run, review, arena);
     review->is_strict = is_strict;
     review_decide(review);
     join_variants(run, &all, arena, review);
-    return review_goes_on(err) &&
-           (!request->frames.worst || review_frames(run, out, arena, err)) &&
-           review_goes_on(err) &&
-           (!run->only || keep_parts(run, review, &all, *arena, err));
+    return review_goes_on(err) && (!request->frames.worst || review_frames(run, out, arena, err)) &&
+           review_goes_on(err) && (!run->only || keep_parts(run, review, &all, *arena, err));
 }
 
-bool review_run(const ReviewRun *run, bool is_strict, Arena *arena,
-                ReviewOutcome *out, Error *err)
-{
+bool review_run(const ReviewRun *run, bool is_strict, Arena *arena, ReviewOutcome *out,
+                Error *err) {
     SunSearches searches = sun_searches_start();
-    ReviewRun   own = *run;
+    ReviewRun own = *run;
     own.sun_searches = &searches;
     bool ok = review_all(&own, is_strict, arena, out, err);
     sun_searches_end(&searches);

@@ -14,5 +14,4 @@
 
 /* is_strict: as in review_decide. Pictures and checkpoints are written into the run's folders;
  * nothing else is written here. */
-bool review_run(const ReviewRun *run, bool is_strict, Arena *arena, ReviewOutcome *out,
-                Error *err);
+bool review_run(const ReviewRun *run, bool is_strict, Arena *arena, ReviewOutcome *out, Error *err);

@@ -20,7 +20,7 @@
 #define FROM_DEG 0.1 /* nearer is looked at */
 #define TO_DEG 89.9
 #define BY_SPREAD (-1.0) /* no age of a road's veil */
-#define IMAGES_APART 2 /* roots of what a path stands for: its neighbours are nearer */
+#define IMAGES_APART 2   /* roots of what a path stands for: its neighbours are nearer */
 
 /* The light that one path finds. The veil of lamps, displays and the sun that the eye sees by
  * themselves is read by light samples, which find small ones too. */
@@ -28,64 +28,57 @@ typedef struct EyePath {
     double apart[EYE_SOURCES]; /* cd m^-2 that light samples do not read; */
     double shown;              /* and what lamps and displays show by themselves; */
     double images;             /* and of the glints the sun's */
-    int    lamp;               /* part that was met by mirrors; NO_ID: none */
-    float  share;              /* that its last mirror lets the eye see of what lies there: */
-    Ray    image;              /* (0: it met none) */
+    int lamp;                  /* part that was met by mirrors; NO_ID: none */
+    float share;               /* that its last mirror lets the eye see of what lies there: */
+    Ray image;                 /* (0: it met none) */
 } EyePath;
 
 /* Angles are drawn evenly in their logarithm: f cos theta sin theta is about as 1 / theta;
  * Hammersley's points, which each round but the first shifts (Cranley and Patterson 1976). */
 typedef struct EyePaths {
     const Setup *setup;
-    ProbeAim     aim;
-    int          count;           /* paths of all rounds */
-    Vec3         gaze;            /* unit */
-    HumanEye     whose;
-    Vec3        *targets;         /* one a path; the rest likewise: */
-    double      *solid_angles;    /* sr that it stands for */
-    EyePath     *found;
+    ProbeAim aim;
+    int count; /* paths of all rounds */
+    Vec3 gaze; /* unit */
+    HumanEye whose;
+    Vec3 *targets;        /* one a path; the rest likewise: */
+    double *solid_angles; /* sr that it stands for */
+    EyePath *found;
     const FalseSuns *images;
-    double       close_deg;       /* nearer to the gaze lamps are read by paths; 0: nowhere */
-    RoadVeils   *road; /* or NULL */
+    double close_deg; /* nearer to the gaze lamps are read by paths; 0: nowhere */
+    RoadVeils *road;  /* or NULL */
 } EyePaths;
 
-static Vec3 local_direction(double theta, double phi)
-{
-    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
-                (float)cos(theta));
+static Vec3 local_direction(double theta, double phi) {
+    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)), (float)cos(theta));
 }
 
 /* u, shifted round the unit circle as the round requires for that axis. */
-static double shifted(double u, int round, uint32_t axis)
-{
+static double shifted(double u, int round, uint32_t axis) {
     double by = hash_combine(hash_u32(SHIFT_SEED + axis), (uint32_t)round) * 0x1p-32;
     double sum = u + (round ? by : 0);
     return sum - floor(sum);
 }
 
-static void aim_path(EyePaths *paths, const Frame *gaze, int i)
-{
-    int    round = i / PATHS, k = i % PATHS;
+static void aim_path(EyePaths *paths, const Frame *gaze, int i) {
+    int round = i / PATHS, k = i % PATHS;
     double range = log(TO_DEG / FROM_DEG), u = shifted((k + 0.5) / PATHS, round, 0);
     double theta = radians_from_degrees(FROM_DEG * exp(range * u));
     double phi = 2 * PI * shifted(reverse_bits((uint32_t)k) * 0x1p-32, round, 1);
-    Vec3   d = frame_to_world(gaze, local_direction(theta, phi));
+    Vec3 d = frame_to_world(gaze, local_direction(theta, phi));
     paths->targets[i] = vec3_add(paths->aim.eye, d);
     paths->solid_angles[i] = sin(theta) * theta * range * 2 * PI / paths->count;
 }
 
-static Vec3 direction_of(const EyePaths *paths, int i)
-{
+static Vec3 direction_of(const EyePaths *paths, int i) {
     return vec3_normalize(vec3_sub(paths->targets[i], paths->aim.eye));
 }
 
-static double degrees_between(Vec3 a, Vec3 b)
-{
+static double degrees_between(Vec3 a, Vec3 b) {
     return degrees_from_radians(acos(fmin(fmax((double)vec3_dot(a, b), -1), 1)));
 }
 
-static EyeSource source_of(const PathHistory *history)
-{
+static EyeSource source_of(const PathHistory *history) {
     bool is_mirrored = false;
     for (int i = 0; i < path_steps_kept(history); i++) {
         if (history->step[i].event == PATH_SCATTERS) return EYE_SURFACES;
@@ -98,16 +91,15 @@ static EyeSource source_of(const PathHistory *history)
 
 /* One path at work. */
 typedef struct EyeListener {
-    EyePath   *path;
+    EyePath *path;
     RoadVeils *road; /* or NULL */
-    int        id;   /* the path's */
+    int id;          /* the path's */
 } EyeListener;
 
-static void add_found(void *user, const PathHistory *history, const float xyz[3])
-{
+static void add_found(void *user, const PathHistory *history, const float xyz[3]) {
     const EyeListener *listener = user;
-    EyePath           *path = listener->path;
-    bool     is_direct = history->count == 0;
+    EyePath *path = listener->path;
+    bool is_direct = history->count == 0;
     if (is_direct && history->source == LIGHTS_SUN) return;
     if (listener->road && (!is_direct || history->source == LIGHTS_SKY))
         road_light_add(listener->road, listener->id, history, (double)xyz[1]);
@@ -119,8 +111,7 @@ static void add_found(void *user, const PathHistory *history, const float xyz[3]
     if (history->source == LIGHTS_EMITTERS) path->lamp = history->source_id;
 }
 
-static void note_mirror(void *user, const PathHistory *history, Vec3 towards, float share)
-{
+static void note_mirror(void *user, const PathHistory *history, Vec3 towards, float share) {
     EyePath *path = ((const EyeListener *)user)->path;
     if (history->count > PATH_STEPS_MAX) return;
     for (int i = 0; i < history->count; i++)
@@ -129,13 +120,12 @@ static void note_mirror(void *user, const PathHistory *history, Vec3 towards, fl
     path->image = (Ray){history->step[history->count - 1].position, towards, 0, INFINITY};
 }
 
-static void read_chunk(void *user, int item, int worker)
-{
+static void read_chunk(void *user, int item, int worker) {
     (void)worker;
-    EyePaths      *paths = user;
+    EyePaths *paths = user;
     PathStatistics statistics = {0};
     for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
-        EyeListener  own = {&paths->found[i], paths->road, i};
+        EyeListener own = {&paths->found[i], paths->road, i};
         PathListener listener = {.on_light = add_found, .on_mirror = note_mirror, .user = &own};
         paths->found[i].lamp = NO_ID;
         paths->setup->tools.kernel->trace(&paths->aim, i, i + 1, &listener, &statistics);
@@ -147,31 +137,27 @@ static void read_chunk(void *user, int item, int worker)
 /* Sums over the pupil's light samples. */
 typedef struct PupilSums {
     const EyePaths *paths;
-    double          sun_veil, lamp_veil, sun_lx, lamp_lx;
+    double sun_veil, lamp_veil, sun_lx, lamp_lx;
 } PupilSums;
 
-static double veil_of(const EyePaths *paths, Vec3 towards, double lux)
-{
+static double veil_of(const EyePaths *paths, Vec3 towards, double lux) {
     double degrees = degrees_between(towards, paths->gaze);
     return degrees >= FROM_DEG ? lux * eye_spread_at(fmin(degrees, 90), paths->whose) : 0;
 }
 
-static bool is_close(const EyePaths *paths, Vec3 towards)
-{
+static bool is_close(const EyePaths *paths, Vec3 towards) {
     return paths->close_deg > 0 && degrees_between(towards, paths->gaze) < paths->close_deg;
 }
 
-static double veil_at_age(const EyePaths *paths, Vec3 towards, double lux, double age)
-{
+static double veil_at_age(const EyePaths *paths, Vec3 towards, double lux, double age) {
     double degrees = degrees_between(towards, paths->gaze);
     if (age == BY_SPREAD) return veil_of(paths, towards, lux);
     return degrees >= FROM_DEG ? lux * road_veil_at(fmin(degrees, 90), age) : 0;
 }
 
-static void add_to_pupil(void *user, const PathHistory *history, const float xyz[3])
-{
+static void add_to_pupil(void *user, const PathHistory *history, const float xyz[3]) {
     PupilSums *sums = user;
-    bool       is_sun = history->source == LIGHTS_SUN;
+    bool is_sun = history->source == LIGHTS_SUN;
     if (history->count || history->source == LIGHTS_SKY) return;
     *(is_sun ? &sums->sun_lx : &sums->lamp_lx) += (double)xyz[1];
     if (history->source == LIGHTS_EMITTERS && is_close(sums->paths, history->towards)) return;
@@ -180,25 +166,23 @@ static void add_to_pupil(void *user, const PathHistory *history, const float xyz
 }
 
 typedef struct PupilWork {
-    ProbeAim   aim;
+    ProbeAim aim;
     const EyePaths *paths;
     PupilSums *sums; /* one a chunk */
 } PupilWork;
 
-static void read_pupil_chunk(void *user, int item, int worker)
-{
+static void read_pupil_chunk(void *user, int item, int worker) {
     (void)worker;
-    PupilWork     *work = user;
+    PupilWork *work = user;
     PathStatistics statistics = {0};
-    PupilSums     *sums = &work->sums[item];
-    PathListener   listener = {.on_light = add_to_pupil, .user = sums};
+    PupilSums *sums = &work->sums[item];
+    PathListener listener = {.on_light = add_to_pupil, .user = sums};
     *sums = (PupilSums){.paths = work->paths};
-    work->paths->setup->tools.kernel->trace(&work->aim, item * CHUNK, (item + 1) * CHUNK,
-                                            &listener, &statistics);
+    work->paths->setup->tools.kernel->trace(&work->aim, item * CHUNK, (item + 1) * CHUNK, &listener,
+                                            &statistics);
 }
 
-static void add_pupil(PupilSums *to, const PupilSums *sums)
-{
+static void add_pupil(PupilSums *to, const PupilSums *sums) {
     to->sun_veil += sums->sun_veil / PATHS;
     to->lamp_veil += sums->lamp_veil / PATHS;
     to->sun_lx += sums->sun_lx / PATHS;
@@ -206,16 +190,16 @@ static void add_pupil(PupilSums *to, const PupilSums *sums)
 }
 
 /* Lamps, displays and the sun's disc: light samples alone find them here. One a round. */
-static PupilSums *read_pupil(const EyePaths *paths, Arena *arena)
-{
-    int         rounds = paths->count / PATHS, chunks = paths->count / CHUNK;
-    PupilSums  *all = ARENA_NEW(arena, PupilSums, rounds);
-    Arena       scratch = *arena;
-    LitPoint    pupil = {paths->aim.eye, paths->gaze, false};
+static PupilSums *read_pupil(const EyePaths *paths, Arena *arena) {
+    int rounds = paths->count / PATHS, chunks = paths->count / CHUNK;
+    PupilSums *all = ARENA_NEW(arena, PupilSums, rounds);
+    Arena scratch = *arena;
+    LitPoint pupil = {paths->aim.eye, paths->gaze, false};
     PathContext lights_only = paths->setup->context;
-    uint32_t    seed = review_seed(paths->setup->request, SEED + 1);
-    PupilWork   work = {{.context = &lights_only, .meter = &pupil, .seed = seed}, paths,
-                        ARENA_NEW(&scratch, PupilSums, chunks)};
+    uint32_t seed = review_seed(paths->setup->request, SEED + 1);
+    PupilWork work = {{.context = &lights_only, .meter = &pupil, .seed = seed},
+                      paths,
+                      ARENA_NEW(&scratch, PupilSums, chunks)};
     lights_only.strategy = PATH_LIGHTS_ONLY;
     lights_only.max_bounces = 1;
     parallel_for(paths->setup->tools.threads, chunks, read_pupil_chunk, &work);
@@ -226,38 +210,33 @@ static PupilSums *read_pupil(const EyePaths *paths, Arena *arena)
 /* ---- figures ----------------------------------------------------------------------------- */
 
 typedef struct EyeSums {
-    EyeReading   reading;
-    EstimateSums veil;           /* of paths in batches of rounds */
-    double       image_veil, image_variance;
+    EyeReading reading;
+    EstimateSums veil; /* of paths in batches of rounds */
+    double image_veil, image_variance;
 } EyeSums;
 
 /* veil: of a round by itself. */
 static void add_veil(const EyePaths *paths, int round, EyeSource source, double veil,
-                     EyeSums *sums)
-{
+                     EyeSums *sums) {
     sums->veil.batch[round] += veil * PATHS;
     sums->reading.parts[source] += veil * PATHS / paths->count;
 }
 
 /* Within the field in which images were looked for? */
-static bool has_images(const EyePaths *paths, Vec3 d)
-{
+static bool has_images(const EyePaths *paths, Vec3 d) {
     Vec3 ahead = vec3_from_doubles(paths->setup->request->forward);
     return paths->images && degrees_between(d, ahead) < FALSE_SUN_FIELD_DEG;
 }
 
-static EyeSource counted_as(EyeSource source, bool is_near)
-{
+static EyeSource counted_as(EyeSource source, bool is_near) {
     return is_near && (source == EYE_SKY || source == EYE_SURFACES) ? EYE_NEAR : source;
 }
 
 /* All but what is looked at, and the sun's images, which are known by themselves. */
-static void add_path_to_road(const EyePaths *paths, int i, Vec3 d, double weight)
-{
+static void add_path_to_road(const EyePaths *paths, int i, Vec3 d, double weight) {
     const EyePath *path = &paths->found[i];
-    double   degrees = degrees_between(d, paths->gaze);
-    RoadPath to = {.path = i, .degrees = degrees, .lx = weight,
-                   .is_near = degrees < EYE_NEAR_DEG};
+    double degrees = degrees_between(d, paths->gaze);
+    RoadPath to = {.path = i, .degrees = degrees, .lx = weight, .is_near = degrees < EYE_NEAR_DEG};
     for (int k = 0; k < EYE_SOURCES; k++)
         if (counted_as((EyeSource)k, to.is_near) != EYE_NEAR) to.cd_m2 += path->apart[k];
     if (has_images(paths, d)) to.cd_m2 -= path->images;
@@ -265,11 +244,10 @@ static void add_path_to_road(const EyePaths *paths, int i, Vec3 d, double weight
     road_veils_add_path(paths->road, &to);
 }
 
-static void add_path(const EyePaths *paths, int i, EyeSums *sums)
-{
+static void add_path(const EyePaths *paths, int i, EyeSums *sums) {
     const EyePath *path = &paths->found[i];
-    Vec3   d = direction_of(paths, i);
-    bool   is_near = degrees_between(d, paths->gaze) < EYE_NEAR_DEG;
+    Vec3 d = direction_of(paths, i);
+    bool is_near = degrees_between(d, paths->gaze) < EYE_NEAR_DEG;
     double weight = paths->solid_angles[i] * (double)vec3_dot(d, paths->gaze);
     double veil = veil_of(paths, d, weight) * paths->count / PATHS, all = 0;
     for (int k = 0; k < EYE_SOURCES; k++) {
@@ -291,14 +269,13 @@ static void add_path(const EyePaths *paths, int i, EyeSums *sums)
 /* Images of the sun. */
 typedef struct ImageWork {
     const EyePaths *paths;
-    EyeSums        *sums;
-    double          luminance; /* cd m^-2, of the sun */
+    EyeSums *sums;
+    double luminance; /* cd m^-2, of the sun */
 } ImageWork;
 
-static void add_image(void *user, const FalseSun *image, double share)
-{
+static void add_image(void *user, const FalseSun *image, double share) {
     const ImageWork *work = user;
-    EyeSums         *sums = work->sums;
+    EyeSums *sums = work->sums;
     double cosine = (double)vec3_dot(image->seen, work->paths->gaze);
     if (!(cosine > 0)) return;
     double lux = work->luminance * share * (double)image->sr * cosine;
@@ -306,25 +283,23 @@ static void add_image(void *user, const FalseSun *image, double share)
     sums->reading.vertical_lx += lux;
     sums->reading.parts[EYE_GLINTS] += veil;
     if (work->paths->road)
-        road_veils_add_known(work->paths->road, degrees_between(image->seen,
-                                                                work->paths->gaze), lux);
+        road_veils_add_known(work->paths->road, degrees_between(image->seen, work->paths->gaze),
+                             lux);
     sums->image_veil += veil;
     sums->image_variance += veil * veil; /* as if each ray had come by chance */
 }
 
-static void add_images(const EyePaths *paths, EyeSums *sums)
-{
+static void add_images(const EyePaths *paths, EyeSums *sums) {
     ImageWork work = {paths, sums, 0};
-    Vec3      towards;
-    float     bands[LIGHT_BANDS];
-    double    disc = 2 * PI * (1 - cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG)));
+    Vec3 towards;
+    float bands[LIGHT_BANDS];
+    double disc = 2 * PI * (1 - cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG)));
     if (!paths->images || !setup_sun(paths->setup, &towards, bands)) return;
     for (int b = 0; b < LIGHT_BANDS; b++) work.luminance += (double)bands[b] / disc;
     false_suns_each(paths->images, towards, add_image, &work);
 }
 
-static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *sums)
-{
+static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *sums) {
     int rounds = paths->count / PATHS;
     for (int r = 0; r < rounds; r++) {
         add_veil(paths, r, EYE_SUN, pupils[r].sun_veil, sums);
@@ -340,40 +315,37 @@ static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *
 
 typedef struct RoadPupil {
     const EyePaths *paths;
-    ProbeAim        aim;
-    int             chunk; /* at work */
+    ProbeAim aim;
+    int chunk; /* at work */
 } RoadPupil;
 
-static void add_to_road(void *user, const PathHistory *history, const float xyz[3])
-{
+static void add_to_road(void *user, const PathHistory *history, const float xyz[3]) {
     const RoadPupil *pupil = user;
     RoadSample sample = {.degrees = degrees_between(history->towards, pupil->paths->gaze),
                          .lx = (double)xyz[1],
-                         .part_id = history->source == LIGHTS_EMITTERS ? history->source_id
-                                                                       : NO_ID};
+                         .part_id =
+                             history->source == LIGHTS_EMITTERS ? history->source_id : NO_ID};
     if (history->count || history->source == LIGHTS_SKY) return;
     road_veils_add_sample(pupil->paths->road, pupil->chunk, &sample);
 }
 
-static void read_road_chunk(void *user, int item, int worker)
-{
+static void read_road_chunk(void *user, int item, int worker) {
     (void)worker;
-    RoadPupil      own = *(const RoadPupil *)user;
+    RoadPupil own = *(const RoadPupil *)user;
     PathStatistics statistics = {0};
-    PathListener   listener = {.on_light = add_to_road, .user = &own};
-    int            first = item * CHUNK * ROAD_TIMES;
+    PathListener listener = {.on_light = add_to_road, .user = &own};
+    int first = item * CHUNK * ROAD_TIMES;
     own.chunk = item;
-    own.paths->setup->tools.kernel->trace(&own.aim, first, first + CHUNK * ROAD_TIMES,
-                                          &listener, &statistics);
+    own.paths->setup->tools.kernel->trace(&own.aim, first, first + CHUNK * ROAD_TIMES, &listener,
+                                          &statistics);
 }
 
-static void read_road_pupil(const EyePaths *paths, Arena scratch)
-{
-    int         chunks = paths->count / CHUNK;
-    LitPoint    pupil = {paths->aim.eye, paths->gaze, false};
+static void read_road_pupil(const EyePaths *paths, Arena scratch) {
+    int chunks = paths->count / CHUNK;
+    LitPoint pupil = {paths->aim.eye, paths->gaze, false};
     PathContext lights_only = paths->setup->context;
-    uint32_t    seed = review_seed(paths->setup->request, ROAD_SEED);
-    RoadPupil   work = {paths, {.context = &lights_only, .meter = &pupil, .seed = seed}, 0};
+    uint32_t seed = review_seed(paths->setup->request, ROAD_SEED);
+    RoadPupil work = {paths, {.context = &lights_only, .meter = &pupil, .seed = seed}, 0};
     lights_only.strategy = PATH_LIGHTS_ONLY;
     lights_only.max_bounces = 1;
     road_veils_expect_samples(paths->road, chunks, &scratch);
@@ -384,27 +356,24 @@ static void read_road_pupil(const EyePaths *paths, Arena scratch)
 /* A path behind its mirror: what a lamp of 1 cd m^-2 there adds to the veil. */
 typedef struct EyeImage {
     double veil;
-    int    path;
+    int path;
 } EyeImage;
 
-static int most_first(const void *a, const void *b)
-{
+static int most_first(const void *a, const void *b) {
     const EyeImage *x = a, *y = b;
     if (x->veil != y->veil) return x->veil < y->veil ? 1 : -1;
     return x->path - y->path;
 }
 
-static EyeImage *find_images(const EyePaths *paths, double age, int *count, Arena *arena)
-{
+static EyeImage *find_images(const EyePaths *paths, double age, int *count, Arena *arena) {
     EyeImage *images = ARENA_NEW(arena, EyeImage, paths->count);
     *count = 0;
     for (int i = 0; i < paths->count; i++) {
-        Vec3   d = direction_of(paths, i);
+        Vec3 d = direction_of(paths, i);
         double weight = paths->solid_angles[i] * (double)vec3_dot(d, paths->gaze);
         if (paths->found[i].share > 0)
             images[(*count)++] =
-                (EyeImage){(double)paths->found[i].share *
-                               veil_at_age(paths, d, weight, age), i};
+                (EyeImage){(double)paths->found[i].share * veil_at_age(paths, d, weight, age), i};
     }
     if (*count) qsort(images, (size_t)*count, sizeof *images, most_first);
     return images;
@@ -412,28 +381,25 @@ static EyeImage *find_images(const EyePaths *paths, double age, int *count, Aren
 
 /* What a path may have of a lamp's image that none met: of lamps near its way behind a mirror,
  * as far as paths stand apart there. */
-static double unmet_veil(const EyePaths *paths, double age, Arena scratch)
-{
-    int       count;
-    bool     *met = ARENA_NEW(&scratch, bool, paths->setup->scene->part_count);
+static double unmet_veil(const EyePaths *paths, double age, Arena scratch) {
+    int count;
+    bool *met = ARENA_NEW(&scratch, bool, paths->setup->scene->part_count);
     EyeImage *images = find_images(paths, age, &count, &scratch);
-    double    most = 0;
+    double most = 0;
     for (int i = 0; i < paths->count; i++)
         if (paths->found[i].lamp != NO_ID) met[paths->found[i].lamp] = true;
     UnmetLamps lamps = lamps_unmet(paths->setup, met, &scratch);
     for (int k = 0; k < count && lamps.count; k++) {
-        int    i = images[k].path;
+        int i = images[k].path;
         double apart = IMAGES_APART * sqrt(paths->solid_angles[i]);
         if (images[k].veil * lamps.list[0].cd_m2 <= most) break;
-        most = fmax(most, images[k].veil *
-                              lamps_brightest(&lamps, paths->found[i].image, apart));
+        most = fmax(most, images[k].veil * lamps_brightest(&lamps, paths->found[i].image, apart));
     }
     return estimate_unmet(most * paths->count, paths->count);
 }
 
 /* Rounds are batches. NaN of one. */
-static void set_veil_range(const EyePaths *paths, EyeSums *sums, Arena scratch)
-{
+static void set_veil_range(const EyePaths *paths, EyeSums *sums, Arena scratch) {
     EyeReading *out = &sums->reading;
     out->veil_sigma = out->veil_range.low = out->veil_range.high = (double)NAN;
     if (sums->veil.batches < 2) return;
@@ -444,19 +410,16 @@ static void set_veil_range(const EyePaths *paths, EyeSums *sums, Arena scratch)
     out->veil_range = veil.interval;
 }
 
-static void finish_road(const EyePaths *paths, Arena scratch)
-{
+static void finish_road(const EyePaths *paths, Arena scratch) {
     read_road_pupil(paths, scratch);
     for (int a = 0; a < road_veils_ages(paths->road); a++)
         road_veils_set_unmet(paths->road, a,
                              unmet_veil(paths, road_veils_age(paths->road, a), scratch));
 }
 
-static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena scratch)
-{
-    int         rounds = paths->count / PATHS;
-    EyeSums     sums = {.veil = {.batches = rounds, .paths = paths->count, .piece = PATHS,
-                                 .share = 1}};
+static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena scratch) {
+    int rounds = paths->count / PATHS;
+    EyeSums sums = {.veil = {.batches = rounds, .paths = paths->count, .piece = PATHS, .share = 1}};
     EyeReading *r = &sums.reading;
     for (int i = 0; i < paths->count; i++) add_path(paths, i, &sums);
     add_pupils(paths, pupils, &sums);
@@ -467,20 +430,24 @@ static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena s
     return *r;
 }
 
-EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
-{
-    int      count = look->rounds * PATHS;
-    EyePaths paths = {.setup = setup, .count = count, .gaze = vec3_normalize(look->towards),
+EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch) {
+    int count = look->rounds * PATHS;
+    EyePaths paths = {.setup = setup,
+                      .count = count,
+                      .gaze = vec3_normalize(look->towards),
                       .whose = setup->request->observer,
-                      .images = look->images, .road = look->road,
+                      .images = look->images,
+                      .road = look->road,
                       .close_deg = look->is_close ? EYE_CLOSE_DEG : 0,
                       .targets = ARENA_NEW(&scratch, Vec3, count),
                       .solid_angles = ARENA_NEW(&scratch, double, count),
                       .found = ARENA_NEW(&scratch, EyePath, count)};
-    Frame    frame = frame_from_z(paths.gaze);
+    Frame frame = frame_from_z(paths.gaze);
     if (look->road) road_veils_expect(look->road, count, look->rounds, &scratch);
-    paths.aim = (ProbeAim){.context = &setup->context, .eye = look->eye,
-                           .targets = paths.targets, .target_count = count,
+    paths.aim = (ProbeAim){.context = &setup->context,
+                           .eye = look->eye,
+                           .targets = paths.targets,
+                           .target_count = count,
                            .seed = review_seed(setup->request, SEED)};
     for (int i = 0; i < count; i++) aim_path(&paths, &frame, i);
     parallel_for(setup->tools.threads, count / CHUNK, read_chunk, &paths);

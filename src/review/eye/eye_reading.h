@@ -26,19 +26,19 @@
 /* Where an eye looks from, and how surely it is to be known: rounds of 4096 paths, which differ
  * in nothing but chance. */
 typedef struct EyeLook {
-    Vec3 eye;     /* m, scene */
-    Vec3 towards; /* any length but 0 */
-    int  rounds;  /* 1 .. ESTIMATE_BATCHES */
+    Vec3 eye;                /* m, scene */
+    Vec3 towards;            /* any length but 0 */
+    int rounds;              /* 1 .. ESTIMATE_BATCHES */
     const FalseSuns *images; /* from there; NULL: nobody looked */
-    bool is_close; /* within EYE_CLOSE_DEG of the gaze glowing surfaces and displays are read by
-                      the paths, which lie ever closer there, not by light samples, of which few
-                      meet what lies about a symbol and weighs most */
-    RoadVeils       *road;   /* gets the same light; NULL: not requested */
+    bool is_close;   /* within EYE_CLOSE_DEG of the gaze glowing surfaces and displays are read by
+                        the paths, which lie ever closer there, not by light samples, of which few
+                        meet what lies about a symbol and weighs most */
+    RoadVeils *road; /* gets the same light; NULL: not requested */
 } EyeLook;
 
 /* Where light begins that the eye scatters. */
 typedef enum EyeSource {
-    EYE_SUN,      /* seen straight or through glass; so are the next two */
+    EYE_SUN, /* seen straight or through glass; so are the next two */
     EYE_SKY,
     EYE_LAMPS,    /* and displays */
     EYE_GLINTS,   /* sun, lamps and displays via mirrors and panes alone */

@@ -24,18 +24,18 @@
 
 /* One ray. */
 typedef struct FalseSunRay {
-    Vec3  sun;     /* unit, world: where the sun's point stands */
-    Vec3  seen;    /* unit, world: where the eye sees it */
+    Vec3 sun;                 /* unit, world: where the sun's point stands */
+    Vec3 seen;                /* unit, world: where the eye sees it */
     float share[LIGHT_BANDS]; /* of the radiance, left by mirror and panes */
-    float sr;      /* in the field of view */
-    int   part_id; /* the first mirror's */
+    float sr;                 /* in the field of view */
+    int part_id;              /* the first mirror's */
 } FalseSunRay;
 
 /* The rays from an eye in a scene, for any sun in its sky. */
 typedef struct FalseSunRays {
-    const FalseSunRay *list;  /* by cells of the sun's direction */
-    const int         *first; /* [cell]; and one more: the end */
-    int                count;
+    const FalseSunRay *list; /* by cells of the sun's direction */
+    const int *first;        /* [cell]; and one more: the end */
+    int count;
 } FalseSunRays;
 
 /* The setup may be dark: no light of it counts. */
@@ -43,15 +43,15 @@ void false_suns_search(const Setup *setup, Vec3 eye, Arena *arena, FalseSunRays 
 
 /* A ray under suns of one spectrum. */
 typedef struct FalseSun {
-    Vec3  sun, seen; /* the ray's */
-    float sr;        /* in the field of view, times the share of light left */
-    int   part_id;
+    Vec3 sun, seen; /* the ray's */
+    float sr;       /* in the field of view, times the share of light left */
+    int part_id;
 } FalseSun;
 
 typedef struct FalseSuns {
     const FalseSun *list;
-    const int      *first; /* the rays' */
-    int             count;
+    const int *first; /* the rays' */
+    int count;
 } FalseSuns;
 
 /* `bands`: the sun's (sky_table.h). The rays must outlive the result. */
@@ -66,10 +66,10 @@ void false_suns_each(const FalseSuns *suns, Vec3 towards, FalseSunVisitor *visit
 
 /* All images of one sun. */
 typedef struct FalseSunSight {
-    double share;   /* of the sun's illuminance that comes to the eye, on a plane that faces the
-                       image; 0: there is none */
-    int    part_id; /* the mirror that throws most, */
-    Vec3   seen;    /* and where it stands */
+    double share; /* of the sun's illuminance that comes to the eye, on a plane that faces the
+                     image; 0: there is none */
+    int part_id;  /* the mirror that throws most, */
+    Vec3 seen;    /* and where it stands */
 } FalseSunSight;
 
 /* towards: the sun, unit, world. */
@@ -84,12 +84,12 @@ typedef struct SunSearch SunSearch;
 
 /* For one request; the arena is that of what is kept, until sun_searches_end. */
 typedef struct SunSearches {
-    Arena      arena;
+    Arena arena;
     SunSearch *last;
 } SunSearches;
 
 SunSearches sun_searches_start(void);
-void        sun_searches_end(SunSearches *searches);
+void sun_searches_end(SunSearches *searches);
 
 /* The setup's scene, lit or dark, as the eye (m, scene) sees it: found before, or now. */
 const FalseSunRays *sun_searches_find(SunSearches *searches, const Setup *setup, Vec3 eye);

@@ -23,38 +23,33 @@
 
 /* ---- the cone ---------------------------------------------------------------------------- */
 
-static double fraction(double x)
-{
+static double fraction(double x) {
     return x - floor(x);
 }
 
-static double shift_of(uint32_t seed, uint32_t axis)
-{
+static double shift_of(uint32_t seed, uint32_t axis) {
     return hash_combine(hash_u32(seed), axis) * 0x1p-32;
 }
 
 /* Path i of a batch. Even over the cone's solid angle; each batch's points are shifted as one
  * (Cranley and Patterson 1976), so that batches differ in nothing but chance. */
-static Vec3 target_of(const GazePaths *paths, uint32_t seed, int i)
-{
+static Vec3 target_of(const GazePaths *paths, uint32_t seed, int i) {
     double u = fraction(shift_of(seed, SHIFT_U) + STEP_U * i);
     double v = fraction(shift_of(seed, SHIFT_V) + STEP_V * i);
     double cosine = 1 - (1 - cos(radians_from_degrees(GAZE_CONE_DEG))) * u;
     double sine = sqrt(1 - cosine * cosine), phi = 2 * PI * v;
-    Vec3   d = vec3((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cosine);
+    Vec3 d = vec3((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cosine);
     return vec3_add(paths->eye, frame_to_world(&paths->frame, d));
 }
 
 /* ---- what paths find --------------------------------------------------------------------- */
 
-static bool is_pane(const Scene *scene, int part_id)
-{
+static bool is_pane(const Scene *scene, int part_id) {
     return scene->materials[scene->parts[part_id].material_id].transmission > 0;
 }
 
 /* The step at which a pane mirrors what the eye sees there; NO_ID: none does. */
-static int mirroring_step(const Scene *scene, const PathHistory *history)
-{
+static int mirroring_step(const Scene *scene, const PathHistory *history) {
     int kept = path_steps_kept(history), i = 0;
     while (i < kept && history->step[i].event == PATH_TRANSMITS) i++;
     bool mirrors = i < kept && history->step[i].event == PATH_REFLECTS &&
@@ -63,8 +58,7 @@ static int mirroring_step(const Scene *scene, const PathHistory *history)
 }
 
 /* By no more surfaces than are kept: of others nobody knows. */
-static bool is_by_mirrors(const PathHistory *history)
-{
+static bool is_by_mirrors(const PathHistory *history) {
     if (history->count > PATH_STEPS_MAX) return false;
     for (int i = 0; i < history->count; i++)
         if (history->step[i].event == PATH_SCATTERS) return false;
@@ -72,26 +66,23 @@ static bool is_by_mirrors(const PathHistory *history)
 }
 
 /* Straight, or through panes with a thickness. */
-static bool is_suns_disc(const PathHistory *history)
-{
+static bool is_suns_disc(const PathHistory *history) {
     for (int i = 0; i < path_steps_kept(history); i++)
         if (history->step[i].event != PATH_TRANSMITS) return false;
     return history->source == LIGHTS_SUN;
 }
 
-static int place_shown(const Scene *scene, const PathHistory *history, int from)
-{
+static int place_shown(const Scene *scene, const PathHistory *history, int from) {
     for (int i = from + 1; i < path_steps_kept(history); i++)
         if (!is_pane(scene, history->step[i].part_id)) return history->step[i].part_id;
     return history->source == LIGHTS_EMITTERS ? history->source_id
                                               : scene->part_count + (int)history->source;
 }
 
-static void on_light(void *user, const PathHistory *history, const float xyz[3])
-{
+static void on_light(void *user, const PathHistory *history, const float xyz[3]) {
     GazeBatch *batch = user;
     if (is_suns_disc(history) || is_by_mirrors(history) != batch->by_mirrors) return;
-    int        step = mirroring_step(batch->scene, history);
+    int step = mirroring_step(batch->scene, history);
     GazeFigure figure = step == NO_ID ? GAZE_THROUGH : GAZE_MIRRORED;
     batch->path[figure] += (double)xyz[1];
     if (batch->by_mirrors && history->source == LIGHTS_EMITTERS)
@@ -101,31 +92,29 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
     batch->shown[place_shown(batch->scene, history, step)] += (double)xyz[1];
 }
 
-static int mirrors_of(const PathHistory *history)
-{
+static int mirrors_of(const PathHistory *history) {
     int count = 0;
     for (int i = 0; i < path_steps_kept(history); i++)
         count += history->step[i].event == PATH_REFLECTS;
     return count;
 }
 
-static void on_mirror(void *user, const PathHistory *history, Vec3 towards, float share)
-{
+static void on_mirror(void *user, const PathHistory *history, Vec3 towards, float share) {
     GazeBatch *batch = user;
-    bool       is_mirrored = mirroring_step(batch->scene, history) != NO_ID;
+    bool is_mirrored = mirroring_step(batch->scene, history) != NO_ID;
     GazeFigure figure = is_mirrored ? GAZE_MIRRORED : GAZE_THROUGH;
-    int        again = mirrors_of(history) > 1, *count = &batch->images[figure][again];
+    int again = mirrors_of(history) > 1, *count = &batch->images[figure][again];
     if (history->count > PATH_STEPS_MAX || *count == GAZE_IMAGES) return;
     Vec3 from = history->step[history->count - 1].position;
-    batch->image[figure][again][(*count)++] =
-        (GazeImage){(Ray){from, towards, 0, INFINITY}, share};
+    batch->image[figure][again][(*count)++] = (GazeImage){(Ray){from, towards, 0, INFINITY}, share};
 }
 
 /* ---- batches ----------------------------------------------------------------------------- */
 
-static void trace_one(const GazePaths *paths, const ProbeAim *aim, int i, GazeBatch *batch)
-{
-    PathListener listener = {.on_light = on_light, .on_mirror = on_mirror, .user = batch,
+static void trace_one(const GazePaths *paths, const ProbeAim *aim, int i, GazeBatch *batch) {
+    PathListener listener = {.on_light = on_light,
+                             .on_mirror = on_mirror,
+                             .user = batch,
                              .reach = paths->by_mirrors ? PATH_BY_MIRRORS : PATH_TO_ITS_END};
     PathStatistics statistics = {0};
     batch->path[GAZE_THROUGH] = batch->path[GAZE_MIRRORED] = 0;
@@ -136,14 +125,16 @@ static void trace_one(const GazePaths *paths, const ProbeAim *aim, int i, GazeBa
     }
 }
 
-static void read_batch(void *user, int item, int worker)
-{
+static void read_batch(void *user, int item, int worker) {
     (void)worker;
     const GazePaths *paths = user;
     uint32_t seed = hash_combine(hash_u32(paths->seed), (uint32_t)item);
-    Vec3     targets[CHUNK];
-    ProbeAim aim = {.context = &paths->setup->context, .eye = paths->eye, .targets = targets,
-                    .target_count = CHUNK, .seed = seed};
+    Vec3 targets[CHUNK];
+    ProbeAim aim = {.context = &paths->setup->context,
+                    .eye = paths->eye,
+                    .targets = targets,
+                    .target_count = CHUNK,
+                    .seed = seed};
     for (int i = paths->first; i < paths->end; i++) {
         if (signals_stop_requested()) return;
         targets[i % CHUNK] = target_of(paths, seed, i);
@@ -152,10 +143,11 @@ static void read_batch(void *user, int item, int worker)
 }
 
 static GazePaths gaze_paths_start(const Setup *setup, const GazeAim *gaze, bool by_mirrors,
-                                  uint32_t seed, Arena *arena)
-{
-    int       parts = setup->scene->part_count;
-    GazePaths paths = {.setup = setup, .eye = gaze->eye, .seed = seed,
+                                  uint32_t seed, Arena *arena) {
+    int parts = setup->scene->part_count;
+    GazePaths paths = {.setup = setup,
+                       .eye = gaze->eye,
+                       .seed = seed,
                        .frame = frame_from_z(vec3_normalize(gaze->towards)),
                        .by_mirrors = by_mirrors,
                        .batches = ARENA_NEW(arena, GazeBatch, ESTIMATE_BATCHES)};
@@ -174,11 +166,10 @@ static GazePaths gaze_paths_start(const Setup *setup, const GazeAim *gaze, bool 
 
 /* What no path met of lamps that the eye may see there, straight or by the mirrors that paths
  * came by. */
-static double unmet(const GazePaths *paths, GazeFigure figure, Arena scratch)
-{
+static double unmet(const GazePaths *paths, GazeFigure figure, Arena scratch) {
     const Setup *setup = paths->setup;
-    int    parts = setup->scene->part_count;
-    bool  *met = ARENA_NEW(&scratch, bool, parts);
+    int parts = setup->scene->part_count;
+    bool *met = ARENA_NEW(&scratch, bool, parts);
     double most = 0, half = radians_from_degrees(GAZE_CONE_DEG);
     for (int b = 0; b < ESTIMATE_BATCHES; b++)
         for (int i = 0; i < parts; i++) met[i] |= paths->batches[b].met[figure][i];
@@ -196,8 +187,7 @@ static double unmet(const GazePaths *paths, GazeFigure figure, Arena scratch)
 }
 
 /* Goes on to so many paths in all, a multiple of 32. */
-static void gaze_paths_read(GazePaths *paths, long count, Arena scratch)
-{
+static void gaze_paths_read(GazePaths *paths, long count, Arena scratch) {
     paths->end = (int)(count / ESTIMATE_BATCHES);
     parallel_for(paths->setup->tools.threads, ESTIMATE_BATCHES, read_batch, paths);
     paths->first = paths->end;
@@ -206,9 +196,10 @@ static void gaze_paths_read(GazePaths *paths, long count, Arena scratch)
 }
 
 /* With what lamps may have sent by mirrors that were not met. */
-static EstimateSums gaze_paths_sums(const GazePaths *paths, GazeFigure figure)
-{
-    EstimateSums sums = {.batches = ESTIMATE_BATCHES, .piece = 1, .share = 1,
+static EstimateSums gaze_paths_sums(const GazePaths *paths, GazeFigure figure) {
+    EstimateSums sums = {.batches = ESTIMATE_BATCHES,
+                         .piece = 1,
+                         .share = 1,
                          .paths = (long)paths->end * ESTIMATE_BATCHES};
     for (int b = 0; b < ESTIMATE_BATCHES; b++) {
         const GazeBatch *batch = &paths->batches[b];
@@ -221,9 +212,7 @@ static EstimateSums gaze_paths_sums(const GazePaths *paths, GazeFigure figure)
 }
 
 /* Adds where mirrored light came from, each path by `weight`: [part], [part and sets]. */
-static void gaze_paths_places(const GazePaths *paths, double weight, double *panes,
-                              double *shown)
-{
+static void gaze_paths_places(const GazePaths *paths, double weight, double *panes, double *shown) {
     int parts = paths->setup->scene->part_count;
     for (int b = 0; b < ESTIMATE_BATCHES; b++) {
         const GazeBatch *batch = &paths->batches[b];
@@ -235,25 +224,25 @@ static void gaze_paths_places(const GazePaths *paths, double weight, double *pan
 #define SEED 0x67617a65u
 #define PILOT_SEED 0x70696c6fu
 #define MIRROR_SEED 0x6d697272u
-#define LEAST 2048   /* whole paths */
+#define LEAST 2048 /* whole paths */
 #define PILOT 1024
-#define REACH 32     /* estimate_plan.h */
-#define MIRRORS 4    /* so many times as many by mirrors, at least: they take a third of the
-                        time */
-#define UNMET 0.1    /* of all light there: what lamps may have that no path met */
+#define REACH 32 /* estimate_plan.h */
+#define MIRRORS \
+    4             /* so many times as many by mirrors, at least: they take a third of the \
+                     time */
+#define UNMET 0.1 /* of all light there: what lamps may have that no path met */
 
 /* Paths of both kinds. */
 typedef struct GazePair {
     const GazeGoal *goal;
-    GazePaths       whole, mirrors;
-    long            whole_paths, mirror_paths; /* that will do */
-    Arena           scratch;
+    GazePaths whole, mirrors;
+    long whole_paths, mirror_paths; /* that will do */
+    Arena scratch;
 } GazePair;
 
-static GazePair start(const Setup *setup, const GazeGoal *goal, uint32_t seed, Arena *scratch)
-{
+static GazePair start(const Setup *setup, const GazeGoal *goal, uint32_t seed, Arena *scratch) {
     GazePair pair = {.goal = goal};
-    GazeAim  aim = {goal->eye, goal->towards};
+    GazeAim aim = {goal->eye, goal->towards};
     pair.whole = gaze_paths_start(setup, &aim, false, seed, scratch);
     pair.mirrors = gaze_paths_start(setup, &aim, true, seed ^ MIRROR_SEED, scratch);
     pair.scratch = *scratch;
@@ -262,14 +251,12 @@ static GazePair start(const Setup *setup, const GazeGoal *goal, uint32_t seed, A
 
 /* ---- how many ---------------------------------------------------------------------------- */
 
-static void read_mirrors(void *user, long paths)
-{
+static void read_mirrors(void *user, long paths) {
     GazePair *pair = user;
     gaze_paths_read(&pair->mirrors, paths, pair->scratch);
 }
 
-static void read_whole(void *user, long paths)
-{
+static void read_whole(void *user, long paths) {
     GazePair *pair = user;
     gaze_paths_read(&pair->whole, paths, pair->scratch);
 }
@@ -282,21 +269,19 @@ typedef struct FigurePair {
     Estimate whole, mirrors;
 } FigurePair;
 
-static FigurePair found_by(const GazePair *pair, GazeFigure figure)
-{
+static FigurePair found_by(const GazePair *pair, GazeFigure figure) {
     EstimateSums whole = gaze_paths_sums(&pair->whole, figure);
     EstimateSums mirrors = gaze_paths_sums(&pair->mirrors, figure);
     return (FigurePair){estimate_of(&whole), estimate_of(&mirrors)};
 }
 
-static bool mirrors_will_do(void *user, long pilot, long paths)
-{
+static bool mirrors_will_do(void *user, long pilot, long paths) {
     const GazePair *pair = user;
     double all = 0, unmet = 0;
     for (int k = 0; k < GAZE_FIGURES; k++) {
         FigurePair found = found_by(pair, (GazeFigure)k);
-        Estimate   then = estimate_expected(&found.mirrors, (double)paths / (double)pilot);
-        double     mean = found.whole.mean + found.mirrors.mean;
+        Estimate then = estimate_expected(&found.mirrors, (double)paths / (double)pilot);
+        double mean = found.whole.mean + found.mirrors.mean;
         if (then.sigma > pair->goal->precision * mean * sqrt(MIRRORS_SHARE)) return false;
         all += mean;
         unmet = fmax(unmet, then.unmet);
@@ -305,30 +290,35 @@ static bool mirrors_will_do(void *user, long pilot, long paths)
 }
 
 /* What mirrors are expected to leave unsure is known. */
-static bool whole_will_do(void *user, long pilot, long paths)
-{
+static bool whole_will_do(void *user, long pilot, long paths) {
     const GazePair *pair = user;
     for (int k = 0; k < GAZE_FIGURES; k++) {
         FigurePair found = found_by(pair, (GazeFigure)k);
-        double     mean = found.whole.mean + found.mirrors.mean;
-        double     times = (double)pair->mirror_paths / (double)(pair->mirrors.end *
-                                                                 ESTIMATE_BATCHES);
-        Estimate   then = estimate_expected(&found.whole, (double)paths / (double)pilot);
-        Estimate   mirrors = estimate_expected(&found.mirrors, times);
+        double mean = found.whole.mean + found.mirrors.mean;
+        double times = (double)pair->mirror_paths / (double)(pair->mirrors.end * ESTIMATE_BATCHES);
+        Estimate then = estimate_expected(&found.whole, (double)paths / (double)pilot);
+        Estimate mirrors = estimate_expected(&found.mirrors, times);
         if (hypot(then.sigma, mirrors.sigma) > pair->goal->precision * mean) return false;
     }
     return true;
 }
 
 /* How many of both; by mirrors first. */
-static void plan(GazePair *pilot)
-{
-    EstimatePlan mirrors = {.pilot = PILOT * MIRRORS, .least = LEAST * MIRRORS, .reach = REACH,
-                            .most = pilot->goal->most, .user = pilot,
-                            .read_pilot = read_mirrors, .will_do = mirrors_will_do};
-    EstimatePlan whole = {.pilot = PILOT, .least = LEAST, .reach = REACH,
-                          .most = pilot->goal->most, .user = pilot,
-                          .read_pilot = read_whole, .will_do = whole_will_do};
+static void plan(GazePair *pilot) {
+    EstimatePlan mirrors = {.pilot = PILOT * MIRRORS,
+                            .least = LEAST * MIRRORS,
+                            .reach = REACH,
+                            .most = pilot->goal->most,
+                            .user = pilot,
+                            .read_pilot = read_mirrors,
+                            .will_do = mirrors_will_do};
+    EstimatePlan whole = {.pilot = PILOT,
+                          .least = LEAST,
+                          .reach = REACH,
+                          .most = pilot->goal->most,
+                          .user = pilot,
+                          .read_pilot = read_whole,
+                          .will_do = whole_will_do};
     read_whole(pilot, PILOT);
     pilot->mirror_paths = estimate_plan(&mirrors);
     pilot->whole_paths = estimate_plan(&whole);
@@ -336,8 +326,7 @@ static void plan(GazePair *pilot)
 
 /* ---- what both kinds of paths found ------------------------------------------------------ */
 
-static GazeFound figure_of(const GazePair *pair, GazeFigure figure)
-{
+static GazeFound figure_of(const GazePair *pair, GazeFigure figure) {
     EstimateSums sums = gaze_paths_sums(&pair->whole, figure);
     EstimateSums mirrors = gaze_paths_sums(&pair->mirrors, figure);
     estimate_sums_add(&sums, &mirrors);
@@ -346,18 +335,16 @@ static GazeFound figure_of(const GazePair *pair, GazeFigure figure)
 }
 
 /* NO_ID: all are 0. */
-static int greatest(const double *values, int count)
-{
+static int greatest(const double *values, int count) {
     int at = NO_ID;
     for (int i = 0; i < count; i++)
         if (values[i] > (at == NO_ID ? 0 : values[at])) at = i;
     return at;
 }
 
-static GazeMirrored find_mirrored(const GazePair *pair)
-{
-    Arena   scratch = pair->scratch;
-    int     parts = pair->whole.setup->scene->part_count;
+static GazeMirrored find_mirrored(const GazePair *pair) {
+    Arena scratch = pair->scratch;
+    int parts = pair->whole.setup->scene->part_count;
     double *panes = ARENA_NEW(&scratch, double, parts);
     double *shown = ARENA_NEW(&scratch, double, parts + LIGHT_SETS);
     gaze_paths_places(&pair->whole, 1.0 / pair->whole.end, panes, shown);
@@ -367,8 +354,7 @@ static GazeMirrored find_mirrored(const GazePair *pair)
                           most < parts ? LIGHTS_SUN : (LightSet)(most - parts)};
 }
 
-GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch)
-{
+GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch) {
     uint32_t seed = review_seed(setup->request, SEED);
     uint32_t first = hash_combine(hash_u32(seed), PILOT_SEED);
     GazePair pilot = start(setup, goal, first, &scratch);

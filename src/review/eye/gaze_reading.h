@@ -41,61 +41,62 @@ typedef enum GazeFigure { GAZE_THROUGH, GAZE_MIRRORED, GAZE_FIGURES } GazeFigure
 
 /* A ray behind its last mirror, and the share of its light that the eye sees. */
 typedef struct GazeImage {
-    Ray   ray;
+    Ray ray;
     float share;
 } GazeImage;
 
-#define GAZE_IMAGES 2 /* that a batch keeps of a figure: the first ones behind the first
-                         mirror, and as many behind others; they stand for all */
+#define GAZE_IMAGES \
+    2 /* that a batch keeps of a figure: the first ones behind the first \
+         mirror, and as many behind others; they stand for all */
 
 /* What a batch of paths found. */
 typedef struct GazeBatch {
-    const Scene  *scene;
-    double        sum[GAZE_FIGURES];
+    const Scene *scene;
+    double sum[GAZE_FIGURES];
     BrightSamples bright[GAZE_FIGURES];
-    GazeImage     image[GAZE_FIGURES][2][GAZE_IMAGES];
-    int           images[GAZE_FIGURES][2];
-    bool         *met[GAZE_FIGURES];   /* [part] emitters, by mirrors alone */
-    double       *panes, *shown; /* mirrored light by scene part: the pane's, and that of the
-                                    part it shows; then one for each set of lights */
-    double        path[GAZE_FIGURES];  /* of the one at work */
-    bool          by_mirrors;
+    GazeImage image[GAZE_FIGURES][2][GAZE_IMAGES];
+    int images[GAZE_FIGURES][2];
+    bool *met[GAZE_FIGURES];   /* [part] emitters, by mirrors alone */
+    double *panes, *shown;     /* mirrored light by scene part: the pane's, and that of the
+                                  part it shows; then one for each set of lights */
+    double path[GAZE_FIGURES]; /* of the one at work */
+    bool by_mirrors;
 } GazeBatch;
 
 typedef struct GazePaths {
     const Setup *setup;
-    Vec3      eye;
-    Frame     frame;      /* z: the gaze */
-    uint32_t  seed;
-    bool      by_mirrors; /* which kind */
-    int       first, end; /* paths of every batch */
-    GazeBatch *batches;   /* [ESTIMATE_BATCHES] */
-    double     unmet[GAZE_FIGURES]; /* the brightest that a path may have missed, cd m^-2 */
+    Vec3 eye;
+    Frame frame; /* z: the gaze */
+    uint32_t seed;
+    bool by_mirrors;            /* which kind */
+    int first, end;             /* paths of every batch */
+    GazeBatch *batches;         /* [ESTIMATE_BATCHES] */
+    double unmet[GAZE_FIGURES]; /* the brightest that a path may have missed, cd m^-2 */
 } GazePaths;
 
 typedef struct GazeGoal {
-    Vec3   eye;       /* m, scene */
-    Vec3   towards;   /* any length but 0 */
+    Vec3 eye;         /* m, scene */
+    Vec3 towards;     /* any length but 0 */
     double precision; /* relative standard error of both figures, above 0, */
-    int    most;      /* unless it takes more paths than that: so many whole ones, a power of
+    int most;         /* unless it takes more paths than that: so many whole ones, a power of
                          two from 2048 on */
 } GazeGoal;
 
 /* Where mirrored light comes from: the first surface that the pane shows, or, where it shows
  * none, the source itself. */
 typedef struct GazeMirrored {
-    int      pane_id; /* scene part; NO_ID: nothing is mirrored */
-    int      part_id; /* scene part; NO_ID: the source, */
-    LightSet source;  /* which is this */
+    int pane_id;     /* scene part; NO_ID: nothing is mirrored */
+    int part_id;     /* scene part; NO_ID: the source, */
+    LightSet source; /* which is this */
 } GazeMirrored;
 
 typedef struct GazeFound {
-    double       mean, sigma; /* its standard error */
-    MeanInterval interval;    /* 95 % */
+    double mean, sigma;    /* its standard error */
+    MeanInterval interval; /* 95 % */
 } GazeFound;
 
 typedef struct GazeReading {
-    GazeFound    through, mirrored;
+    GazeFound through, mirrored;
     GazeMirrored most; /* most of what is mirrored */
 } GazeReading;
 

@@ -22,19 +22,19 @@
 #include "review/eye/pane_images.h"
 
 typedef struct PaneImageGoal {
-    Vec3             eye;       /* m, scene */
-    const PaneImage *image;     /* with cells */
-    double           precision; /* relative standard error of the image and of `against`, */
-    int              most;      /* unless it takes more paths: a power of two from 2048 on */
-    uint32_t         seed;      /* other paths than those of 0 */
+    Vec3 eye;               /* m, scene */
+    const PaneImage *image; /* with cells */
+    double precision;       /* relative standard error of the image and of `against`, */
+    int most;               /* unless it takes more paths: a power of two from 2048 on */
+    uint32_t seed;          /* other paths than those of 0 */
 } PaneImageGoal;
 
 typedef struct PaneImageReading {
     GazeFound image, through, against;
-    double    ghost_share; /* of the image's light: by the pane's far face, which shows
-                              another place of the display than its near one there */
-    double    ghost_rad;   /* how far beside it stands, as the eye sees it: mean over that
-                              light; NaN: there is none */
+    double ghost_share; /* of the image's light: by the pane's far face, which shows
+                           another place of the display than its near one there */
+    double ghost_rad;   /* how far beside it stands, as the eye sees it: mean over that
+                           light; NaN: there is none */
 } PaneImageReading;
 
 PaneImageReading pane_image_read(const Setup *setup, const PaneImageGoal *goal, Arena scratch);

@@ -26,11 +26,11 @@
 
 /* A triangle of the field of view. */
 typedef struct PaneCell {
-    Vec3   corner[3];
-    Vec3   place[3]; /* of the display, that the first face shows there, m, scene */
-    Vec3   seen_from; /* m, scene: as far along the way from the display to the pane as the eye
-                         is: a flat pane shows what an eye there would see straight */
-    int    id;       /* among all cells of the display or raster */
+    Vec3 corner[3];
+    Vec3 place[3];  /* of the display, that the first face shows there, m, scene */
+    Vec3 seen_from; /* m, scene: as far along the way from the display to the pane as the eye
+                       is: a flat pane shows what an eye there would see straight */
+    int id;         /* among all cells of the display or raster */
     double sr;
 } PaneCell;
 
@@ -43,15 +43,15 @@ typedef struct PaneShares {
 } PaneShares;
 
 typedef struct PaneImage {
-    int        pane_id, part_id; /* scene parts: the pane's, the display's */
+    int pane_id, part_id; /* scene parts: the pane's, the display's */
     PaneShares share;
-    int        covered_by;       /* scene part that covers most of it; NO_ID: nothing does */
-    PaneCell  *cells;            /* that are shown; 0: there is no image */
-    int        cell_count;
-    double     sr;               /* of all */
-    Vec3       towards;          /* their middle, by solid angle; 0 where there is none */
-    Vec3      *outline;          /* convex, once around them; at most PANE_OUTLINE */
-    int        outline_count;
+    int covered_by;  /* scene part that covers most of it; NO_ID: nothing does */
+    PaneCell *cells; /* that are shown; 0: there is no image */
+    int cell_count;
+    double sr;     /* of all */
+    Vec3 towards;  /* their middle, by solid angle; 0 where there is none */
+    Vec3 *outline; /* convex, once around them; at most PANE_OUTLINE */
+    int outline_count;
 } PaneImage;
 
 #define PANE_OUTLINE 16
@@ -65,7 +65,7 @@ PaneImage *pane_images_find(const Setup *setup, Vec3 eye, int *count, Arena *are
  * (0, 1), and 2f + 1; middle[cell] lies in the middle of each. */
 #define PANE_RASTER 16
 typedef struct PaneRaster {
-    int           part_id; /* the display's */
+    int part_id; /* the display's */
     TrianglePoint corner[(PANE_RASTER + 1) * (PANE_RASTER + 1)];
     TrianglePoint middle[2 * PANE_RASTER * PANE_RASTER];
     /* false: the display has no such place */

@@ -9,36 +9,34 @@
 
 struct RoadVeils {
     const Scene *scene;
-    RoadAges     ages;
-    int          paths, rounds;
-    bool        *lacks_data;     /* [part] */
-    double      *seen;           /* [path][display][way], cd m^-2 */
-    double      *without_data;   /* [path] likewise */
-    int         *mirror;         /* [path] the first part that mirrors; NO_ID */
-    EstimateSums *sums;          /* [age][display], and the whole */
-    double      *by_spread;      /* [age] */
-    double      *known, *variance; /* [age] */
-    double     (*ways)[ROAD_WAYS]; /* [display] for the first age */
-    double      *mirrored;       /* [display][part] likewise */
-    double       without_data_veil;
-    double      *chunks;         /* [chunk][age][display], the whole, by the eye's spread */
-    int          chunk_count;
+    RoadAges ages;
+    int paths, rounds;
+    bool *lacks_data;          /* [part] */
+    double *seen;              /* [path][display][way], cd m^-2 */
+    double *without_data;      /* [path] likewise */
+    int *mirror;               /* [path] the first part that mirrors; NO_ID */
+    EstimateSums *sums;        /* [age][display], and the whole */
+    double *by_spread;         /* [age] */
+    double *known, *variance;  /* [age] */
+    double (*ways)[ROAD_WAYS]; /* [display] for the first age */
+    double *mirrored;          /* [display][part] likewise */
+    double without_data_veil;
+    double *chunks; /* [chunk][age][display], the whole, by the eye's spread */
+    int chunk_count;
 };
 
 /* ---- what was found ---------------------------------------------------------------------- */
 
-RoadReading road_reading_start(int ages, int displays, Arena *arena)
-{
+RoadReading road_reading_start(int ages, int displays, Arena *arena) {
     return (RoadReading){ages, displays, ARENA_NEW(arena, RoadFound, ages * (displays + 1)),
                          ARENA_NEW(arena, RoadShares, displays), ARENA_NEW(arena, double, 1)};
 }
 
 /* ---- gathered ---------------------------------------------------------------------------- */
 
-RoadVeils *road_veils_start(const Scene *scene, const RoadAges *ages, Arena *arena)
-{
+RoadVeils *road_veils_start(const Scene *scene, const RoadAges *ages, Arena *arena) {
     RoadVeils *veils = ARENA_NEW(arena, RoadVeils, 1);
-    int        parts = scene->part_count, displays = scene->display_count;
+    int parts = scene->part_count, displays = scene->display_count;
     veils->scene = scene;
     veils->ages = *ages;
     veils->lacks_data = ARENA_NEW(arena, bool, parts);
@@ -47,52 +45,46 @@ RoadVeils *road_veils_start(const Scene *scene, const RoadAges *ages, Arena *are
     veils->by_spread = ARENA_NEW(arena, double, ages->count);
     veils->known = ARENA_NEW(arena, double, ages->count);
     veils->variance = ARENA_NEW(arena, double, ages->count);
-    veils->ways = (double(*)[ROAD_WAYS])ARENA_NEW(arena, double, displays * ROAD_WAYS);
-    veils->mirrored = ARENA_NEW(arena, double, displays * parts);
+    veils->ways = (double(*)[ROAD_WAYS])ARENA_NEW(arena, double, displays *ROAD_WAYS);
+    veils->mirrored = ARENA_NEW(arena, double, displays *parts);
     return veils;
 }
 
-void road_veils_expect(RoadVeils *veils, int paths, int rounds, Arena *arena)
-{
+void road_veils_expect(RoadVeils *veils, int paths, int rounds, Arena *arena) {
     int displays = veils->scene->display_count;
     veils->paths = paths;
     veils->rounds = rounds;
-    veils->seen = ARENA_NEW(arena, double, (size_t)paths * (size_t)displays * ROAD_WAYS);
+    veils->seen = ARENA_NEW(arena, double, (size_t)paths *(size_t)displays *ROAD_WAYS);
     veils->without_data = ARENA_NEW(arena, double, paths);
     veils->mirror = ARENA_NEW(arena, int, paths);
     for (int i = 0; i < paths; i++) veils->mirror[i] = NO_ID;
     for (int i = 0; i < veils->ages.count * (displays + 1); i++)
-        veils->sums[i] = (EstimateSums){.batches = rounds, .paths = paths,
-                                        .piece = paths / rounds, .share = 1};
+        veils->sums[i] =
+            (EstimateSums){.batches = rounds, .paths = paths, .piece = paths / rounds, .share = 1};
 }
 
-int road_veils_ages(const RoadVeils *veils)
-{
+int road_veils_ages(const RoadVeils *veils) {
     return veils->ages.count;
 }
 
-double road_veils_age(const RoadVeils *veils, int age)
-{
+double road_veils_age(const RoadVeils *veils, int age) {
     return veils->ages.list[age];
 }
 
-static int display_of(const RoadVeils *veils, int part_id)
-{
+static int display_of(const RoadVeils *veils, int part_id) {
     const Scene *scene = veils->scene;
     return part_id == NO_ID ? NO_ID
                             : scene->materials[scene->parts[part_id].material_id].display_id;
 }
 
-static double *seen_of(const RoadVeils *veils, int path, int display)
-{
+static double *seen_of(const RoadVeils *veils, int path, int display) {
     size_t at = (size_t)path * (size_t)veils->scene->display_count + (size_t)display;
     return &veils->seen[at * ROAD_WAYS];
 }
 
-void road_light_add(RoadVeils *veils, int path, const PathHistory *history, double y)
-{
+void road_light_add(RoadVeils *veils, int path, const PathHistory *history, double y) {
     RoadWay way = ROAD_STRAIGHT;
-    int     mirror = NO_ID;
+    int mirror = NO_ID;
     for (int i = 0; i < path_steps_kept(history) && way != ROAD_SCATTERED; i++) {
         const PathStep *step = &history->step[i];
         if (step->event == PATH_SCATTERS) way = ROAD_SCATTERED;
@@ -113,20 +105,17 @@ void road_light_add(RoadVeils *veils, int path, const PathHistory *history, doub
 
 /* ---- summed up --------------------------------------------------------------------------- */
 
-static EstimateSums *sums_of(const RoadVeils *veils, int age, int display)
-{
+static EstimateSums *sums_of(const RoadVeils *veils, int age, int display) {
     return &veils->sums[age * (veils->scene->display_count + 1) + display];
 }
 
 /* The veil of so many lux, 0 nearer than the formula holds. */
-static double veil_of(const RoadVeils *veils, int age, double degrees, double lx)
-{
+static double veil_of(const RoadVeils *veils, int age, double degrees, double lx) {
     if (!(degrees >= ROAD_VEIL_FROM_DEG)) return 0;
     return lx * road_veil_at(fmin(degrees, 90), veils->ages.list[age]);
 }
 
-static void add_spread(RoadVeils *veils, double degrees, double lx)
-{
+static void add_spread(RoadVeils *veils, double degrees, double lx) {
     if (!(degrees >= ROAD_VEIL_FROM_DEG)) return;
     for (int a = 0; a < veils->ages.count; a++) {
         HumanEye eye = {veils->ages.list[a], veils->ages.pigment};
@@ -135,31 +124,26 @@ static void add_spread(RoadVeils *veils, double degrees, double lx)
 }
 
 /* veil: what it adds to the mean over all paths. */
-static void add_by_path(const RoadVeils *veils, EstimateSums *to, int path, double veil)
-{
+static void add_by_path(const RoadVeils *veils, EstimateSums *to, int path, double veil) {
     double alone = veil * veils->paths;
     to->batch[path / (veils->paths / veils->rounds)] += alone;
     bright_add(&to->bright, alone);
 }
 
-static double counted_light(const double *seen, bool is_near)
-{
+static double counted_light(const double *seen, bool is_near) {
     return seen[ROAD_STRAIGHT] + seen[ROAD_MIRRORED] + (is_near ? 0 : seen[ROAD_SCATTERED]);
 }
 
-static void add_ways(RoadVeils *veils, int display, const RoadPath *path, const double *seen)
-{
+static void add_ways(RoadVeils *veils, int display, const RoadPath *path, const double *seen) {
     double veil = veil_of(veils, 0, path->degrees, path->lx);
-    int    mirror = veils->mirror[path->path];
+    int mirror = veils->mirror[path->path];
     for (int w = 0; w < ROAD_WAYS; w++)
         if (w != ROAD_SCATTERED || !path->is_near) veils->ways[display][w] += veil * seen[w];
     if (mirror != NO_ID)
-        veils->mirrored[display * veils->scene->part_count + mirror] +=
-            veil * seen[ROAD_MIRRORED];
+        veils->mirrored[display * veils->scene->part_count + mirror] += veil * seen[ROAD_MIRRORED];
 }
 
-void road_veils_add_path(RoadVeils *veils, const RoadPath *path)
-{
+void road_veils_add_path(RoadVeils *veils, const RoadPath *path) {
     int displays = veils->scene->display_count;
     add_spread(veils, path->degrees, path->lx * path->cd_m2);
     veils->without_data_veil += veil_of(veils, 0, path->degrees, path->lx) *
@@ -170,7 +154,7 @@ void road_veils_add_path(RoadVeils *veils, const RoadPath *path)
     }
     for (int d = 0; d < displays; d++) {
         const double *seen = seen_of(veils, path->path, d);
-        double        light = counted_light(seen, path->is_near);
+        double light = counted_light(seen, path->is_near);
         if (!(light > 0)) continue;
         add_ways(veils, d, path, seen);
         for (int a = 0; a < veils->ages.count; a++)
@@ -179,36 +163,31 @@ void road_veils_add_path(RoadVeils *veils, const RoadPath *path)
     }
 }
 
-void road_veils_expect_samples(RoadVeils *veils, int chunks, Arena *arena)
-{
+void road_veils_expect_samples(RoadVeils *veils, int chunks, Arena *arena) {
     size_t sums = (size_t)veils->ages.count * (size_t)(veils->scene->display_count + 2);
     veils->chunk_count = chunks;
-    veils->chunks = ARENA_NEW(arena, double, (size_t)chunks * sums);
+    veils->chunks = ARENA_NEW(arena, double, (size_t)chunks *sums);
 }
 
-static double *chunk_of(const RoadVeils *veils, int chunk, int age)
-{
+static double *chunk_of(const RoadVeils *veils, int chunk, int age) {
     int sums = veils->scene->display_count + 2;
-    return &veils->chunks[((size_t)chunk * (size_t)veils->ages.count + (size_t)age) *
-                          (size_t)sums];
+    return &veils->chunks[((size_t)chunk * (size_t)veils->ages.count + (size_t)age) * (size_t)sums];
 }
 
-void road_veils_add_sample(RoadVeils *veils, int chunk, const RoadSample *sample)
-{
+void road_veils_add_sample(RoadVeils *veils, int chunk, const RoadSample *sample) {
     int displays = veils->scene->display_count, display = display_of(veils, sample->part_id);
     if (!(sample->degrees >= ROAD_VEIL_FROM_DEG)) return;
     for (int a = 0; a < veils->ages.count; a++) {
         HumanEye eye = {veils->ages.list[a], veils->ages.pigment};
-        double   veil = veil_of(veils, a, sample->degrees, sample->lx);
-        double  *to = chunk_of(veils, chunk, a);
+        double veil = veil_of(veils, a, sample->degrees, sample->lx);
+        double *to = chunk_of(veils, chunk, a);
         to[displays] += veil;
         to[displays + 1] += sample->lx * eye_spread_at(fmin(sample->degrees, 90), eye);
         if (display != NO_ID) to[display] += veil;
     }
 }
 
-void road_veils_add_chunks(RoadVeils *veils, double share)
-{
+void road_veils_add_chunks(RoadVeils *veils, double share) {
     int displays = veils->scene->display_count;
     for (int i = 0; i < veils->chunk_count * veils->ages.count; i++) {
         int a = i % veils->ages.count, chunk = i / veils->ages.count;
@@ -222,8 +201,7 @@ void road_veils_add_chunks(RoadVeils *veils, double share)
     }
 }
 
-void road_veils_add_known(RoadVeils *veils, double degrees, double lx)
-{
+void road_veils_add_known(RoadVeils *veils, double degrees, double lx) {
     add_spread(veils, degrees, lx);
     for (int a = 0; a < veils->ages.count; a++) {
         double veil = veil_of(veils, a, degrees, lx);
@@ -232,26 +210,23 @@ void road_veils_add_known(RoadVeils *veils, double degrees, double lx)
     }
 }
 
-void road_veils_set_unmet(RoadVeils *veils, int age, double cd_m2)
-{
+void road_veils_set_unmet(RoadVeils *veils, int age, double cd_m2) {
     sums_of(veils, age, veils->scene->display_count)->unmet = cd_m2;
 }
 
 /* ---- read -------------------------------------------------------------------------------- */
 
-static RoadFound found_of(const RoadVeils *veils, int age, int display)
-{
+static RoadFound found_of(const RoadVeils *veils, int age, int display) {
     Estimate estimate = estimate_of(sums_of(veils, age, display));
-    bool     is_whole = display == veils->scene->display_count;
+    bool is_whole = display == veils->scene->display_count;
     if (is_whole) estimate_add_known(&estimate, veils->known[age], sqrt(veils->variance[age]));
     return (RoadFound){estimate.mean, estimate.interval.low, estimate.interval.high,
                        is_whole ? veils->by_spread[age] : (double)NAN};
 }
 
-static RoadShares shares_of(const RoadVeils *veils, int display)
-{
-    RoadShares    shares = {.mirrored = 0};
-    int           parts = veils->scene->part_count;
+static RoadShares shares_of(const RoadVeils *veils, int display) {
+    RoadShares shares = {.mirrored = 0};
+    int parts = veils->scene->part_count;
     const double *mirrored = &veils->mirrored[display * parts];
     for (int w = 0; w < ROAD_WAYS; w++) shares.way[w] = veils->ways[display][w];
     for (int i = 0; i < parts; i++)
@@ -262,8 +237,7 @@ static RoadShares shares_of(const RoadVeils *veils, int display)
     return shares;
 }
 
-void road_veils_read(const RoadVeils *veils, RoadReading *out)
-{
+void road_veils_read(const RoadVeils *veils, RoadReading *out) {
     int displays = veils->scene->display_count;
     for (int a = 0; a < veils->ages.count; a++)
         for (int d = 0; d <= displays; d++)

@@ -24,8 +24,8 @@ typedef enum RoadWay { ROAD_STRAIGHT, ROAD_MIRRORED, ROAD_SCATTERED, ROAD_WAYS }
 
 typedef struct RoadAges {
     const double *list;
-    int           count;   /* at least 1 */
-    double        pigment; /* of the eye's own spread */
+    int count;      /* at least 1 */
+    double pigment; /* of the eye's own spread */
 } RoadAges;
 
 /* A veil and its 95 % interval. */
@@ -42,23 +42,21 @@ typedef struct RoadShares {
 } RoadShares;
 
 typedef struct RoadReading {
-    int         ages, displays;
-    RoadFound  *found;        /* [age][display], and behind a row's displays the whole */
-    RoadShares *shares;       /* [display] */
-    double     *without_data; /* of the whole for the first age, the share that came by
-                                 materials without optical data */
+    int ages, displays;
+    RoadFound *found;     /* [age][display], and behind a row's displays the whole */
+    RoadShares *shares;   /* [display] */
+    double *without_data; /* of the whole for the first age, the share that came by
+                             materials without optical data */
 } RoadReading;
 
 /* Empty: all 0. */
 RoadReading road_reading_start(int ages, int displays, Arena *arena);
 
-static inline RoadFound road_found(const RoadReading *r, int age, int display)
-{
+static inline RoadFound road_found(const RoadReading *r, int age, int display) {
     return r->found[age * (r->displays + 1) + display];
 }
 
-static inline RoadFound road_found_whole(const RoadReading *r, int age)
-{
+static inline RoadFound road_found_whole(const RoadReading *r, int age) {
     return road_found(r, age, r->displays);
 }
 
@@ -71,7 +69,7 @@ RoadVeils *road_veils_start(const Scene *scene, const RoadAges *ages, Arena *are
 /* Before anything of it is found; rounds of as many paths, and of samples, each. */
 void road_veils_expect(RoadVeils *veils, int paths, int rounds, Arena *arena);
 
-int    road_veils_ages(const RoadVeils *veils);
+int road_veils_ages(const RoadVeils *veils);
 double road_veils_age(const RoadVeils *veils, int age);
 
 /* Light that a path found, Y in cd m^-2. */
@@ -80,10 +78,10 @@ void road_light_add(RoadVeils *veils, int path, const PathHistory *history, doub
 /* All of a path: `cd_m2` counts of what it found, whose lux on the pupil's plane are `lx` for
  * each cd m^-2. */
 typedef struct RoadPath {
-    int    path;
+    int path;
     double degrees; /* from the gaze */
     double lx, cd_m2;
-    bool   is_near; /* what scatters there is looked at */
+    bool is_near; /* what scatters there is looked at */
 } RoadPath;
 
 void road_veils_add_path(RoadVeils *veils, const RoadPath *path);
@@ -91,7 +89,7 @@ void road_veils_add_path(RoadVeils *veils, const RoadPath *path);
 /* A light sample of the pupil's plane; part_id: the emitter's; NO_ID: of another source. */
 typedef struct RoadSample {
     double degrees, lx;
-    int    part_id;
+    int part_id;
 } RoadSample;
 
 /* Light samples come in chunks, as many to each round; a chunk is one thread's. */

@@ -8,8 +8,7 @@
 #include "panel/query/panel_emission.h"
 #include "spectrum/photometry.h"
 
-static double part_luminance(const Scene *scene, const Part *part)
-{
+static double part_luminance(const Scene *scene, const Part *part) {
     static const float WHITE[3] = {255, 255, 255};
     const Material *material = &scene->materials[part->material_id];
     if (material->display_id == NO_ID)
@@ -19,10 +18,9 @@ static double part_luminance(const Scene *scene, const Part *part)
     return (double)(panel_mean_luminance(display->panel, WHITE) * display->level);
 }
 
-static Lamp lamp_of_triangle(const Scene *scene, uint32_t triangle, double cd_m2)
-{
+static Lamp lamp_of_triangle(const Scene *scene, uint32_t triangle, double cd_m2) {
     const uint32_t *vertex = scene->triangles[triangle].vertex;
-    Lamp            lamp = {.middle = vec3(0, 0, 0), .cd_m2 = cd_m2};
+    Lamp lamp = {.middle = vec3(0, 0, 0), .cd_m2 = cd_m2};
     for (int k = 0; k < 3; k++)
         lamp.middle = vec3_along(lamp.middle, scene->positions[vertex[k]], 1 / 3.0f);
     for (int k = 0; k < 3; k++) {
@@ -32,23 +30,21 @@ static Lamp lamp_of_triangle(const Scene *scene, uint32_t triangle, double cd_m2
     return lamp;
 }
 
-static int brightest_first(const void *a, const void *b)
-{
+static int brightest_first(const void *a, const void *b) {
     double x = ((const Lamp *)a)->cd_m2, y = ((const Lamp *)b)->cd_m2;
     return (x < y) - (x > y);
 }
 
-UnmetLamps lamps_unmet(const Setup *setup, const bool *met, Arena *arena)
-{
+UnmetLamps lamps_unmet(const Setup *setup, const bool *met, Arena *arena) {
     const Scene *scene = setup->scene;
-    int          count = 0;
+    int count = 0;
     for (int i = 0; i < scene->part_count; i++)
         if (!met[i] && part_luminance(scene, &scene->parts[i]) > 0)
             count += (int)scene->parts[i].triangle_count;
     UnmetLamps out = {.list = ARENA_NEW(arena, Lamp, count)};
     for (int i = 0; i < scene->part_count; i++) {
         const Part *part = &scene->parts[i];
-        double      cd_m2 = met[i] ? 0 : part_luminance(scene, part);
+        double cd_m2 = met[i] ? 0 : part_luminance(scene, part);
         for (uint32_t t = 0; cd_m2 > 0 && t < part->triangle_count; t++)
             out.list[out.count++] = lamp_of_triangle(scene, part->first_triangle + t, cd_m2);
     }
@@ -58,9 +54,8 @@ UnmetLamps lamps_unmet(const Setup *setup, const bool *met, Arena *arena)
 
 /* Is the lamp's ball within the angle? Most are far off: asin x is at most PI / 2 x, and a
  * cosine falls by no more than its angle grows. */
-static bool may_be_seen(const Lamp *lamp, Ray ray, double half, double cos_half)
-{
-    Vec3   to = vec3_sub(lamp->middle, ray.origin);
+static bool may_be_seen(const Lamp *lamp, Ray ray, double half, double cos_half) {
+    Vec3 to = vec3_sub(lamp->middle, ray.origin);
     double distance = (double)vec3_length(to);
     if (distance <= lamp->radius) return true;
     double cosine = (double)vec3_dot(to, ray.direction) / distance;
@@ -68,8 +63,7 @@ static bool may_be_seen(const Lamp *lamp, Ray ray, double half, double cos_half)
     return acos(fmin(fmax(cosine, -1), 1)) <= half + asin(lamp->radius / distance);
 }
 
-double lamps_brightest(const UnmetLamps *lamps, Ray ray, double half)
-{
+double lamps_brightest(const UnmetLamps *lamps, Ray ray, double half) {
     double cos_half = cos(half);
     for (int i = 0; i < lamps->count; i++)
         if (may_be_seen(&lamps->list[i], ray, half, cos_half)) return lamps->list[i].cd_m2;

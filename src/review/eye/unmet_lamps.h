@@ -15,14 +15,14 @@
 
 /* A triangle of one: the ball that holds it. */
 typedef struct Lamp {
-    Vec3   middle;
+    Vec3 middle;
     double radius, cd_m2;
 } Lamp;
 
 /* Brightest first. */
 typedef struct UnmetLamps {
     Lamp *list;
-    int   count;
+    int count;
 } UnmetLamps;
 
 /* Those of parts that are not met ([part]). */

@@ -28,8 +28,8 @@
 #define LIST_BYTES ((size_t)1 << 24)
 
 const char *const review_files_fixed[REVIEW_FILES_FIXED] = {
-    "review.json",    "index.html",      "cases.csv", "gazes.csv", "dimming.csv",
-    "false_suns.csv", "pane_images.csv", "junit.xml", "diff.json", "run.json",
+    "review.json",    "index.html",       "cases.csv", "gazes.csv", "dimming.csv",
+    "false_suns.csv", "pane_images.csv",  "junit.xml", "diff.json", "run.json",
     "live.js",        REVIEW_PAGE_BESIDE, LIST};
 
 /* Behind a frame's name. */
@@ -38,65 +38,57 @@ static const char *const of_frame[] = {".png", ".exr", "-luminance.png", "-contr
 
 /* ---- names ------------------------------------------------------------------------------- */
 
-static bool starts_with(const char *text, const char *start)
-{
+static bool starts_with(const char *text, const char *start) {
     return !strncmp(text, start, strlen(start));
 }
 
 /* That a file of somebody else's stands there. */
-static bool review_files_refuse(const char *path, Error *err)
-{
-    return error_at(err, ERROR_OUTPUT, path, "", "was not made by a review, and is not written "
+static bool review_files_refuse(const char *path, Error *err) {
+    return error_at(err, ERROR_OUTPUT, path, "",
+                    "was not made by a review, and is not written "
                     "over — move it, or give another folder");
 }
 
-static bool is_among(const char *const *list, int count, const char *name)
-{
+static bool is_among(const char *const *list, int count, const char *name) {
     for (int i = 0; i < count; i++)
         if (!strcmp(list[i], name)) return true;
     return false;
 }
 
 /* Behind its folder, if it is in one. */
-static bool is_numbered(const char *name, const char *folder)
-{
+static bool is_numbered(const char *name, const char *folder) {
     const char *in_folder = name + strlen(folder);
     return starts_with(name, folder) && isdigit((unsigned char)*in_folder) &&
            !strchr(in_folder, '/');
 }
 
 /* Whether a review may write a file of this name at all. */
-static bool review_files_may_have(const char *name)
-{
-    bool is_summary = starts_with(name, "summary-") && !strchr(name, '/') &&
-                      !strcmp(path_ending(name), ".html");
+static bool review_files_may_have(const char *name) {
+    bool is_summary =
+        starts_with(name, "summary-") && !strchr(name, '/') && !strcmp(path_ending(name), ".html");
     return is_summary || is_among(review_files_fixed, REVIEW_FILES_FIXED, name) ||
            is_numbered(name, "frames/") || is_numbered(name, "sweeps/") ||
            is_numbered(name, "conditions/");
 }
 
 /* Is the rest of a name, behind a frame's, one of its files? */
-static bool is_rest_of_frame(const char *rest)
-{
+static bool is_rest_of_frame(const char *rest) {
     return is_among(of_frame, COUNT_OF(of_frame), rest) || starts_with(rest, OF_VARIANT);
 }
 
 /* frame: its picture. */
-static bool is_of_frame(const char *name, const char *frame)
-{
+static bool is_of_frame(const char *name, const char *frame) {
     size_t length = frame ? (size_t)(path_ending(frame) - frame) : 0;
     return frame && !strncmp(name, frame, length) && is_rest_of_frame(name + length);
 }
 
 /* Whether a frame or a table of this name belongs to what the review shows. */
-static bool review_files_is_named(const Review *review, const char *name)
-{
+static bool review_files_is_named(const Review *review, const char *name) {
     for (int i = 0; i < review->case_count; i++)
         if (is_of_frame(name, review->cases[i].frame)) return true;
     for (int i = 0; i < review->sweep_count; i++) {
         const ReviewSweep *sweep = &review->sweeps[i];
-        if (is_of_frame(name, sweep->worst.frame) || words_same(name, sweep->table))
-            return true;
+        if (is_of_frame(name, sweep->worst.frame) || words_same(name, sweep->table)) return true;
     }
     return false;
 }
@@ -105,8 +97,7 @@ static bool review_files_is_named(const Review *review, const char *name)
 
 /* All files in a folder and in the folders right below it, hidden ones too. prefix: "", or a
  * folder within it, "sweeps/". */
-static void review_files_list(Lines *files, const char *folder, const char *prefix)
-{
+static void review_files_list(Lines *files, const char *folder, const char *prefix) {
     DIR *open = opendir(arena_format(files->arena, "%s/%s", folder, prefix));
     if (!open) return;
     for (struct dirent *entry; (entry = readdir(open));) {
@@ -124,32 +115,29 @@ static void review_files_list(Lines *files, const char *folder, const char *pref
 
 /* ---- the list ---------------------------------------------------------------------------- */
 
-static bool review_files_has(const Lines *files, const char *name)
-{
+static bool review_files_has(const Lines *files, const char *name) {
     return is_among(files->list, files->count, name);
 }
 
 /* Adds a name, once. */
-static void review_files_add(Lines *files, const char *name)
-{
+static void review_files_add(Lines *files, const char *name) {
     if (!review_files_has(files, name)) lines_put(files, name);
 }
 
 /* A folder without a list: what its review.json names. */
-static void adopt(Lines *files, const char *dir)
-{
-    Arena      *arena = files->arena;
-    Lines       there = {.arena = arena};
-    Review      review;
-    Error       ignored;
+static void adopt(Lines *files, const char *dir) {
+    Arena *arena = files->arena;
+    Lines there = {.arena = arena};
+    Review review;
+    Error ignored;
     const char *document = arena_format(arena, "%s/review.json", dir);
     if (!file_exists(document) || !review_json_read(document, arena, &review, &ignored)) return;
     review_files_list(&there, dir, "");
-    int                all = review_case_count(&review);
+    int all = review_case_count(&review);
     const ReviewCase **ranked = review_rank(&review, arena);
     for (int i = 0; i < there.count; i++) {
         const char *name = there.list[i];
-        bool        is_own = is_among(review_files_fixed, REVIEW_FILES_FIXED, name) ||
+        bool is_own = is_among(review_files_fixed, REVIEW_FILES_FIXED, name) ||
                       review_files_is_named(&review, name);
         for (int k = 0; k < all && !is_own; k++)
             is_own = !strcmp(name, review_summary_name(&review, ranked[k]->symbol, arena));
@@ -158,10 +146,9 @@ static void adopt(Lines *files, const char *dir)
 }
 
 /* The bytes of a list, of which the title is the mark; NULL: it is none. */
-static const char *list_text(const char *path, Arena *arena)
-{
+static const char *list_text(const char *path, Arena *arena) {
     FileBytes bytes;
-    Error     ignored;
+    Error ignored;
     if (!file_read(path, LIST_BYTES, arena, &bytes, &ignored)) return NULL;
     const char *text = (const char *)bytes.data;
     return starts_with(text, LIST_TITLE) ? text + strlen(LIST_TITLE) : NULL;
@@ -169,16 +156,15 @@ static const char *list_text(const char *path, Arena *arena)
 
 /* Names within the folder, "index.html", "sweeps/1-noon.csv"; none where nothing was made.
  * Other names than a review's are left out: a list may come with a folder from anywhere. */
-static Lines review_files_read(const char *dir, Arena *arena)
-{
-    Lines       files = {.arena = arena};
+static Lines review_files_read(const char *dir, Arena *arena) {
+    Lines files = {.arena = arena};
     const char *path = arena_format(arena, "%s/" LIST, dir);
     if (!file_exists(path)) {
         adopt(&files, dir);
         return files;
     }
     for (const char *line = list_text(path, arena); line && *line;) {
-        size_t      length = strcspn(line, "\n");
+        size_t length = strcspn(line, "\n");
         const char *name = arena_string(arena, line, length);
         if (review_files_may_have(name)) lines_put(&files, name);
         line += length + (line[length] == '\n');
@@ -186,10 +172,9 @@ static Lines review_files_read(const char *dir, Arena *arena)
     return files;
 }
 
-static bool review_files_write(const char *dir, const Lines *files, Arena scratch, Error *err)
-{
+static bool review_files_write(const char *dir, const Lines *files, Arena scratch, Error *err) {
     const char *path = arena_format(&scratch, "%s/" LIST, dir);
-    Text        text = {.arena = &scratch};
+    Text text = {.arena = &scratch};
     text_add(&text, LIST_TITLE);
     for (int i = 0; i < files->count; i++) text_format(&text, "%s\n", files->list[i]);
     return text_write(&text, path, err);
@@ -198,17 +183,15 @@ static bool review_files_write(const char *dir, const Lines *files, Arena scratc
 /* ---- what stands in the way -------------------------------------------------------------- */
 
 /* Also where a file system takes large letters for small ones. */
-static bool starts_alike(const char *text, const char *start)
-{
+static bool starts_alike(const char *text, const char *start) {
     return !strncasecmp(text, start, strlen(start));
 }
 
 /* "summary-NAME.html", "summary-NAME.2.html"; texts that are found are "NAME 1", "NAME 2". */
-static bool may_be_summary(const char *name, const ReviewRequest *request, Arena scratch)
-{
+static bool may_be_summary(const char *name, const ReviewRequest *request, Arena scratch) {
     for (int i = 0; i < request->symbol_count; i++) {
         const ReviewSymbol *symbol = &request->symbols[i];
-        const char         *start =
+        const char *start =
             arena_format(&scratch, "summary-%s", words_file_name(symbol->name, &scratch));
         const char *rest = name + strlen(start);
         if (!starts_alike(name, start)) continue;
@@ -220,24 +203,23 @@ static bool may_be_summary(const char *name, const ReviewRequest *request, Arena
 }
 
 /* "frames/1-CONDITION-EYE.png", "sweeps/1-CONDITION-EYE-SYMBOL.csv". */
-static bool may_be_numbered(const char *name, const ReviewRequest *request, Arena scratch)
-{
+static bool may_be_numbered(const char *name, const ReviewRequest *request, Arena scratch) {
     const char *in_folder = strchr(name, '/') + 1;
-    long        number = strtol(in_folder, NULL, 10);
+    long number = strtol(in_folder, NULL, 10);
     for (int c = 0; c < request->condition_count; c++)
         for (int e = 0; e < request->eye_count; e++) {
-            Arena       own = scratch;
-            const char *start = words_file_name(
-                arena_format(&own, "%ld-%s-%s", number, request->conditions[c].name,
-                             request->eyes[e].name), &own);
+            Arena own = scratch;
+            const char *start =
+                words_file_name(arena_format(&own, "%ld-%s-%s", number, request->conditions[c].name,
+                                             request->eyes[e].name),
+                                &own);
             if (!starts_alike(in_folder, start)) continue;
             if (name[0] == 's' || is_rest_of_frame(in_folder + strlen(start))) return true;
         }
     return false;
 }
 
-static bool may_be_written(const char *name, const ReviewRequest *request, Arena scratch)
-{
+static bool may_be_written(const char *name, const ReviewRequest *request, Arena scratch) {
     for (int i = 0; i < REVIEW_FILES_FIXED; i++)
         if (!strcasecmp(name, review_files_fixed[i])) return true;
     if (starts_alike(name, "summary-")) return may_be_summary(name, request, scratch);
@@ -245,40 +227,36 @@ static bool may_be_written(const char *name, const ReviewRequest *request, Arena
            may_be_numbered(name, request, scratch);
 }
 
-bool review_files_check(const char *dir, const ReviewRequest *request, Arena scratch,
-                        Error *err)
-{
+bool review_files_check(const char *dir, const ReviewRequest *request, Arena scratch, Error *err) {
     Lines made = review_files_read(dir, &scratch), there = {.arena = &scratch};
     review_files_list(&there, dir, "");
     for (int i = 0; i < there.count; i++) {
         const char *name = there.list[i];
         const char *path = arena_format(&scratch, "%s/%s", dir, name);
-        bool        is_foreign = strcmp(name, LIST) ? !review_files_has(&made, name)
-                                                    : !list_text(path, &scratch);
+        bool is_foreign =
+            strcmp(name, LIST) ? !review_files_has(&made, name) : !list_text(path, &scratch);
         if (is_foreign && may_be_written(name, request, scratch))
             return review_files_refuse(path, err);
     }
     return true;
 }
 
-static bool is_among_files(const Lines *files, const char *path)
-{
+static bool is_among_files(const Lines *files, const char *path) {
     bool found = false;
-    for (int i = 0; i < files->count && !found; i++)
-        found = file_is_same(files->list[i], path);
+    for (int i = 0; i < files->count && !found; i++) found = file_is_same(files->list[i], path);
     return found;
 }
 
 bool review_files_spare(const char *dir, const ReviewRequest *request, const Lines *inputs,
-                        Arena scratch, Error *err)
-{
+                        Arena scratch, Error *err) {
     Lines there = {.arena = &scratch};
     review_files_list(&there, dir, "");
     for (int i = 0; i < there.count; i++) {
-        Arena       room = scratch;
+        Arena room = scratch;
         const char *path = arena_format(&room, "%s/%s", dir, there.list[i]);
         if (is_among_files(inputs, path) && may_be_written(there.list[i], request, room))
-            return error_at(err, ERROR_OUTPUT, path, "", "is read, and the review would write "
+            return error_at(err, ERROR_OUTPUT, path, "",
+                            "is read, and the review would write "
                             "over it — give another folder");
     }
     return true;
@@ -288,27 +266,23 @@ bool review_files_spare(const char *dir, const ReviewRequest *request, const Lin
 
 static const char *const parts[] = {"", "/sweeps", "/frames", "/conditions"};
 
-static bool make_parts(const char *folder, Arena scratch, Error *err)
-{
+static bool make_parts(const char *folder, Arena scratch, Error *err) {
     for (int i = 0; i < COUNT_OF(parts); i++)
         if (!folder_make(arena_format(&scratch, "%s%s", folder, parts[i]), err)) return false;
     return true;
 }
 
 /* As far as they are empty. */
-static void remove_parts(const char *folder, Arena scratch)
-{
+static void remove_parts(const char *folder, Arena scratch) {
     for (int i = COUNT_OF(parts) - 1; i >= 0; i--)
         rmdir(arena_format(&scratch, "%s%s", folder, parts[i]));
 }
 
-static const char *lock_path(const ReviewDraft *draft, Arena *arena)
-{
+static const char *lock_path(const ReviewDraft *draft, Arena *arena) {
     return arena_format(arena, "%s/lock", draft->unfinished);
 }
 
-void review_draft_close(ReviewDraft *draft)
-{
+void review_draft_close(ReviewDraft *draft) {
     unlink(lock_path(draft, draft->arena));
     close(draft->lock);
     remove_parts(draft->folder, *draft->arena);
@@ -317,8 +291,7 @@ void review_draft_close(ReviewDraft *draft)
 }
 
 /* Known before the work: a file that cannot take its place would end the review half moved. */
-static bool check_files(const char *target, Arena scratch, Error *err)
-{
+static bool check_files(const char *target, Arena scratch, Error *err) {
     for (int i = 0; i < REVIEW_FILES_FIXED; i++)
         if (!file_check_writable(arena_format(&scratch, "%s/%s", target, review_files_fixed[i]),
                                  err))
@@ -328,8 +301,7 @@ static bool check_files(const char *target, Arena scratch, Error *err)
 
 /* Two processes never have one folder. A folder that came from somewhere may have a link or a
  * pipe in the lock's place; a file system without locks is no reason to fail. */
-static bool take_lock(ReviewDraft *draft, Arena *arena, Error *err)
-{
+static bool take_lock(ReviewDraft *draft, Arena *arena, Error *err) {
     const char *path = lock_path(draft, arena);
     struct stat info;
     draft->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
@@ -346,9 +318,9 @@ static bool take_lock(ReviewDraft *draft, Arena *arena, Error *err)
     return false;
 }
 
-bool review_draft_open(const char *target, Arena *arena, ReviewDraft *out, Error *err)
-{
-    ReviewDraft draft = {.arena = arena, .target = target,
+bool review_draft_open(const char *target, Arena *arena, ReviewDraft *out, Error *err) {
+    ReviewDraft draft = {.arena = arena,
+                         .target = target,
                          .unfinished = arena_format(arena, "%s/unfinished", target)};
     draft.folder = arena_format(arena, "%s/new", draft.unfinished);
     if (!folder_make(target, err) || !folder_make(draft.unfinished, err) ||
@@ -368,40 +340,36 @@ bool review_draft_open(const char *target, Arena *arena, ReviewDraft *out, Error
 
 /* ---- files of a draft -------------------------------------------------------------------- */
 
-static bool has_ending(const char *name, const char *ending)
-{
+static bool has_ending(const char *name, const char *ending) {
     return !strcmp(path_ending(name), ending);
 }
 
 /* Did a writer that was killed leave it behind? */
-static bool is_leftover(const char *name)
-{
+static bool is_leftover(const char *name) {
     return has_ending(name, ".part") || has_ending(name, ".parhelion-part");
 }
 
 /* ---- taking their places ----------------------------------------------------------------- */
 
-static bool move(const ReviewDraft *draft, const char *name, Arena scratch, Error *err)
-{
+static bool move(const ReviewDraft *draft, const char *name, Arena scratch, Error *err) {
     const char *from = arena_format(&scratch, "%s/%s", draft->folder, name);
     const char *to = arena_format(&scratch, "%s/%s", draft->target, name);
     const char *slash = strrchr(name, '/');
-    if (slash && !folder_make(arena_format(&scratch, "%s/%.*s", draft->target,
-                                           (int)(slash - name), name), err))
+    if (slash &&
+        !folder_make(arena_format(&scratch, "%s/%.*s", draft->target, (int)(slash - name), name),
+                     err))
         return false;
     return rename(from, to) == 0 ||
            error_at(err, ERROR_OUTPUT, to, "", "cannot be written: %s", strerror(errno));
 }
 
 /* What moves now: all but frames that the review does not name, review.json last. */
-static Lines to_publish(const ReviewDraft *draft, const Review *review, Arena *arena)
-{
+static Lines to_publish(const ReviewDraft *draft, const Review *review, Arena *arena) {
     Lines drafted = {.arena = arena}, files = {.arena = arena};
     review_files_list(&drafted, draft->folder, "");
     for (int i = 0; i < drafted.count; i++) {
         const char *name = drafted.list[i];
-        bool is_other_frame =
-            starts_with(name, "frames/") && !review_files_is_named(review, name);
+        bool is_other_frame = starts_with(name, "frames/") && !review_files_is_named(review, name);
         if (review_files_may_have(name) && strcmp(name, "review.json") != 0 && !is_other_frame)
             lines_put(&files, name);
     }
@@ -411,8 +379,7 @@ static Lines to_publish(const ReviewDraft *draft, const Review *review, Arena *a
 
 /* Removes what reviews made here and this one does not have. Returns what stays. */
 static Lines remove_earlier(const ReviewDraft *draft, const Review *review, const Lines *made,
-                            const Lines *published, Arena *arena)
-{
+                            const Lines *published, Arena *arena) {
     Lines stays = {.arena = arena};
     for (int i = 0; i < made->count; i++) {
         const char *name = made->list[i];
@@ -425,8 +392,7 @@ static Lines remove_earlier(const ReviewDraft *draft, const Review *review, cons
 
 /* The list is never behind: it holds a file before that has its place, and until it is gone. */
 bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena scratch,
-                          Error *err)
-{
+                          Error *err) {
     Lines files = to_publish(draft, review, &scratch);
     Lines made = review_files_read(draft->target, &scratch);
     for (int i = 0; i < files.count; i++) {
@@ -444,14 +410,12 @@ bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena 
 }
 
 /* Of a review that was stopped. */
-static bool is_kept(const char *name)
-{
+static bool is_kept(const char *name) {
     return has_ending(name, ".condition") || has_ending(name, ".frame") ||
            has_ending(name, ".checkpoint");
 }
 
-bool review_has_unfinished(const char *target, Arena scratch)
-{
+bool review_has_unfinished(const char *target, Arena scratch) {
     Lines files = {.arena = &scratch};
     review_files_list(&files, arena_format(&scratch, "%s/unfinished", target), "");
     for (int i = 0; i < files.count; i++)
@@ -459,9 +423,8 @@ bool review_has_unfinished(const char *target, Arena scratch)
     return false;
 }
 
-void review_draft_finish(ReviewDraft *draft)
-{
-    Arena      scratch = *draft->arena;
+void review_draft_finish(ReviewDraft *draft) {
+    Arena scratch = *draft->arena;
     Lines files = {.arena = &scratch};
     review_files_list(&files, draft->unfinished, "new/sweeps/");
     review_files_list(&files, draft->unfinished, "new/frames/");

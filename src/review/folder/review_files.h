@@ -17,8 +17,7 @@
 extern const char *const review_files_fixed[REVIEW_FILES_FIXED];
 
 /* Before the work: false where a file that no review made has a name that this one may need. */
-bool review_files_check(const char *dir, const ReviewRequest *request, Arena scratch,
-                        Error *err);
+bool review_files_check(const char *dir, const ReviewRequest *request, Arena scratch, Error *err);
 
 /* Before the work: false where one of these files, which are read, has such a name in it, also
  * where a review made it. */
@@ -43,11 +42,11 @@ bool review_files_spare(const char *dir, const ReviewRequest *request, const Lin
  * Fails    with the file or folder that cannot be written. */
 
 typedef struct ReviewDraft {
-    Arena      *arena;
+    Arena *arena;
     const char *target;     /* DIR */
     const char *unfinished; /* DIR/unfinished */
     const char *folder;     /* DIR/unfinished/new */
-    int         lock;
+    int lock;
 } ReviewDraft;
 
 /* Makes the folders that are not there. Work that was begun before goes on. */

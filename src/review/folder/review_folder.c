@@ -28,30 +28,25 @@
 
 /* ---- before the work ------------------------------------------------------------------*/
 
-static bool read_earlier(ReviewFolder *folder, Arena *arena, Error *err)
-{
+static bool read_earlier(ReviewFolder *folder, Arena *arena, Error *err) {
     if (!folder->diff) return true;
     const char *path = arena_format(arena, "%s/review.json", folder->diff);
     return review_json_read(path, arena, &folder->before, err);
 }
 
-void review_folder_responses(ReviewFolder *folder, Arena *arena)
-{
+void review_folder_responses(ReviewFolder *folder, Arena *arena) {
     folder->has_own_responses = !folder->responses;
     folder->responses_shown = folder->responses ? folder->responses : "responses";
-    if (!folder->responses)
-        folder->responses = arena_format(arena, "%s/responses", folder->target);
+    if (!folder->responses) folder->responses = arena_format(arena, "%s/responses", folder->target);
 }
 
 /* Responses outlive the review: their folder is no draft. */
-static bool open_responses(ReviewFolder *folder, Arena *arena, Error *err)
-{
+static bool open_responses(ReviewFolder *folder, Arena *arena, Error *err) {
     review_folder_responses(folder, arena);
     return folder_make(folder->responses, err);
 }
 
-bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err)
-{
+bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err) {
     const ReviewFrames *frames = &folder->request->frames;
     folder->begun_s = monotonic_seconds();
     if (frames->worst && frames->is_denoised && !denoise_check(err)) return false;
@@ -64,14 +59,12 @@ bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err)
     return false;
 }
 
-void review_folder_close(ReviewFolder *folder)
-{
+void review_folder_close(ReviewFolder *folder) {
     if (folder->has_own_responses) rmdir(folder->responses);
     review_draft_close(&folder->draft);
 }
 
-void review_folder_finish(ReviewFolder *folder)
-{
+void review_folder_finish(ReviewFolder *folder) {
     if (folder->has_own_responses) rmdir(folder->responses);
     review_draft_finish(&folder->draft);
 }
@@ -80,49 +73,46 @@ void review_folder_finish(ReviewFolder *folder)
 
 typedef struct FolderTables {
     const ReviewFolder *folder;
-    ReviewOutcome      *outcome;
+    ReviewOutcome *outcome;
 } FolderTables;
 
-static ReviewSweep *sweep_of(ReviewOutcome *outcome, int table)
-{
+static ReviewSweep *sweep_of(ReviewOutcome *outcome, int table) {
     return &outcome->review.sweeps[outcome->tables[table].sweep_id];
 }
 
-static bool write_table(void *context, int i, Error *err)
-{
+static bool write_table(void *context, int i, Error *err) {
     const FolderTables *work = context;
-    const ReviewSweep  *sweep = sweep_of(work->outcome, i);
-    Arena       own = arena_reserve((size_t)1 << 20);
+    const ReviewSweep *sweep = sweep_of(work->outcome, i);
+    Arena own = arena_reserve((size_t)1 << 20);
     const char *path = arena_format(&own, "%s/%s", work->folder->name, sweep->table);
-    bool        ok = sweep_table_write(
-        &work->outcome->tables[i],
-        review_condition_named(work->folder->request, sweep->condition), path, err);
+    bool ok = sweep_table_write(&work->outcome->tables[i],
+                                review_condition_named(work->folder->request, sweep->condition),
+                                path, err);
     arena_release(&own);
     return ok;
 }
 
 static bool write_tables(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
-                         Error *err)
-{
-    int          count = outcome->table_count;
+                         Error *err) {
+    int count = outcome->table_count;
     FolderTables work = {folder, outcome};
     for (int i = 0; i < count; i++) {
         ReviewSweep *sweep = sweep_of(outcome, i);
-        const char  *name = words_file_name(
-            arena_format(arena, "%d-%s-%s-%s", outcome->tables[i].sweep_id + 1,
-                         sweep->condition, sweep->eye, sweep->symbol), arena);
+        const char *name =
+            words_file_name(arena_format(arena, "%d-%s-%s-%s", outcome->tables[i].sweep_id + 1,
+                                         sweep->condition, sweep->eye, sweep->symbol),
+                            arena);
         sweep->table = arena_format(arena, "sweeps/%s.csv", name);
     }
     return parallel_try(folder->threads, count, write_table, &work, *arena, err);
 }
 
-static void add_charts(const ReviewFolder *folder, const ReviewOutcome *outcome,
-                       ReviewPage *page, Arena *arena)
-{
-    ReviewMap      *maps = ARENA_NEW(arena, ReviewMap, outcome->table_count);
+static void add_charts(const ReviewFolder *folder, const ReviewOutcome *outcome, ReviewPage *page,
+                       Arena *arena) {
+    ReviewMap *maps = ARENA_NEW(arena, ReviewMap, outcome->table_count);
     ReviewCalendar *calendars = ARENA_NEW(arena, ReviewCalendar, outcome->table_count);
     for (int i = 0; i < outcome->table_count; i++) {
-        const SweepTable  *table = &outcome->tables[i];
+        const SweepTable *table = &outcome->tables[i];
         const ReviewSweep *sweep = &outcome->review.sweeps[table->sweep_id];
         const ReviewCondition *condition =
             review_condition_named(folder->request, sweep->condition);
@@ -150,15 +140,14 @@ static const struct {
 
 /* The pictures that a page has room for. */
 typedef struct PictureList {
-    ReviewPicture    *at;
-    int               count;
+    ReviewPicture *at;
+    int count;
     const ReviewCase *worst; /* whose frame the first screen shows, too */
-    bool              has_pairs; /* variants show frames once more */
+    bool has_pairs;          /* variants show frames once more */
 } PictureList;
 
 /* One that several cards show stands in the page once. */
-static void add_picture(PictureList *list, ReviewPicture picture, Arena *arena)
-{
+static void add_picture(PictureList *list, ReviewPicture picture, Arena *arena) {
     for (int i = 0; i < list->count && !picture.is_again; i++)
         if (!strcmp(list->at[i].file, picture.file)) {
             if (!list->at[i].id) list->at[i].id = arena_format(arena, "p%d", i);
@@ -172,18 +161,17 @@ static void add_picture(PictureList *list, ReviewPicture picture, Arena *arena)
 }
 
 /* Of the frames' pictures. */
-static const char *label_of(const ReviewFolder *folder)
-{
+static const char *label_of(const ReviewFolder *folder) {
     return folder->request->frames.is_denoised ? DENOISED_WORDS : NULL;
 }
 
-static void add_case_pictures(const ReviewFolder *folder, const ReviewCase *c,
-                              PictureList *list, Arena *arena)
-{
+static void add_case_pictures(const ReviewFolder *folder, const ReviewCase *c, PictureList *list,
+                              Arena *arena) {
     if (!c->frame) return;
     for (FrameView view = FRAME_PICTURE; view < FRAME_VIEWS; view++) {
-        const char   *name = frame_view(c->frame, view, arena);
-        ReviewPicture picture = {.of = c, .title = VIEWS[view].title,
+        const char *name = frame_view(c->frame, view, arena);
+        ReviewPicture picture = {.of = c,
+                                 .title = VIEWS[view].title,
                                  .caption = VIEWS[view].caption,
                                  .label = view == FRAME_PICTURE ? label_of(folder) : NULL,
                                  .is_frame = view == FRAME_PICTURE,
@@ -196,13 +184,12 @@ static void add_case_pictures(const ReviewFolder *folder, const ReviewCase *c,
 
 /* In the page's order: cases by rank, then sweeps. */
 static void add_pictures(const ReviewFolder *folder, const Review *review, ReviewPage *page,
-                         Arena *arena)
-{
-    int                all = review->case_count + review->sweep_count;
+                         Arena *arena) {
+    int all = review->case_count + review->sweep_count;
     const ReviewCase **ranked = review_rank(review, arena);
-    PictureList        list = {ARENA_NEW(arena, ReviewPicture, all * (FRAME_VIEWS + 1)), 0,
-                               review_worst(review, *arena),
-                               review->variant_count && review->variants[0].frame};
+    PictureList list = {ARENA_NEW(arena, ReviewPicture, all * (FRAME_VIEWS + 1)), 0,
+                        review_worst(review, *arena),
+                        review->variant_count && review->variants[0].frame};
     for (int i = 0; i < all; i++)
         if (review_card_id(review, ranked[i], arena)[0] == 'c')
             add_case_pictures(folder, ranked[i], &list, arena);
@@ -213,8 +200,7 @@ static void add_pictures(const ReviewFolder *folder, const Review *review, Revie
 }
 
 /* The picture of a case that the page has already: it stands there. */
-static ReviewPicture shown_again(const ReviewPage *page, const char *file)
-{
+static ReviewPicture shown_again(const ReviewPage *page, const char *file) {
     for (int i = 0; i < page->picture_count; i++)
         if (!strcmp(page->pictures[i].file, file))
             return (ReviewPicture){.id = page->pictures[i].id, .is_again = true};
@@ -222,8 +208,7 @@ static ReviewPicture shown_again(const ReviewPage *page, const char *file)
 }
 
 static void set_pair(const ReviewFolder *folder, const ReviewVariantFound *v,
-                     const ReviewPage *page, ReviewPicture pair[2], Arena *arena)
-{
+                     const ReviewPage *page, ReviewPicture pair[2], Arena *arena) {
     const char *names[2] = {v->frame_before, v->frame};
     const char *file = arena_format(arena, "%s/%s", folder->name, v->frame_before);
     pair[0] = shown_again(page, file);
@@ -239,8 +224,7 @@ static void set_pair(const ReviewFolder *folder, const ReviewVariantFound *v,
 }
 
 static void add_pairs(const ReviewFolder *folder, const Review *review, ReviewPage *page,
-                      Arena *arena)
-{
+                      Arena *arena) {
     ReviewPicture *pairs = ARENA_NEW(arena, ReviewPicture, 2 * review->variant_count);
     for (int i = 0; i < review->variant_count; i++)
         if (review->variants[i].frame)
@@ -248,47 +232,40 @@ static void add_pairs(const ReviewFolder *folder, const Review *review, ReviewPa
     page->pairs = pairs;
 }
 
-static void add_facts(const Review *review, ReviewPage *page, Arena *arena)
-{
+static void add_facts(const Review *review, ReviewPage *page, Arena *arena) {
     ReviewFact *facts = ARENA_NEW(arena, ReviewFact, review->input_count + 1);
-    facts[page->fact_count++] = (ReviewFact){
-        "program", arena_format(arena, "parhelion %s, sources %s", PARHELION_VERSION,
-                                SOURCES_HASH)};
+    facts[page->fact_count++] =
+        (ReviewFact){"program", arena_format(arena, "parhelion %s, sources %s", PARHELION_VERSION,
+                                             SOURCES_HASH)};
     for (int i = 0; i < review->input_count; i++)
-        facts[page->fact_count++] =
-            (ReviewFact){review->inputs[i].path,
-                         arena_format(arena, "XXH3 %s", review->inputs[i].xxh3)};
+        facts[page->fact_count++] = (ReviewFact){
+            review->inputs[i].path, arena_format(arena, "XXH3 %s", review->inputs[i].xxh3)};
     page->facts = facts;
 }
 
-const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
-{
+const char *review_folder_command(const ReviewFolder *folder, Arena *arena) {
     const char *profile =
         folder->profile ? arena_format(arena, " --profile %s", folder->profile) : "";
     const char *diff = folder->diff ? arena_format(arena, " --diff %s", folder->diff) : "";
     const char *root = folder->root ? arena_format(arena, " --root %s", folder->root) : "";
-    const char *responses = folder->has_own_responses
-                                ? ""
-                                : arena_format(arena, " --responses %s", folder->responses);
+    const char *responses =
+        folder->has_own_responses ? "" : arena_format(arena, " --responses %s", folder->responses);
     const char *summary =
-        folder->summary
-            ? arena_format(arena, " --summary %s", escape_shell(folder->summary, arena))
-            : "";
+        folder->summary ? arena_format(arena, " --summary %s", escape_shell(folder->summary, arena))
+                        : "";
     Text only = {.arena = arena};
     for (int i = 0; i < folder->only_count; i++)
         text_format(&only, " --only %s", escape_shell(folder->only[i], arena));
-    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s%s",
-                        folder->request->file,
-                        folder->target, profile, root, folder->state_text, diff, responses,
-                        summary, only.data ? only.data : "", folder->is_alone ? " --no-variants" : "",
-                        folder->is_strict ? " --strict" : "",
-                        folder->is_self_contained ? " --self-contained" : "");
+    return arena_format(
+        arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s%s", folder->request->file,
+        folder->target, profile, root, folder->state_text, diff, responses, summary,
+        only.data ? only.data : "", folder->is_alone ? " --no-variants" : "",
+        folder->is_strict ? " --strict" : "", folder->is_self_contained ? " --self-contained" : "");
 }
 
 /* Fills all of the page but the review. */
-static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
-                      ReviewPage *page, Arena *arena, Error *err)
-{
+static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome, ReviewPage *page,
+                      Arena *arena, Error *err) {
     ReviewLive *live = ARENA_NEW(arena, ReviewLive, 1);
     *live = sweep_live(folder->request, outcome, arena);
     if (!folder->is_self_contained && live->sweep_count) {
@@ -305,9 +282,8 @@ static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
     return true;
 }
 
-static bool write_diff(const ReviewFolder *folder, const ReviewOutcome *outcome,
-                       ReviewPage *page, Arena *arena, Error *err)
-{
+static bool write_diff(const ReviewFolder *folder, const ReviewOutcome *outcome, ReviewPage *page,
+                       Arena *arena, Error *err) {
     if (!folder->diff) return true;
     ReviewDiff *diff = ARENA_NEW(arena, ReviewDiff, 1);
     *diff = review_diff(&folder->before, &outcome->review, folder->diff, folder->target, arena);
@@ -318,19 +294,17 @@ static bool write_diff(const ReviewFolder *folder, const ReviewOutcome *outcome,
 
 /* One a symbol; --summary: that one alone. */
 static bool write_summaries(const ReviewFolder *folder, const ReviewPage *page, Arena *arena,
-                            Error *err)
-{
-    const Review      *review = page->review;
-    int                all = review->case_count + review->sweep_count;
+                            Error *err) {
+    const Review *review = page->review;
+    int all = review->case_count + review->sweep_count;
     const ReviewCase **ranked = review_rank(review, arena);
     for (int i = 0; i < all; i++) {
         const char *symbol = ranked[i]->symbol;
-        bool        is_listed = folder->summary && strcmp(folder->summary, symbol) != 0;
-        for (int k = 0; k < i && !is_listed; k++)
-            is_listed = !strcmp(ranked[k]->symbol, symbol);
+        bool is_listed = folder->summary && strcmp(folder->summary, symbol) != 0;
+        for (int k = 0; k < i && !is_listed; k++) is_listed = !strcmp(ranked[k]->symbol, symbol);
         if (is_listed) continue;
-        const char *path = arena_format(arena, "%s/%s", folder->name,
-                                        review_summary_name(review, symbol, arena));
+        const char *path =
+            arena_format(arena, "%s/%s", folder->name, review_summary_name(review, symbol, arena));
         if (!review_page_write_summary(page, symbol, path, err)) return false;
     }
     return true;
@@ -338,20 +312,18 @@ static bool write_summaries(const ReviewFolder *folder, const ReviewPage *page, 
 
 /* Many cases take two pages, so that the first is light. */
 static bool write_page(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
-                       Error *err)
-{
-    Review     *review = &outcome->review;
+                       Error *err) {
+    Review *review = &outcome->review;
     const char *command = review_folder_command(folder, arena);
-    ReviewPage  page = {.review = review, .commands = &command, .command_count = 1};
-    int         all = review->case_count + review->sweep_count;
+    ReviewPage page = {.review = review, .commands = &command, .command_count = 1};
+    int all = review->case_count + review->sweep_count;
     review->has_summaries = !folder->is_self_contained && !folder->summary;
     review->main_cards = folder->is_self_contained || all <= MAIN_CARDS ? 0 : MAIN_CARDS;
     if (!fill_page(folder, outcome, &page, arena, err) ||
         !write_diff(folder, outcome, &page, arena, err) ||
         !review_page_write(&page, arena_format(arena, "%s/index.html", folder->name), err))
         return false;
-    if ((review->has_summaries || folder->summary) &&
-        !write_summaries(folder, &page, arena, err))
+    if ((review->has_summaries || folder->summary) && !write_summaries(folder, &page, arena, err))
         return false;
     if (!review->main_cards) return true;
     review->is_beside = true;
@@ -362,29 +334,26 @@ static bool write_page(const ReviewFolder *folder, ReviewOutcome *outcome, Arena
 }
 
 static bool write_run(const ReviewFolder *folder, const ReviewOutcome *outcome, Arena *arena,
-                      Error *err)
-{
-    json_t *run = json_pack("{s:f, s:f, s:s, s:i}", "seconds",
-                            monotonic_seconds() - folder->begun_s, "peak_memory_bytes",
-                            machine_peak_bytes(), "version", PARHELION_VERSION,
-                            "responses_reused", outcome->responses_kept);
+                      Error *err) {
+    json_t *run =
+        json_pack("{s:f, s:f, s:s, s:i}", "seconds", monotonic_seconds() - folder->begun_s,
+                  "peak_memory_bytes", machine_peak_bytes(), "version", PARHELION_VERSION,
+                  "responses_reused", outcome->responses_kept);
     return review_json_write(run, arena_format(arena, "%s/run.json", folder->name), err);
 }
 
 bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
-                         Error *err)
-{
+                         Error *err) {
     const Review *review = &outcome->review;
     return write_tables(folder, outcome, arena, err) &&
            review_csv_write(review, arena_format(arena, "%s/cases.csv", folder->name), err) &&
            (!review->false_sun_count ||
             review_csv_write_false_suns(
                 review, arena_format(arena, "%s/false_suns.csv", folder->name), err)) &&
-           review_csv_write_gazes(review, arena_format(arena, "%s/gazes.csv", folder->name),
-                                  err) &&
+           review_csv_write_gazes(review, arena_format(arena, "%s/gazes.csv", folder->name), err) &&
            (!review_has_dimming(review) ||
-            review_csv_write_dimming(
-                review, arena_format(arena, "%s/dimming.csv", folder->name), err)) &&
+            review_csv_write_dimming(review, arena_format(arena, "%s/dimming.csv", folder->name),
+                                     err)) &&
            (!review->pane_image_count ||
             review_csv_write_pane_images(
                 review, arena_format(arena, "%s/pane_images.csv", folder->name), err)) &&

@@ -15,26 +15,26 @@
 #include "review/run/review_run.h"
 
 typedef struct ReviewFolder {
-    const char          *target; /* as on the command line */
+    const char *target; /* as on the command line */
     const ReviewRequest *request;
-    const char          *diff; /* folder of an earlier review; NULL: none */
-    const char          *summary; /* the symbol that --summary names; NULL: all */
-    const char *const   *only;    /* conditions that --only names */
-    int                  only_count;
-    const char          *profile, *root; /* as on the command line; NULL: not given */
-    const char          *state_text;     /* the same, each option with a blank before it */
-    const char          *responses; /* the same, then where they are */
-    int                  threads;
-    bool                 is_strict;
-    bool                 is_alone;          /* --no-variants */
-    bool                 is_self_contained; /* pictures stand in the page, not beside it */
-    Review               before; /* what stood there */
-    double               begun_s;
+    const char *diff;        /* folder of an earlier review; NULL: none */
+    const char *summary;     /* the symbol that --summary names; NULL: all */
+    const char *const *only; /* conditions that --only names */
+    int only_count;
+    const char *profile, *root; /* as on the command line; NULL: not given */
+    const char *state_text;     /* the same, each option with a blank before it */
+    const char *responses;      /* the same, then where they are */
+    int threads;
+    bool is_strict;
+    bool is_alone;          /* --no-variants */
+    bool is_self_contained; /* pictures stand in the page, not beside it */
+    Review before;          /* what stood there */
+    double begun_s;
     /* since it is open: */
-    ReviewDraft          draft;
-    const char          *name; /* where its files are written: the draft's folder */
-    const char          *responses_shown;   /* as review.json names the folder */
-    bool                 has_own_responses; /* DIR/responses */
+    ReviewDraft draft;
+    const char *name;            /* where its files are written: the draft's folder */
+    const char *responses_shown; /* as review.json names the folder */
+    bool has_own_responses;      /* DIR/responses */
 } ReviewFolder;
 
 /* Sets where responses are. */

@@ -12,8 +12,7 @@
 /* ---- for the page's reader --------------------------------------------------------------- */
 
 static const LiveSky *make_sky(const SweepSuns *suns, const ReviewCondition *condition,
-                               Arena *arena)
-{
+                               Arena *arena) {
     LiveSun *list = ARENA_NEW(arena, LiveSun, suns->count);
     LiveSky *sky = ARENA_NEW(arena, LiveSky, 1);
     for (int i = 0; i < suns->count; i++) {
@@ -31,11 +30,10 @@ static const LiveSky *make_sky(const SweepSuns *suns, const ReviewCondition *con
     return sky;
 }
 
-ReviewLive sweep_live(const ReviewRequest *request, const ReviewOutcome *outcome, Arena *arena)
-{
-    LiveSweep       *sweeps = ARENA_NEW(arena, LiveSweep, outcome->table_count);
+ReviewLive sweep_live(const ReviewRequest *request, const ReviewOutcome *outcome, Arena *arena) {
+    LiveSweep *sweeps = ARENA_NEW(arena, LiveSweep, outcome->table_count);
     const SweepSuns *last = NULL;
-    const LiveSky   *sky = NULL;
+    const LiveSky *sky = NULL;
     for (int i = 0; i < outcome->table_count; i++) {
         const SweepTable *t = &outcome->tables[i];
         const char *condition = outcome->review.sweeps[t->sweep_id].condition;
@@ -43,9 +41,9 @@ ReviewLive sweep_live(const ReviewRequest *request, const ReviewOutcome *outcome
             sky = make_sky(t->suns, review_condition_named(request, condition), arena);
         last = t->suns;
         const SunFigures *f = &t->figures;
-        sweeps[i] = (LiveSweep){t->sweep_id, sky, f->worst, f->contrast, f->low, f->high,
-                                f->margin, f->reflected, f->mirror, f->level, f->lux,
-                                f->verdict};
+        sweeps[i] =
+            (LiveSweep){t->sweep_id, sky,          f->worst,  f->contrast, f->low, f->high,
+                        f->margin,   f->reflected, f->mirror, f->level,    f->lux, f->verdict};
     }
     return (ReviewLive){.sweeps = sweeps, .sweep_count = outcome->table_count};
 }
@@ -53,38 +51,36 @@ ReviewLive sweep_live(const ReviewRequest *request, const ReviewOutcome *outcome
 /* ---- the table --------------------------------------------------------------------------- */
 
 static void add_time(Text *text, const SweepTable *table, const ReviewCondition *c,
-                     const SweepSun *sun)
-{
+                     const SweepSun *sun) {
     if (c->kind == CONDITION_YEAR_SWEEP) {
         double minutes = (sun->step + 0.5) * table->suns->step_minutes;
         text_format(text, "%d,%d,%.4g,", (int)(minutes / MINUTES_A_DAY) + 1, c->year,
-                 fmod(minutes, MINUTES_A_DAY) / 60);
+                    fmod(minutes, MINUTES_A_DAY) / 60);
     }
 }
 
-static const char *head_of(const ReviewCondition *c)
-{
+static const char *head_of(const ReviewCondition *c) {
     return c->kind == CONDITION_YEAR_SWEEP ? "day_of_year,year,hour_utc," : "";
 }
 
-bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition,
-                       const char *path, Error *err)
-{
+bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition, const char *path,
+                       Error *err) {
     Arena own = arena_reserve((size_t)1 << 32);
-    Text  text = {.arena = &own};
+    Text text = {.arena = &own};
     const SunFigures *f = &table->figures;
-    text_format(&text, "%ssun_azimuth_deg,sun_elevation_deg,heading_deg,vehicle_azimuth_deg,"
-                       "minutes,level,display_lx,reflected_cd_m2,sun_by_mirror_cd_m2,"
-                       "contrast_ratio,contrast_low,contrast_high,margin,verdict\n",
+    text_format(&text,
+                "%ssun_azimuth_deg,sun_elevation_deg,heading_deg,vehicle_azimuth_deg,"
+                "minutes,level,display_lx,reflected_cd_m2,sun_by_mirror_cd_m2,"
+                "contrast_ratio,contrast_low,contrast_high,margin,verdict\n",
                 head_of(condition));
     for (int i = 0; i < table->suns->count; i++) {
         const SweepSun *sun = &table->suns->list[i];
         add_time(&text, table, condition, sun);
         text_format(&text, "%.2f,%.2f,%g,%.2f,%g,%.4g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,",
                     sun->compass_deg, sun->elevation_deg, sun->heading_deg, sun->azimuth_deg,
-                    sun->minutes, (double)f->level[i], (double)f->lux[i],
-                    (double)f->reflected[i], (double)f->mirror[i], (double)f->contrast[i],
-                    (double)f->low[i], (double)f->high[i]);
+                    sun->minutes, (double)f->level[i], (double)f->lux[i], (double)f->reflected[i],
+                    (double)f->mirror[i], (double)f->contrast[i], (double)f->low[i],
+                    (double)f->high[i]);
         if (!isnan(f->margin[i])) text_format(&text, "%.4g", (double)f->margin[i]);
         text_format(&text, ",%s\n", verdict_names[f->verdict[i]]);
     }
@@ -96,25 +92,27 @@ bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition
 /* ---- the map ----------------------------------------------------------------------------- */
 
 typedef struct MapCells {
-    float         *contrast, *margin;
+    float *contrast, *margin;
     unsigned char *verdict;
 } MapCells;
 
 static ReviewMap empty_map(const ReviewSweep *sweep, ReviewAxis azimuth, ReviewAxis elevation,
-                           MapCells *cells, Arena *arena)
-{
+                           MapCells *cells, Arena *arena) {
     size_t count = (size_t)azimuth.count * (size_t)elevation.count;
     cells->contrast = ARENA_NEW(arena, float, count);
     cells->margin = ARENA_NEW(arena, float, count);
     cells->verdict = ARENA_NEW(arena, unsigned char, count);
     for (size_t i = 0; i < count; i++) cells->contrast[i] = cells->margin[i] = NAN;
-    return (ReviewMap){.of = sweep, .is_of_vehicle = true, .azimuth_deg = azimuth,
-                       .elevation_deg = elevation, .contrast = cells->contrast,
-                       .margin = cells->margin, .verdict = cells->verdict};
+    return (ReviewMap){.of = sweep,
+                       .is_of_vehicle = true,
+                       .azimuth_deg = azimuth,
+                       .elevation_deg = elevation,
+                       .contrast = cells->contrast,
+                       .margin = cells->margin,
+                       .verdict = cells->verdict};
 }
 
-static void put_worst(const SweepTable *table, int sun, MapCells *cells, size_t at)
-{
+static void put_worst(const SweepTable *table, int sun, MapCells *cells, size_t at) {
     float found = table->figures.contrast[sun], before = cells->contrast[at]; /* NaN: none */
     if (table->figures.is_private ? found <= before : found >= before) return;
     cells->contrast[at] = table->figures.contrast[sun];
@@ -130,13 +128,12 @@ static void put_worst(const SweepTable *table, int sun, MapCells *cells, size_t 
 
 typedef struct SunWay {
     const SweepTable *table;
-    const ReviewMap  *map;
-    MapCells         *cells;
-    float            *apart; /* [cell] part of a step's time from its answer's; 0: its own */
+    const ReviewMap *map;
+    MapCells *cells;
+    float *apart; /* [cell] part of a step's time from its answer's; 0: its own */
 } SunWay;
 
-static int cell_at(const ReviewMap *map, double azimuth_deg, double elevation_deg)
-{
+static int cell_at(const ReviewMap *map, double azimuth_deg, double elevation_deg) {
     const ReviewAxis *across = &map->azimuth_deg, *up = &map->elevation_deg;
     int a = (int)floor((azimuth_deg - across->first) / across->step + 0.5);
     int e = (int)floor((elevation_deg - up->first) / up->step + 0.5);
@@ -144,8 +141,7 @@ static int cell_at(const ReviewMap *map, double azimuth_deg, double elevation_de
     return e < 0 || e >= up->count ? -1 : e * across->count + a;
 }
 
-static void direction_of(const SweepSun *sun, double out[3])
-{
+static void direction_of(const SweepSun *sun, double out[3]) {
     double turn = radians_from_degrees(sun->azimuth_deg);
     double up = radians_from_degrees(sun->elevation_deg);
     out[0] = cos(up) * sin(turn);
@@ -154,8 +150,7 @@ static void direction_of(const SweepSun *sun, double out[3])
 }
 
 /* The answer of `sun`, `apart` of a step away. */
-static void offer(const SunWay *way, int sun, int at, float apart)
-{
+static void offer(const SunWay *way, int sun, int at, float apart) {
     if (at < 0 || apart > way->apart[at]) return;
     if (apart < way->apart[at]) way->cells->contrast[at] = NAN;
     way->apart[at] = apart;
@@ -163,14 +158,13 @@ static void offer(const SunWay *way, int sun, int at, float apart)
 }
 
 /* From one step to the next, by the straight way, which is within 0.3 degrees of the sun's. */
-static void walk(const SunWay *way, int from, int to)
-{
+static void walk(const SunWay *way, int from, int to) {
     double a[3], b[3], at[3], cosine = 0;
     direction_of(&way->table->suns->list[from], a);
     direction_of(&way->table->suns->list[to], b);
     for (int i = 0; i < 3; i++) cosine += a[i] * b[i];
     double angle = degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
-    int    parts = 2 * (int)ceil(2 * angle / way->map->azimuth_deg.step);
+    int parts = 2 * (int)ceil(2 * angle / way->map->azimuth_deg.step);
     for (int k = 1; k < parts; k++) {
         double t = (double)k / parts;
         for (int i = 0; i < 3; i++) at[i] = a[i] + t * (b[i] - a[i]);
@@ -182,10 +176,9 @@ static void walk(const SunWay *way, int from, int to)
 }
 
 /* Steps of one heading, where the sun is up at both. */
-static void fill_between(const SunWay *way, Arena scratch)
-{
+static void fill_between(const SunWay *way, Arena scratch) {
     const SweepSuns *suns = way->table->suns;
-    int  headings = 0;
+    int headings = 0;
     int *before;
     for (int i = 0; i < suns->count; i++)
         if (suns->list[i].heading_id >= headings) headings = suns->list[i].heading_id + 1;
@@ -198,10 +191,9 @@ static void fill_between(const SunWay *way, Arena scratch)
     }
 }
 
-static ReviewMap grid_map(const SweepTable *table, const ReviewSweep *sweep, Arena *arena)
-{
+static ReviewMap grid_map(const SweepTable *table, const ReviewSweep *sweep, Arena *arena) {
     const SweepSuns *suns = table->suns;
-    MapCells  cells;
+    MapCells cells;
     ReviewAxis azimuth = {suns->list[0].azimuth_deg, suns->azimuth_deg.step,
                           suns->azimuth_deg.count};
     ReviewAxis elevation = {suns->elevation_deg.first, suns->elevation_deg.step,
@@ -212,16 +204,14 @@ static ReviewMap grid_map(const SweepTable *table, const ReviewSweep *sweep, Are
 }
 
 ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep, double step_deg,
-                    Arena *arena)
-{
+                    Arena *arena) {
     const SweepSuns *suns = table->suns;
-    MapCells  cells;
+    MapCells cells;
     if (!suns->has_time) return grid_map(table, sweep, arena);
     ReviewAxis azimuth = {0, step_deg, (int)(360 / step_deg)};
     ReviewAxis elevation = {0.5 * step_deg, step_deg, (int)(90 / step_deg)};
     ReviewMap map = empty_map(sweep, azimuth, elevation, &cells, arena);
-    SunWay    way = {table, &map, &cells,
-                     ARENA_NEW(arena, float, azimuth.count * elevation.count)};
+    SunWay way = {table, &map, &cells, ARENA_NEW(arena, float, azimuth.count *elevation.count)};
     for (int i = 0; i < azimuth.count * elevation.count; i++) way.apart[i] = 1;
     for (int i = 0; i < suns->count; i++) {
         const SweepSun *sun = &suns->list[i];
@@ -235,22 +225,19 @@ ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep, double st
 /* ---- the calendar ------------------------------------------------------------------------ */
 
 ReviewCalendar sweep_calendar(const SweepTable *table, const ReviewSweep *sweep,
-                              const ReviewCondition *condition, Arena *arena)
-{
+                              const ReviewCondition *condition, Arena *arena) {
     const SweepSuns *suns = table->suns;
-    int    steps = (int)floor(MINUTES_A_DAY / suns->step_minutes + 0.5);
-    int    year = condition->year;
-    int    days = 365 + calendar_is_leap(year);
-    float *share = ARENA_NEW(arena, float, (size_t)days * (size_t)steps);
-    int   *asked = ARENA_NEW(arena, int, (size_t)days * (size_t)steps);
+    int steps = (int)floor(MINUTES_A_DAY / suns->step_minutes + 0.5);
+    int year = condition->year;
+    int days = 365 + calendar_is_leap(year);
+    float *share = ARENA_NEW(arena, float, (size_t)days *(size_t)steps);
+    int *asked = ARENA_NEW(arena, int, (size_t)days *(size_t)steps);
     for (int i = 0; i < suns->count; i++) {
         int at = suns->list[i].step;
         if (at >= days * steps) continue;
         asked[at]++;
         share[at] += table->figures.verdict[i] == VERDICT_FAIL;
     }
-    for (int i = 0; i < days * steps; i++)
-        share[i] = asked[i] ? share[i] / (float)asked[i] : NAN;
-    return (ReviewCalendar){sweep, year, days, steps, "UTC", condition->heading_count,
-                            share};
+    for (int i = 0; i < days * steps; i++) share[i] = asked[i] ? share[i] / (float)asked[i] : NAN;
+    return (ReviewCalendar){sweep, year, days, steps, "UTC", condition->heading_count, share};
 }

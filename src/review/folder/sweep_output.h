@@ -11,8 +11,8 @@
 #include "review/run/review_run.h"
 
 /* CSV: a row a sun, azimuths of the compass and of the vehicle. */
-bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition,
-                       const char *path, Error *err);
+bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition, const char *path,
+                       Error *err);
 
 /* Contrast over the sun's place in the vehicle's frame: cells of `step_deg`, each with the
  * worst of its suns; of a sweep over the sun its own grid. A cell that the sun of a year passes

@@ -17,20 +17,17 @@
 
 /* ---- whole frames ------------------------------------------------------------------------ */
 
-static bool hash_file(const char *path, uint64_t *out)
-{
-    Error     err;
+static bool hash_file(const char *path, uint64_t *out) {
+    Error err;
     FileBytes bytes;
-    Arena     own = arena_reserve(FILE_BYTES_MOST);
-    bool      ok = file_exists(path) &&
-              file_read(path, FILE_BYTES_MOST / 2, &own, &bytes, &err);
+    Arena own = arena_reserve(FILE_BYTES_MOST);
+    bool ok = file_exists(path) && file_read(path, FILE_BYTES_MOST / 2, &own, &bytes, &err);
     if (ok) *out = XXH3_64bits(bytes.data, bytes.size);
     arena_release(&own);
     return ok;
 }
 
-static bool hash_files(const FrameKept *kept, uint64_t out[FRAME_FILES_MOST])
-{
+static bool hash_files(const FrameKept *kept, uint64_t out[FRAME_FILES_MOST]) {
     memset(out, 0, FRAME_FILES_MOST * sizeof *out);
     for (int i = 0; i < kept->file_count; i++)
         if (!hash_file(kept->files[i], &out[i])) return false;
@@ -40,18 +37,16 @@ static bool hash_files(const FrameKept *kept, uint64_t out[FRAME_FILES_MOST])
 /* Beside the checkpoint: what the files of a whole frame are. */
 static const KeptFormat format = {"PRHLFRAM", "the record of a frame", 1, 0};
 
-static const char *path_of(const FrameKept *kept, const char *ending)
-{
+static const char *path_of(const FrameKept *kept, const char *ending) {
     uint64_t hash = XXH3_64bits(kept->identity, strlen(kept->identity));
-    return arena_format(kept->arena, "%s/%016llx.%s", kept->unfinished,
-                        (unsigned long long)hash, ending);
+    return arena_format(kept->arena, "%s/%016llx.%s", kept->unfinished, (unsigned long long)hash,
+                        ending);
 }
 
-bool frame_kept_is_whole(const FrameKept *kept)
-{
-    uint64_t   written[FRAME_FILES_MOST], there[FRAME_FILES_MOST];
+bool frame_kept_is_whole(const FrameKept *kept) {
+    uint64_t written[FRAME_FILES_MOST], there[FRAME_FILES_MOST];
     KeptReader reader;
-    Error      ignored;
+    Error ignored;
     const char *path = kept->unfinished ? path_of(kept, "frame") : "";
     if (!kept_is_there(&format, path) ||
         !kept_open(&format, path, NULL, kept->arena, &reader, &ignored))
@@ -64,8 +59,7 @@ bool frame_kept_is_whole(const FrameKept *kept)
     return is_whole;
 }
 
-bool frame_kept_end(const FrameKept *kept, Error *err)
-{
+bool frame_kept_end(const FrameKept *kept, Error *err) {
     uint64_t hashes[FRAME_FILES_MOST];
     if (!kept->unfinished) return true;
     if (!hash_files(kept, hashes))
@@ -78,38 +72,32 @@ bool frame_kept_end(const FrameKept *kept, Error *err)
 
 /* ---- checkpoints ------------------------------------------------------------------------- */
 
-static bool write_checkpoint(const FrameKept *kept, const RenderResult *so_far, Error *err)
-{
+static bool write_checkpoint(const FrameKept *kept, const RenderResult *so_far, Error *err) {
     const CheckpointName name = {kept->checkpoint, kept->identity};
     return render_write_checkpoint(&name, kept->options, so_far, *kept->arena, err);
 }
 
-static void report(const Error *err, const char *then)
-{
+static void report(const Error *err, const char *then) {
     char line[2048];
     error_line(err, line, (int)sizeof line);
     print_to(stderr, "parhelion: warning: %s — %s\n", line, then);
 }
 
 /* Meanwhile: the frame is worth more than its checkpoint. */
-static void keep(void *user, const RenderResult *so_far)
-{
+static void keep(void *user, const RenderResult *so_far) {
     Error err;
     if (!write_checkpoint(user, so_far, &err)) report(&err, "the frame goes on without it");
 }
 
-static bool find_checkpoint(const FrameKept *kept, Checkpoint *out, Error *err)
-{
-    FilmPart wanted = {.crop = kept->options->crop,
-                       .end_sample = kept->options->end_sample};
+static bool find_checkpoint(const FrameKept *kept, Checkpoint *out, Error *err) {
+    FilmPart wanted = {.crop = kept->options->crop, .end_sample = kept->options->end_sample};
     return checkpoint_open(kept->checkpoint, kept->arena, out, err) &&
            (!strcmp(out->identity, kept->identity) ||
             error_at(err, ERROR_INPUT, kept->checkpoint, "", "is of another frame")) &&
            checkpoint_fits(out, &wanted, err);
 }
 
-bool frame_kept_begin(FrameKept *kept, RenderOptions *options, Error *err)
-{
+bool frame_kept_begin(FrameKept *kept, RenderOptions *options, Error *err) {
     Error fault;
     if (!kept->unfinished) return true;
     kept->options = options;
@@ -125,7 +113,6 @@ bool frame_kept_begin(FrameKept *kept, RenderOptions *options, Error *err)
     return file_check_writable(kept->checkpoint, err);
 }
 
-bool review_goes_on(Error *err)
-{
+bool review_goes_on(Error *err) {
     return !signals_stop_requested() || signals_stopped(err);
 }

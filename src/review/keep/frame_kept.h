@@ -12,11 +12,11 @@
 enum { FRAME_FILES_MOST = 4 };
 
 typedef struct FrameKept {
-    const char *unfinished; /* folder; NULL: nothing is kept */
-    const char *identity;   /* all that decides the frame (render/identity.h) */
+    const char *unfinished;              /* folder; NULL: nothing is kept */
+    const char *identity;                /* all that decides the frame (render/identity.h) */
     const char *files[FRAME_FILES_MOST]; /* the frame, its pictures */
-    int         file_count;
-    Arena      *arena;
+    int file_count;
+    Arena *arena;
     const RenderOptions *options; /* from begin on; and: */
     const char *checkpoint;
 } FrameKept;

@@ -18,30 +18,29 @@
 /* A probe and what of it sends anything. */
 typedef struct SkyProbe {
     DistantProbe *of;
-    const int   *cells;
+    const int *cells;
     const float *shares; /* [i][band] of cells[i], first and rest together */
-    int          count;
+    int count;
 } SkyProbe;
 
 /* A row of the table over all probes, so that each sky is looked up once. */
 typedef struct SkySum {
-    const Daylight  *sky;      /* the row's */
-    const SkyProbe  *probes;
-    int              probe_count, row, cell_count, first_azimuth;
-    const bool      *is_asked; /* [cell] by any of the probes */
-    const SunAngles *at;       /* [cell] of the vehicle */
-    float           *bands;    /* [worker][cell][band], cd m^-2 */
+    const Daylight *sky; /* the row's */
+    const SkyProbe *probes;
+    int probe_count, row, cell_count, first_azimuth;
+    const bool *is_asked; /* [cell] by any of the probes */
+    const SunAngles *at;  /* [cell] of the vehicle */
+    float *bands;         /* [worker][cell][band], cd m^-2 */
 } SkySum;
 
 /* A total without each of the groups in turn, by their parts of white light. */
 static void shares_without(const Response *response, const double white[RESPONSE_GROUPS],
-                           double total, float out[RESPONSE_GROUPS])
-{
+                           double total, float out[RESPONSE_GROUPS]) {
     double all = 0;
     for (int k = 0; k < RESPONSE_GROUPS; k++) all += white[k];
     for (int k = 0; k < RESPONSE_GROUPS; k++)
-        out[k] = (float)(all > 0 ? total * response_without(response, k, all, white[k]) / all
-                                 : total);
+        out[k] =
+            (float)(all > 0 ? total * response_without(response, k, all, white[k]) / all : total);
 }
 
 /* A response to white light as samples by class and group; they add up to its groups. */
@@ -49,19 +48,17 @@ typedef struct WhiteSamples {
     double of[RESPONSE_CLASSES][RESPONSE_GROUPS];
 } WhiteSamples;
 
-static void add_white(const Response *response, int cell, double light, WhiteSamples *to)
-{
+static void add_white(const Response *response, int cell, double light, WhiteSamples *to) {
     const float *groups = response->groups + 2 * (size_t)cell * RESPONSE_GROUPS;
-    double      *sums = to->of[cell % RESPONSE_CLASSES];
+    double *sums = to->of[cell % RESPONSE_CLASSES];
     for (int k = 0; k < RESPONSE_GROUPS; k++) sums[k] += light * (double)groups[k];
 }
 
 /* The same of a total, and what that is without each group. */
-static BrightSamples read_white(const Response *response, const WhiteSamples *white,
-                                double total, float without[RESPONSE_GROUPS])
-{
+static BrightSamples read_white(const Response *response, const WhiteSamples *white, double total,
+                                float without[RESPONSE_GROUPS]) {
     BrightSamples bright = {0};
-    double        groups[RESPONSE_GROUPS] = {0}, all = 0;
+    double groups[RESPONSE_GROUPS] = {0}, all = 0;
     for (int c = 0; c < RESPONSE_CLASSES; c++)
         for (int k = 0; k < RESPONSE_GROUPS; k++) groups[k] += white->of[c][k];
     for (int k = 0; k < RESPONSE_GROUPS; k++) all += groups[k];
@@ -72,8 +69,7 @@ static BrightSamples read_white(const Response *response, const WhiteSamples *wh
     return bright;
 }
 
-static void look_up(const SkySum *sum, int azimuth, float *bands)
-{
+static void look_up(const SkySum *sum, int azimuth, float *bands) {
     double turn = 360.0 * azimuth / SKY_AZIMUTHS;
     for (int cell = 0; cell < sum->cell_count; cell++)
         if (sum->is_asked[cell])
@@ -82,15 +78,14 @@ static void look_up(const SkySum *sum, int azimuth, float *bands)
                             bands + (size_t)cell * LIGHT_BANDS);
 }
 
-static void sum_probe(const SkyProbe *probe, const float *sky, size_t place)
-{
+static void sum_probe(const SkyProbe *probe, const float *sky, size_t place) {
     const Response *response = &probe->of->response;
-    double          total = 0;
-    WhiteSamples    white = {{{0}}};
+    double total = 0;
+    WhiteSamples white = {{{0}}};
     for (int i = 0; i < probe->count; i++) {
         const float *bands = sky + (size_t)probe->cells[i] * LIGHT_BANDS;
         const float *shares = probe->shares + (size_t)i * LIGHT_BANDS;
-        float        light = 0;
+        float light = 0;
         for (int b = 0; b < LIGHT_BANDS; b++) {
             total += (double)shares[b] * (double)bands[b];
             light += bands[b];
@@ -98,22 +93,20 @@ static void sum_probe(const SkyProbe *probe, const float *sky, size_t place)
         add_white(response, probe->cells[i], (double)light, &white);
     }
     probe->of->sky[place] = total;
-    probe->of->sky_bright[place] = read_white(
-        response, &white, total, probe->of->sky_without + place * RESPONSE_GROUPS);
+    probe->of->sky_bright[place] =
+        read_white(response, &white, total, probe->of->sky_without + place * RESPONSE_GROUPS);
 }
 
-static void sum_sky(void *user, int item, int worker)
-{
+static void sum_sky(void *user, int item, int worker) {
     const SkySum *sum = user;
-    int    azimuth = (sum->first_azimuth + item) % SKY_AZIMUTHS;
+    int azimuth = (sum->first_azimuth + item) % SKY_AZIMUTHS;
     float *bands = sum->bands + (size_t)worker * (size_t)sum->cell_count * LIGHT_BANDS;
     look_up(sum, azimuth, bands);
     for (int i = 0; i < sum->probe_count; i++)
         sum_probe(&sum->probes[i], bands, (size_t)(sum->row * SKY_AZIMUTHS + azimuth));
 }
 
-static bool sends_anything(const Response *response, int cell)
-{
+static bool sends_anything(const Response *response, int cell) {
     size_t at = (size_t)cell * LIGHT_BANDS;
     for (int b = 0; b < LIGHT_BANDS; b++)
         if (response->first[at + (size_t)b] + response->rest[at + (size_t)b] > 0) return true;
@@ -121,20 +114,17 @@ static bool sends_anything(const Response *response, int cell)
 }
 
 /* Relative to the vehicle, for any heading. */
-static SunAngles vehicle_angles(const Setup *setup, Vec3 direction)
-{
+static SunAngles vehicle_angles(const Setup *setup, Vec3 direction) {
     SunAngles angles = setup_angles(setup, direction);
-    angles.azimuth_deg -=
-        degrees_from_radians((double)setup->scene->environment.heading);
+    angles.azimuth_deg -= degrees_from_radians((double)setup->scene->environment.heading);
     return angles;
 }
 
-static SkyProbe sky_probe(DistantProbe *probe, bool *is_asked, Arena *scratch)
-{
+static SkyProbe sky_probe(DistantProbe *probe, bool *is_asked, Arena *scratch) {
     const Response *response = &probe->response;
-    int    all = response->cells.count;
-    int   *cells = ARENA_NEW(scratch, int, all);
-    float *shares = ARENA_NEW(scratch, float, (size_t)all * LIGHT_BANDS);
+    int all = response->cells.count;
+    int *cells = ARENA_NEW(scratch, int, all);
+    float *shares = ARENA_NEW(scratch, float, (size_t)all *LIGHT_BANDS);
     SkyProbe out = {probe, cells, shares, 0};
     for (int cell = 0; cell < all; cell++) {
         size_t from = (size_t)cell * LIGHT_BANDS, to = (size_t)out.count * LIGHT_BANDS;
@@ -150,14 +140,12 @@ static SkyProbe sky_probe(DistantProbe *probe, bool *is_asked, Arena *scratch)
 /* ---- skies that are sampled -------------------------------------------------------------- */
 
 /* A probe's answers to all skies of a table, in one piece: sky, sky_bright, sky_without. */
-static size_t answer_bytes(const SkyTable *table)
-{
+static size_t answer_bytes(const SkyTable *table) {
     return (size_t)table->count * SKY_AZIMUTHS *
            (sizeof(double) + sizeof(BrightSamples) + RESPONSE_GROUPS * sizeof(float));
 }
 
-static void place_answers(DistantProbe *probe, const SkyTable *table, Arena *arena)
-{
+static void place_answers(DistantProbe *probe, const SkyTable *table, Arena *arena) {
     size_t places = (size_t)table->count * SKY_AZIMUTHS;
     probe->sky = arena_alloc(arena, 1, _Alignof(double), answer_bytes(table));
     probe->sky_bright = (BrightSamples *)(probe->sky + places);
@@ -165,29 +153,29 @@ static void place_answers(DistantProbe *probe, const SkyTable *table, Arena *are
 }
 
 /* Until they are summed. */
-static void forget_answers(DistantProbe *probe, const SkyTable *table)
-{
+static void forget_answers(DistantProbe *probe, const SkyTable *table) {
     memset(probe->sky, 0, answer_bytes(table));
     for (int i = 0; i < table->count * SKY_AZIMUTHS; i++) probe->sky[i] = (double)NAN;
 }
 
 static bool sum_skies(DistantProbe *const *probes, int count, const DistantTools *tools,
-                      Arena scratch, Error *err)
-{
+                      Arena scratch, Error *err) {
     int rows = tools->table->count, threads = tools->setup->tools.threads;
     const Response *first = &probes[0]->response; /* all have the same triangles */
-    int             cells = first->cells.count;
-    bool           *is_asked = ARENA_NEW(&scratch, bool, cells);
-    SunAngles      *at = ARENA_NEW(&scratch, SunAngles, cells);
-    SkyProbe       *list = ARENA_NEW(&scratch, SkyProbe, count);
+    int cells = first->cells.count;
+    bool *is_asked = ARENA_NEW(&scratch, bool, cells);
+    SunAngles *at = ARENA_NEW(&scratch, SunAngles, cells);
+    SkyProbe *list = ARENA_NEW(&scratch, SkyProbe, count);
     for (int i = 0; i < count; i++) list[i] = sky_probe(probes[i], is_asked, &scratch);
     for (int cell = 0; cell < cells; cell++)
         at[cell] = vehicle_angles(tools->setup, first->centers[cell]);
-    SkySum sum = {.probes = list, .probe_count = count, .cell_count = cells,
+    SkySum sum = {.probes = list,
+                  .probe_count = count,
+                  .cell_count = cells,
                   .first_azimuth = tools->table->first_azimuth,
-                  .is_asked = is_asked, .at = at,
-                  .bands = ARENA_NEW(&scratch, float,
-                                     (size_t)threads * (size_t)cells * LIGHT_BANDS)};
+                  .is_asked = is_asked,
+                  .at = at,
+                  .bands = ARENA_NEW(&scratch, float, (size_t)threads *(size_t)cells *LIGHT_BANDS)};
     for (; sum.row < rows; sum.row++) {
         Arena room = scratch;
         sum.sky = sky_table_make(tools->table, sum.row, &room, err);
@@ -198,8 +186,7 @@ static bool sum_skies(DistantProbe *const *probes, int count, const DistantTools
 }
 
 static bool sample_table(DistantProbe *const *probes, int count, const DistantTools *tools,
-                         Arena *arena, Error *err)
-{
+                         Arena *arena, Error *err) {
     for (int i = 0; i < count; i++) {
         place_answers(probes[i], tools->table, arena);
         forget_answers(probes[i], tools->table);
@@ -210,10 +197,9 @@ static bool sample_table(DistantProbe *const *probes, int count, const DistantTo
 
 /* ---- probes ------------------------------------------------------------------------------ */
 
-static Vec3 *sun_directions(const DistantTools *tools, Arena *arena)
-{
+static Vec3 *sun_directions(const DistantTools *tools, Arena *arena) {
     double heading = degrees_from_radians((double)tools->setup->scene->environment.heading);
-    Vec3  *towards = ARENA_NEW(arena, Vec3, tools->suns.count);
+    Vec3 *towards = ARENA_NEW(arena, Vec3, tools->suns.count);
     for (int i = 0; i < tools->suns.count; i++) {
         SunAngles angles = tools->suns.list[i].at;
         angles.azimuth_deg += heading;
@@ -222,25 +208,22 @@ static Vec3 *sun_directions(const DistantTools *tools, Arena *arena)
     return towards;
 }
 
-void distant_probe_respond(DistantProbe *probe, const DistantTools *tools, Arena *arena)
-{
+void distant_probe_respond(DistantProbe *probe, const DistantTools *tools, Arena *arena) {
     const ReadingTools *with = &tools->setup->tools;
-    ResponseOptions     options = {with->kernel, RESPONSE_LEVEL, tools->paths, with->threads,
-                                   tools->precision};
+    ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->paths, with->threads,
+                               tools->precision};
     response_trace(&probe->aim, &options, arena, &probe->response);
 }
 
 static const float *sample_suns(const DistantProbe *probe, const ResponseOptions *options,
-                                const ProbeSuns *suns, Arena *arena)
-{
+                                const ProbeSuns *suns, Arena *arena) {
     const LightParts *parts = probe->parts;
     return sun_parts_worst(parts ? &parts->aim : &probe->aim, parts, options, suns, arena);
 }
 
 /* Those that may light the first vertex, by the response; *count: how many. */
 static int *suns_that_reach(const Response *response, const ProbeSuns *suns, int *count,
-                            Arena *arena)
-{
+                            Arena *arena) {
     int *list = ARENA_NEW(arena, int, suns->count);
     *count = 0;
     for (int i = 0; i < suns->count; i++)
@@ -249,15 +232,13 @@ static int *suns_that_reach(const Response *response, const ProbeSuns *suns, int
 }
 
 /* Samples only suns that may light it: most of them stand behind a roof. */
-static const float *sample_scattered_suns(const DistantProbe *probe,
-                                          const ResponseOptions *options, const ProbeSuns *all,
-                                          Arena *arena)
-{
-    float    *shares = ARENA_NEW(arena, float, (size_t)all->count * RESPONSE_BANDS);
-    Arena     scratch = *arena;
+static const float *sample_scattered_suns(const DistantProbe *probe, const ResponseOptions *options,
+                                          const ProbeSuns *all, Arena *arena) {
+    float *shares = ARENA_NEW(arena, float, (size_t)all->count *RESPONSE_BANDS);
+    Arena scratch = *arena;
     ProbeSuns some = *all;
-    int      *list = suns_that_reach(&probe->response, all, &some.count, &scratch);
-    Vec3     *towards = ARENA_NEW(&scratch, Vec3, some.count);
+    int *list = suns_that_reach(&probe->response, all, &some.count, &scratch);
+    Vec3 *towards = ARENA_NEW(&scratch, Vec3, some.count);
     for (int i = 0; i < some.count; i++) towards[i] = all->towards[list[i]];
     some.towards = towards;
     if (!some.count) return shares;
@@ -268,12 +249,11 @@ static const float *sample_scattered_suns(const DistantProbe *probe,
     return shares;
 }
 
-void distant_probe_sample_suns(DistantProbe *probe, const DistantTools *tools, Arena *arena)
-{
+void distant_probe_sample_suns(DistantProbe *probe, const DistantTools *tools, Arena *arena) {
     const ReadingTools *with = &tools->setup->tools;
-    ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->sun_paths, with->threads,
-                               0};
-    ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
+    ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->sun_paths, with->threads, 0};
+    ProbeSuns suns = {.towards = sun_directions(tools, arena),
+                      .count = tools->suns.count,
                       .radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG)};
     probe->scattered = sample_scattered_suns(probe, &options, &suns, arena);
     suns.by_mirror = true;
@@ -282,8 +262,7 @@ void distant_probe_sample_suns(DistantProbe *probe, const DistantTools *tools, A
 }
 
 /* Skies of hours are many: their errors are those of an even one. */
-static void read_even_sky(DistantProbe *probe, Arena *arena)
-{
+static void read_even_sky(DistantProbe *probe, Arena *arena) {
     WhiteSamples white = {{{0}}};
     probe->sky_without = ARENA_NEW(arena, float, RESPONSE_GROUPS);
     probe->sky_bright = ARENA_NEW(arena, BrightSamples, 1);
@@ -292,16 +271,14 @@ static void read_even_sky(DistantProbe *probe, Arena *arena)
     probe->sky_bright[0] = read_white(&probe->response, &white, 1, probe->sky_without);
 }
 
-static void sample_hours(DistantProbe *probe, const DistantTools *tools, Arena *arena)
-{
+static void sample_hours(DistantProbe *probe, const DistantTools *tools, Arena *arena) {
     probe->sky = hour_skies_read(tools->hours, &probe->response, sun_directions(tools, arena),
                                  tools->suns.count, tools->setup->tools.threads, arena);
     read_even_sky(probe, arena);
 }
 
-bool distant_probes_sample_skies(DistantProbe *const *probes, int count,
-                                 const DistantTools *tools, Arena *arena, Error *err)
-{
+bool distant_probes_sample_skies(DistantProbe *const *probes, int count, const DistantTools *tools,
+                                 Arena *arena, Error *err) {
     if (!tools->hours) return sample_table(probes, count, tools, arena, err);
     for (int i = 0; i < count; i++) sample_hours(probes[i], tools, arena);
     return sample_table(NULL, 0, tools, arena, err);
@@ -313,34 +290,31 @@ typedef struct SkyPlaces {
     double weight[4];
 } SkyPlaces;
 
-static SkyPlaces sky_places(const SkyTable *table, SunAngles sun)
-{
+static SkyPlaces sky_places(const SkyTable *table, SunAngles sun) {
     double share, turns = sun.azimuth_deg / 360, places;
-    int    row = sky_table_row(table, sun.elevation_deg, &share), next = row + (share > 0);
+    int row = sky_table_row(table, sun.elevation_deg, &share), next = row + (share > 0);
     places = (turns - floor(turns)) * SKY_AZIMUTHS;
-    int    a = (int)places % SKY_AZIMUTHS, b = (a + 1) % SKY_AZIMUTHS;
+    int a = (int)places % SKY_AZIMUTHS, b = (a + 1) % SKY_AZIMUTHS;
     double along = places - floor(places);
     size_t low = (size_t)row * SKY_AZIMUTHS, high = (size_t)next * SKY_AZIMUTHS;
-    return (SkyPlaces){{low + (size_t)a, low + (size_t)b, high + (size_t)a, high + (size_t)b},
-                       {(1 - share) * (1 - along), (1 - share) * along, share * (1 - along),
-                        share * along}};
+    return (SkyPlaces){
+        {low + (size_t)a, low + (size_t)b, high + (size_t)a, high + (size_t)b},
+        {(1 - share) * (1 - along), (1 - share) * along, share * (1 - along), share * along}};
 }
 
 /* The sky's light, what it would be without each group, and its samples. */
 static double read_sky(const DistantProbe *probe, const DistantTools *tools, int sun,
-                       double without[RESPONSE_GROUPS], BrightSamples *bright)
-{
+                       double without[RESPONSE_GROUPS], BrightSamples *bright) {
     double sky = 0;
     if (tools->hours) {
         sky = probe->sky[sun];
         bright->squares += probe->sky_bright->squares * sky * sky;
         bright->fourths += probe->sky_bright->fourths * sky * sky * sky * sky;
-        for (int k = 0; k < RESPONSE_GROUPS; k++)
-            without[k] = sky * (double)probe->sky_without[k];
+        for (int k = 0; k < RESPONSE_GROUPS; k++) without[k] = sky * (double)probe->sky_without[k];
         return sky;
     }
     SkyPlaces places = sky_places(tools->table, tools->suns.list[sun].at);
-    double    light = tools->suns.list[sun].light;
+    double light = tools->suns.list[sun].light;
     for (int k = 0; k < RESPONSE_GROUPS; k++) without[k] = 0;
     for (int i = 0; i < 4; i++) {
         const float *of_place = probe->sky_without + places.at[i] * RESPONSE_GROUPS;
@@ -355,8 +329,7 @@ static double read_sky(const DistantProbe *probe, const DistantTools *tools, int
     return sky;
 }
 
-static void sun_bands(const DistantTools *tools, int sun, float bands[LIGHT_BANDS])
-{
+static void sun_bands(const DistantTools *tools, int sun, float bands[LIGHT_BANDS]) {
     const HourSkies *hours = tools->hours;
     if (!hours) {
         const DistantSun *of = &tools->suns.list[sun];
@@ -368,14 +341,11 @@ static void sun_bands(const DistantTools *tools, int sun, float bands[LIGHT_BAND
 }
 
 static void read_sun(const DistantProbe *probe, const DistantTools *tools, int sun,
-                     DistantReading *to,
-                     double without[RESPONSE_GROUPS], BrightSamples *bright)
-{
-    SunAngles  angles = tools->suns.list[sun].at;
-    float      bands[LIGHT_BANDS];
-    size_t     at = (size_t)sun * LIGHT_BANDS;
-    angles.azimuth_deg +=
-        degrees_from_radians((double)tools->setup->scene->environment.heading);
+                     DistantReading *to, double without[RESPONSE_GROUPS], BrightSamples *bright) {
+    SunAngles angles = tools->suns.list[sun].at;
+    float bands[LIGHT_BANDS];
+    size_t at = (size_t)sun * LIGHT_BANDS;
+    angles.azimuth_deg += degrees_from_radians((double)tools->setup->scene->environment.heading);
     sun_bands(tools, sun, bands);
     to->mirror = probe->mirror ? light_bands_sum(probe->mirror + at, bands) : 0;
     to->sun_first = light_bands_sum(probe->scattered + at, bands) + to->mirror;
@@ -383,10 +353,9 @@ static void read_sun(const DistantProbe *probe, const DistantTools *tools, int s
                                 without, bright);
 }
 
-DistantReading distant_probe_read(const DistantProbe *probe, const DistantTools *tools, int sun)
-{
+DistantReading distant_probe_read(const DistantProbe *probe, const DistantTools *tools, int sun) {
     BrightSamples bright = {0};
-    double        without[RESPONSE_GROUPS], of_sun[RESPONSE_GROUPS] = {0};
+    double without[RESPONSE_GROUPS], of_sun[RESPONSE_GROUPS] = {0};
     DistantReading reading = {.sky = read_sky(probe, tools, sun, without, &bright)};
     if (!(tools->suns.list[sun].at.elevation_deg < -SUN_MEAN_RADIUS_DEG))
         read_sun(probe, tools, sun, &reading, of_sun, &bright);
@@ -401,37 +370,33 @@ DistantReading distant_probe_read(const DistantProbe *probe, const DistantTools 
 
 #define ROOM_FIRST 1024
 
-SunReadings sun_readings_start(Arena *arena)
-{
+SunReadings sun_readings_start(Arena *arena) {
     SunReadings readings = {.arena = arena, .room = ROOM_FIRST};
     readings.places = ARENA_NEW(arena, KeptReading, ROOM_FIRST);
     return readings;
 }
 
 /* Where the sun is, or would be. */
-static KeptReading *place_of(const SunReadings *readings, DistantSun sun)
-{
+static KeptReading *place_of(const SunReadings *readings, DistantSun sun) {
     size_t last = (size_t)readings->room - 1;
     size_t place = (size_t)XXH3_64bits(&sun, sizeof sun) & last;
     for (;; place = (place + 1) & last) {
         KeptReading *kept = &readings->places[place];
-        if (!kept->is_taken || (kept->sun.at.azimuth_deg == sun.at.azimuth_deg &&
-                                kept->sun.at.elevation_deg == sun.at.elevation_deg &&
-                                kept->sun.light == sun.light))
+        if (!kept->is_taken ||
+            (kept->sun.at.azimuth_deg == sun.at.azimuth_deg &&
+             kept->sun.at.elevation_deg == sun.at.elevation_deg && kept->sun.light == sun.light))
             return kept;
     }
 }
 
-const double *sun_readings_find(const SunReadings *readings, DistantSun sun)
-{
+const double *sun_readings_find(const SunReadings *readings, DistantSun sun) {
     const KeptReading *kept = place_of(readings, sun);
     return kept->is_taken ? &kept->lux : NULL;
 }
 
-static void make_room(SunReadings *readings)
-{
-    SunReadings wider = {.arena = readings->arena, .count = readings->count,
-                         .room = 2 * readings->room};
+static void make_room(SunReadings *readings) {
+    SunReadings wider = {
+        .arena = readings->arena, .count = readings->count, .room = 2 * readings->room};
     wider.places = ARENA_NEW(wider.arena, KeptReading, wider.room);
     for (int i = 0; i < readings->room; i++) {
         const KeptReading *kept = &readings->places[i];
@@ -440,8 +405,7 @@ static void make_room(SunReadings *readings)
     *readings = wider;
 }
 
-void sun_readings_add(SunReadings *readings, DistantSun sun, double lux)
-{
+void sun_readings_add(SunReadings *readings, DistantSun sun, double lux) {
     if (2 * (readings->count + 1) > readings->room) make_room(readings);
     *place_of(readings, sun) = (KeptReading){sun, lux, true};
     readings->count++;

@@ -22,31 +22,31 @@
 /* ---- probes ------------------------------------------------------------------------------ */
 
 typedef struct DistantProbe {
-    ProbeAim     aim;
-    Response     response;
-    const LightParts *parts; /* of what is looked at: the sun itself counts by the part that
-                                gets most of it; NULL: by all of it, or by a luxmeter */
+    ProbeAim aim;
+    Response response;
+    const LightParts *parts;         /* of what is looked at: the sun itself counts by the part that
+                                        gets most of it; NULL: by all of it, or by a luxmeter */
     const float *scattered, *mirror; /* the first vertex's: [sun][band], by lx */
-    double      *sky;  /* [elevation of the table][SKY_AZIMUTHS]; by hours [sun] */
-    float       *sky_without; /* the same without each of the response's groups:
-                                 [...][group]; by hours [group], as a share of any sky */
-    BrightSamples *sky_bright; /* samples of each; by hours one, of a sky of 1 */
+    double *sky;                     /* [elevation of the table][SKY_AZIMUTHS]; by hours [sun] */
+    float *sky_without;              /* the same without each of the response's groups:
+                                        [...][group]; by hours [group], as a share of any sky */
+    BrightSamples *sky_bright;       /* samples of each; by hours one, of a sky of 1 */
 } DistantProbe;
 
 typedef struct DistantSuns {
     const DistantSun *list; /* relative to the vehicle */
-    int               count;
+    int count;
 } DistantSuns;
 
 typedef struct DistantTools {
-    const Setup    *setup;
-    SkyTable       *table;
-    DistantSuns     suns;
-    int             paths;       /* the response's, at most, */
-    double          precision;   /* and when it ends before */
-    int             sun_paths;   /* the first vertex's */
-    bool            has_mirror;  /* it may be one: that is sampled by paths of its own */
-    const HourSkies *hours;     /* a weather file's, read instead of the table; or NULL */
+    const Setup *setup;
+    SkyTable *table;
+    DistantSuns suns;
+    int paths;              /* the response's, at most, */
+    double precision;       /* and when it ends before */
+    int sun_paths;          /* the first vertex's */
+    bool has_mirror;        /* it may be one: that is sampled by paths of its own */
+    const HourSkies *hours; /* a weather file's, read instead of the table; or NULL */
 } DistantTools;
 
 /* probe->aim is set: its response is made, for any table and suns. */
@@ -55,8 +55,8 @@ void distant_probe_respond(DistantProbe *probe, const DistantTools *tools, Arena
 /* After that: what the tools' skies give them, and the table's suns. All at once, since a sky
  * is made and looked up but once for all of them. No probes: its suns alone. Fails as
  * daylight_build. */
-bool distant_probes_sample_skies(DistantProbe *const *probes, int count,
-                                 const DistantTools *tools, Arena *arena, Error *err);
+bool distant_probes_sample_skies(DistantProbe *const *probes, int count, const DistantTools *tools,
+                                 Arena *arena, Error *err);
 
 /* The first vertex's answers to the tools' suns: after that the probe may be read; once more
  * for other suns of the same clear skies. */
@@ -69,13 +69,11 @@ typedef struct DistantReading {
     MeanInterval interval;           /* 95 %, of their sum */
 } DistantReading;
 
-static inline double distant_reading_sum(DistantReading reading)
-{
+static inline double distant_reading_sum(DistantReading reading) {
     return reading.sky + reading.sun_first + reading.sun_rest;
 }
 
-DistantReading distant_probe_read(const DistantProbe *probe, const DistantTools *tools,
-                                  int sun);
+DistantReading distant_probe_read(const DistantProbe *probe, const DistantTools *tools, int sun);
 
 /* What a luxmeter reads under suns, kept so that none is sampled twice.
  *
@@ -91,14 +89,14 @@ DistantReading distant_probe_read(const DistantProbe *probe, const DistantTools 
 
 typedef struct KeptReading {
     DistantSun sun;
-    double    lux;
-    bool      is_taken;
+    double lux;
+    bool is_taken;
 } KeptReading;
 
 typedef struct SunReadings {
-    Arena       *arena;
+    Arena *arena;
     KeptReading *places;
-    int          count, room; /* a power of two, half of it or more free */
+    int count, room; /* a power of two, half of it or more free */
 } SunReadings;
 
 /* None yet. */

@@ -22,21 +22,21 @@
 
 typedef struct HourSky {
     SkyShape shape;
-    float    scale;                    /* cd m^-2 per unit of the shape */
-    float    sky_bands[LIGHT_BANDS];   /* for a sky of 1 cd m^-2 */
-    float    floor_bands[LIGHT_BANDS]; /* whole */
-    float    sun_bands[LIGHT_BANDS];   /* the part of the disc that is up */
+    float scale;                    /* cd m^-2 per unit of the shape */
+    float sky_bands[LIGHT_BANDS];   /* for a sky of 1 cd m^-2 */
+    float floor_bands[LIGHT_BANDS]; /* whole */
+    float sun_bands[LIGHT_BANDS];   /* the part of the disc that is up */
 } HourSky;
 
 /* Those of a sweep. */
 typedef struct HourSkies {
     const HourSky *list;
-    const int     *of_sun; /* [sun] into list; NO_ID: no light comes from outside */
+    const int *of_sun; /* [sun] into list; NO_ID: no light comes from outside */
 } HourSkies;
 
 typedef struct HourInputs {
     const DaylightInput *list; /* all DAYLIGHT_PEREZ */
-    int                  count;
+    int count;
 } HourInputs;
 
 /* One for each input. *failed: which one could not be built. */
@@ -44,5 +44,5 @@ bool hour_skies_build(const HourInputs *inputs, int threads, Arena *arena, const
                       int *failed, Error *err);
 
 /* A response's readings of sky and floor under each of `count` suns: [sun]. */
-double *hour_skies_read(const HourSkies *skies, const Response *response,
-                              const Vec3 *suns, int count, int threads, Arena *arena);
+double *hour_skies_read(const HourSkies *skies, const Response *response, const Vec3 *suns,
+                        int count, int threads, Arena *arena);

@@ -13,7 +13,7 @@
 #include "kernel/probe.h"
 
 typedef struct LightParts {
-    ProbeAim   aim;     /* a target and its patch for each cell that is seen */
+    ProbeAim aim;       /* a target and its patch for each cell that is seen */
     const int *cell_of; /* [target] row by row */
     int columns, rows;  /* of cells */
     int wide, high;     /* cells of a window; no more than there are */
@@ -28,8 +28,8 @@ void light_parts_place(const LightParts *parts, int part, int *column, int *row)
 /* Sets means[part], over the cells of each that are seen, of values[target]; NaN: the part does
  * not count. Returns the worst, of equal ones the nearest to the middle; -1: nothing is
  * seen. counts: [part] how many cells are seen; NULL: not requested. */
-int light_parts_worst(const LightParts *parts, const double *values, double *means,
-                      int *counts, Arena scratch);
+int light_parts_worst(const LightParts *parts, const double *values, double *means, int *counts,
+                      Arena scratch);
 
 /* Light that samples found at a target. */
 typedef struct TargetLight {
@@ -44,5 +44,5 @@ typedef struct TargetLight {
  * the share that chance does not explain (Efron and Morris, J. Am. Stat. Assoc. 70 (1975) 311).
  * Samples have a say only where a part is worse than that of what is known, or than all, by two
  * standard errors. */
-int light_parts_choose(const LightParts *parts, const TargetLight *sampled,
-                       const double *known, Arena scratch);
+int light_parts_choose(const LightParts *parts, const TargetLight *sampled, const double *known,
+                       Arena scratch);

@@ -17,26 +17,22 @@
 #include "render/signals.h"
 #include "review/light/response_suns.h"
 
-static void add_floats(XXH3_state_t *state, Vec3 v)
-{
+static void add_floats(XXH3_state_t *state, Vec3 v) {
     const float values[3] = {v.x, v.y, v.z};
     XXH3_128bits_update(state, values, sizeof values);
 }
 
-static void add_count(XXH3_state_t *state, int64_t count)
-{
+static void add_count(XXH3_state_t *state, int64_t count) {
     XXH3_128bits_update(state, &count, sizeof count);
 }
 
-static void add_polariser(XXH3_state_t *state, const PolarisedEye *eye)
-{
+static void add_polariser(XXH3_state_t *state, const PolarisedEye *eye) {
     add_floats(state, eye->right);
     add_floats(state, vec3(eye->axis[0], eye->axis[1], eye->lets));
     add_floats(state, vec3(eye->blocks, 0, 0));
 }
 
-static void add_aim(XXH3_state_t *state, const ProbeAim *aim)
-{
+static void add_aim(XXH3_state_t *state, const ProbeAim *aim) {
     add_count(state, aim->seed);
     add_count(state, aim->meter ? 1 + aim->meter->both_sides : 0);
     if (aim->meter) {
@@ -50,12 +46,10 @@ static void add_aim(XXH3_state_t *state, const ProbeAim *aim)
     add_count(state, aim->target_count);
     XXH3_128bits_update(state, aim->targets, (size_t)aim->target_count * sizeof *aim->targets);
     if (aim->patches)
-        XXH3_128bits_update(state, aim->patches,
-                            (size_t)aim->target_count * sizeof *aim->patches);
+        XXH3_128bits_update(state, aim->patches, (size_t)aim->target_count * sizeof *aim->patches);
 }
 
-uint64_t reading_aim_hash(const ProbeAim *aim)
-{
+uint64_t reading_aim_hash(const ProbeAim *aim) {
     XXH3_state_t state;
     XXH3_128bits_reset(&state);
     add_aim(&state, aim);
@@ -70,24 +64,23 @@ uint64_t reading_aim_hash(const ProbeAim *aim)
 /* The sums of one batch of a reading's paths. */
 typedef struct Batch {
     double reflected, mirror;
-    long   found;
-    long   sky_finds; /* PathStatistics' */
+    long found;
+    long sky_finds; /* PathStatistics' */
     double sent_on;
     BrightSamples bright;
 } Batch;
 
 /* Paths that go on where they ended. */
 typedef struct Stream {
-    ProbeAim      aim;
+    ProbeAim aim;
     const Kernel *kernel;
-    int           threads;
-    int           first, end; /* paths of every batch */
-    Batch        *batches;
-    TargetLight  *targets;    /* of each batch; NULL: they are not kept apart */
+    int threads;
+    int first, end; /* paths of every batch */
+    Batch *batches;
+    TargetLight *targets; /* of each batch; NULL: they are not kept apart */
 } Stream;
 
-static void add_targets(TargetLight *to, const ProbeLook *looks, int count)
-{
+static void add_targets(TargetLight *to, const ProbeLook *looks, int count) {
     for (int i = 0; i < count; i++) {
         if (!looks[i].is_found) continue;
         TargetLight *target = &to[looks[i].target];
@@ -97,8 +90,7 @@ static void add_targets(TargetLight *to, const ProbeLook *looks, int count)
     }
 }
 
-static void add_looks(Batch *to, const ProbeLook *looks, int count)
-{
+static void add_looks(Batch *to, const ProbeLook *looks, int count) {
     for (int i = 0; i < count; i++) {
         to->reflected += (double)looks[i].reflected[1];
         to->mirror += (double)looks[i].mirror[1];
@@ -107,13 +99,12 @@ static void add_looks(Batch *to, const ProbeLook *looks, int count)
     }
 }
 
-static void read_batch(void *user, int item, int worker)
-{
+static void read_batch(void *user, int item, int worker) {
     (void)worker;
-    const Stream  *stream = user;
-    ProbeLook      looks[PIECE];
+    const Stream *stream = user;
+    ProbeLook looks[PIECE];
     PathStatistics statistics = {0};
-    ProbeAim       aim = stream->aim;
+    ProbeAim aim = stream->aim;
     aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)item);
     aim.is_spread = true;
     for (int first = stream->first; first < stream->end; first += PIECE) {
@@ -130,22 +121,21 @@ static void read_batch(void *user, int item, int worker)
 }
 
 /* Where no ray of the sun was seen to come in, a beam as wide as the map's pixels may. */
-static double unseen_by(const ProbeAim *aim)
-{
+static double unseen_by(const ProbeAim *aim) {
     return (double)sunlit_map_unseen(&aim->context->sunlit);
 }
 
-static Estimate estimate_in(const Reading *reading, const ProbeAim *aim, double known)
-{
-    return (Estimate){.mean = reading->reflected, .sigma = reading->sigma,
-                      .interval = reading->interval, .bright = reading->bright,
+static Estimate estimate_in(const Reading *reading, const ProbeAim *aim, double known) {
+    return (Estimate){.mean = reading->reflected,
+                      .sigma = reading->sigma,
+                      .interval = reading->interval,
+                      .bright = reading->bright,
                       .counted = (double)reading->paths * reading->found_share,
                       .unseen = unseen_by(aim),
                       .known_sigma = RESPONSE_MIRROR_ERROR * known};
 }
 
-static void put_estimate(const Estimate *estimate, Reading *to)
-{
+static void put_estimate(const Estimate *estimate, Reading *to) {
     to->reflected = estimate->mean;
     to->sigma = estimate->sigma;
     to->interval = estimate->interval;
@@ -154,8 +144,7 @@ static void put_estimate(const Estimate *estimate, Reading *to)
 /* What the sky may send although no path met it: it may be seen through openings that one path
  * in so many would meet. By which of the surface's ways they would does not matter: a path that
  * goes out there brings what the surface sends on of a sky as bright as the mean. */
-static double sky_unmet(const ProbeAim *aim, const Batch batches[BATCHES], double found)
-{
+static double sky_unmet(const ProbeAim *aim, const Batch batches[BATCHES], double found) {
     double sent_on = 0;
     for (int i = 0; i < BATCHES; i++) {
         if (batches[i].sky_finds) return 0;
@@ -167,12 +156,11 @@ static double sky_unmet(const ProbeAim *aim, const Batch batches[BATCHES], doubl
 
 /* paths: in each batch. Those count that found the display. */
 static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int paths,
-                          double known)
-{
-    EstimateSums sums = {.batches = BATCHES, .paths = (long)paths * BATCHES, .piece = 1,
-                         .unseen = unseen_by(aim)};
-    Reading      reading = {.paths = sums.paths};
-    double       mirror = 0, found = 0;
+                          double known) {
+    EstimateSums sums = {
+        .batches = BATCHES, .paths = (long)paths * BATCHES, .piece = 1, .unseen = unseen_by(aim)};
+    Reading reading = {.paths = sums.paths};
+    double mirror = 0, found = 0;
     for (int i = 0; i < BATCHES; i++) {
         sums.batch[i] = batches[i].reflected;
         mirror += batches[i].mirror;
@@ -188,19 +176,16 @@ static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int
     estimate_add_known(&estimate, known, RESPONSE_MIRROR_ERROR * known);
     put_estimate(&estimate, &reading);
     reading.mirror = mirror / found + known;
-    for (int i = 0; i < BATCHES; i++)
-        reading.batches[i] = estimate_batch(&sums, i) + known;
+    for (int i = 0; i < BATCHES; i++) reading.batches[i] = estimate_batch(&sums, i) + known;
     return reading;
 }
 
-static double relative_error(const Reading *reading)
-{
+static double relative_error(const Reading *reading) {
     return reading->reflected > 0 ? reading->sigma / reading->reflected : 0;
 }
 
 /* By how much of itself one standard error moves what counts. */
-static double uncertainty(const Reading *reading, const ReadingGoal *goal)
-{
+static double uncertainty(const Reading *reading, const ReadingGoal *goal) {
     double r = fmax(reading->reflected, 0);
     if (goal->brighter <= 0 && goal->darker <= 0) return relative_error(reading);
     double bright = goal->brighter + r, dark = goal->darker + r;
@@ -208,13 +193,11 @@ static double uncertainty(const Reading *reading, const ReadingGoal *goal)
     return fabs(1 / bright - 1 / dark) * reading->sigma;
 }
 
-static bool is_sure(const Reading *reading, const ReadingGoal *goal)
-{
+static bool is_sure(const Reading *reading, const ReadingGoal *goal) {
     return uncertainty(reading, goal) <= goal->precision;
 }
 
-static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena scratch)
-{
+static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena scratch) {
     const ReadingQuestion *question = goal->question;
     return question && uncertainty(reading, goal) <= question->precision &&
            relative_error(reading) <= question->precision &&
@@ -223,15 +206,13 @@ static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena sc
 
 /* ---- one stream -------------------------------------------------------------------------- */
 
-static Stream stream_start(const ProbeAim *aim, const ReadingTools *tools, Arena *arena)
-{
-    return (Stream){*aim, tools->kernel, tools->threads, 0, 0,
-                    ARENA_NEW(arena, Batch, BATCHES), NULL};
+static Stream stream_start(const ProbeAim *aim, const ReadingTools *tools, Arena *arena) {
+    return (Stream){*aim, tools->kernel, tools->threads, 0, 0, ARENA_NEW(arena, Batch, BATCHES),
+                    NULL};
 }
 
 /* All of its paths, up to so many. */
-static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal)
-{
+static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal) {
     stream->end = (int)(paths / BATCHES);
     parallel_for(stream->threads, BATCHES, read_batch, stream);
     stream->first = stream->end;
@@ -242,56 +223,55 @@ static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal)
 
 /* A pilot, and what would do. */
 typedef struct PilotWork {
-    Stream             stream;
+    Stream stream;
     const ReadingGoal *goal;
-    Reading            reading;
-    Arena              scratch;
+    Reading reading;
+    Arena scratch;
 } PilotWork;
 
-static void read_pilot(void *user, long paths)
-{
+static void read_pilot(void *user, long paths) {
     PilotWork *work = user;
     work->reading = stream_read(&work->stream, paths, work->goal);
 }
 
-static bool will_do(void *user, long pilot, long paths)
-{
+static bool will_do(void *user, long pilot, long paths) {
     PilotWork *work = user;
-    Estimate   now = estimate_in(&work->reading, &work->stream.aim, work->goal->known);
-    Estimate   then = estimate_expected(&now, (double)paths / (double)pilot);
-    Reading    fresh = work->reading;
+    Estimate now = estimate_in(&work->reading, &work->stream.aim, work->goal->known);
+    Estimate then = estimate_expected(&now, (double)paths / (double)pilot);
+    Reading fresh = work->reading;
     put_estimate(&then, &fresh);
     return is_sure(&fresh, work->goal) || is_decided(&fresh, work->goal, work->scratch);
 }
 
 /* A number of paths that nothing decides is the least and the most. */
-static EstimatePlan plan_of(PilotWork *work)
-{
+static EstimatePlan plan_of(PilotWork *work) {
     const ReadingGoal *goal = work->goal;
     bool is_given = !goal->question && !(goal->precision > 0);
     long most = is_given ? goal->most / BATCHES * BATCHES : goal->most;
     long least = is_given ? most : goal->question ? READING_ASKED_LEAST : READING_LEAST;
-    return (EstimatePlan){.pilot = least / 2, .least = least, .most = most,
-                          .reach = PILOT_REACH, .user = work, .read_pilot = read_pilot,
+    return (EstimatePlan){.pilot = least / 2,
+                          .least = least,
+                          .most = most,
+                          .reach = PILOT_REACH,
+                          .user = work,
+                          .read_pilot = read_pilot,
                           .will_do = will_do};
 }
 
-static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal,
-                            const ReadingTools *tools, Arena scratch)
-{
-    Stream    fresh = stream_start(aim, tools, &scratch);
+static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
+                            Arena scratch) {
+    Stream fresh = stream_start(aim, tools, &scratch);
     PilotWork work = {.stream = stream_start(aim, tools, &scratch), .goal = goal};
     work.stream.aim.seed = hash_combine(hash_u32(aim->seed), PILOT_SEED);
     work.scratch = scratch;
     EstimatePlan plan = plan_of(&work);
-    long         paths = estimate_plan(&plan);
+    long paths = estimate_plan(&plan);
     if (goal->times > 1) paths *= goal->times;
     return stream_read(&fresh, paths > goal->least ? paths : goal->least, goal);
 }
 
 Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
-                     Arena scratch)
-{
+                     Arena scratch) {
     Reading reading = take_planned(aim, goal, tools, scratch);
     reading.reached = uncertainty(&reading, goal);
     return reading;
@@ -300,11 +280,10 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
 /* ---- target by target -------------------------------------------------------------------- */
 
 Reading reading_field(const ProbeAim *aim, long paths, double known, const ReadingTools *tools,
-                      TargetLight *targets, Arena scratch)
-{
+                      TargetLight *targets, Arena scratch) {
     ReadingGoal goal = {.known = 0};
-    size_t      count = (size_t)aim->target_count;
-    Stream      stream = stream_start(aim, tools, &scratch);
+    size_t count = (size_t)aim->target_count;
+    Stream stream = stream_start(aim, tools, &scratch);
     stream.targets = ARENA_NEW(&scratch, TargetLight, BATCHES * count);
     stream_read(&stream, paths, &goal);
     for (size_t i = 0; i < BATCHES * count; i++) {

@@ -27,7 +27,7 @@ typedef struct ReadingQuestion {
      * that of whoever takes the reading, behind what it still needs: an asker that kept scratch
      * of its own would write over the batches. */
     bool (*is_decided)(void *user, MeanInterval reflected, Arena scratch);
-    void  *user;
+    void *user;
     double precision; /* at which a decided question may end: coarser than the goal's, and
                          requested of the reading itself too */
 } ReadingQuestion;
@@ -35,43 +35,46 @@ typedef struct ReadingQuestion {
 /* When a reading is sure enough: when one standard error moves the contrast of what is shown by
  * less than `precision` of it, or the reading itself. */
 typedef struct ReadingGoal {
-    double brighter, darker; /* emitted, cd m^-2; both 0: the reading itself counts */
-    double precision;        /* relative, above 0; or 0, without a question: `most` paths */
-    long   most;             /* paths, at most */
-    int    times;            /* so many times the paths that would do, for a difference to
-                                another reading; 0 is 1 */
-    long   least;            /* no fewer, as many as that other one has; 0 as a rule */
-    double known;            /* the part by the display's mirror: paths leave it out
-                                (path_context.h); it is added, with the error of
-                                response_mirror_paths */
+    double brighter, darker;         /* emitted, cd m^-2; both 0: the reading itself counts */
+    double precision;                /* relative, above 0; or 0, without a question: `most` paths */
+    long most;                       /* paths, at most */
+    int times;                       /* so many times the paths that would do, for a difference to
+                                        another reading; 0 is 1 */
+    long least;                      /* no fewer, as many as that other one has; 0 as a rule */
+    double known;                    /* the part by the display's mirror: paths leave it out
+                                        (path_context.h); it is added, with the error of
+                                        response_mirror_paths */
     const ReadingQuestion *question; /* NULL: none */
 } ReadingGoal;
 
 typedef struct ReadingTools {
     const Kernel *kernel;
-    int           threads;
+    int threads;
 } ReadingTools;
 
-#define READING_BATCHES ESTIMATE_BATCHES /* batches are alike and independent: each has a
-                                            seed of its own, its samples are well spread
-                                            among themselves */
+#define READING_BATCHES \
+    ESTIMATE_BATCHES /* batches are alike and independent: each has a \
+                        seed of its own, its samples are well spread \
+                        among themselves */
 
 typedef struct Reading {
-    double reflected;      /* Y; of a luxmeter the illuminance */
-    double sigma;          /* its standard error */
-    MeanInterval interval; /* 95 %, whether there was a question or not */
-    double mirror;         /* part via the display's mirror */
-    double found_share;    /* paths whose first surface was a display */
-    BrightSamples bright;  /* its paths, by the light that each found */
+    double reflected;                /* Y; of a luxmeter the illuminance */
+    double sigma;                    /* its standard error */
+    MeanInterval interval;           /* 95 %, whether there was a question or not */
+    double mirror;                   /* part via the display's mirror */
+    double found_share;              /* paths whose first surface was a display */
+    BrightSamples bright;            /* its paths, by the light that each found */
     double batches[READING_BATCHES]; /* of each batch by itself; their mean is `reflected` */
-    double reached;        /* by how much of itself one standard error moves what counts */
-    long   paths;          /* that it was read from; a pilot's do not count */
+    double reached; /* by how much of itself one standard error moves what counts */
+    long paths;     /* that it was read from; a pilot's do not count */
 } Reading;
 
-#define READING_LEAST 1024       /* paths of a reading that a pilot decides; twice its pilot's,
-                                    at least */
-#define READING_ASKED_LEAST 4096 /* with a question: light that only one path in hundreds finds
-                                    must have been met */
+#define READING_LEAST \
+    1024 /* paths of a reading that a pilot decides; twice its pilot's, \
+            at least */
+#define READING_ASKED_LEAST \
+    4096 /* with a question: light that only one path in hundreds finds \
+            must have been met */
 
 Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                      Arena scratch);

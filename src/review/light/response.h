@@ -28,29 +28,30 @@
 
 typedef struct ResponseOptions {
     const Kernel *kernel;
-    int level;       /* subdivision of the triangles */
-    int paths;       /* at most; at least RESPONSE_CHUNK: whole chunks are traced */
+    int level; /* subdivision of the triangles */
+    int paths; /* at most; at least RESPONSE_CHUNK: whole chunks are traced */
     int threads;
     double precision; /* response_trace ends when relative_error is no more; 0: never before */
 } ResponseOptions;
 
 #define RESPONSE_CHUNK 16
 #define RESPONSE_GROUPS 16
-#define RESPONSE_CLASSES 16 /* triangles that get light are sampled by the same paths where
-                               their numbers differ by a multiple of it, else by others */
+#define RESPONSE_CLASSES \
+    16 /* triangles that get light are sampled by the same paths where \
+          their numbers differ by a multiple of it, else by others */
 
 #define RESPONSE_SLABS 128
 
 typedef struct Response {
-    ProbeCells cells;   /* geometry; nothing is sampled any more */
-    const Vec3 *centers; /* [cell] directions, unit, world */
-    const int  *slabs;   /* cells of each of RESPONSE_SLABS equal steps of y, rising; */
-    const int  *slab_first; /* [RESPONSE_SLABS + 1] its place among them */
-    int        paths;
-    const float *first; /* [cell][band], of the whole triangle: by the first vertex */
-    const float *rest;  /* by all further ones */
-    const float *groups; /* [cell][2][group] each group's part of white light, of all and of the
-                            rest: they add up to it */
+    ProbeCells cells;      /* geometry; nothing is sampled any more */
+    const Vec3 *centers;   /* [cell] directions, unit, world */
+    const int *slabs;      /* cells of each of RESPONSE_SLABS equal steps of y, rising; */
+    const int *slab_first; /* [RESPONSE_SLABS + 1] its place among them */
+    int paths;
+    const float *first;    /* [cell][band], of the whole triangle: by the first vertex */
+    const float *rest;     /* by all further ones */
+    const float *groups;   /* [cell][2][group] each group's part of white light, of all and of the
+                              rest: they add up to it */
     double relative_error; /* standard error of the reading under a uniform white sky */
 } Response;
 

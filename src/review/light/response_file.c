@@ -12,7 +12,7 @@
 
 typedef struct ResponseFacts {
     int32_t level, paths, cells, kept; /* kept: cells that hold anything */
-    double  relative_error, lamps, displays;
+    double relative_error, lamps, displays;
 } ResponseFacts;
 
 _Static_assert(sizeof(ResponseFacts) == 16 + 24, "the facts have no gaps");
@@ -20,43 +20,39 @@ _Static_assert(sizeof(ResponseFacts) == 16 + 24, "the facts have no gaps");
 static const KeptFormat format = {"PRHLRESP", "a response", RESPONSE_VERSION,
                                   sizeof(ResponseFacts)};
 
-static size_t body_bytes(int32_t kept)
-{
+static size_t body_bytes(int32_t kept) {
     return (size_t)kept * (sizeof(int32_t) + PROBE_ORDERS * CELL_BYTES + GROUP_BYTES);
 }
 
 /* ---- writing ----------------------------------------------------------------------------- */
 
-static bool is_empty(const float *shares)
-{
+static bool is_empty(const float *shares) {
     static const float zeros[RESPONSE_BANDS];
     return !memcmp(shares, zeros, CELL_BYTES);
 }
 
-static int32_t *find_kept(const Response *response, int32_t *count, Arena *arena)
-{
+static int32_t *find_kept(const Response *response, int32_t *count, Arena *arena) {
     int32_t *kept = ARENA_NEW(arena, int32_t, response->cells.count);
     *count = 0;
     for (int i = 0; i < response->cells.count; i++) {
         size_t at = (size_t)i * RESPONSE_BANDS;
-        if (!is_empty(response->first + at) || !is_empty(response->rest + at))
-            kept[(*count)++] = i;
+        if (!is_empty(response->first + at) || !is_empty(response->rest + at)) kept[(*count)++] = i;
     }
     return kept;
 }
 
-static unsigned char *put(unsigned char *to, const void *bytes, size_t size)
-{
+static unsigned char *put(unsigned char *to, const void *bytes, size_t size) {
     memcpy(to, bytes, size);
     return to + size;
 }
 
 bool response_write(ResponseFile *file, const Response *response, const OwnLight *own,
-                    Arena scratch, Error *err)
-{
-    ResponseFacts facts = {.level = response->cells.level, .paths = response->paths,
+                    Arena scratch, Error *err) {
+    ResponseFacts facts = {.level = response->cells.level,
+                           .paths = response->paths,
                            .cells = response->cells.count,
-                           .relative_error = response->relative_error, .lamps = own->lamps,
+                           .relative_error = response->relative_error,
+                           .lamps = own->lamps,
                            .displays = own->displays};
     int32_t *kept = find_kept(response, &facts.kept, &scratch);
     KeptFile to_keep = {&format, file->path, file->identity, &facts, body_bytes(facts.kept)};
@@ -74,28 +70,24 @@ bool response_write(ResponseFile *file, const Response *response, const OwnLight
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-static bool check_facts(const KeptReader *reader, const ResponseFacts *facts, Error *err)
-{
+static bool check_facts(const KeptReader *reader, const ResponseFacts *facts, Error *err) {
     bool is_sound = facts->level >= 0 && facts->level <= RESPONSE_LEVEL && facts->paths > 0 &&
-                    facts->cells == 2 * (int32_t)geodesic_count(facts->level) &&
-                    facts->kept >= 0 && facts->kept <= facts->cells &&
-                    isfinite(facts->lamps) && isfinite(facts->displays);
+                    facts->cells == 2 * (int32_t)geodesic_count(facts->level) && facts->kept >= 0 &&
+                    facts->kept <= facts->cells && isfinite(facts->lamps) &&
+                    isfinite(facts->displays);
     return (is_sound || kept_damaged(reader, err, "its head cannot be")) &&
            kept_has_left(reader, body_bytes(facts->kept), err);
 }
 
 static bool check_identity(const ResponseFile *file, const KeptReader *reader, Arena scratch,
-                           Error *err)
-{
+                           Error *err) {
     const char *difference = identity_difference(reader->identity, file->identity, &scratch);
     return !difference || error_at(err, ERROR_INPUT, file->path, "",
                                    "is the response of something else: %s", difference);
 }
 
 /* Which triangles the values belong to. */
-static bool take_cells(KeptReader *reader, const ResponseFacts *facts, int32_t *cells,
-                       Error *err)
-{
+static bool take_cells(KeptReader *reader, const ResponseFacts *facts, int32_t *cells, Error *err) {
     if (!kept_take(reader, cells, (size_t)facts->kept * sizeof *cells, err)) return false;
     for (int i = 0; i < facts->kept; i++)
         if (cells[i] < 0 || cells[i] >= facts->cells)
@@ -105,8 +97,7 @@ static bool take_cells(KeptReader *reader, const ResponseFacts *facts, int32_t *
 
 /* One of the body's parts: `each` values of every triangle. */
 static bool spread(KeptReader *reader, const ResponseFacts *facts, const int32_t *cells,
-                   size_t each, float *values, Error *err)
-{
+                   size_t each, float *values, Error *err) {
     for (int i = 0; i < facts->kept; i++) {
         float *to = values + (size_t)cells[i] * each;
         if (!kept_take(reader, to, each * sizeof *to, err)) return false;
@@ -117,26 +108,24 @@ static bool spread(KeptReader *reader, const ResponseFacts *facts, const int32_t
     return true;
 }
 
-static bool take_body(KeptReader *reader, const ResponseFacts *facts, float *shares,
-                      Arena scratch, Error *err)
-{
+static bool take_body(KeptReader *reader, const ResponseFacts *facts, float *shares, Arena scratch,
+                      Error *err) {
     int32_t *cells = ARENA_NEW(&scratch, int32_t, facts->kept);
-    size_t   order = (size_t)facts->cells * RESPONSE_BANDS;
+    size_t order = (size_t)facts->cells * RESPONSE_BANDS;
     return take_cells(reader, facts, cells, err) &&
            spread(reader, facts, cells, RESPONSE_BANDS, shares, err) &&
            spread(reader, facts, cells, RESPONSE_BANDS, shares + order, err) &&
            spread(reader, facts, cells, 2 * RESPONSE_GROUPS, shares + 2 * order, err);
 }
 
-bool response_read(ResponseFile *file, Arena *arena, Response *out, OwnLight *own, Error *err)
-{
-    KeptReader    reader;
+bool response_read(ResponseFile *file, Arena *arena, Response *out, OwnLight *own, Error *err) {
+    KeptReader reader;
     ResponseFacts facts;
     if (!kept_open(&format, file->path, &facts, arena, &reader, err)) return false;
     bool ok = check_facts(&reader, &facts, err) && check_identity(file, &reader, *arena, err);
     if (ok) {
         Response found;
-        float   *shares = response_empty(facts.level, arena, &found);
+        float *shares = response_empty(facts.level, arena, &found);
         ok = take_body(&reader, &facts, shares, *arena, err);
         found.paths = facts.paths;
         found.relative_error = facts.relative_error;

@@ -21,7 +21,7 @@ typedef struct OwnLight {
 typedef struct ResponseFile {
     const char *path;
     const char *identity; /* all that decides it: render/identity.h's lines */
-    size_t      bytes;    /* set by writing and reading */
+    size_t bytes;         /* set by writing and reading */
 } ResponseFile;
 
 bool response_write(ResponseFile *file, const Response *response, const OwnLight *own,

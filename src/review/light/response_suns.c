@@ -16,19 +16,18 @@
 #define SUN_BYTES ((size_t)16 << 20) /* tables that are not added yet */
 
 typedef struct SunTrace {
-    const ProbeAim        *aim;
+    const ProbeAim *aim;
     const ResponseOptions *options;
-    const ProbeSuns       *suns;
+    const ProbeSuns *suns;
     float *tables;
-    Vec3  *towards;
-    int    first, paths; /* first path of the pieces in hand; all paths */
-    int    chunk;
-    bool   is_by_target; /* a piece is a target's */
+    Vec3 *towards;
+    int first, paths; /* first path of the pieces in hand; all paths */
+    int chunk;
+    bool is_by_target; /* a piece is a target's */
 } SunTrace;
 
 /* The aim at one of its targets. */
-static ProbeAim aim_at_target(const ProbeAim *aim, int target)
-{
+static ProbeAim aim_at_target(const ProbeAim *aim, int target) {
     ProbeAim one = *aim;
     one.targets = aim->targets + target;
     one.patches = aim->patches ? aim->patches + target : NULL;
@@ -36,21 +35,19 @@ static ProbeAim aim_at_target(const ProbeAim *aim, int target)
     return one;
 }
 
-static void trace_suns(void *user, int item, int worker)
-{
+static void trace_suns(void *user, int item, int worker) {
     (void)worker;
-    SunTrace      *trace = user;
+    SunTrace *trace = user;
     PathStatistics statistics = {0};
     size_t count = (size_t)trace->suns->count;
     float *table = trace->tables + (size_t)item * count * RESPONSE_BANDS;
-    int    first = trace->first + item * trace->chunk, end = first + trace->chunk;
-    ProbeAim aim = trace->is_by_target ? aim_at_target(trace->aim, first / trace->chunk)
-                                       : *trace->aim;
+    int first = trace->first + item * trace->chunk, end = first + trace->chunk;
+    ProbeAim aim =
+        trace->is_by_target ? aim_at_target(trace->aim, first / trace->chunk) : *trace->aim;
     memset(table, 0, count * RESPONSE_BANDS * sizeof(float));
     ProbeAnswers answers = {table, trace->towards + (size_t)item * count};
-    trace->options->kernel->sample_suns(&aim, trace->suns, first,
-                                        end < trace->paths ? end : trace->paths, &answers,
-                                        &statistics);
+    trace->options->kernel->sample_suns(
+        &aim, trace->suns, first, end < trace->paths ? end : trace->paths, &answers, &statistics);
 }
 
 #define MIRROR_HITS 1024.0 /* paths that meet the sun's image, evenly: 0.6 % */
@@ -59,12 +56,11 @@ static void trace_suns(void *user, int item, int worker)
 
 /* As the eye sees the patches, so large is the part of the sky in them: a flat mirror keeps
  * solid angles. */
-int response_mirror_paths(const ProbeAim *aim, float radius)
-{
+int response_mirror_paths(const ProbeAim *aim, float radius) {
     double seen = 0, sun = (double)(PI_F * radius * radius);
     for (int i = 0; i < aim->target_count && aim->patches; i++) {
-        Vec3  to = vec3_sub(aim->targets[i], aim->eye);
-        Vec3  area = vec3_cross(aim->patches[i].along, aim->patches[i].down);
+        Vec3 to = vec3_sub(aim->targets[i], aim->eye);
+        Vec3 area = vec3_cross(aim->patches[i].along, aim->patches[i].down);
         float squared = vec3_dot(to, to);
         seen += (double)(fabsf(vec3_dot(area, to)) / (squared * sqrtf(squared)));
     }
@@ -73,21 +69,19 @@ int response_mirror_paths(const ProbeAim *aim, float radius)
 
 typedef struct SunHeight {
     float y;
-    int   sun;
+    int sun;
 } SunHeight;
 
-static int compare_heights(const void *a, const void *b)
-{
+static int compare_heights(const void *a, const void *b) {
     const SunHeight *left = a, *right = b;
     if (left->y != right->y) return left->y < right->y ? -1 : 1;
     return (left->sun > right->sun) - (left->sun < right->sun);
 }
 
 /* order[i]: which sun is the i-th from below. */
-static int *rising_order(const ProbeSuns *suns, Arena *arena)
-{
-    int       *order = ARENA_NEW(arena, int, suns->count);
-    Arena      scratch = *arena;
+static int *rising_order(const ProbeSuns *suns, Arena *arena) {
+    int *order = ARENA_NEW(arena, int, suns->count);
+    Arena scratch = *arena;
     SunHeight *heights = ARENA_NEW(&scratch, SunHeight, suns->count);
     for (int i = 0; i < suns->count; i++) heights[i] = (SunHeight){suns->towards[i].y, i};
     qsort(heights, (size_t)suns->count, sizeof *heights, compare_heights);
@@ -98,22 +92,20 @@ static int *rising_order(const ProbeSuns *suns, Arena *arena)
 /* What is sampled by target. */
 typedef struct TargetSums {
     const float *weights;
-    double      *of;    /* [sun][target] */
-    const int   *order; /* which sun is the i-th of a table */
-    int          targets;
+    double *of;       /* [sun][target] */
+    const int *order; /* which sun is the i-th of a table */
+    int targets;
 } TargetSums;
 
 static void add_target(const SunTrace *trace, const float *table, int target,
-                       const TargetSums *to)
-{
+                       const TargetSums *to) {
     for (int i = 0; i < trace->suns->count; i++)
         to->of[(size_t)to->order[i] * (size_t)to->targets + (size_t)target] =
             light_bands_sum(table + (size_t)i * RESPONSE_BANDS, to->weights) / trace->chunk;
 }
 
 /* sums: [sun][band] over all paths. to: NULL: not by target. */
-static void sum_suns(SunTrace *trace, int pieces, double *sums, const TargetSums *to)
-{
+static void sum_suns(SunTrace *trace, int pieces, double *sums, const TargetSums *to) {
     size_t size = (size_t)trace->suns->count * RESPONSE_BANDS;
     for (; trace->first < trace->paths; trace->first += pieces * trace->chunk) {
         int left = (trace->paths - trace->first + trace->chunk - 1) / trace->chunk;
@@ -128,42 +120,42 @@ static void sum_suns(SunTrace *trace, int pieces, double *sums, const TargetSums
 }
 
 /* As many as their tables have room for: threads wait for each other after so many. */
-static int pieces_at_once(const SunTrace *trace)
-{
+static int pieces_at_once(const SunTrace *trace) {
     size_t room = SUN_BYTES / ((size_t)trace->suns->count * RESPONSE_BANDS * sizeof(float) + 1);
-    int    all = (trace->paths + trace->chunk - 1) / trace->chunk;
-    int    most = room < (size_t)all ? (int)room : all;
+    int all = (trace->paths + trace->chunk - 1) / trace->chunk;
+    int most = room < (size_t)all ? (int)room : all;
     return most > trace->options->threads ? most : trace->options->threads;
 }
 
-static int paths_of_target(const ProbeAim *aim, const ResponseOptions *options)
-{
+static int paths_of_target(const ProbeAim *aim, const ResponseOptions *options) {
     return (options->paths + aim->target_count - 1) / aim->target_count;
 }
 
 /* to: its order is set; of NULL: not by target. */
 static const float *suns_of(const ProbeAim *aim, const ResponseOptions *options,
-                            const ProbeSuns *suns, TargetSums *to, Arena *arena)
-{
-    size_t    count = (size_t)suns->count;
-    float    *shares = ARENA_NEW(arena, float, count * RESPONSE_BANDS);
-    Arena     scratch = *arena;
-    ProbeAim  spread = *aim; /* few paths see all of what is looked at, too */
+                            const ProbeSuns *suns, TargetSums *to, Arena *arena) {
+    size_t count = (size_t)suns->count;
+    float *shares = ARENA_NEW(arena, float, count *RESPONSE_BANDS);
+    Arena scratch = *arena;
+    ProbeAim spread = *aim; /* few paths see all of what is looked at, too */
     ProbeSuns rising = *suns;
-    int      *order = rising_order(suns, &scratch);
-    Vec3     *towards = ARENA_NEW(&scratch, Vec3, count);
-    double   *sums = ARENA_NEW(&scratch, double, count * RESPONSE_BANDS);
+    int *order = rising_order(suns, &scratch);
+    Vec3 *towards = ARENA_NEW(&scratch, Vec3, count);
+    double *sums = ARENA_NEW(&scratch, double, count *RESPONSE_BANDS);
     for (size_t i = 0; i < count; i++) towards[i] = suns->towards[order[i]];
     rising.towards = towards;
     spread.is_spread = true;
-    SunTrace trace = {.aim = &spread, .options = options, .suns = &rising,
-                      .paths = options->paths, .is_by_target = to->of != NULL,
+    SunTrace trace = {.aim = &spread,
+                      .options = options,
+                      .suns = &rising,
+                      .paths = options->paths,
+                      .is_by_target = to->of != NULL,
                       .chunk = suns->by_mirror ? MIRROR_CHUNK : SUN_CHUNK};
     to->order = order;
     if (to->of) trace.chunk = paths_of_target(aim, options);
     if (to->of) trace.paths = trace.chunk * aim->target_count;
     size_t pieces = (size_t)pieces_at_once(&trace);
-    trace.tables = ARENA_NEW(&scratch, float, count * RESPONSE_BANDS * pieces);
+    trace.tables = ARENA_NEW(&scratch, float, count *RESPONSE_BANDS *pieces);
     trace.towards = ARENA_NEW(&scratch, Vec3, count * pieces);
     sum_suns(&trace, (int)pieces, sums, to->of ? to : NULL);
     for (size_t i = 0; i < count; i++)
@@ -174,8 +166,7 @@ static const float *suns_of(const ProbeAim *aim, const ResponseOptions *options,
 }
 
 const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
-                           const ProbeSuns *suns, Arena *arena)
-{
+                           const ProbeSuns *suns, Arena *arena) {
     TargetSums none = {.of = NULL};
     return suns_of(aim, options, suns, &none, arena);
 }
@@ -184,8 +175,7 @@ const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
  * over bands of shares times weights. Every target has as many paths. */
 static const float *suns_by_target(const ProbeAim *aim, const ResponseOptions *options,
                                    const ProbeSuns *suns, const float weights[RESPONSE_BANDS],
-                                   double *by_target, Arena *arena)
-{
+                                   double *by_target, Arena *arena) {
     TargetSums to = {.weights = weights, .of = by_target, .targets = aim->target_count};
     return suns_of(aim, options, suns, &to, arena);
 }
@@ -194,8 +184,7 @@ static const float *suns_by_target(const ProbeAim *aim, const ResponseOptions *o
 
 #define BLOCK 4096 /* suns whose targets are kept apart together */
 
-static bool is_any(const float shares[RESPONSE_BANDS])
-{
+static bool is_any(const float shares[RESPONSE_BANDS]) {
     for (int b = 0; b < RESPONSE_BANDS; b++)
         if (shares[b] > 0) return true;
     return false;
@@ -203,11 +192,10 @@ static bool is_any(const float shares[RESPONSE_BANDS])
 
 /* Of one sun, by its targets; what all of them send on the average becomes the worst part's. */
 static void take_worst(const LightParts *parts, const double *by_target,
-                       float shares[RESPONSE_BANDS], Arena scratch)
-{
+                       float shares[RESPONSE_BANDS], Arena scratch) {
     double *means = ARENA_NEW(&scratch, double, light_parts_count(parts));
-    double  all = 0;
-    int     worst = light_parts_worst(parts, by_target, means, NULL, scratch);
+    double all = 0;
+    int worst = light_parts_worst(parts, by_target, means, NULL, scratch);
     for (int i = 0; i < parts->aim.target_count; i++) all += by_target[i];
     if (worst < 0 || !(all > 0)) return;
     double ratio = means[worst] * parts->aim.target_count / all;
@@ -216,24 +204,21 @@ static void take_worst(const LightParts *parts, const double *by_target,
 
 /* shares: [sun][band], set. */
 static void sample_block(const LightParts *parts, const ResponseOptions *options,
-                         const ProbeSuns *suns, float *shares, Arena scratch)
-{
-    size_t  targets = (size_t)parts->aim.target_count;
-    double *by_target = ARENA_NEW(&scratch, double, (size_t)suns->count * targets);
-    float   white[RESPONSE_BANDS];
+                         const ProbeSuns *suns, float *shares, Arena scratch) {
+    size_t targets = (size_t)parts->aim.target_count;
+    double *by_target = ARENA_NEW(&scratch, double, (size_t)suns->count *targets);
+    float white[RESPONSE_BANDS];
     light_bands_white(white);
-    const float *all =
-        suns_by_target(&parts->aim, options, suns, white, by_target, &scratch);
+    const float *all = suns_by_target(&parts->aim, options, suns, white, by_target, &scratch);
     memcpy(shares, all, (size_t)suns->count * RESPONSE_BANDS * sizeof *shares);
     for (int i = 0; i < suns->count; i++)
         if (is_any(shares + (size_t)i * RESPONSE_BANDS))
-            take_worst(parts, by_target + (size_t)i * targets,
-                       shares + (size_t)i * RESPONSE_BANDS, scratch);
+            take_worst(parts, by_target + (size_t)i * targets, shares + (size_t)i * RESPONSE_BANDS,
+                       scratch);
 }
 
 static void sample_blocks(const LightParts *parts, const ResponseOptions *options,
-                          const ProbeSuns *suns, float *shares, Arena scratch)
-{
+                          const ProbeSuns *suns, float *shares, Arena scratch) {
     for (int first = 0; first < suns->count; first += BLOCK) {
         ProbeSuns block = *suns;
         block.towards += first;
@@ -244,12 +229,11 @@ static void sample_blocks(const LightParts *parts, const ResponseOptions *option
 
 /* Few suns of many have their image in what is looked at: those alone are sampled by target. */
 static void sample_mirrored(const LightParts *parts, const ResponseOptions *options,
-                            const ProbeSuns *suns, float *shares, Arena scratch)
-{
+                            const ProbeSuns *suns, float *shares, Arena scratch) {
     const float *all = response_suns(&parts->aim, options, suns, &scratch);
-    int         *list = ARENA_NEW(&scratch, int, suns->count);
-    Vec3        *towards = ARENA_NEW(&scratch, Vec3, suns->count);
-    ProbeSuns    some = *suns;
+    int *list = ARENA_NEW(&scratch, int, suns->count);
+    Vec3 *towards = ARENA_NEW(&scratch, Vec3, suns->count);
+    ProbeSuns some = *suns;
     some.towards = towards;
     some.count = 0;
     for (int i = 0; i < suns->count; i++) {
@@ -257,7 +241,7 @@ static void sample_mirrored(const LightParts *parts, const ResponseOptions *opti
         towards[some.count] = suns->towards[i];
         list[some.count++] = i;
     }
-    float *of_some = ARENA_NEW(&scratch, float, (size_t)some.count * RESPONSE_BANDS);
+    float *of_some = ARENA_NEW(&scratch, float, (size_t)some.count *RESPONSE_BANDS);
     sample_blocks(parts, options, &some, of_some, scratch);
     for (int i = 0; i < some.count; i++)
         memcpy(shares + (size_t)list[i] * RESPONSE_BANDS, of_some + (size_t)i * RESPONSE_BANDS,
@@ -265,19 +249,16 @@ static void sample_mirrored(const LightParts *parts, const ResponseOptions *opti
 }
 
 const float *sun_parts_worst(const ProbeAim *aim, const LightParts *parts,
-                             const ResponseOptions *options, const ProbeSuns *suns,
-                             Arena *arena)
-{
+                             const ResponseOptions *options, const ProbeSuns *suns, Arena *arena) {
     if (!parts) return response_suns(aim, options, suns, arena);
-    float *shares = ARENA_NEW(arena, float, (size_t)suns->count * RESPONSE_BANDS);
+    float *shares = ARENA_NEW(arena, float, (size_t)suns->count *RESPONSE_BANDS);
     (suns->by_mirror ? sample_mirrored : sample_blocks)(parts, options, suns, shares, *arena);
     return shares;
 }
 
 static double add_light(const LightParts *parts, const ResponseOptions *options,
                         const ProbeSuns *sun, const float bands[RESPONSE_BANDS], double *of,
-                        Arena scratch)
-{
+                        Arena scratch) {
     double *by_target = ARENA_NEW(&scratch, double, parts->aim.target_count), sum = 0;
     suns_by_target(&parts->aim, options, sun, bands, by_target, &scratch);
     for (int i = 0; i < parts->aim.target_count; i++) {
@@ -289,9 +270,8 @@ static double add_light(const LightParts *parts, const ResponseOptions *options,
 
 double sun_parts_light(const LightParts *parts, const ResponseOptions *options,
                        const ProbeSuns *sun, const float bands[RESPONSE_BANDS], double *of,
-                       Arena scratch)
-{
-    ProbeSuns       once = *sun;
+                       Arena scratch) {
+    ProbeSuns once = *sun;
     ResponseOptions by_mirror = *options;
     once.by_mirror = false;
     add_light(parts, options, &once, bands, of, scratch);

@@ -25,8 +25,7 @@ const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
 /* response_suns of the part that a sun, as even white, gives most, each sun's own; it has the
  * spectrum of all parts together. parts: aimed as `aim` is; NULL: of all of that. */
 const float *sun_parts_worst(const ProbeAim *aim, const LightParts *parts,
-                             const ResponseOptions *options, const ProbeSuns *suns,
-                             Arena *arena);
+                             const ResponseOptions *options, const ProbeSuns *suns, Arena *arena);
 
 /* What each target sends of one sun of these bands, lx, by scattering and by the display's
  * mirror, cd m^-2: added to of[target]. Returns that of the mirror, mean over targets. */

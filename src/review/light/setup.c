@@ -21,11 +21,10 @@
 
 /* ---- files ------------------------------------------------------------------------------- */
 
-static const char **all_paths(const SetupOptions *options, int *count, Arena *arena)
-{
-    const ReviewRequest   *request = options->request;
+static const char **all_paths(const SetupOptions *options, int *count, Arena *arena) {
+    const ReviewRequest *request = options->request;
     const ReviewCondition *c = options->condition;
-    const ReviewWith      *with = c && c->with_id != NO_ID ? &request->withs[c->with_id] : NULL;
+    const ReviewWith *with = c && c->with_id != NO_ID ? &request->withs[c->with_id] : NULL;
     int lights = c ? c->light_count : 0, more = with ? with->path_count : 0;
     const char **paths = ARENA_NEW(arena, const char *, request->scene_count + lights + more);
     *count = 0;
@@ -36,34 +35,30 @@ static const char **all_paths(const SetupOptions *options, int *count, Arena *ar
 }
 
 /* "node:NAME" names a display's surface; what it shows belongs to its material. */
-static bool is_material(const char *display)
-{
+static bool is_material(const char *display) {
     return strncmp(display, "node:", 5) != 0;
 }
 
 /* Contents to be shown; the first that is added for a display counts. */
 typedef struct ContentList {
     SceneOverride *list;
-    int            count;
+    int count;
 } ContentList;
 
-static void add_content(ContentList *to, const char *display, const char *path,
-                        const char *said)
-{
+static void add_content(ContentList *to, const char *display, const char *path, const char *said) {
     for (int i = 0; i < to->count; i++)
         if (!strcmp(to->list[i].material, display)) return;
     to->list[to->count++] = (SceneOverride){display, path, said};
 }
 
 /* A variant's contents count first, then the condition's, then the symbols'. */
-static SceneOverride *all_contents(const SetupOptions *options, int *count, Arena *arena)
-{
-    const ReviewRequest   *request = options->request;
+static SceneOverride *all_contents(const SetupOptions *options, int *count, Arena *arena) {
+    const ReviewRequest *request = options->request;
     const ReviewCondition *c = options->condition;
-    const ReviewChange    *change = request->change;
+    const ReviewChange *change = request->change;
     int changed = change ? change->content_count : 0, own = c ? c->content_count : 0;
-    ContentList contents = {
-        ARENA_NEW(arena, SceneOverride, request->symbol_count + own + changed), 0};
+    ContentList contents = {ARENA_NEW(arena, SceneOverride, request->symbol_count + own + changed),
+                            0};
     for (int k = 0; k < changed; k++)
         add_content(&contents, change->contents[k].display, change->contents[k].path,
                     arena_format(arena, "%s: %s/contents/%s", request->file, change->place,
@@ -82,8 +77,7 @@ static SceneOverride *all_contents(const SetupOptions *options, int *count, Aren
     return contents.list;
 }
 
-static void set_change(const ReviewChange *change, SceneOptions *scene)
-{
+static void set_change(const ReviewChange *change, SceneOptions *scene) {
     if (!change) return;
     scene->changes = change->scene;
     scene->change_count = change->scene_count;
@@ -92,8 +86,7 @@ static void set_change(const ReviewChange *change, SceneOptions *scene)
 }
 
 /* Of the files that the request names: contents and pictures of skies among them. */
-static void identify(Setup *setup, const SceneOptions *options, Arena *arena)
-{
+static void identify(Setup *setup, const SceneOptions *options, Arena *arena) {
     const ReviewRequest *request = setup->request;
     Text own = {.arena = arena}, files = {.arena = arena};
     identity_add_program(&own, setup->tools.kernel);
@@ -106,8 +99,7 @@ static void identify(Setup *setup, const SceneOptions *options, Arena *arena)
     setup->files = files.data ? files.data : "";
 }
 
-static SceneOptions scene_options(const SetupOptions *options, Arena *arena)
-{
+static SceneOptions scene_options(const SetupOptions *options, Arena *arena) {
     SceneOptions scene = {.root = options->means.root, .state = options->means.state};
     scene.paths = all_paths(options, &scene.path_count, arena);
     scene.contents = all_contents(options, &scene.content_count, arena);
@@ -116,27 +108,26 @@ static SceneOptions scene_options(const SetupOptions *options, Arena *arena)
 }
 
 /* A synthetic billow is nothing to judge by. */
-static bool load_even(const SceneOptions *options, Arena *arena, Problems *problems,
-                      Scene **out, Error *err)
-{
+static bool load_even(const SceneOptions *options, Arena *arena, Problems *problems, Scene **out,
+                      Error *err) {
     if (!scene_load(options, arena, problems, out, err)) return false;
     (*out)->environment.daylight.cloud_relief_m = 0;
     return true;
 }
 
 bool setup_scene(const SetupOptions *options, Arena *arena, Problems *problems, Scene **out,
-                 Error *err)
-{
+                 Error *err) {
     SceneOptions scene = scene_options(options, arena);
     return load_even(&scene, arena, problems, out, err);
 }
 
 bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, Setup *out,
-                Error *err)
-{
+                Error *err) {
     SceneOptions scene = scene_options(options, arena);
-    *out = (Setup){.request = options->request, .condition = options->condition,
-                   .tools = {.threads = options->means.threads}, .sensor_lux = (double)NAN};
+    *out = (Setup){.request = options->request,
+                   .condition = options->condition,
+                   .tools = {.threads = options->means.threads},
+                   .sensor_lux = (double)NAN};
     if (!kernel_choose(options->means.isa, &out->tools.kernel, err)) return false;
     if (!load_even(&scene, arena, problems, &out->scene, err)) return false;
     if (!bvh_create(out->scene, options->means.threads, options->means.isa, &out->bvh, err)) {
@@ -150,85 +141,75 @@ bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, S
     return true;
 }
 
-void setup_close(Setup *setup)
-{
+void setup_close(Setup *setup) {
     bvh_destroy(setup->bvh);
     scene_close(setup->scene);
 }
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-bool setup_relight(Setup *setup, Arena *arena, Error *err)
-{
-    Lights       *lights;
+bool setup_relight(Setup *setup, Arena *arena, Error *err) {
+    Lights *lights;
     const Lights *before = setup->context.tables ? setup->context.lights : NULL;
     if (!(before ? lights_under_sky(before, arena, &lights, err)
                  : lights_build(setup->scene, arena, &lights, err)))
         return false;
-    setup->context =
-        setup->context.tables
-            ? path_context_relight(&setup->context, lights, arena)
-            : path_context_build(setup->scene, setup->bvh, lights, SETUP_BOUNCES, arena);
+    setup->context = setup->context.tables ? path_context_relight(&setup->context, lights, arena)
+                                           : path_context_build(setup->scene, setup->bvh, lights,
+                                                                SETUP_BOUNCES, arena);
     return true;
 }
 
-static void read_sensor(Setup *setup, const ReviewLevel *level, Arena scratch)
-{
-    LitPoint    head = {scene_from_world(setup->scene->origin, level->position_m),
-                        vec3_from_doubles(level->normal), false};
-    ProbeAim    aim = {.context = &setup->context, .meter = &head,
-                       .seed = review_seed(setup->request, SENSOR_SEED)};
+static void read_sensor(Setup *setup, const ReviewLevel *level, Arena scratch) {
+    LitPoint head = {scene_from_world(setup->scene->origin, level->position_m),
+                     vec3_from_doubles(level->normal), false};
+    ProbeAim aim = {.context = &setup->context,
+                    .meter = &head,
+                    .seed = review_seed(setup->request, SENSOR_SEED)};
     ReadingGoal goal = {.precision = SENSOR_PRECISION, .most = SENSOR_PATHS};
     setup->sensor_lux = reading_take(&aim, &goal, &setup->tools, scratch).reflected;
 }
 
 double setup_level_of(const Setup *setup, const ReviewLevel *level, int display_id,
-                      const char *name, double sensor_lux)
-{
-    double            scene = setup->scene_levels[display_id];
+                      const char *name, double sensor_lux) {
+    double scene = setup->scene_levels[display_id];
     ReviewDisplayName display = {name, setup->scene->displays[display_id].name};
-    double            own = level ? review_level_at(level, display, scene, sensor_lux) : scene;
+    double own = level ? review_level_at(level, display, scene, sensor_lux) : scene;
     return own * review_brightness(setup->request, display);
 }
 
 /* Returns whether any is another now. */
-static bool set_levels(Setup *setup, const ReviewLevel *level)
-{
+static bool set_levels(Setup *setup, const ReviewLevel *level) {
     bool any = false;
     for (int i = 0; i < setup->scene->display_count; i++) {
         Display *display = &setup->scene->displays[i];
-        float    before = display->level;
-        display->level =
-            (float)setup_level_of(setup, level, i, display->name, setup->sensor_lux);
+        float before = display->level;
+        display->level = (float)setup_level_of(setup, level, i, display->name, setup->sensor_lux);
         any = any || display->level != before;
     }
     return any;
 }
 
 /* Under the same sky. */
-static void light_again(Setup *setup, Arena *arena)
-{
+static void light_again(Setup *setup, Arena *arena) {
     const Lights *lights = lights_with_levels(setup->context.lights, arena);
     setup->context = path_context_relight(&setup->context, lights, arena);
 }
 
-static const ReviewLevel *level_of(const Setup *setup)
-{
+static const ReviewLevel *level_of(const Setup *setup) {
     const ReviewCondition *condition = setup->condition;
     bool has_level = condition && condition->level_id != NO_ID;
     return has_level ? &setup->request->levels[condition->level_id] : NULL;
 }
 
 /* Fixed levels are known before the light is; those of a curve only from its sensor. */
-static void set_fixed_levels(Setup *setup)
-{
+static void set_fixed_levels(Setup *setup) {
     const ReviewLevel *level = level_of(setup);
     bool is_curve = level && level->is_curve;
     if (!is_curve && (level || setup->request->change)) set_levels(setup, level);
 }
 
-bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Error *err)
-{
+bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Error *err) {
     const ReviewLevel *level = level_of(setup);
     if (environment) setup->scene->environment = *environment;
     set_fixed_levels(setup);
@@ -239,22 +220,19 @@ bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Err
     return true;
 }
 
-static void set_scene_levels(Setup *setup)
-{
+static void set_scene_levels(Setup *setup) {
     for (int i = 0; i < setup->scene->display_count; i++)
         setup->scene->displays[i].level = (float)setup->scene_levels[i];
 }
 
-bool setup_before_light(Setup *setup, Arena *arena, Error *err)
-{
+bool setup_before_light(Setup *setup, Arena *arena, Error *err) {
     set_scene_levels(setup);
     set_fixed_levels(setup);
     return setup_relight(setup, arena, err);
 }
 
 bool setup_light_again(Setup *setup, const Setup *before, const Environment *environment,
-                       Arena *arena, Error *err)
-{
+                       Arena *arena, Error *err) {
     *setup = *before;
     set_scene_levels(setup);
     return setup_light(setup, environment, arena, err);
@@ -265,19 +243,17 @@ bool setup_light_again(Setup *setup, const Setup *before, const Environment *env
 #define SUN_DRAWS 16
 
 bool setup_sun_coloured(const Setup *setup, const Curve *colour, Vec3 *towards,
-                        float bands[LIGHT_BANDS])
-{
+                        float bands[LIGHT_BANDS]) {
     const Lights *lights = setup->context.lights;
     memset(bands, 0, LIGHT_BANDS * sizeof *bands);
     if (!lights_has(lights, LIGHTS_SUN) || lights_sun_is_moon(lights)) return false;
     for (int i = 0; i < SUN_DRAWS; i++) {
-        const float u[3] = {((float)i + 0.5f) / SUN_DRAWS,
-                            (float)(i * 7 % SUN_DRAWS) / SUN_DRAWS, 0.5f};
+        const float u[3] = {((float)i + 0.5f) / SUN_DRAWS, (float)(i * 7 % SUN_DRAWS) / SUN_DRAWS,
+                            0.5f};
         Wavelengths w;
         LightSample sample;
         wavelengths_sample(((float)(i * 5 % SUN_DRAWS) + 0.5f) / SUN_DRAWS, &w);
-        if (!lights_sample(lights, LIGHTS_SUN, (LitPoint){{0, 0, 0}, {0, 1, 0}, true}, u,
-                           &sample))
+        if (!lights_sample(lights, LIGHTS_SUN, (LitPoint){{0, 0, 0}, {0, 1, 0}, true}, u, &sample))
             return false;
         Spectrum lux = lights_radiance(lights, &sample, &w) * w.xyz[1] *
                        spectrum_all(1 / (sample.pdf * SUN_DRAWS));
@@ -288,26 +264,22 @@ bool setup_sun_coloured(const Setup *setup, const Curve *colour, Vec3 *towards,
     return true;
 }
 
-bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS])
-{
+bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS]) {
     return setup_sun_coloured(setup, NULL, towards, bands);
 }
 
 /* Forward on the horizontal, and to its right. */
-static void axes(const Setup *setup, Vec3 *ahead, Vec3 *right)
-{
+static void axes(const Setup *setup, Vec3 *ahead, Vec3 *right) {
     Vec3 forward = vec3_from_doubles(setup->request->forward);
     *ahead = vec3_normalize(vec3(forward.x, 0, forward.z));
     *right = vec3(-ahead->z, 0, ahead->x);
 }
 
-static double heading_deg(const Setup *setup)
-{
+static double heading_deg(const Setup *setup) {
     return degrees_from_radians((double)setup->scene->environment.heading);
 }
 
-SunAngles setup_angles(const Setup *setup, Vec3 d)
-{
+SunAngles setup_angles(const Setup *setup, Vec3 d) {
     Vec3 ahead, right;
     axes(setup, &ahead, &right);
     double azimuth = atan2((double)vec3_dot(d, right), (double)vec3_dot(d, ahead));
@@ -315,8 +287,7 @@ SunAngles setup_angles(const Setup *setup, Vec3 d)
     return (SunAngles){degrees, degrees_from_radians(asin(fmin(fmax((double)d.y, -1), 1)))};
 }
 
-Vec3 setup_direction(const Setup *setup, SunAngles angles)
-{
+Vec3 setup_direction(const Setup *setup, SunAngles angles) {
     Vec3 ahead, right;
     axes(setup, &ahead, &right);
     double azimuth = radians_from_degrees(angles.azimuth_deg - heading_deg(setup));
@@ -329,9 +300,8 @@ Vec3 setup_direction(const Setup *setup, SunAngles angles)
 /* ---- eyes -------------------------------------------------------------------------------- */
 
 bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, Vec3 *out,
-                      Error *err)
-{
-    int    id;
+                      Error *err) {
+    int id;
     double middle[3], moved[3];
     for (int i = 0; i < 3; i++) {
         moved[i] = eye->move_m[i];
@@ -343,14 +313,12 @@ bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, V
     if (eye->kind != EYE_CAMERA) return true;
     if (!review_camera_find(setup->scene, eye, scratch, &id, err))
         return error_in_file(err, setup->request->file);
-    *out = vec3_add(setup->scene->cameras[id].world_from_camera.origin,
-                    vec3_from_doubles(moved));
+    *out = vec3_add(setup->scene->cameras[id].world_from_camera.origin, vec3_from_doubles(moved));
     return true;
 }
 
 Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Arena *arena,
-                       Error *err)
-{
+                       Error *err) {
     *count = review_eye_count(eye);
     Vec3 *points = ARENA_NEW(arena, Vec3, *count);
     if (!review_eye_is_wide(eye))
@@ -370,12 +338,11 @@ Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Are
 #define TRAINING_HEIGHT 270
 #define TRAINING_DEG 60.0
 
-void trained_guide_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
-{
-    SceneCamera    look = camera_look_at(eye, vec3_add(eye, towards),
-                                         (float)radians_from_degrees(TRAINING_DEG));
-    Camera         camera = camera_from_scene(&look, TRAINING_WIDTH, TRAINING_HEIGHT);
-    TrainOptions   options = {setup->tools.kernel, setup->tools.threads, true};
+void trained_guide_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena) {
+    SceneCamera look =
+        camera_look_at(eye, vec3_add(eye, towards), (float)radians_from_degrees(TRAINING_DEG));
+    Camera camera = camera_from_scene(&look, TRAINING_WIDTH, TRAINING_HEIGHT);
+    TrainOptions options = {setup->tools.kernel, setup->tools.threads, true};
     PathStatistics cost;
     setup->context.guide = train_guide(&setup->context, &camera, &options, arena, &cost);
 }

@@ -16,30 +16,30 @@
 #define SETUP_BOUNCES 64
 
 typedef struct Setup {
-    const ReviewRequest   *request;
+    const ReviewRequest *request;
     const ReviewCondition *condition;
     ReadingTools tools;
-    Scene       *scene;
-    Bvh         *bvh;
-    PathContext  context;
-    double       sensor_lux;   /* NaN: no level follows the light */
-    double      *scene_levels; /* the displays', before the condition's */
-    const char  *identity;     /* program and scene (render/identity.h), not its light */
-    const char  *files;        /* hashes of those that the request names besides */
+    Scene *scene;
+    Bvh *bvh;
+    PathContext context;
+    double sensor_lux;    /* NaN: no level follows the light */
+    double *scene_levels; /* the displays', before the condition's */
+    const char *identity; /* program and scene (render/identity.h), not its light */
+    const char *files;    /* hashes of those that the request names besides */
 } Setup;
 
 /* By what means: the same for all setups of a review. */
 typedef struct SetupMeans {
-    const char *root;      /* --root, or NULL */
-    SceneState  state;     /* scene.h's */
-    int         threads;
-    const char *isa;       /* kernel.h's; NULL: the best */
+    const char *root; /* --root, or NULL */
+    SceneState state; /* scene.h's */
+    int threads;
+    const char *isa; /* kernel.h's; NULL: the best */
 } SetupMeans;
 
 typedef struct SetupOptions {
-    const ReviewRequest   *request;
+    const ReviewRequest *request;
     const ReviewCondition *condition; /* NULL: the request's own files, no light but theirs */
-    SetupMeans             means;
+    SetupMeans means;
 } SetupOptions;
 
 /* The scene with the condition's files, contents and occupants, in the dark. Warnings go to
@@ -85,7 +85,7 @@ typedef struct SunAngles {
 /* A sun of many: where it stands, and its light over that at 1 au, by the earth's distance. */
 typedef struct DistantSun {
     SunAngles at;
-    double    light;
+    double light;
 } DistantSun;
 
 SunAngles setup_angles(const Setup *setup, Vec3 towards);

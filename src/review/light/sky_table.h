@@ -41,18 +41,17 @@ void light_bands_sun(const Daylight *daylight, float bands[LIGHT_BANDS]);
 /* Clear skies by the sun's elevation, the earth 1 au away: readings are scaled to each sun's
  * light, the night's own background with them (within 0.4 % at -12 degrees). */
 typedef struct SkyTable {
-    DaylightInput like;          /* air and ground; suns stand at azimuth 0 */
-    const double *elevation_deg; /* rising */
-    float       (*sun_bands)[LIGHT_BANDS]; /* lx; 0 before its skies were made */
-    int           count;
-    int           first_azimuth, azimuths; /* those of SKY_AZIMUTHS that are made, on from the
-                                              first; no other may be read */
+    DaylightInput like;              /* air and ground; suns stand at azimuth 0 */
+    const double *elevation_deg;     /* rising */
+    float (*sun_bands)[LIGHT_BANDS]; /* lx; 0 before its skies were made */
+    int count;
+    int first_azimuth, azimuths; /* those of SKY_AZIMUTHS that are made, on from the
+                                    first; no other may be read */
 } SkyTable;
 
 /* Elevations that reach from `low` to `high`; `like` gives air and ground. Its skies are made
  * when probes need them (distant_probes_sample_skies), one by one: each takes megabytes. */
-SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
-                         Arena *arena);
+SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg, Arena *arena);
 
 /* Keeps only the sun's azimuths from low to high, relative to the vehicle; before its skies are
  * made. */

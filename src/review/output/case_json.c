@@ -13,124 +13,108 @@
 #include "vision/privacy.h"
 
 /* Reviews before there were four outcomes call one of them otherwise. */
-bool case_read_verdict(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+bool case_read_verdict(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     const char *word = json_string_value(json_object_get(view->object, row->key));
-    if (!word || strcmp(word, "not visible") != 0)
-        return record_read_kind(view, row, item, err);
+    if (!word || strcmp(word, "not visible") != 0) return record_read_kind(view, row, item, err);
     *(Verdict *)(void *)((char *)item + row->offset) = VERDICT_UNJUDGED;
     return true;
 }
 
-static json_t *write_age(const void *item)
-{
+static json_t *write_age(const void *item) {
     double age = ((const LimitVerdict *)item)->age_years;
     return age > 0 ? json_real(age) : json_null();
 }
 
-PUBLIC_TABLE(limit_json, LimitVerdict,
-    OWN(TEXT, LimitVerdict, name), OWN(TEXT, LimitVerdict, kind),
-    OWN(FIGURE, LimitVerdict, value), OWN(TEXT, LimitVerdict, unit),
-    OWN(TEXT, LimitVerdict, source), OWN(FLAG, LimitVerdict, read_in_the_standard),
-    AS("upper", FLAG, LimitVerdict, is_upper), AS("advice", FLAG, LimitVerdict, is_advice),
-    OWN(FIGURE, LimitVerdict, found), AS("interval", RANGE, LimitVerdict, low),
-    OWN(FIGURE, LimitVerdict, margin), OWN(VERDICT, LimitVerdict, verdict),
-    {"age_years", RECORD_NUMBER, RECORD_NULL | RECORD_BRIEF, RECORD_AT(LimitVerdict, age_years),
-     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), .write = write_age},
-    {"by_pane", RECORD_TEXT, RECORD_NULL | RECORD_BRIEF, RECORD_AT(LimitVerdict, by_pane)});
+PUBLIC_TABLE(limit_json, LimitVerdict, OWN(TEXT, LimitVerdict, name), OWN(TEXT, LimitVerdict, kind),
+             OWN(FIGURE, LimitVerdict, value), OWN(TEXT, LimitVerdict, unit),
+             OWN(TEXT, LimitVerdict, source), OWN(FLAG, LimitVerdict, read_in_the_standard),
+             AS("upper", FLAG, LimitVerdict, is_upper), AS("advice", FLAG, LimitVerdict, is_advice),
+             OWN(FIGURE, LimitVerdict, found), AS("interval", RANGE, LimitVerdict, low),
+             OWN(FIGURE, LimitVerdict, margin), OWN(VERDICT, LimitVerdict, verdict),
+             {"age_years", RECORD_NUMBER, RECORD_NULL | RECORD_BRIEF,
+              RECORD_AT(LimitVerdict, age_years), RECORD_RANGE(-HUGE_VAL, HUGE_VAL),
+              .write = write_age},
+             {"by_pane", RECORD_TEXT, RECORD_NULL | RECORD_BRIEF,
+              RECORD_AT(LimitVerdict, by_pane)});
 
-TABLE(cause_json, CaseCause,
-    {"chain", RECORD_TEXTS, MUST, RECORD_MANY(CaseCause, chain, links)},
-    OWN(FIGURE, CaseCause, share), OWN(FIGURE, CaseCause, cd_m2),
-    AS("interval", RANGE, CaseCause, low), OWN(FIGURE, CaseCause, contrast_without));
+TABLE(cause_json, CaseCause, {"chain", RECORD_TEXTS, MUST, RECORD_MANY(CaseCause, chain, links)},
+      OWN(FIGURE, CaseCause, share), OWN(FIGURE, CaseCause, cd_m2),
+      AS("interval", RANGE, CaseCause, low), OWN(FIGURE, CaseCause, contrast_without));
 
-TABLE(share_json, CaseShare,
-    OWN(TEXT, CaseShare, what), OWN(FIGURE, CaseShare, share),
-    OWN(FIGURE, CaseShare, cd_m2));
+TABLE(share_json, CaseShare, OWN(TEXT, CaseShare, what), OWN(FIGURE, CaseShare, share),
+      OWN(FIGURE, CaseShare, cd_m2));
 
-#define GROUP(key, id)                                                                         \
-    LIST(key, MUST, ReviewCase, groups[id].list, groups[id].count, share_json)
-TABLE(groups_json, ReviewCase,
-    GROUP("light", GROUP_LIGHT), GROUP("opening", GROUP_OPENING),
-    GROUP("surface", GROUP_SURFACE));
+#define GROUP(key, id) LIST(key, MUST, ReviewCase, groups[id].list, groups[id].count, share_json)
+TABLE(groups_json, ReviewCase, GROUP("light", GROUP_LIGHT), GROUP("opening", GROUP_OPENING),
+      GROUP("surface", GROUP_SURFACE));
 
-TABLE(hider_json, CaseHider,
-    OWN(TEXT, CaseHider, what), OWN(FIGURE, CaseHider, share));
+TABLE(hider_json, CaseHider, OWN(TEXT, CaseHider, what), OWN(FIGURE, CaseHider, share));
 
-TABLE(remedy_json, CaseRemedy,
-    OWN(TEXT, CaseRemedy, what), OWN(FIGURE, CaseRemedy, contrast_ratio),
-    OWN(FIGURE, CaseRemedy, level),
-    PART("then", 0, CaseRemedy, then, limit_json),
-    LATER("verdict", VERDICT, CaseRemedy, verdict));
+TABLE(remedy_json, CaseRemedy, OWN(TEXT, CaseRemedy, what), OWN(FIGURE, CaseRemedy, contrast_ratio),
+      OWN(FIGURE, CaseRemedy, level), PART("then", 0, CaseRemedy, then, limit_json),
+      LATER("verdict", VERDICT, CaseRemedy, verdict));
 
-PUBLIC_TABLE(panel_json, CasePanel,
-    OWN(TEXT, CasePanel, verdict), OWN(TEXT, CasePanel, reason),
-    AS("coarse", FLAG, CasePanel, is_coarse), AS("not_usable", FLAG, CasePanel, is_unusable),
-    OWN(FIGURE, CasePanel, emission_error), OWN(FIGURE, CasePanel, reflection_error),
-    LATER("spectra_assumed", TEXT, CasePanel, assumed));
+PUBLIC_TABLE(panel_json, CasePanel, OWN(TEXT, CasePanel, verdict), OWN(TEXT, CasePanel, reason),
+             AS("coarse", FLAG, CasePanel, is_coarse),
+             AS("not_usable", FLAG, CasePanel, is_unusable), OWN(FIGURE, CasePanel, emission_error),
+             OWN(FIGURE, CasePanel, reflection_error),
+             LATER("spectra_assumed", TEXT, CasePanel, assumed));
 
-TABLE(luminance_json, CaseLuminances,
-    OWN(FIGURE, CaseLuminances, foreground), OWN(FIGURE, CaseLuminances, background),
-    OWN(FIGURE, CaseLuminances, reflected), OWN(FIGURE, CaseLuminances, mirror),
-    OWN(FIGURE, CaseLuminances, scattered), OWN(FIGURE, CaseLuminances, veil));
+TABLE(luminance_json, CaseLuminances, OWN(FIGURE, CaseLuminances, foreground),
+      OWN(FIGURE, CaseLuminances, background), OWN(FIGURE, CaseLuminances, reflected),
+      OWN(FIGURE, CaseLuminances, mirror), OWN(FIGURE, CaseLuminances, scattered),
+      OWN(FIGURE, CaseLuminances, veil));
 
-TABLE(box_json, CaseBox,
-    OWN(FIGURE, CaseBox, left), OWN(FIGURE, CaseBox, top),
-    OWN(FIGURE, CaseBox, right), OWN(FIGURE, CaseBox, bottom));
+TABLE(box_json, CaseBox, OWN(FIGURE, CaseBox, left), OWN(FIGURE, CaseBox, top),
+      OWN(FIGURE, CaseBox, right), OWN(FIGURE, CaseBox, bottom));
 
-TABLE(mean_json, CaseWhole,
-    OWN(FIGURE, CaseWhole, reflected),
-    AS("reflected_interval", RANGE, CaseWhole, reflected_range),
-    OWN(FIGURE, CaseWhole, contrast_ratio));
+TABLE(mean_json, CaseWhole, OWN(FIGURE, CaseWhole, reflected),
+      AS("reflected_interval", RANGE, CaseWhole, reflected_range),
+      OWN(FIGURE, CaseWhole, contrast_ratio));
 
-TABLE(visibility_json, CaseVisibility,
-    OWN(FIGURE, CaseVisibility, age_years), AS("observer", FLAG, CaseVisibility, is_observer),
-    OWN(FIGURE, CaseVisibility, level), AS("interval", RANGE, CaseVisibility, low),
-    OWN(FIGURE, CaseVisibility, threshold_cd_m2), OWN(FIGURE, CaseVisibility, adapted_cd_m2),
-    OWN(FIGURE, CaseVisibility, veil_times), OWN(FIGURE, CaseVisibility, veil_doubt),
-    OWN(FIGURE, CaseVisibility, size_arcmin), OWN(FIGURE, CaseVisibility, glance_s),
-    OWN(TEXT, CaseVisibility, doubts));
+TABLE(visibility_json, CaseVisibility, OWN(FIGURE, CaseVisibility, age_years),
+      AS("observer", FLAG, CaseVisibility, is_observer), OWN(FIGURE, CaseVisibility, level),
+      AS("interval", RANGE, CaseVisibility, low), OWN(FIGURE, CaseVisibility, threshold_cd_m2),
+      OWN(FIGURE, CaseVisibility, adapted_cd_m2), OWN(FIGURE, CaseVisibility, veil_times),
+      OWN(FIGURE, CaseVisibility, veil_doubt), OWN(FIGURE, CaseVisibility, size_arcmin),
+      OWN(FIGURE, CaseVisibility, glance_s), OWN(TEXT, CaseVisibility, doubts));
 
 TABLE(place_json, CasePlace,
-    {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CasePlace, eye_m),
-     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(3, 3)},
-    OWN(VERDICT, CasePlace, verdict), OWN(FIGURE, CasePlace, visible_share),
-    OWN(FIGURE, CasePlace, contrast_ratio), AS("interval", RANGE, CasePlace, contrast_low));
+      {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CasePlace, eye_m),
+       RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(3, 3)},
+      OWN(VERDICT, CasePlace, verdict), OWN(FIGURE, CasePlace, visible_share),
+      OWN(FIGURE, CasePlace, contrast_ratio), AS("interval", RANGE, CasePlace, contrast_low));
 
-static json_t *write_image_s(const void *item)
-{
+static json_t *write_image_s(const void *item) {
     return json_figure(privacy_s_of_contrast(((const CaseImage *)item)->contrast_ratio));
 }
 
-static json_t *write_image_s_range(const void *item)
-{
+static json_t *write_image_s_range(const void *item) {
     const CaseImage *image = item;
     return json_pack("[o,o]", json_figure(privacy_s_of_contrast(image->contrast_high)),
                      json_figure(privacy_s_of_contrast(image->contrast_low)));
 }
 
 /* What is infinite, such as a contrast before black, is null. */
-TABLE(image_json, CaseImage,
-    OWN(TEXT, CaseImage, pane), OWN(VERDICT, CaseImage, verdict),
-    {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CaseImage, eye_m),
-     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(3, 3)},
-    OWN(FIGURE, CaseImage, shown_share), OWN(FIGURE, CaseImage, height_arcmin),
-    OWN(FIGURE, CaseImage, sent_foreground), OWN(FIGURE, CaseImage, sent_background),
-    OWN(FIGURE, CaseImage, reflectance),
-    AS("reflectance_interval", RANGE, CaseImage, reflectance_range),
-    OWN(FIGURE, CaseImage, foreground), OWN(FIGURE, CaseImage, background),
-    OWN(FIGURE, CaseImage, against), AS("against_interval", RANGE, CaseImage, against_range),
-    OWN(FIGURE, CaseImage, contrast_ratio),
-    AS("contrast_interval", RANGE, CaseImage, contrast_low), TOLD("s", 0, write_image_s),
-    TOLD("s_interval", 0, write_image_s_range));
+TABLE(image_json, CaseImage, OWN(TEXT, CaseImage, pane), OWN(VERDICT, CaseImage, verdict),
+      {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CaseImage, eye_m),
+       RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(3, 3)},
+      OWN(FIGURE, CaseImage, shown_share), OWN(FIGURE, CaseImage, height_arcmin),
+      OWN(FIGURE, CaseImage, sent_foreground), OWN(FIGURE, CaseImage, sent_background),
+      OWN(FIGURE, CaseImage, reflectance),
+      AS("reflectance_interval", RANGE, CaseImage, reflectance_range),
+      OWN(FIGURE, CaseImage, foreground), OWN(FIGURE, CaseImage, background),
+      OWN(FIGURE, CaseImage, against), AS("against_interval", RANGE, CaseImage, against_range),
+      OWN(FIGURE, CaseImage, contrast_ratio),
+      AS("contrast_interval", RANGE, CaseImage, contrast_low), TOLD("s", 0, write_image_s),
+      TOLD("s_interval", 0, write_image_s_range));
 
 TABLE(private_json, ReviewCase, LIST("places", 0, ReviewCase, places, place_count, place_json),
-    LIST("images", 0, ReviewCase, images, image_count, image_json));
+      LIST("images", 0, ReviewCase, images, image_count, image_json));
 
-static json_t *write_privacy(const void *item)
-{
+static json_t *write_privacy(const void *item) {
     const ReviewCase *c = item;
-    json_t           *out = privacy_json(c);
+    json_t *out = privacy_json(c);
     if (out && c->place_count)
         json_object_set_new(out, "places",
                             record_write_list(&place_json, c->places, c->place_count));
@@ -141,8 +125,7 @@ static json_t *write_privacy(const void *item)
 }
 
 /* Its figures follow from the contrast's, which are read, too. */
-static bool read_privacy(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_privacy(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     RecordRow places = {.key = row->key, .kind = RECORD_OBJECT, .of = &private_json};
     ((ReviewCase *)item)->must_not_be_read = true;
     return record_read_kind(view, &places, item, err);
@@ -153,14 +136,11 @@ typedef struct SunAt {
     double azimuth_deg, elevation_deg;
 } SunAt;
 
-PUBLIC_TABLE(sun_json, SunAt,
-    OWN(FIGURE, SunAt, azimuth_deg),
-    OWN(FIGURE, SunAt, elevation_deg));
+PUBLIC_TABLE(sun_json, SunAt, OWN(FIGURE, SunAt, azimuth_deg), OWN(FIGURE, SunAt, elevation_deg));
 
 /* "limit" repeats one of "limits": the first that is equal. */
-static bool read_limit_id(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    ReviewCase   *c = item;
+static bool read_limit_id(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    ReviewCase *c = item;
     const json_t *limit = json_object_get(view->object, row->key);
     const json_t *limits = json_object_get(view->object, "limits");
     c->limit_id = -1;
@@ -171,23 +151,22 @@ static bool read_limit_id(const JsonView *view, const RecordRow *row, void *item
            record_fails(view, row->key, err, "required: one of 'limits', or null");
 }
 
-static json_t *write_limit(const void *item)
-{
+static json_t *write_limit(const void *item) {
     const ReviewCase *c = item;
-    bool              has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
     return has_limit ? record_write(&limit_json, &c->limits[c->limit_id]) : json_null();
 }
 
 /* The limit that made the case's verdict, or null. */
-static json_t *write_judged(const void *item)
-{
+static json_t *write_judged(const void *item) {
     const LimitVerdict *limit = case_worst_limit(item);
     return limit ? record_write(&limit_json, limit) : json_null();
 }
 
-PUBLIC_TABLE(case_json, ReviewCase,
-    OWN(TEXT, ReviewCase, condition), OWN(TEXT, ReviewCase, eye), OWN(TEXT, ReviewCase, symbol),
-    OWN(TEXT, ReviewCase, display), OWN(AMBIENT, ReviewCase, ambient),
+PUBLIC_TABLE(
+    case_json, ReviewCase, OWN(TEXT, ReviewCase, condition), OWN(TEXT, ReviewCase, eye),
+    OWN(TEXT, ReviewCase, symbol), OWN(TEXT, ReviewCase, display),
+    OWN(AMBIENT, ReviewCase, ambient),
     {"sun", RECORD_OBJECT, MUST | RECORD_NULL, .of = &sun_json,
      RECORD_MANY(ReviewCase, sun_azimuth_deg, has_sun)},
     PART("luminance_cd_m2", MUST, ReviewCase, luminance_cd_m2, luminance_json),
@@ -196,13 +175,11 @@ PUBLIC_TABLE(case_json, ReviewCase,
     PART("judged_part_uv", 0, ReviewCase, whole.part, box_json),
     OWN(FIGURE, ReviewCase, contrast_ratio),
     AS("contrast_interval", RANGE, ReviewCase, contrast_low),
-    LATER("reflected_interval", RANGE, ReviewCase, reflected_range),
-    OWN(COUNT, ReviewCase, paths),
+    LATER("reflected_interval", RANGE, ReviewCase, reflected_range), OWN(COUNT, ReviewCase, paths),
     LATER("precision_asked", FIGURE, ReviewCase, precision_asked),
     LATER("precision_reached", FIGURE, ReviewCase, precision_reached),
-    LATER("open_by", OPEN, ReviewCase, open_by),
-    OWN(FIGURE, ReviewCase, contrast_with_veil), OWN(FIGURE, ReviewCase, height_arcmin),
-    LATER("stroke_ratio", FIGURE, ReviewCase, stroke_ratio),
+    LATER("open_by", OPEN, ReviewCase, open_by), OWN(FIGURE, ReviewCase, contrast_with_veil),
+    OWN(FIGURE, ReviewCase, height_arcmin), LATER("stroke_ratio", FIGURE, ReviewCase, stroke_ratio),
     OWN(FIGURE, ReviewCase, jnd), OWN(FIGURE, ReviewCase, visibility),
     LIST("visibility_levels", RECORD_BRIEF, ReviewCase, visibilities, visibility_count,
          visibility_json),
@@ -214,12 +191,10 @@ PUBLIC_TABLE(case_json, ReviewCase,
     LATER("glasses_display_loss", FIGURE, ReviewCase, glasses_display_loss),
     {"limit", RECORD_OWN, MUST, .read = read_limit_id, .write = write_limit},
     LIST("limits", MUST, ReviewCase, limits, limit_count, limit_json),
-    {"judged", RECORD_OWN, RECORD_WRITTEN, .write = write_judged},
-    OWN(FIGURE, ReviewCase, margin), OWN(VERDICT, ReviewCase, verdict),
-    LATER("reason", REASON, ReviewCase, unjudged),
+    {"judged", RECORD_OWN, RECORD_WRITTEN, .write = write_judged}, OWN(FIGURE, ReviewCase, margin),
+    OWN(VERDICT, ReviewCase, verdict), LATER("reason", REASON, ReviewCase, unjudged),
     LATER("optional", FLAG, ReviewCase, is_optional),
-    {"must_not_be_read", RECORD_OWN, RECORD_BRIEF, .read = read_privacy,
-     .write = write_privacy},
+    {"must_not_be_read", RECORD_OWN, RECORD_BRIEF, .read = read_privacy, .write = write_privacy},
     PART("panel", 0, ReviewCase, panel, panel_json),
     LIST("causes", MUST, ReviewCase, causes, cause_count, cause_json),
     {"cause_groups", RECORD_OBJECT, RECORD_WRITTEN, .of = &groups_json},
@@ -241,31 +216,26 @@ FOLLOWS(CaseImage, contrast_high, contrast_low);
 
 /* ---- parts that others show -------------------------------------------------------------- */
 
-json_t *case_groups_json(const ReviewCase *c)
-{
+json_t *case_groups_json(const ReviewCase *c) {
     return record_write(&groups_json, c);
 }
 
-json_t *case_remedies_json(const ReviewCase *c)
-{
+json_t *case_remedies_json(const ReviewCase *c) {
     return record_write_list(&remedy_json, c->remedies, c->remedy_count);
 }
 
-json_t *case_hiders_json(const ReviewCase *c)
-{
+json_t *case_hiders_json(const ReviewCase *c) {
     return record_write_list(&hider_json, c->hiders, c->hider_count);
 }
 
-void case_members_json(const ReviewCase *c, const char *const *keys, json_t *to)
-{
+void case_members_json(const ReviewCase *c, const char *const *keys, json_t *to) {
     for (; *keys; keys++)
         for (const RecordRow *row = case_json.rows; row->key; row++)
             if (!strcmp(row->key, *keys))
                 json_object_set_new(to, *keys, record_write_value(row, c));
 }
 
-void case_whole_json(const ReviewCase *c, json_t *to)
-{
+void case_whole_json(const ReviewCase *c, json_t *to) {
     static const char *const KEYS[] = {"symbol_mean", "lit_share", "judged_part_uv",
                                        "must_not_be_read", NULL}; /* absent: it may be */
     if (c->symbol) case_members_json(c, KEYS, to);

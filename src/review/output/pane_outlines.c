@@ -10,8 +10,7 @@
 #define BEFORE_EYE 0.05f /* along the view's axis, of a unit direction */
 
 /* A direction's place in the picture, pixels. */
-static bool in_view(const CaseView *view, Vec3 towards, double at[2])
-{
+static bool in_view(const CaseView *view, Vec3 towards, double at[2]) {
     float ahead = vec3_dot(towards, view->forward);
     if (ahead < BEFORE_EYE) return false;
     at[0] = (double)(vec3_dot(towards, view->right) / ahead) / view->half_width;
@@ -22,8 +21,7 @@ static bool in_view(const CaseView *view, Vec3 towards, double at[2])
 }
 
 /* As a closed path; false: some of it is not before the eye. */
-static bool path_of(const CaseView *view, const PaneFinding *f, Text *out)
-{
+static bool path_of(const CaseView *view, const PaneFinding *f, Text *out) {
     for (int i = 0; 2 * i < f->outline_count; i++) {
         double at[2];
         if (!in_view(view, f->corners[i], at)) return false;
@@ -33,28 +31,29 @@ static bool path_of(const CaseView *view, const PaneFinding *f, Text *out)
     return true;
 }
 
-static bool is_seen_in(const PaneFinding *f, const ReviewCase *c)
-{
+static bool is_seen_in(const PaneFinding *f, const ReviewCase *c) {
     return !f->none && f->corners && !c->when && c->eye && c->condition &&
            !strcmp(f->eye, c->eye) && !strcmp(f->condition, c->condition);
 }
 
-const char *review_panes_drawn(const Review *review, const ReviewCase *c, Arena *arena)
-{
+const char *review_panes_drawn(const Review *review, const ReviewCase *c, Arena *arena) {
     Text all = {.arena = arena};
     if (!c->view || !c->view->is_perspective) return NULL;
     for (int i = 0; i < review->pane_image_count; i++) {
         const PaneFinding *f = &review->pane_images[i];
-        char  buffer[PATH_BYTES];
+        char buffer[PATH_BYTES];
         Arena own = *arena;
-        Text  path = {.arena = &own};
+        Text path = {.arena = &own};
         if (!is_seen_in(f, c) || !path_of(c->view, f, &path)) continue;
         snprintf(buffer, sizeof buffer, "%s", path.data);
-        text_format(&all, "<g class=\"rim\"><path class=\"under\" d=\"%s\"/>"
-                    "<path d=\"%s\"/></g>", buffer, buffer);
+        text_format(&all,
+                    "<g class=\"rim\"><path class=\"under\" d=\"%s\"/>"
+                    "<path d=\"%s\"/></g>",
+                    buffer, buffer);
     }
     if (!all.data) return NULL;
-    return arena_format(arena, "<svg class=\"rim\" viewBox=\"0 0 %d %d\" "
+    return arena_format(arena,
+                        "<svg class=\"rim\" viewBox=\"0 0 %d %d\" "
                         "aria-hidden=\"true\" preserveAspectRatio=\"xMidYMid slice\">%s</svg>",
                         c->view->width, c->view->height, all.data);
 }

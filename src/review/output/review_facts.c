@@ -11,8 +11,7 @@
 #define MENDS_LISTED 2
 #define SHARES_LISTED 3
 
-static void add(ReviewFacts *facts, const char *name, const char *value)
-{
+static void add(ReviewFacts *facts, const char *name, const char *value) {
     if (value[0] && facts->count < REVIEW_FACTS_MOST)
         facts->list[facts->count++] = (ReviewFact){name, value};
 }
@@ -20,11 +19,9 @@ static void add(ReviewFacts *facts, const char *name, const char *value)
 /* ---- when -------------------------------------------------------------------------------- */
 
 static void add_when(ReviewFacts *facts, const Review *review, const ReviewCase *c,
-                     const char *const *directions, Arena *arena)
-{
+                     const char *const *directions, Arena *arena) {
     const ReviewSweep *sweep = review_sweep_of(review, c);
-    const char *light = c->has_sun ? words_sun(c, directions, arena)
-                                   : words_ambient(c->ambient);
+    const char *light = c->has_sun ? words_sun(c, directions, arena) : words_ambient(c->ambient);
     const char *when = c->when ? c->when : c->condition ? c->condition : "?";
     add(facts, "When", arena_format(arena, "%s: %s", when, light));
     if (sweep && !c->unjudged) add(facts, "How often", words_how_often(sweep, arena));
@@ -35,33 +32,30 @@ static void add_when(ReviewFacts *facts, const Review *review, const ReviewCase 
 #define LOSS_LEAST 0.1 /* of the display's own light: what else glasses do leaves contrasts */
 
 /* Were its own light let through as any other. */
-static double contrast_without_loss(const ReviewCase *c)
-{
+static double contrast_without_loss(const ReviewCase *c) {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double share = 1 - c->glasses_display_loss;
     return luminance_contrast(l->foreground / share, l->background / share, l->reflected);
 }
 
-static const char *glasses_words(const ReviewCase *c, Arena *arena)
-{
+static const char *glasses_words(const ReviewCase *c, Arena *arena) {
     if (!c->glasses) return "";
-    if (!(c->glasses_display_loss >= LOSS_LEAST && c->glasses_display_loss < 1))
-        return c->glasses;
-    return arena_format(arena, "%s; they pass %s as much of the display's own light as of any "
-                               "other, passed alike it has %s", c->glasses,
-                        words_share(1 - c->glasses_display_loss, arena),
+    if (!(c->glasses_display_loss >= LOSS_LEAST && c->glasses_display_loss < 1)) return c->glasses;
+    return arena_format(arena,
+                        "%s; they pass %s as much of the display's own light as of any "
+                        "other, passed alike it has %s",
+                        c->glasses, words_share(1 - c->glasses_display_loss, arena),
                         words_ratio_as(c, contrast_without_loss(c), arena));
 }
 
 /* All of it in whole percent that add up to 100, the small ones together. */
-static const char *group_words(const CaseGroup *group, Arena *arena)
-{
+static const char *group_words(const CaseGroup *group, Arena *arena) {
     Text text = {.arena = arena};
-    int  listed = group->count > SHARES_LISTED + 1 ? SHARES_LISTED : group->count, left = 100;
+    int listed = group->count > SHARES_LISTED + 1 ? SHARES_LISTED : group->count, left = 100;
     bool has_rest = listed < group->count;
     for (int i = 0; i < listed; i++) {
         bool is_last = i == listed - 1 && !has_rest;
-        int  percent = is_last ? left : (int)lrint(100 * group->list[i].share);
+        int percent = is_last ? left : (int)lrint(100 * group->list[i].share);
         left -= percent;
         const char *share = percent > 0 ? arena_format(arena, "%d", percent) : "<1";
         text_format(&text, "%s%s %% %s", i ? " · " : "", share, group->list[i].what);
@@ -70,28 +64,26 @@ static const char *group_words(const CaseGroup *group, Arena *arena)
     return text.data ? text.data : "";
 }
 
-static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *c, Arena *arena)
-{
+static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *c, Arena *arena) {
     static const char *const NAMES[CAUSE_GROUPS] = {"Light from", "… in through", "… off"};
     const char *whole = words_whole(c, arena);
     add(facts, "Seen through", glasses_words(c, arena));
-    if (whole[0])
-        add(facts, "Judged by", arena_format(arena, "its worst part; %s", whole));
+    if (whole[0]) add(facts, "Judged by", arena_format(arena, "its worst part; %s", whole));
     for (int g = 0; g < CAUSE_GROUPS; g++)
         if (c->groups[g].count) add(facts, NAMES[g], group_words(&c->groups[g], arena));
     if (!c->groups[GROUP_LIGHT].count && c->cause_count)
-        add(facts, "Why", arena_format(arena, "%s of what the display reflects comes by: %s",
-                                       words_share(c->causes[0].share, arena),
-                                       words_chain(&c->causes[0], arena)));
+        add(facts, "Why",
+            arena_format(arena, "%s of what the display reflects comes by: %s",
+                         words_share(c->causes[0].share, arena),
+                         words_chain(&c->causes[0], arena)));
     add(facts, "No data", words_without_data(review, c, arena));
     add(facts, "Empty seat", words_empty_seat(c, arena));
 }
 
 /* With how many others that cannot be judged either. */
-static const char *unjudged_words(const Review *review, const ReviewCase *of, Arena *arena)
-{
+static const char *unjudged_words(const Review *review, const ReviewCase *of, Arena *arena) {
     const char *name = words_case(of, arena);
-    int         count = 0, same = 0;
+    int count = 0, same = 0;
     for (int i = 0; i < review_case_count(review); i++) {
         const ReviewCase *c = review_case_at(review, i);
         if (c == of || c->verdict != VERDICT_UNJUDGED || !review_case_counts(c)) continue;
@@ -99,16 +91,14 @@ static const char *unjudged_words(const Review *review, const ReviewCase *of, Ar
         same += c->unjudged == of->unjudged;
     }
     if (!count) return name;
-    const char *others = arena_format(arena, "%s, and %d other%s", name, count,
-                                      count == 1 ? "" : "s");
+    const char *others =
+        arena_format(arena, "%s, and %d other%s", name, count, count == 1 ? "" : "s");
     return same == count ? arena_format(arena, "%s for the same reason", others)
-                         : arena_format(arena, "%s, of which %d for the same reason", others,
-                                        same);
+                         : arena_format(arena, "%s, of which %d for the same reason", others, same);
 }
 
 static void add_unjudged(ReviewFacts *facts, const Review *review, const ReviewCase *c,
-                         Arena *arena)
-{
+                         Arena *arena) {
     add(facts, "Not judged", unjudged_words(review, c, arena));
     add(facts, "Why", words_unjudged(c, arena));
     add(facts, "To judge it", words_to_judge(c));
@@ -116,16 +106,14 @@ static void add_unjudged(ReviewFacts *facts, const Review *review, const ReviewC
 
 /* ---- the remedy -------------------------------------------------------------------------- */
 
-static void add_mend(ReviewFacts *facts, int *listed, bool mends, const char *words)
-{
+static void add_mend(ReviewFacts *facts, int *listed, bool mends, const char *words) {
     const char *name = *listed ? "… or" : mends ? "Remedy" : "What helps";
     add(facts, name, words);
     ++*listed;
 }
 
 /* Variants of the whole review go before what is estimated for this case alone. */
-static void add_tried(ReviewFacts *facts, const Review *review, int *listed, Arena *arena)
-{
+static void add_tried(ReviewFacts *facts, const Review *review, int *listed, Arena *arena) {
     for (int i = 0; i < review->variant_count && *listed < MENDS_LISTED; i++) {
         const ReviewVariantFound *v = &review->variants[i];
         if (review_verdict(v->review) == VERDICT_PASS)
@@ -134,9 +122,7 @@ static void add_tried(ReviewFacts *facts, const Review *review, int *listed, Are
     }
 }
 
-static void add_mends(ReviewFacts *facts, const Review *review, const ReviewCase *c,
-                      Arena *arena)
-{
+static void add_mends(ReviewFacts *facts, const Review *review, const ReviewCase *c, Arena *arena) {
     int listed = 0;
     add_tried(facts, review, &listed, arena);
     for (int i = 0; i < c->remedy_count && listed < MENDS_LISTED; i++) {
@@ -147,8 +133,7 @@ static void add_mends(ReviewFacts *facts, const Review *review, const ReviewCase
 }
 
 ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
-                            const char *const *directions, Arena *arena)
-{
+                            const char *const *directions, Arena *arena) {
     ReviewFacts facts = {.count = 0};
     if (c->unjudged) add_unjudged(&facts, review, c, arena);
     add_when(&facts, review, c, directions, arena);
@@ -162,8 +147,7 @@ ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
 #define NAMES_LISTED 3
 
 /* Of one kind and basis. */
-static long count_of(const Review *review, RestKind kind, RestBasis basis)
-{
+static long count_of(const Review *review, RestKind kind, RestBasis basis) {
     long count = 0;
     for (int i = 0; i < review->rests_on_count; i++) {
         const ReviewRest *r = &review->rests_on[i];
@@ -172,18 +156,16 @@ static long count_of(const Review *review, RestKind kind, RestBasis basis)
     return count;
 }
 
-static const ReviewRest *first_of(const Review *review, RestKind kind)
-{
+static const ReviewRest *first_of(const Review *review, RestKind kind) {
     for (int i = 0; i < review->rests_on_count; i++)
         if (review->rests_on[i].kind == kind) return &review->rests_on[i];
     return NULL;
 }
 
 /* "speed, centre and 3 more" */
-static const char *names_of(const Review *review, RestKind kind, RestBasis basis, Arena *arena)
-{
+static const char *names_of(const Review *review, RestKind kind, RestBasis basis, Arena *arena) {
     Text text = {.arena = arena};
-    int  all = 0, listed = 0;
+    int all = 0, listed = 0;
     for (int i = 0; i < review->rests_on_count; i++)
         all += review->rests_on[i].kind == kind && review->rests_on[i].basis == basis;
     for (int i = 0; i < review->rests_on_count && listed < NAMES_LISTED; i++) {
@@ -196,15 +178,13 @@ static const char *names_of(const Review *review, RestKind kind, RestBasis basis
     return text.data ? text.data : "";
 }
 
-static void part(Text *line, const char *words)
-{
+static void part(Text *line, const char *words) {
     if (words[0]) text_format(line, "%s%s", line->size ? "; " : "", words);
 }
 
 /* ---- panels ------------------------------------------------------------------------------ */
 
-static const CasePanel *panel_of(const Review *review, const char *display)
-{
+static const CasePanel *panel_of(const Review *review, const char *display) {
     for (int i = 0; i < review_case_count(review); i++) {
         const ReviewCase *c = review_case_at(review, i);
         if (words_same(c->display, display)) return &c->panel;
@@ -214,8 +194,7 @@ static const CasePanel *panel_of(const Review *review, const char *display)
 
 /* What its file says of itself (panel/query/panel_stated.h); why it is not usable is reported
  * of every case of it. */
-static void add_stated(Text *text, const CasePanel *panel, Arena *arena)
-{
+static void add_stated(Text *text, const CasePanel *panel, Arena *arena) {
     text_format(text, ", %s", panel->verdict ? panel->verdict : "no verdict of its own");
     if (panel->is_coarse && !panel->is_unusable) text_add(text, ", coarse");
     if (panel->reason && !panel->is_unusable) text_format(text, " (%s)", panel->reason);
@@ -229,23 +208,22 @@ static void add_stated(Text *text, const CasePanel *panel, Arena *arena)
 #define EXTRAPOLATED_LEAST 0.01 /* of the reflected light that is worth a word */
 
 /* Of a display's cases, the most. */
-static void add_extrapolated(Text *text, const Review *review, const char *display,
-                             Arena *arena)
-{
+static void add_extrapolated(Text *text, const Review *review, const char *display, Arena *arena) {
     double most = 0;
     for (int i = 0; i < review_case_count(review); i++) {
         const ReviewCase *c = review_case_at(review, i);
         if (words_same(c->display, display)) most = fmax(most, c->extrapolated_share);
     }
     if (most >= EXTRAPOLATED_LEAST)
-        text_format(text, ", up to %s of the light that it reflects by directions that were "
-                          "not measured", words_share(most, arena));
+        text_format(text,
+                    ", up to %s of the light that it reflects by directions that were "
+                    "not measured",
+                    words_share(most, arena));
 }
 
-static const char *stated_words(const Review *review, const ReviewRest *r, Arena *arena)
-{
+static const char *stated_words(const Review *review, const ReviewRest *r, Arena *arena) {
     const CasePanel *panel = panel_of(review, r->name);
-    Text             text = {.arena = arena};
+    Text text = {.arena = arena};
     if (r->basis == REST_MEASURED) text_format(&text, "measured (%s)", r->words);
     else text_add(&text, r->basis == REST_SYNTHETIC ? "synthetic" : "no measurement stated");
     if (panel) add_stated(&text, panel, arena);
@@ -254,16 +232,15 @@ static const char *stated_words(const Review *review, const ReviewRest *r, Arena
 }
 
 /* Displays whose panels state the same stand together. */
-static void add_panels(Text *line, const Review *review, Arena *arena)
-{
-    int          count = review->rests_on_count;
+static void add_panels(Text *line, const Review *review, Arena *arena) {
+    int count = review->rests_on_count;
     const char **stated = ARENA_NEW(arena, const char *, count); /* NULL: none, or reported */
     for (int i = 0; i < count; i++)
         if (review->rests_on[i].kind == REST_PANEL)
             stated[i] = stated_words(review, &review->rests_on[i], arena);
     for (int i = 0; i < count; i++) {
         const char *words = stated[i];
-        Text        names = {.arena = arena};
+        Text names = {.arena = arena};
         for (int k = i; words && k < count; k++) {
             const char *name = review->rests_on[k].name;
             if (!stated[k] || strcmp(stated[k], words) != 0) continue;
@@ -276,8 +253,7 @@ static void add_panels(Text *line, const Review *review, Arena *arena)
 
 /* ---- materials --------------------------------------------------------------------------- */
 
-static double greatest_share(const Review *review, RestBasis basis)
-{
+static double greatest_share(const Review *review, RestBasis basis) {
     double most = 0;
     for (int i = 0; i < review_case_count(review); i++) {
         const ReviewCase *c = review_case_at(review, i);
@@ -286,22 +262,23 @@ static double greatest_share(const Review *review, RestBasis basis)
     return most;
 }
 
-static void add_materials(Text *line, const Review *review, RestBasis basis, Arena *arena)
-{
-    long        count = count_of(review, REST_MATERIAL, basis);
+static void add_materials(Text *line, const Review *review, RestBasis basis, Arena *arena) {
+    long count = count_of(review, REST_MATERIAL, basis);
     const char *share = words_share(greatest_share(review, basis), arena);
     const char *plural = count == 1 ? "" : "s";
     if (!count) return;
     part(line, basis == REST_GUESSED
-                   ? arena_format(arena, "%ld guessed material%s (up to %s of the light on a "
-                                         "symbol)", count, plural, share)
-                   : arena_format(arena, "%ld material%s without optical data, taken as "
-                                         "perfectly white (up to %s of the light on a symbol)",
+                   ? arena_format(arena,
+                                  "%ld guessed material%s (up to %s of the light on a "
+                                  "symbol)",
+                                  count, plural, share)
+                   : arena_format(arena,
+                                  "%ld material%s without optical data, taken as "
+                                  "perfectly white (up to %s of the light on a symbol)",
                                   count, plural, share));
 }
 
-static void add_all_materials(Text *line, const Review *review, Arena *arena)
-{
+static void add_all_materials(Text *line, const Review *review, Arena *arena) {
     add_materials(line, review, REST_GUESSED, arena);
     add_materials(line, review, REST_WITHOUT_DATA, arena);
     if (!first_of(review, REST_MATERIAL)) part(line, "materials as the model states them");
@@ -309,8 +286,7 @@ static void add_all_materials(Text *line, const Review *review, Arena *arena)
 
 /* ---- eyes, occupants, limits ------------------------------------------------------------- */
 
-static void add_eyes(Text *line, const Review *review, Arena *arena)
-{
+static void add_eyes(Text *line, const Review *review, Arena *arena) {
     long given = count_of(review, REST_EYE, REST_GIVEN);
     long proposed = count_of(review, REST_EYE, REST_PROPOSED);
     if (!proposed) {
@@ -323,12 +299,11 @@ static void add_eyes(Text *line, const Review *review, Arena *arena)
 }
 
 /* Seats are known by their backs, where much light comes off them. */
-static const char *nobody_words(const Review *review, Arena *arena)
-{
+static const char *nobody_words(const Review *review, Arena *arena) {
     static const char UNLESS[] = "unless the model itself has somebody";
-    int      count = review_case_count(review);
+    int count = review_case_count(review);
     WordList eyes = words_list(count, arena), empty = words_list(count, arena);
-    Text     seats = {.arena = arena};
+    Text seats = {.arena = arena};
     for (int i = 0; i < count; i++) {
         const ReviewCase *c = review_case_at(review, i);
         words_list_add(&eyes, c->eye);
@@ -340,12 +315,13 @@ static const char *nobody_words(const Review *review, Arena *arena)
         return arena_format(arena, "no occupant named: nobody sits there, %s", UNLESS);
     if (empty.count == eyes.count)
         return arena_format(arena, "no occupant named: nobody sits in the %s seat", seats.data);
-    return arena_format(arena, "no occupant named: nobody sits in the %s seat, nor in another "
-                        "%s", seats.data, UNLESS);
+    return arena_format(arena,
+                        "no occupant named: nobody sits in the %s seat, nor in another "
+                        "%s",
+                        seats.data, UNLESS);
 }
 
-static void add_occupants(Text *line, const Review *review, Arena *arena)
-{
+static void add_occupants(Text *line, const Review *review, Arena *arena) {
     const ReviewRest *first = first_of(review, REST_OCCUPANT);
     long empty = count_of(review, REST_OCCUPANT, REST_NOBODY);
     if (!first) return;
@@ -354,13 +330,14 @@ static void add_occupants(Text *line, const Review *review, Arena *arena)
         return;
     }
     const char *names = names_of(review, REST_OCCUPANT, REST_PRESENT, arena);
-    part(line, empty ? arena_format(arena, "occupants: %s (none under %ld of %ld "
-                                           "conditions)", names, empty, first->of)
+    part(line, empty ? arena_format(arena,
+                                    "occupants: %s (none under %ld of %ld "
+                                    "conditions)",
+                                    names, empty, first->of)
                      : arena_format(arena, "occupants: %s", names));
 }
 
-static void add_limits(Text *line, const Review *review, Arena *arena)
-{
+static void add_limits(Text *line, const Review *review, Arena *arena) {
     const ReviewRest *limits = first_of(review, REST_LIMITS);
     if (!limits) return;
     if (!limits->of) part(line, "a profile that sets no limit");
@@ -371,8 +348,7 @@ static void add_limits(Text *line, const Review *review, Arena *arena)
                                 limits->count, limits->of));
 }
 
-const char *review_rests_words(const Review *review, Arena *arena)
-{
+const char *review_rests_words(const Review *review, Arena *arena) {
     Text line = {.arena = arena};
     if (!review->rests_on_count) return "";
     add_panels(&line, review, arena);

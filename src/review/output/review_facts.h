@@ -18,7 +18,7 @@ typedef struct ReviewFact {
 
 typedef struct ReviewFacts {
     ReviewFact list[REVIEW_FACTS_MOST];
-    int        count;
+    int count;
 } ReviewFacts;
 
 /* directions: of the case's sun (words_directions); NULL: what its azimuth counts from is not
@@ -35,4 +35,3 @@ ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
  * are standard errors, which the intervals hold; shares are the greatest of this review's
  * cases, which may be a part of another's. "": nothing is known, as of an older review. */
 const char *review_rests_words(const Review *review, Arena *arena);
-

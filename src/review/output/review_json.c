@@ -23,154 +23,135 @@
 
 FOLLOWS(ReviewFalseSun, sun_elevation_deg, sun_azimuth_deg);
 
-TABLE(sweep_json, ReviewSweep,
-    OWN(TEXT, ReviewSweep, condition), OWN(TEXT, ReviewSweep, eye),
-    OWN(TEXT, ReviewSweep, symbol),
-    AS_VERDICT("verdict", RECORD_WRITTEN, ReviewSweep, worst.verdict),
-    OWN(COUNT, ReviewSweep, cases), OWN(FIGURE, ReviewSweep, failed_share),
-    OWN(FIGURE, ReviewSweep, longest_failure_minutes),
-    LATER("middle_eye_contrast_ratio", FIGURE, ReviewSweep, middle_contrast),
-    PART("worst", MUST, ReviewSweep, worst, case_json),
-    OWN(TEXT, ReviewSweep, table));
+TABLE(sweep_json, ReviewSweep, OWN(TEXT, ReviewSweep, condition), OWN(TEXT, ReviewSweep, eye),
+      OWN(TEXT, ReviewSweep, symbol),
+      AS_VERDICT("verdict", RECORD_WRITTEN, ReviewSweep, worst.verdict),
+      OWN(COUNT, ReviewSweep, cases), OWN(FIGURE, ReviewSweep, failed_share),
+      OWN(FIGURE, ReviewSweep, longest_failure_minutes),
+      LATER("middle_eye_contrast_ratio", FIGURE, ReviewSweep, middle_contrast),
+      PART("worst", MUST, ReviewSweep, worst, case_json), OWN(TEXT, ReviewSweep, table));
 
-TABLE(veil_json, GazeVeil,
-    OWN(FIGURE, GazeVeil, sun), OWN(FIGURE, GazeVeil, sky),
-    OWN(FIGURE, GazeVeil, lamps), OWN(FIGURE, GazeVeil, glints),
-    OWN(FIGURE, GazeVeil, surfaces), OWN(FIGURE, GazeVeil, near));
+TABLE(veil_json, GazeVeil, OWN(FIGURE, GazeVeil, sun), OWN(FIGURE, GazeVeil, sky),
+      OWN(FIGURE, GazeVeil, lamps), OWN(FIGURE, GazeVeil, glints), OWN(FIGURE, GazeVeil, surfaces),
+      OWN(FIGURE, GazeVeil, near));
 
-TABLE(road_display_json, RoadDisplay,
-    OWN(TEXT, RoadDisplay, display), OWN(FIGURE, RoadDisplay, level),
-    AS("veil_share", FIGURE, RoadDisplay, share),
-    AS("threshold_increment_pct", FIGURE, RoadDisplay, increment_pct),
-    AS("threshold_increment_interval", RANGE, RoadDisplay, increment_range),
-    OWN(FIGURE, RoadDisplay, straight_share), OWN(FIGURE, RoadDisplay, mirrored_share),
-    OWN(FIGURE, RoadDisplay, scattered_share), OWN(TEXT, RoadDisplay, mirrored_by),
-    OWN(FIGURE, RoadDisplay, mirrored_by_share), OWN(FIGURE, RoadDisplay, level_most),
-    AS("level_most_interval", RANGE, RoadDisplay, level_most_range));
+TABLE(road_display_json, RoadDisplay, OWN(TEXT, RoadDisplay, display),
+      OWN(FIGURE, RoadDisplay, level), AS("veil_share", FIGURE, RoadDisplay, share),
+      AS("threshold_increment_pct", FIGURE, RoadDisplay, increment_pct),
+      AS("threshold_increment_interval", RANGE, RoadDisplay, increment_range),
+      OWN(FIGURE, RoadDisplay, straight_share), OWN(FIGURE, RoadDisplay, mirrored_share),
+      OWN(FIGURE, RoadDisplay, scattered_share), OWN(TEXT, RoadDisplay, mirrored_by),
+      OWN(FIGURE, RoadDisplay, mirrored_by_share), OWN(FIGURE, RoadDisplay, level_most),
+      AS("level_most_interval", RANGE, RoadDisplay, level_most_range));
 
-TABLE(road_age_json, RoadAge,
-    OWN(FIGURE, RoadAge, age_years), AS("veil_cd_m2", FIGURE, RoadAge, veil),
-    AS("veil_interval", RANGE, RoadAge, veil_range),
-    AS("threshold_increment_pct", FIGURE, RoadAge, increment_pct),
-    AS("threshold_increment_interval", RANGE, RoadAge, increment_range),
-    AS("threshold_increment_by_cie_135_pct", FIGURE, RoadAge, increment_by_spread_pct),
-    PART("limit", MUST, RoadAge, limit, limit_json),
-    LIST("displays", MUST, RoadAge, displays, display_count, road_display_json));
+TABLE(road_age_json, RoadAge, OWN(FIGURE, RoadAge, age_years),
+      AS("veil_cd_m2", FIGURE, RoadAge, veil), AS("veil_interval", RANGE, RoadAge, veil_range),
+      AS("threshold_increment_pct", FIGURE, RoadAge, increment_pct),
+      AS("threshold_increment_interval", RANGE, RoadAge, increment_range),
+      AS("threshold_increment_by_cie_135_pct", FIGURE, RoadAge, increment_by_spread_pct),
+      PART("limit", MUST, RoadAge, limit, limit_json),
+      LIST("displays", MUST, RoadAge, displays, display_count, road_display_json));
 
-TABLE(road_dimming_json, RoadDimming,
-    OWN(TEXT, RoadDimming, display), OWN(FIGURE, RoadDimming, age_years),
-    OWN(FIGURE, RoadDimming, road_cd_m2), OWN(FIGURE, RoadDimming, level),
-    OWN(FIGURE, RoadDimming, level_most),
-    AS("level_most_interval", RANGE, RoadDimming, level_most_range),
-    OWN(FIGURE, RoadDimming, level_least), OWN(FIGURE, RoadDimming, level_least_sure),
-    OWN(TEXT, RoadDimming, symbol),
-    AS_WORD("window", MUST | RECORD_NULL, RoadDimming, window, road_windows + 1));
+TABLE(road_dimming_json, RoadDimming, OWN(TEXT, RoadDimming, display),
+      OWN(FIGURE, RoadDimming, age_years), OWN(FIGURE, RoadDimming, road_cd_m2),
+      OWN(FIGURE, RoadDimming, level), OWN(FIGURE, RoadDimming, level_most),
+      AS("level_most_interval", RANGE, RoadDimming, level_most_range),
+      OWN(FIGURE, RoadDimming, level_least), OWN(FIGURE, RoadDimming, level_least_sure),
+      OWN(TEXT, RoadDimming, symbol),
+      AS_WORD("window", MUST | RECORD_NULL, RoadDimming, window, road_windows + 1));
 
-TABLE(road_json, GazeRoad,
-    OWN(FIGURE, GazeRoad, luminance_cd_m2), OWN(FIGURE, GazeRoad, s_p),
-    OWN(FIGURE, GazeRoad, mesopic_cd_m2),
-    AS_WORD("not_evaluated_because", MUST | RECORD_NULL, GazeRoad, left_out,
-            road_left_outs + 1),
-    AS("after_dark", FLAG, GazeRoad, is_after_dark),
-    OWN(FIGURE, GazeRoad, without_data_share),
-    AS("counts", FLAG, GazeRoad, has_limit), OWN(VERDICT, GazeRoad, verdict),
-    AS("reason", REASON, GazeRoad, unjudged),
-    LIST("ages", MUST, GazeRoad, ages, age_count, road_age_json),
-    LIST("dimming", MUST, GazeRoad, dimming, dimming_count, road_dimming_json));
+TABLE(road_json, GazeRoad, OWN(FIGURE, GazeRoad, luminance_cd_m2), OWN(FIGURE, GazeRoad, s_p),
+      OWN(FIGURE, GazeRoad, mesopic_cd_m2),
+      AS_WORD("not_evaluated_because", MUST | RECORD_NULL, GazeRoad, left_out, road_left_outs + 1),
+      AS("after_dark", FLAG, GazeRoad, is_after_dark), OWN(FIGURE, GazeRoad, without_data_share),
+      AS("counts", FLAG, GazeRoad, has_limit), OWN(VERDICT, GazeRoad, verdict),
+      AS("reason", REASON, GazeRoad, unjudged),
+      LIST("ages", MUST, GazeRoad, ages, age_count, road_age_json),
+      LIST("dimming", MUST, GazeRoad, dimming, dimming_count, road_dimming_json));
 
-TABLE(gaze_json, GazeFinding,
-    OWN(TEXT, GazeFinding, condition), OWN(TEXT, GazeFinding, eye),
-    OWN(TEXT, GazeFinding, gaze), AS("sun_from_gaze_deg", FIGURE, GazeFinding, sun_deg),
-    AS("veil_cd_m2", FIGURE, GazeFinding, veil),
-    AS("veil_interval", RANGE, GazeFinding, veil_range),
-    PART("veil_parts_cd_m2", MUST, GazeFinding, veil_parts, veil_json),
-    AS("cornea_lx", FIGURE, GazeFinding, cornea_lux),
-    AS("through_cd_m2", FIGURE, GazeFinding, through),
-    AS("mirrored_cd_m2", FIGURE, GazeFinding, mirrored),
-    AS("mirrored_interval", RANGE, GazeFinding, mirrored_range),
-    OWN(TEXT, GazeFinding, mirrored_by), OWN(TEXT, GazeFinding, mirrored_from),
-    OWN(FIGURE, GazeFinding, contrast_behind_glass), OWN(FIGURE, GazeFinding, contrast_left),
-    AS("contrast_interval", RANGE, GazeFinding, contrast_range),
-    {"road", RECORD_OBJECT, RECORD_APART | RECORD_BRIEF, RECORD_AT(GazeFinding, road),
-     .of = &road_json});
+TABLE(gaze_json, GazeFinding, OWN(TEXT, GazeFinding, condition), OWN(TEXT, GazeFinding, eye),
+      OWN(TEXT, GazeFinding, gaze), AS("sun_from_gaze_deg", FIGURE, GazeFinding, sun_deg),
+      AS("veil_cd_m2", FIGURE, GazeFinding, veil),
+      AS("veil_interval", RANGE, GazeFinding, veil_range),
+      PART("veil_parts_cd_m2", MUST, GazeFinding, veil_parts, veil_json),
+      AS("cornea_lx", FIGURE, GazeFinding, cornea_lux),
+      AS("through_cd_m2", FIGURE, GazeFinding, through),
+      AS("mirrored_cd_m2", FIGURE, GazeFinding, mirrored),
+      AS("mirrored_interval", RANGE, GazeFinding, mirrored_range),
+      OWN(TEXT, GazeFinding, mirrored_by), OWN(TEXT, GazeFinding, mirrored_from),
+      OWN(FIGURE, GazeFinding, contrast_behind_glass), OWN(FIGURE, GazeFinding, contrast_left),
+      AS("contrast_interval", RANGE, GazeFinding, contrast_range),
+      {"road", RECORD_OBJECT, RECORD_APART | RECORD_BRIEF, RECORD_AT(GazeFinding, road),
+       .of = &road_json});
 
-TABLE(response_json, ReviewResponse,
-    OWN(TEXT, ReviewResponse, probe), OWN(TEXT, ReviewResponse, file),
-    OWN(COUNT, ReviewResponse, paths), OWN(COUNT, ReviewResponse, bytes),
-    OWN(FIGURE, ReviewResponse, relative_error));
+TABLE(response_json, ReviewResponse, OWN(TEXT, ReviewResponse, probe),
+      OWN(TEXT, ReviewResponse, file), OWN(COUNT, ReviewResponse, paths),
+      OWN(COUNT, ReviewResponse, bytes), OWN(FIGURE, ReviewResponse, relative_error));
 
-TABLE(false_sun_json, ReviewFalseSun,
-    OWN(TEXT, ReviewFalseSun, condition), OWN(TEXT, ReviewFalseSun, eye),
-    OWN(TEXT, ReviewFalseSun, mirror), OWN(FIGURE, ReviewFalseSun, share),
-    OWN(FIGURE, ReviewFalseSun, minutes), OWN(FIGURE, ReviewFalseSun, longest_minutes),
-    OWN(TEXT, ReviewFalseSun, when),
-    PART("sun", MUST, ReviewFalseSun, sun_azimuth_deg, sun_json),
-    OWN(FIGURE, ReviewFalseSun, lux), OWN(TEXT, ReviewFalseSun, gaze),
-    OWN(FIGURE, ReviewFalseSun, angle_deg), OWN(FIGURE, ReviewFalseSun, veil_cd_m2));
+TABLE(false_sun_json, ReviewFalseSun, OWN(TEXT, ReviewFalseSun, condition),
+      OWN(TEXT, ReviewFalseSun, eye), OWN(TEXT, ReviewFalseSun, mirror),
+      OWN(FIGURE, ReviewFalseSun, share), OWN(FIGURE, ReviewFalseSun, minutes),
+      OWN(FIGURE, ReviewFalseSun, longest_minutes), OWN(TEXT, ReviewFalseSun, when),
+      PART("sun", MUST, ReviewFalseSun, sun_azimuth_deg, sun_json),
+      OWN(FIGURE, ReviewFalseSun, lux), OWN(TEXT, ReviewFalseSun, gaze),
+      OWN(FIGURE, ReviewFalseSun, angle_deg), OWN(FIGURE, ReviewFalseSun, veil_cd_m2));
 
-static json_t *write_outline(const void *item)
-{
+static json_t *write_outline(const void *item) {
     const PaneFinding *f = item;
-    json_t            *out = json_array();
+    json_t *out = json_array();
     for (int i = 0; i < f->outline_count; i++)
         json_array_append_new(out, json_figure(f->outline_deg[i]));
     return out;
 }
 
-TABLE(pane_image_json, PaneFinding,
-    OWN(TEXT, PaneFinding, condition), OWN(TEXT, PaneFinding, eye),
-    OWN(TEXT, PaneFinding, display), OWN(TEXT, PaneFinding, pane),
-    AS("no_image_because", TEXT, PaneFinding, none), OWN(FIGURE, PaneFinding, shown_share),
-    AS("pane_ends_share", FIGURE, PaneFinding, ends_share),
-    AS("turned_away_share", FIGURE, PaneFinding, away_share),
-    OWN(FIGURE, PaneFinding, covered_share), OWN(TEXT, PaneFinding, covered_by),
-    OWN(FIGURE, PaneFinding, right_deg), OWN(FIGURE, PaneFinding, up_deg),
-    OWN(FIGURE, PaneFinding, width_deg), OWN(FIGURE, PaneFinding, height_deg),
-    {"outline_deg", RECORD_FIGURES, MUST, RECORD_MANY(PaneFinding, outline_deg, outline_count),
-     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), .write = write_outline},
-    AS("image_cd_m2", FIGURE, PaneFinding, image),
-    AS("image_interval", RANGE, PaneFinding, image_range),
-    AS("behind_cd_m2", FIGURE, PaneFinding, behind),
-    AS("behind_interval", RANGE, PaneFinding, behind_range),
-    AS("against_cd_m2", FIGURE, PaneFinding, against),
-    AS("against_interval", RANGE, PaneFinding, against_range),
-    OWN(FIGURE, PaneFinding, contrast),
-    AS("contrast_interval", RANGE, PaneFinding, contrast_range),
-    OWN(FIGURE, PaneFinding, ghost_share), OWN(FIGURE, PaneFinding, ghost_arcmin),
-    OWN(TEXT, PaneFinding, area), OWN(FIGURE, PaneFinding, off_deg),
-    {"limit", RECORD_OBJECT, MUST | RECORD_NULL, RECORD_AT(PaneFinding, limit),
-     .count = offsetof(PaneFinding, has_limit), .of = &limit_json});
+TABLE(pane_image_json, PaneFinding, OWN(TEXT, PaneFinding, condition), OWN(TEXT, PaneFinding, eye),
+      OWN(TEXT, PaneFinding, display), OWN(TEXT, PaneFinding, pane),
+      AS("no_image_because", TEXT, PaneFinding, none), OWN(FIGURE, PaneFinding, shown_share),
+      AS("pane_ends_share", FIGURE, PaneFinding, ends_share),
+      AS("turned_away_share", FIGURE, PaneFinding, away_share),
+      OWN(FIGURE, PaneFinding, covered_share), OWN(TEXT, PaneFinding, covered_by),
+      OWN(FIGURE, PaneFinding, right_deg), OWN(FIGURE, PaneFinding, up_deg),
+      OWN(FIGURE, PaneFinding, width_deg), OWN(FIGURE, PaneFinding, height_deg),
+      {"outline_deg", RECORD_FIGURES, MUST, RECORD_MANY(PaneFinding, outline_deg, outline_count),
+       RECORD_RANGE(-HUGE_VAL, HUGE_VAL), .write = write_outline},
+      AS("image_cd_m2", FIGURE, PaneFinding, image),
+      AS("image_interval", RANGE, PaneFinding, image_range),
+      AS("behind_cd_m2", FIGURE, PaneFinding, behind),
+      AS("behind_interval", RANGE, PaneFinding, behind_range),
+      AS("against_cd_m2", FIGURE, PaneFinding, against),
+      AS("against_interval", RANGE, PaneFinding, against_range), OWN(FIGURE, PaneFinding, contrast),
+      AS("contrast_interval", RANGE, PaneFinding, contrast_range),
+      OWN(FIGURE, PaneFinding, ghost_share), OWN(FIGURE, PaneFinding, ghost_arcmin),
+      OWN(TEXT, PaneFinding, area), OWN(FIGURE, PaneFinding, off_deg),
+      {"limit", RECORD_OBJECT, MUST | RECORD_NULL, RECORD_AT(PaneFinding, limit),
+       .count = offsetof(PaneFinding, has_limit), .of = &limit_json});
 
 TABLE(rest_json, ReviewRest,
-    {"kind", RECORD_CHOICE, MUST, RECORD_AT(ReviewRest, kind), .words = rest_kinds},
-    {"basis", RECORD_CHOICE, MUST, RECORD_AT(ReviewRest, basis), .words = rest_bases},
-    OWN(TEXT, ReviewRest, name), OWN(TEXT, ReviewRest, words), OWN(COUNT, ReviewRest, count),
-    OWN(COUNT, ReviewRest, of));
+      {"kind", RECORD_CHOICE, MUST, RECORD_AT(ReviewRest, kind), .words = rest_kinds},
+      {"basis", RECORD_CHOICE, MUST, RECORD_AT(ReviewRest, basis), .words = rest_bases},
+      OWN(TEXT, ReviewRest, name), OWN(TEXT, ReviewRest, words), OWN(COUNT, ReviewRest, count),
+      OWN(COUNT, ReviewRest, of));
 
-TABLE(files_json, ReviewFile,
-    OWN(TEXT, ReviewFile, path), OWN(TEXT, ReviewFile, xxh3));
+TABLE(files_json, ReviewFile, OWN(TEXT, ReviewFile, path), OWN(TEXT, ReviewFile, xxh3));
 
 /* ---- variants ---------------------------------------------------------------------------- */
 
-static json_t *pair(double low, double high)
-{
+static json_t *pair(double low, double high) {
     return json_pack("[o,o]", json_figure(low), json_figure(high));
 }
 
-static json_t *text(const char *string)
-{
+static json_t *text(const char *string) {
     return string ? json_text(string) : json_null();
 }
 
-static void set(json_t *object, const char *key, json_t *value)
-{
+static void set(json_t *object, const char *key, json_t *value) {
     json_object_set_new(object, key, value);
 }
 
-static json_t *difference_json(const ReviewDifference *d)
-{
-    static const char *const FIRST[] = {"condition", "eye", "symbol", "verdict",
-                                        "contrast_ratio", "contrast_interval", "margin", NULL};
+static json_t *difference_json(const ReviewDifference *d) {
+    static const char *const FIRST[] = {
+        "condition",         "eye",    "symbol", "verdict", "contrast_ratio",
+        "contrast_interval", "margin", NULL};
     static const char *const LAST[] = {"level", "when", "sun", NULL};
     json_t *out = json_object();
     case_members_json(d->after, FIRST, out);
@@ -183,40 +164,36 @@ static json_t *difference_json(const ReviewDifference *d)
     const ReviewSweep *before = d->sweep_before;
     set(out, "failed_share", json_figure(d->sweep_after->failed_share));
     set(out, "failed_share_before", json_figure(before ? before->failed_share : (double)NAN));
-    set(out, "longest_failure_minutes",
-        json_figure(d->sweep_after->longest_failure_minutes));
+    set(out, "longest_failure_minutes", json_figure(d->sweep_after->longest_failure_minutes));
     return out;
 }
 
 /* A road as it is before or after a change. */
-static json_t *road_side_json(const GazeFinding *gaze, const RoadAge *age)
-{
+static json_t *road_side_json(const GazeFinding *gaze, const RoadAge *age) {
     if (!gaze || !age) return json_null();
     return json_pack("{s:o, s:[o,o], s:s}", "threshold_increment_pct",
                      json_figure(age->increment_pct), "threshold_increment_interval",
-                     json_figure(age->increment_range.low),
-                     json_figure(age->increment_range.high), "outcome", road_outcome(gaze));
+                     json_figure(age->increment_range.low), json_figure(age->increment_range.high),
+                     "outcome", road_outcome(gaze));
 }
 
-static json_t *road_changes_json(const Review *review, const Review *variant)
-{
-    json_t    *list = json_array();
+static json_t *road_changes_json(const Review *review, const Review *variant) {
+    json_t *list = json_array();
     RoadChange c;
     for (int i = 0; road_change_at(review, variant, i, &c); i++)
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o, s:f, s:o, s:o}", "condition",
-                            text(c.after->condition), "eye", text(c.after->eye), "gaze",
-                            text(c.after->gaze), "age_years", c.age_after->age_years, "before",
-                            road_side_json(c.before, c.age_before), "after",
-                            road_side_json(c.after, c.age_after)));
+        json_array_append_new(list,
+                              json_pack("{s:o, s:o, s:o, s:f, s:o, s:o}", "condition",
+                                        text(c.after->condition), "eye", text(c.after->eye), "gaze",
+                                        text(c.after->gaze), "age_years", c.age_after->age_years,
+                                        "before", road_side_json(c.before, c.age_before), "after",
+                                        road_side_json(c.after, c.age_after)));
     return list;
 }
 
-static json_t *variant_json(const Review *review, const ReviewVariantFound *v)
-{
+static json_t *variant_json(const Review *review, const ReviewVariantFound *v) {
     json_t *out = json_pack("{s:o, s:o, s:b, s:s}", "name", text(v->name), "changes",
-                            json_texts(v->words, v->word_count), "pass", v->review->pass,
-                            "verdict", verdict_names[review_verdict(v->review)]);
+                            json_texts(v->words, v->word_count), "pass", v->review->pass, "verdict",
+                            verdict_names[review_verdict(v->review)]);
     json_t *cases = json_array(), *sweeps = json_array();
     set(out, "worst", v->worst.after ? difference_json(&v->worst) : json_null());
     for (int i = 0; i < v->difference_count; i++)
@@ -228,27 +205,25 @@ static json_t *variant_json(const Review *review, const ReviewVariantFound *v)
     if (json_array_size(roads)) set(out, "roads", roads);
     else json_decref(roads);
     if (v->frame)
-        set(out, "frames", json_pack("{s:o, s:o}", "before", text(v->frame_before), "after",
-                                     text(v->frame)));
+        set(out, "frames",
+            json_pack("{s:o, s:o}", "before", text(v->frame_before), "after", text(v->frame)));
     return out;
 }
 
 /* ---- what is stated of the whole --------------------------------------------------------- */
 
-static json_t *write_variants(const void *item)
-{
+static json_t *write_variants(const void *item) {
     const Review *review = item;
-    json_t       *variants = json_array();
+    json_t *variants = json_array();
     for (int i = 0; i < review->variant_count; i++)
         json_array_append_new(variants, variant_json(review, &review->variants[i]));
     return variants;
 }
 
 /* What the displays' panels say of themselves. */
-static json_t *write_panels(const void *review)
-{
-    Arena   scratch = arena_reserve(PLACES_BYTES);
-    int     count;
+static json_t *write_panels(const void *review) {
+    Arena scratch = arena_reserve(PLACES_BYTES);
+    int count;
     json_t *list = json_array();
     const ReviewCase **displays = review_displays(review, &count, &scratch);
     for (int i = 0; i < count; i++) {
@@ -260,19 +235,18 @@ static json_t *write_panels(const void *review)
     return list;
 }
 
-static json_t *write_places(const void *review)
-{
-    Arena         scratch = arena_reserve(PLACES_BYTES);
-    int           count;
+static json_t *write_places(const void *review) {
+    Arena scratch = arena_reserve(PLACES_BYTES);
+    int count;
     ReviewPlaces *places = review_places(review, &count, &scratch);
-    json_t       *list = json_array();
+    json_t *list = json_array();
     for (int i = 0; i < count; i++) {
         const ReviewCase *at = places[i].at;
         double passing = places[i].passing_share;
         double read = at->must_not_be_read ? 1 - passing : passing;
-        json_t *place = json_pack("{s:o, s:o, s:f, s:o}", "eye", text(at->eye), "symbol",
-                                  text(at->symbol), "read_share", read, "condition",
-                                  text(at->condition));
+        json_t *place =
+            json_pack("{s:o, s:o, s:f, s:o}", "eye", text(at->eye), "symbol", text(at->symbol),
+                      "read_share", read, "condition", text(at->condition));
         if (at->must_not_be_read) set(place, "must_not_be_read", json_true());
         json_array_append_new(list, place);
     }
@@ -280,54 +254,47 @@ static json_t *write_places(const void *review)
     return list;
 }
 
-static json_t *write_rests(const void *review)
-{
-    Arena   scratch = arena_reserve(PLACES_BYTES);
+static json_t *write_rests(const void *review) {
+    Arena scratch = arena_reserve(PLACES_BYTES);
     json_t *line = text(review_rests_words(review, &scratch));
     arena_release(&scratch);
     return line;
 }
 
-static json_t *write_data_share(const void *review)
-{
+static json_t *write_data_share(const void *review) {
     (void)review;
     return json_real(UNJUDGED_DATA_SHARE);
 }
 
-static json_t *write_verdict(const void *review)
-{
+static json_t *write_verdict(const void *review) {
     return json_string(verdict_names[review_verdict(review)]);
 }
 
-TABLE(whole_json, Review,
-    OWN(FLAG, Review, pass),
-    TOLD("verdict", 0, write_verdict), AS("strict", FLAG, Review, is_strict),
-    OWN(TEXT, Review, title), OWN(TEXT, Review, profile),
-    LIST("cases", MUST, Review, cases, case_count, case_json),
-    LIST("sweeps", MUST, Review, sweeps, sweep_count, sweep_json),
-    LIST("gazes", MUST, Review, gazes, gaze_count, gaze_json),
-    LIST("false_suns", MUST, Review, false_suns, false_sun_count, false_sun_json),
-    LIST("pane_images", RECORD_BRIEF, Review, pane_images, pane_image_count, pane_image_json),
-    TOLD("variants", RECORD_BRIEF, write_variants),
-    TOLD("eye_places", 0, write_places), TOLD("panels", 0, write_panels),
-    LIST("responses", MUST, Review, responses, response_count, response_json),
-    AS_TEXT("without_data", RECORD_WRITTEN, Review, without_data),
-    TOLD("without_data_share_most", 0, write_data_share),
-    LIST("rests_on", 0, Review, rests_on, rests_on_count, rest_json),
-    TOLD("rests_on_line", 0, write_rests),
-    LIST("inputs", 0, Review, inputs, input_count, files_json),
-    {"notes", RECORD_TEXTS, MUST, RECORD_MANY(Review, notes, note_count)});
+TABLE(whole_json, Review, OWN(FLAG, Review, pass), TOLD("verdict", 0, write_verdict),
+      AS("strict", FLAG, Review, is_strict), OWN(TEXT, Review, title), OWN(TEXT, Review, profile),
+      LIST("cases", MUST, Review, cases, case_count, case_json),
+      LIST("sweeps", MUST, Review, sweeps, sweep_count, sweep_json),
+      LIST("gazes", MUST, Review, gazes, gaze_count, gaze_json),
+      LIST("false_suns", MUST, Review, false_suns, false_sun_count, false_sun_json),
+      LIST("pane_images", RECORD_BRIEF, Review, pane_images, pane_image_count, pane_image_json),
+      TOLD("variants", RECORD_BRIEF, write_variants), TOLD("eye_places", 0, write_places),
+      TOLD("panels", 0, write_panels),
+      LIST("responses", MUST, Review, responses, response_count, response_json),
+      AS_TEXT("without_data", RECORD_WRITTEN, Review, without_data),
+      TOLD("without_data_share_most", 0, write_data_share),
+      LIST("rests_on", 0, Review, rests_on, rests_on_count, rest_json),
+      TOLD("rests_on_line", 0, write_rests),
+      LIST("inputs", 0, Review, inputs, input_count, files_json),
+      {"notes", RECORD_TEXTS, MUST, RECORD_MANY(Review, notes, note_count)});
 
-json_t *review_json(const Review *review)
-{
+json_t *review_json(const Review *review) {
     return record_write(&whole_json, review);
 }
 
-bool review_json_write(json_t *document, const char *path, Error *err)
-{
+bool review_json_write(json_t *document, const char *path, Error *err) {
     Arena arena = arena_reserve(DOCUMENT_BYTES);
-    Text  text = {.arena = &arena};
-    bool  ok = json_dump_text(&text, document, JSON_INDENT(2) | JSON_REAL_PRECISION(DIGITS)) ||
+    Text text = {.arena = &arena};
+    bool ok = json_dump_text(&text, document, JSON_INDENT(2) | JSON_REAL_PRECISION(DIGITS)) ||
               error_set(err, ERROR_MEMORY, "out of memory for %s", path);
     json_decref(document);
     text_add(&text, "\n");
@@ -336,10 +303,9 @@ bool review_json_write(json_t *document, const char *path, Error *err)
     return ok;
 }
 
-bool review_json_read(const char *file, Arena *arena, Review *out, Error *err)
-{
+bool review_json_read(const char *file, Arena *arena, Review *out, Error *err) {
     JsonView root;
-    Review   review = {0};
+    Review review = {0};
     if (!json_view_open(file, arena, &root, err)) return false;
     bool ok = record_read(&root, &whole_json, &review, err);
     json_view_close(&root);

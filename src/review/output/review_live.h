@@ -17,38 +17,37 @@
 
 typedef struct LiveSun {
     double azimuth_deg, elevation_deg;
-    int    step, heading_id; /* step in time; into headings_deg */
+    int step, heading_id; /* step in time; into headings_deg */
 } LiveSun;
 
 /* Shared by the sweeps of a condition. */
 typedef struct LiveSky {
     const LiveSun *suns;
-    int            count;
-    int            year;         /* 0: its suns have no date */
-    double         step_minutes; /* a year's, from 1 January 0:00 UTC on */
-    const double  *headings_deg;
-    int            heading_count;
+    int count;
+    int year;            /* 0: its suns have no date */
+    double step_minutes; /* a year's, from 1 January 0:00 UTC on */
+    const double *headings_deg;
+    int heading_count;
 } LiveSky;
 
 /* Arrays of sky->count. */
 typedef struct LiveSweep {
-    int                  sweep_id; /* into the review's */
-    const LiveSky       *sky;
-    int                  worst;    /* sun */
-    const float         *contrast, *low, *high, *margin, *reflected, *mirror, *level, *lux;
+    int sweep_id; /* into the review's */
+    const LiveSky *sky;
+    int worst; /* sun */
+    const float *contrast, *low, *high, *margin, *reflected, *mirror, *level, *lux;
     const unsigned char *verdict;
 } LiveSweep;
 
 typedef struct ReviewLive {
-    const LiveSweep   *sweeps;
-    int                sweep_count;
-    const char        *beside;  /* a script's name from the page on, which has all of it
-                                   (review_live_write); NULL: it stands in the page */
+    const LiveSweep *sweeps;
+    int sweep_count;
+    const char *beside; /* a script's name from the page on, which has all of it
+                           (review_live_write); NULL: it stands in the page */
 } ReviewLive;
 
 /* The script that live->beside names. */
-bool review_live_write(const Review *review, const ReviewLive *live, const char *path,
-                       Error *err);
+bool review_live_write(const Review *review, const ReviewLive *live, const char *path, Error *err);
 
 /* A block of JSON that is not shown, or what loads it: before the page ends. */
 bool review_live_add(Text *html, const Review *review, const ReviewLive *live, Error *err);

@@ -26,25 +26,22 @@ static const Colour WORST = {{0.50f, 0.06f, 0.09f}}, FAILING = {{0.97f, 0.68f, 0
                     CLOSE = {{0.98f, 0.84f, 0.33f}}, HIDDEN = {{0.36f, 0.34f, 0.42f}},
                     NONE = {{0.74f, 0.76f, 0.78f}}, NIGHT = {{0.25f, 0.28f, 0.33f}};
 
-static Colour mix(Colour a, Colour b, double t)
-{
+static Colour mix(Colour a, Colour b, double t) {
     Colour out;
-    float  part = t > 0 ? t < 1 ? (float)t : 1 : 0;
+    float part = t > 0 ? t < 1 ? (float)t : 1 : 0;
     for (int i = 0; i < 3; i++) out.srgb[i] = a.srgb[i] + part * (b.srgb[i] - a.srgb[i]);
     return out;
 }
 
 /* From margin -1, full wash-out, to 1. A case may fail for another reason than its contrast. */
-static Colour colour_of(Verdict verdict, double margin)
-{
+static Colour colour_of(Verdict verdict, double margin) {
     if (verdict == VERDICT_TOO_CLOSE) return CLOSE;
     if (verdict == VERDICT_UNJUDGED) return HIDDEN;
     if (verdict == VERDICT_FAIL) return mix(FAILING, WORST, isnan(margin) ? 0.5 : -margin);
     return mix(PASSING, BEST, isnan(margin) ? 0.5 : margin);
 }
 
-static void put(const Picture *picture, int x, int y, Colour colour)
-{
+static void put(const Picture *picture, int x, int y, Colour colour) {
     memcpy(picture_pixel(picture, x, y), colour.srgb, sizeof colour.srgb);
 }
 
@@ -52,10 +49,9 @@ static void put(const Picture *picture, int x, int y, Colour colour)
 
 /* What a picture of cells is in both: one pixel each, and the numbers for the pointer
  * (review.js), 16 bits a cell. False: it cannot be encoded. */
-static bool set_cells(json_t *to, const Picture *cells, const unsigned char *codes,
-                      Arena scratch, Error *err)
-{
-    Text    values = {.arena = &scratch};
+static bool set_cells(json_t *to, const Picture *cells, const unsigned char *codes, Arena scratch,
+                      Error *err) {
+    Text values = {.arena = &scratch};
     json_t *picture = page_picture(cells, false, scratch, err);
     if (!picture) return false;
     base64_encode(&values, codes, 2 * (size_t)cells->width * (size_t)cells->height);
@@ -66,31 +62,27 @@ static bool set_cells(json_t *to, const Picture *cells, const unsigned char *cod
     return true;
 }
 
-static void set_code(unsigned char *codes, size_t i, unsigned code)
-{
+static void set_code(unsigned char *codes, size_t i, unsigned code) {
     codes[2 * i] = (unsigned char)(code & 255);
     codes[2 * i + 1] = (unsigned char)(code >> 8);
 }
 
 /* share: of the way along the axis, 0..1; from the left, or from the top. */
-static json_t *add_tick(json_t *list, double share)
-{
+static json_t *add_tick(json_t *list, double share) {
     json_t *to = page_add(list);
     page_set(to, "end", share < 0.04 ? "begin" : share > 0.96 ? "last" : NULL);
     json_object_set_new(to, "at", json_real(100 * share));
     return to;
 }
 
-static void set_colour(json_t *to, const char *name, Colour colour)
-{
+static void set_colour(json_t *to, const char *name, Colour colour) {
     char code[8];
     snprintf(code, sizeof code, "#%02x%02x%02x", (int)(colour.srgb[0] * 255 + 0.5f),
              (int)(colour.srgb[1] * 255 + 0.5f), (int)(colour.srgb[2] * 255 + 0.5f));
     page_set(to, name, code);
 }
 
-static json_t *colours(void)
-{
+static json_t *colours(void) {
     json_t *to = json_object();
     set_colour(to, "worst", WORST);
     set_colour(to, "failing", FAILING);
@@ -104,8 +96,7 @@ static json_t *colours(void)
 }
 
 /* A sweep goes by the middle of an eye's box. */
-static json_t *values_of(const ReviewSweep *sweep)
-{
+static json_t *values_of(const ReviewSweep *sweep) {
     json_t *to = json_object();
     json_object_set_new(to, "colour", colours());
     page_set_flag(to, "of_box", sweep && sweep_has_box(sweep));
@@ -114,42 +105,37 @@ static json_t *values_of(const ReviewSweep *sweep)
 
 /* ---- the map ---------------------------------------------------------------------------- */
 
-static size_t map_index(const ReviewMap *map, int azimuth, int elevation)
-{
+static size_t map_index(const ReviewMap *map, int azimuth, int elevation) {
     return (size_t)elevation * (size_t)map->azimuth_deg.count + (size_t)azimuth;
 }
 
-static bool has_answer(const ReviewMap *map, int azimuth, int elevation)
-{
+static bool has_answer(const ReviewMap *map, int azimuth, int elevation) {
     return !isnan(map->contrast[map_index(map, azimuth, elevation)]);
 }
 
 /* Outside the map nothing fails. */
-static bool fails_at(const ReviewMap *map, int azimuth, int elevation)
-{
+static bool fails_at(const ReviewMap *map, int azimuth, int elevation) {
     bool is_inside = azimuth >= 0 && azimuth < map->azimuth_deg.count && elevation >= 0 &&
                      elevation < map->elevation_deg.count;
     return is_inside && has_answer(map, azimuth, elevation) &&
            map->verdict[map_index(map, azimuth, elevation)] == VERDICT_FAIL;
 }
 
-static Picture map_picture(const ReviewMap *map, Arena *arena)
-{
-    int     rows = map->elevation_deg.count;
+static Picture map_picture(const ReviewMap *map, Arena *arena) {
+    int rows = map->elevation_deg.count;
     Picture out = picture_create(map->azimuth_deg.count, rows, arena);
     for (int e = 0; e < rows; e++)
         for (int a = 0; a < out.width; a++) {
             size_t i = map_index(map, a, e);
             put(&out, a, rows - 1 - e,
-                has_answer(map, a, e)
-                    ? colour_of((Verdict)map->verdict[i], (double)map->margin[i]) : NONE);
+                has_answer(map, a, e) ? colour_of((Verdict)map->verdict[i], (double)map->margin[i])
+                                      : NONE);
         }
     return out;
 }
 
 /* The border of what fails, along the edges of cells; runs of edges are one line. */
-static const char *border(const ReviewMap *map, Arena *arena)
-{
+static const char *border(const ReviewMap *map, Arena *arena) {
     Text line = {.arena = arena};
     int columns = map->azimuth_deg.count, rows = map->elevation_deg.count;
     for (int e = 0; e <= rows; e++)
@@ -170,28 +156,25 @@ static const char *border(const ReviewMap *map, Arena *arena)
 }
 
 /* Where a cell's middle lies, in cells from the first edge. */
-static double axis_place(const ReviewAxis *axis, double value)
-{
+static double axis_place(const ReviewAxis *axis, double value) {
     return (value - axis->first) / axis->step + 0.5;
 }
 
 /* An azimuth as the axis counts it: 350 on an axis from -180 is -10. */
-static double axis_azimuth(const ReviewAxis *axis, double azimuth_deg)
-{
+static double axis_azimuth(const ReviewAxis *axis, double azimuth_deg) {
     double low = axis->first - axis->step / 2;
     return low + 360 * ((azimuth_deg - low) / 360 - floor((azimuth_deg - low) / 360));
 }
 
 /* A path is lifted where it leaves the map on one side and comes back on the other. */
-static const char *path_line(const ReviewMap *map, const SunPath *path, Arena *arena)
-{
-    Text   line = {.arena = arena};
+static const char *path_line(const ReviewMap *map, const SunPath *path, Arena *arena) {
+    Text line = {.arena = arena};
     double last = NAN;
     for (int i = 0; i < path->count; i++) {
         double azimuth = axis_azimuth(&map->azimuth_deg, path->azimuth_deg[i]);
         double x = axis_place(&map->azimuth_deg, azimuth);
-        double y = map->elevation_deg.count -
-                   axis_place(&map->elevation_deg, path->elevation_deg[i]);
+        double y =
+            map->elevation_deg.count - axis_place(&map->elevation_deg, path->elevation_deg[i]);
         text_format(&line, "%c%.2f %.2f", fabs(azimuth - last) < 180 ? 'L' : 'M', x, y);
         last = azimuth;
     }
@@ -199,9 +182,8 @@ static const char *path_line(const ReviewMap *map, const SunPath *path, Arena *a
 }
 
 /* Its name stands where the sun is highest, if that is on the map. */
-static void add_path(json_t *list, const ReviewMap *map, const SunPath *path, Arena scratch)
-{
-    int     top = 0;
+static void add_path(json_t *list, const ReviewMap *map, const SunPath *path, Arena scratch) {
+    int top = 0;
     json_t *to = page_add(list);
     page_set(to, "line", path_line(map, path, &scratch));
     page_set(to, "name", NULL);
@@ -210,20 +192,18 @@ static void add_path(json_t *list, const ReviewMap *map, const SunPath *path, Ar
     if (path->count == 0) return;
     double azimuth = axis_azimuth(&map->azimuth_deg, path->azimuth_deg[top]);
     double x = axis_place(&map->azimuth_deg, azimuth) / map->azimuth_deg.count;
-    double y = axis_place(&map->elevation_deg, path->elevation_deg[top]) /
-               map->elevation_deg.count;
+    double y = axis_place(&map->elevation_deg, path->elevation_deg[top]) / map->elevation_deg.count;
     if (x < 0 || x > 1 || y < 0 || y > 1) return;
     page_set(to, "name", path->name);
     json_object_set_new(to, "x", json_real(100 * x));
     json_object_set_new(to, "y", json_real(100 * y));
 }
 
-static json_t *azimuths(const ReviewMap *map)
-{
+static json_t *azimuths(const ReviewMap *map) {
     static const char *const VEHICLE[4] = {"ahead", "right", "behind", "left"};
     static const char *const WORLD[4] = {"north", "east", "south", "west"};
     const ReviewAxis *axis = &map->azimuth_deg;
-    json_t           *list = json_array();
+    json_t *list = json_array();
     for (int quarter = -4; quarter <= 8; quarter++) {
         double share = axis_place(axis, 90.0 * quarter) / axis->count;
         if (share < 0 || share > 1) continue;
@@ -234,11 +214,10 @@ static json_t *azimuths(const ReviewMap *map)
     return list;
 }
 
-static json_t *elevations(const ReviewMap *map)
-{
+static json_t *elevations(const ReviewMap *map) {
     const ReviewAxis *axis = &map->elevation_deg;
-    double  range = axis->step * axis->count;
-    int     step = range > 50 ? 20 : range > 20 ? 10 : range > 8 ? 5 : 1;
+    double range = axis->step * axis->count;
+    int step = range > 50 ? 20 : range > 20 ? 10 : range > 8 ? 5 : 1;
     json_t *list = json_array();
     for (int value = -90; value <= 90; value++) {
         double share = axis_place(axis, value) / axis->count;
@@ -250,8 +229,7 @@ static json_t *elevations(const ReviewMap *map)
 
 #define GAP (-1) /* instead of a verdict */
 
-static bool holds(const ReviewMap *map, int wanted)
-{
+static bool holds(const ReviewMap *map, int wanted) {
     for (int e = 0; e < map->elevation_deg.count; e++)
         for (int a = 0; a < map->azimuth_deg.count; a++) {
             int here = has_answer(map, a, e) ? map->verdict[map_index(map, a, e)] : GAP;
@@ -261,24 +239,21 @@ static bool holds(const ReviewMap *map, int wanted)
 }
 
 /* Contrast of 1 to 10,000 by its logarithm, within 0.06 %. */
-static unsigned code_of(float contrast, unsigned verdict)
-{
+static unsigned code_of(float contrast, unsigned verdict) {
     double decades = contrast > 1 ? fmin(log10_d((double)contrast), 4) : 0;
     return isnan(contrast) ? 0 : verdict << 14 | (unsigned)(1.5 + 16382 * decades / 4);
 }
 
-static bool set_map_cells(json_t *to, const ReviewMap *map, Arena scratch, Error *err)
-{
-    Picture        cells = map_picture(map, &scratch);
-    size_t         count = (size_t)cells.width * (size_t)cells.height;
+static bool set_map_cells(json_t *to, const ReviewMap *map, Arena scratch, Error *err) {
+    Picture cells = map_picture(map, &scratch);
+    size_t count = (size_t)cells.width * (size_t)cells.height;
     unsigned char *codes = ARENA_NEW(&scratch, unsigned char, 2 * count);
     for (size_t i = 0; i < count; i++)
         set_code(codes, i, code_of(map->contrast[i], map->verdict[i]));
     return set_cells(to, &cells, codes, scratch, err);
 }
 
-static void set_axes(json_t *to, const ReviewMap *map)
-{
+static void set_axes(json_t *to, const ReviewMap *map) {
     const ReviewAxis *across = &map->azimuth_deg, *up = &map->elevation_deg;
     json_object_set_new(to, "first", json_real(across->first));
     json_object_set_new(to, "step", json_real(across->step));
@@ -289,8 +264,7 @@ static void set_axes(json_t *to, const ReviewMap *map)
     json_object_set_new(to, "directions", json_texts(words_directions(map->is_of_vehicle), 8));
 }
 
-json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err)
-{
+json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err) {
     json_t *to = values_of(map->of), *paths = json_array();
     if (!set_map_cells(to, map, scratch, err)) {
         json_decref(to);
@@ -302,8 +276,7 @@ json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err)
     json_object_set_new(to, "paths", paths);
     json_object_set_new(to, "holds",
                         json_pack("{s:b, s:b, s:b}", "close", holds(map, VERDICT_TOO_CLOSE),
-                                  "hidden", holds(map, VERDICT_UNJUDGED), "gap",
-                                  holds(map, GAP)));
+                                  "hidden", holds(map, VERDICT_UNJUDGED), "gap", holds(map, GAP)));
     page_set_flag(to, "is_of_vehicle", map->is_of_vehicle);
     page_set_flag(to, "hides", map->of && map->of->worst.must_not_be_read);
     page_set_flag(to, "is_between_steps", map->is_between_steps);
@@ -313,58 +286,52 @@ json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err)
 
 /* ---- the calendar ----------------------------------------------------------------------- */
 
-static float share_at(const ReviewCalendar *calendar, int day, int step)
-{
+static float share_at(const ReviewCalendar *calendar, int day, int step) {
     return calendar->failed_share[(size_t)day * (size_t)calendar->steps_a_day + (size_t)step];
 }
 
-static Picture calendar_picture(const ReviewCalendar *calendar, Arena *arena)
-{
-    int     rows = calendar->steps_a_day;
+static Picture calendar_picture(const ReviewCalendar *calendar, Arena *arena) {
+    int rows = calendar->steps_a_day;
     Picture out = picture_create(calendar->days, rows, arena);
     for (int day = 0; day < calendar->days; day++)
         for (int step = 0; step < rows; step++) {
-            float  share = share_at(calendar, day, step);
+            float share = share_at(calendar, day, step);
             Colour colour = isnan(share) ? NIGHT
-                            : share > 0  ? mix(FAILING, WORST, (double)share) : PASSING;
+                            : share > 0  ? mix(FAILING, WORST, (double)share)
+                                         : PASSING;
             put(&out, day, rows - 1 - step, colour);
         }
     return out;
 }
 
-static json_t *months(const ReviewCalendar *calendar)
-{
+static json_t *months(const ReviewCalendar *calendar) {
     static const char *const NAMES[12] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                           "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
     json_t *list = json_array();
-    int     day = 0;
+    int day = 0;
     for (int month = 0; month < 12; month++) {
         int length = calendar_days_of_month(calendar->year, month + 1);
         if (day + length / 2 < calendar->days)
-            page_set(add_tick(list, (day + length / 2.0) / calendar->days), "name",
-                     NAMES[month]);
+            page_set(add_tick(list, (day + length / 2.0) / calendar->days), "name", NAMES[month]);
         day += length;
     }
     return list;
 }
 
 static bool set_calendar_cells(json_t *to, const ReviewCalendar *calendar, Arena scratch,
-                               Error *err)
-{
-    Picture        cells = calendar_picture(calendar, &scratch);
-    size_t         days = (size_t)calendar->days, steps = (size_t)calendar->steps_a_day;
+                               Error *err) {
+    Picture cells = calendar_picture(calendar, &scratch);
+    size_t days = (size_t)calendar->days, steps = (size_t)calendar->steps_a_day;
     unsigned char *codes = ARENA_NEW(&scratch, unsigned char, 2 * days * steps);
     for (size_t day = 0; day < days; day++)
         for (size_t step = 0; step < steps; step++) {
             float share = share_at(calendar, (int)day, (int)step);
-            set_code(codes, step * days + day,
-                     isnan(share) ? 0 : (unsigned)(1.5f + 10000 * share));
+            set_code(codes, step * days + day, isnan(share) ? 0 : (unsigned)(1.5f + 10000 * share));
         }
     return set_cells(to, &cells, codes, scratch, err);
 }
 
-json_t *review_calendar_values(const ReviewCalendar *calendar, Arena scratch, Error *err)
-{
+json_t *review_calendar_values(const ReviewCalendar *calendar, Arena scratch, Error *err) {
     json_t *to = values_of(calendar->of);
     if (!set_calendar_cells(to, calendar, scratch, err)) {
         json_decref(to);
@@ -383,35 +350,32 @@ json_t *review_calendar_values(const ReviewCalendar *calendar, Arena scratch, Er
 #define HALF_WIDTH 44.0 /* pixels from the limit to a margin of -1, and to 1 */
 
 /* From the left end. */
-static double margin_place(double margin)
-{
+static double margin_place(double margin) {
     return HALF_WIDTH * (1 + fmax(-1, fmin(1, margin)));
 }
 
-static double margin_at(const LimitVerdict *limit, double found)
-{
+static double margin_at(const LimitVerdict *limit, double found) {
     return quantity_margin(limit_kind_named(limit->kind), limit->is_upper, found, limit->value);
 }
 
-const char *review_bar_margin(const LimitVerdict *limit, Arena *arena)
-{
+const char *review_bar_margin(const LimitVerdict *limit, Arena *arena) {
     Text svg = {.arena = arena};
     if (!isfinite(limit->margin)) return "";
     double x = margin_place(limit->margin);
     double low = margin_place(margin_at(limit, limit->low));
     double high = margin_place(margin_at(limit, limit->high));
-    text_format(&svg, "<svg class=\"margin\" width=\"%.0f\" height=\"12\" aria-hidden=\"true\">"
+    text_format(&svg,
+                "<svg class=\"margin\" width=\"%.0f\" height=\"12\" aria-hidden=\"true\">"
                 "<rect class=\"%s\" x=\"%.1f\" y=\"2\" width=\"%.1f\" height=\"8\"/>",
-                2 * HALF_WIDTH, words_class(limit->verdict),
-                fmin(x, HALF_WIDTH), fabs(x - HALF_WIDTH));
+                2 * HALF_WIDTH, words_class(limit->verdict), fmin(x, HALF_WIDTH),
+                fabs(x - HALF_WIDTH));
     if (isfinite(low) && isfinite(high) && fabs(high - low) >= 1)
         text_format(&svg, "<path class=\"whisker\" d=\"M%.1f 6H%.1f\"/>", low, high);
     text_format(&svg, "<path class=\"limit\" d=\"M%.1f 0V12\"/></svg>", HALF_WIDTH);
     return svg.data;
 }
 
-const char *review_bar_percent(double share, Arena *arena)
-{
+const char *review_bar_percent(double share, Arena *arena) {
     return arena_format(arena, "%.1f", share > 0 ? fmin(100 * share, 100) : 0);
 }
 
@@ -419,38 +383,34 @@ const char *review_bar_percent(double share, Arena *arena)
 
 typedef struct BarPart {
     const char *kind; /* its class */
-    double      cd_m2;
+    double cd_m2;
 } BarPart;
 
 #define PARTS 4
 
 typedef struct Bars {
     BarPart bright[PARTS], dark[PARTS];
-    bool    has_veil;  /* the eye's veil is in the contrast that is judged */
-    double  dark_sum;
-    double  most;      /* the end of the scale */
-    double  wanted;    /* contrast ratio; NaN: none that can be drawn */
+    bool has_veil; /* the eye's veil is in the contrast that is judged */
+    double dark_sum;
+    double most;       /* the end of the scale */
+    double wanted;     /* contrast ratio; NaN: none that can be drawn */
     const char *words; /* of the mark */
 } Bars;
 
-static double or_zero(double value)
-{
+static double or_zero(double value) {
     return isfinite(value) && value > 0 ? value : 0;
 }
 
-static bool is_close(double a, double b)
-{
+static bool is_close(double a, double b) {
     return fabs(a - b) <= 1e-4 * fabs(b);
 }
 
 /* Is the limit's figure made of this contrast ratio? */
-static bool is_of(const LimitVerdict *limit, double ratio)
-{
+static bool is_of(const LimitVerdict *limit, double ratio) {
     return is_close(limit->found, contrast_from_ratio(limit_kind_named(limit->kind), ratio));
 }
 
-static double sum_of(const BarPart *parts)
-{
+static double sum_of(const BarPart *parts) {
     double sum = 0;
     for (int i = 0; i < PARTS; i++) sum += parts[i].cd_m2;
     return sum;
@@ -458,20 +418,18 @@ static double sum_of(const BarPart *parts)
 
 /* The sum that the contrast is taken of, and nothing else: a veil that the limit does not
  * include is no part of it. The mirror's and the scattered light share what is reflected. */
-static void stack(const CaseLuminances *l, double emitted, bool has_veil, BarPart out[PARTS])
-{
+static void stack(const CaseLuminances *l, double emitted, bool has_veil, BarPart out[PARTS]) {
     double mirror = or_zero(l->mirror), both = mirror + or_zero(l->scattered);
     double reflected = or_zero(l->reflected);
-    double shiny = isfinite(l->mirror) && isfinite(l->scattered) && both > 0
-                       ? reflected * (mirror / both) : 0;
+    double shiny =
+        isfinite(l->mirror) && isfinite(l->scattered) && both > 0 ? reflected * (mirror / both) : 0;
     out[0] = (BarPart){"veil", has_veil ? or_zero(l->veil) : 0};
     out[1] = (BarPart){"mirror", shiny};
     out[2] = (BarPart){"scatter", reflected - shiny};
     out[3] = (BarPart){"emit", or_zero(emitted)};
 }
 
-static const char *mark_words(const LimitVerdict *limit, Arena *arena)
-{
+static const char *mark_words(const LimitVerdict *limit, Arena *arena) {
     const char *value = words_limit(limit, arena);
     if (limit_kind_named(limit->kind) != LIMIT_CONTRAST_RATIO)
         value = arena_format(arena, "%s %s", words_kind(limit), value);
@@ -479,15 +437,14 @@ static const char *mark_words(const LimitVerdict *limit, Arena *arena)
                         limit_wants_less(limit) ? "allows" : "needs");
 }
 
-static Bars make_bars(const ReviewCase *c, Arena *arena)
-{
+static Bars make_bars(const ReviewCase *c, Arena *arena) {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double bright = fmax(or_zero(l->foreground), or_zero(l->background));
     double dark = fmin(or_zero(l->foreground), or_zero(l->background));
-    Bars   bars = {.wanted = NAN};
+    Bars bars = {.wanted = NAN};
     if (c->limit_id >= 0 && c->limit_id < c->limit_count) {
         const LimitVerdict *limit = &c->limits[c->limit_id];
-        LimitKind           kind = limit_kind_named(limit->kind);
+        LimitKind kind = limit_kind_named(limit->kind);
         bars.has_veil = !is_of(limit, c->contrast_ratio) && is_of(limit, c->contrast_with_veil);
         if (kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast)
             bars.wanted = ratio_from_contrast(kind, limit->value);
@@ -501,31 +458,31 @@ static Bars make_bars(const ReviewCase *c, Arena *arena)
     return bars;
 }
 
-static void add_bar(Text *html, const BarPart *parts, double most, int y)
-{
+static void add_bar(Text *html, const BarPart *parts, double most, int y) {
     double at = 0;
     for (int i = 0; i < PARTS; i++) {
         double width = 100 * parts[i].cd_m2 / most;
         if (width > 0)
-            text_format(html, "<rect class=\"%s\" x=\"%.4f%%\" y=\"%d\" width=\"%.4f%%\" "
-                        "height=\"16\"/>", parts[i].kind, at, y, width);
+            text_format(html,
+                        "<rect class=\"%s\" x=\"%.4f%%\" y=\"%d\" width=\"%.4f%%\" "
+                        "height=\"16\"/>",
+                        parts[i].kind, at, y, width);
         at += width;
     }
 }
 
-static void add_mark(Text *html, const Bars *bars)
-{
+static void add_mark(Text *html, const Bars *bars) {
     double x = 100 * bars->wanted * bars->dark_sum / bars->most;
     if (!isfinite(x)) return;
-    text_format(html, "<rect class=\"mark\" x=\"%.4f%%\" y=\"0\" width=\"2\" height=\"38\"/>"
-                "<text x=\"%.2f%%\" y=\"11\" dx=\"%d\" text-anchor=\"%s\">", x, x,
-                x > 50 ? -5 : 7, x > 50 ? "end" : "start");
+    text_format(html,
+                "<rect class=\"mark\" x=\"%.4f%%\" y=\"0\" width=\"2\" height=\"38\"/>"
+                "<text x=\"%.2f%%\" y=\"11\" dx=\"%d\" text-anchor=\"%s\">",
+                x, x, x > 50 ? -5 : 7, x > 50 ? "end" : "start");
     escape_markup(html, bars->words);
     text_add(html, "</text>");
 }
 
-const char *review_bar_luminances(const ReviewCase *c, bool *has_veil, Arena *arena)
-{
+const char *review_bar_luminances(const ReviewCase *c, bool *has_veil, Arena *arena) {
     Text svg = {.arena = arena};
     Bars bars = make_bars(c, arena);
     *has_veil = bars.has_veil;

@@ -19,29 +19,29 @@
 /* Places along an axis: first, first + step, ... */
 typedef struct ReviewAxis {
     double first, step; /* step above 0 */
-    int    count;       /* at least 1 */
+    int count;          /* at least 1 */
 } ReviewAxis;
 
 /* A line over a map: where the sun goes on one day. */
 typedef struct SunPath {
-    const char   *name; /* "21 June" */
+    const char *name; /* "21 June" */
     const double *azimuth_deg, *elevation_deg;
-    int           count;
+    int count;
 } SunPath;
 
 /* The verdict for every place of the sun. Arrays hold the azimuths of the first elevation, then
  * those of the second, ... */
 typedef struct ReviewMap {
-    const ReviewSweep   *of;            /* one of the review's sweeps: the pointer */
-    bool                 is_of_vehicle; /* azimuth 0 is ahead, 90 right; else north and east */
-    ReviewAxis           azimuth_deg, elevation_deg;
-    const float         *contrast; /* NaN: not evaluated there */
-    const float         *margin;   /* LimitVerdict's (verdict.h); NaN: no limit */
-    const unsigned char *verdict;  /* a Verdict each */
-    bool                 is_between_steps; /* of a year: what the sun passes between two steps
-                                              has the answer of the nearer one */
-    const SunPath       *paths;
-    int                  path_count;
+    const ReviewSweep *of; /* one of the review's sweeps: the pointer */
+    bool is_of_vehicle;    /* azimuth 0 is ahead, 90 right; else north and east */
+    ReviewAxis azimuth_deg, elevation_deg;
+    const float *contrast;        /* NaN: not evaluated there */
+    const float *margin;          /* LimitVerdict's (verdict.h); NaN: no limit */
+    const unsigned char *verdict; /* a Verdict each */
+    bool is_between_steps;        /* of a year: what the sun passes between two steps
+                                     has the answer of the nearer one */
+    const SunPath *paths;
+    int path_count;
 } ReviewMap;
 
 /* What the template map.html shows; the caller's. NULL: *err is filled. */
@@ -51,10 +51,10 @@ json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err);
  * the first day from midnight on, then those of the second, ... */
 typedef struct ReviewCalendar {
     const ReviewSweep *of;
-    int                year, days, steps_a_day; /* days from 1 January on */
-    const char        *clock;        /* time zone of the hours: "UTC", "UTC+02:00" */
-    int                headings;
-    const float       *failed_share; /* 0..1; NaN: the sun is down, or no answer */
+    int year, days, steps_a_day; /* days from 1 January on */
+    const char *clock;           /* time zone of the hours: "UTC", "UTC+02:00" */
+    int headings;
+    const float *failed_share; /* 0..1; NaN: the sun is down, or no answer */
 } ReviewCalendar;
 
 /* The same of calendar.html. */

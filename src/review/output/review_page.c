@@ -29,15 +29,14 @@
 /* Names from left to right and down, and the cell where two meet. */
 typedef struct Matrix {
     const char *of; /* what all cells have in common: the eye, or the sweep's condition */
-    WordList    across, down;
-    bool        is_turned;
-    void      (*add_cell)(const PageValues *v, json_t *cells, const struct Matrix *m,
-                          const char *across, const char *down);
+    WordList across, down;
+    bool is_turned;
+    void (*add_cell)(const PageValues *v, json_t *cells, const struct Matrix *m, const char *across,
+                     const char *down);
 } Matrix;
 
 /* Nothing where there are too many. */
-static void add_matrix(const PageValues *v, json_t *list, const Matrix *m)
-{
+static void add_matrix(const PageValues *v, json_t *list, const Matrix *m) {
     if (m->across.count > MATRIX_COLUMNS || m->down.count > MATRIX_ROWS) return;
     json_t *to = page_add(list), *rows = values_list(to, "rows");
     page_set(to, "of", m->of);
@@ -51,16 +50,15 @@ static void add_matrix(const PageValues *v, json_t *list, const Matrix *m)
     }
 }
 
-static void add_case_cell(const PageValues *v, json_t *cells, const Matrix *m,
-                          const char *across, const char *down)
-{
-    values_add_case(v, cells, review_case_named(v->review, m->is_turned ? down : across, m->of,
-                                                m->is_turned ? across : down));
+static void add_case_cell(const PageValues *v, json_t *cells, const Matrix *m, const char *across,
+                          const char *down) {
+    values_add_case(v, cells,
+                    review_case_named(v->review, m->is_turned ? down : across, m->of,
+                                      m->is_turned ? across : down));
 }
 
 /* Conditions from left to right, unless there are more of them than symbols. */
-static Matrix matrix_of_eye(const Review *review, const char *eye, Arena *arena)
-{
+static Matrix matrix_of_eye(const Review *review, const char *eye, Arena *arena) {
     WordList symbols = words_list(review->case_count, arena);
     WordList conditions = words_list(review->case_count, arena);
     for (int i = 0; i < review->case_count; i++) {
@@ -73,17 +71,15 @@ static Matrix matrix_of_eye(const Review *review, const char *eye, Arena *arena)
                     is_turned, add_case_cell};
 }
 
-static void add_sweep_cell(const PageValues *v, json_t *cells, const Matrix *m,
-                           const char *across, const char *down)
-{
+static void add_sweep_cell(const PageValues *v, json_t *cells, const Matrix *m, const char *across,
+                           const char *down) {
     const ReviewSweep *s = review_sweep_named(v->review, m->of, across, down);
-    json_t            *sweeps = json_object_get(v->doc, "sweeps");
+    json_t *sweeps = json_object_get(v->doc, "sweeps");
     if (s) json_array_append(cells, json_array_get(sweeps, (size_t)(s - v->review->sweeps)));
     else page_set(page_add(cells), "often", NULL);
 }
 
-static Matrix matrix_of_sweeps(const Review *review, const char *condition, Arena *arena)
-{
+static Matrix matrix_of_sweeps(const Review *review, const char *condition, Arena *arena) {
     Matrix out = {condition, words_list(review->sweep_count, arena),
                   words_list(review->sweep_count, arena), false, add_sweep_cell};
     for (int i = 0; i < review->sweep_count; i++) {
@@ -96,13 +92,12 @@ static Matrix matrix_of_sweeps(const Review *review, const char *condition, Aren
 
 /* Symbols by conditions for every eye, and by eyes for every sweep's condition; what has too
  * many has none. */
-static void values_add_matrices(const PageValues *v)
-{
+static void values_add_matrices(const PageValues *v) {
     const Review *review = v->review;
-    WordList      eyes = words_list(review->case_count, v->arena);
-    WordList      conditions = words_list(review->sweep_count, v->arena);
-    json_t       *of_eyes = values_list(v->doc, "matrices");
-    json_t       *of_sweeps = values_list(v->doc, "sweep_matrices");
+    WordList eyes = words_list(review->case_count, v->arena);
+    WordList conditions = words_list(review->sweep_count, v->arena);
+    json_t *of_eyes = values_list(v->doc, "matrices");
+    json_t *of_sweeps = values_list(v->doc, "sweep_matrices");
     for (int i = 0; i < review->case_count; i++) words_list_add(&eyes, review->cases[i].eye);
     for (int i = 0; i < review->sweep_count; i++)
         words_list_add(&conditions, review->sweeps[i].condition);
@@ -119,11 +114,10 @@ static void values_add_matrices(const PageValues *v)
 /* ---- the list ---------------------------------------------------------------------------- */
 
 /* Every case and every sweep's worst, the worst first; most: so many, 0 is all. */
-static void values_add_list(const PageValues *v, int most)
-{
+static void values_add_list(const PageValues *v, int most) {
     const ReviewCase **ranked = review_rank(v->review, v->arena);
-    int     all = review_case_count(v->review);
-    int     listed = most && most < all ? most : all;
+    int all = review_case_count(v->review);
+    int listed = most && most < all ? most : all;
     json_t *list = values_list(v->doc, "listed");
     for (int i = 0; i < listed; i++) values_add_case(v, list, ranked[i]);
     page_set_count(v->doc, "listed_count", listed);
@@ -135,22 +129,20 @@ static void values_add_list(const PageValues *v, int most)
 /* Some limits depend on the height of the characters: one row, from low to high. */
 typedef struct LimitRow {
     const LimitVerdict *limit;
-    double              low, high;
+    double low, high;
 } LimitRow;
 
 typedef struct LimitRows {
     LimitRow *list;
-    int       count, capacity;
+    int count, capacity;
 } LimitRows;
 
-static bool is_same_limit(const LimitVerdict *a, const LimitVerdict *b)
-{
+static bool is_same_limit(const LimitVerdict *a, const LimitVerdict *b) {
     return words_same(a->name, b->name) && words_same(a->kind, b->kind) &&
            words_same(a->unit, b->unit) && words_same(a->source, b->source);
 }
 
-static LimitRow *row_of(LimitRows *rows, const LimitVerdict *limit, Arena *arena)
-{
+static LimitRow *row_of(LimitRows *rows, const LimitVerdict *limit, Arena *arena) {
     for (int i = 0; i < rows->count; i++)
         if (is_same_limit(rows->list[i].limit, limit)) return &rows->list[i];
     if (rows->count == rows->capacity) {
@@ -161,8 +153,7 @@ static LimitRow *row_of(LimitRows *rows, const LimitVerdict *limit, Arena *arena
     return &rows->list[rows->count++];
 }
 
-static void gather_limits(LimitRows *rows, const ReviewCase *c, Arena *arena)
-{
+static void gather_limits(LimitRows *rows, const ReviewCase *c, Arena *arena) {
     for (int i = 0; i < c->limit_count; i++) {
         LimitRow *row = row_of(rows, &c->limits[i], arena);
         row->low = fmin(row->low, c->limits[i].value);
@@ -170,8 +161,7 @@ static void gather_limits(LimitRows *rows, const ReviewCase *c, Arena *arena)
     }
 }
 
-static void set_limit_row(json_t *to, const LimitRow *row, Arena *arena)
-{
+static void set_limit_row(json_t *to, const LimitRow *row, Arena *arena) {
     LimitVerdict low = *row->limit;
     low.value = row->low;
     page_set(to, "name", row->limit->name);
@@ -182,29 +172,25 @@ static void set_limit_row(json_t *to, const LimitRow *row, Arena *arena)
 }
 
 /* Every limit that was requested, once, with where its value was read. */
-static void values_add_limits(const PageValues *v)
-{
+static void values_add_limits(const PageValues *v) {
     LimitRows rows = {NULL, 0, 0};
-    json_t   *list = values_list(v->doc, "limit_rows");
+    json_t *list = values_list(v->doc, "limit_rows");
     for (int i = 0; i < review_case_count(v->review); i++)
         gather_limits(&rows, review_case_at(v->review, i), v->arena);
-    for (int i = 0; i < rows.count; i++)
-        set_limit_row(page_add(list), &rows.list[i], v->arena);
+    for (int i = 0; i < rows.count; i++) set_limit_row(page_add(list), &rows.list[i], v->arena);
     page_set_flag(v->doc, "has_limit_rows", rows.count > 0);
 }
 
 /* ---- what changed ------------------------------------------------------------------------ */
 
 /* Its kind, and the names of what is compared: symbol or gaze, condition, eye. */
-static json_t *add_change(json_t *list, DiffKind kind, bool is_sweep,
-                          const char *const names[3])
-{
+static json_t *add_change(json_t *list, DiffKind kind, bool is_sweep, const char *const names[3]) {
     static const char *const CLASSES[7] = {"chip bad", "chip good", "bad", "good",
                                            "sub",      "sub",       "sub"};
     static const char *const WORDS[7] = {"worse verdict", "better verdict", "less contrast",
                                          "more contrast", "only before",    "only now",
                                          "same"};
-    json_t     *to = page_add(list);
+    json_t *to = page_add(list);
     const char *words = WORDS[kind];
     if (is_sweep && kind == DIFF_WORSE) words = "fails more often";
     if (is_sweep && kind == DIFF_BETTER) words = "fails less often";
@@ -218,65 +204,53 @@ static json_t *add_change(json_t *list, DiffKind kind, bool is_sweep,
 
 /* "a → b" */
 static void set_change(json_t *to, const char *name, const char *before, const char *after,
-                       Arena *arena)
-{
+                       Arena *arena) {
     bool is_same = !strcmp(before, after);
     page_set(to, name, is_same ? after : arena_format(arena, "%s → %s", before, after));
 }
 
-static const char *verdict_of(const ReviewCase *c)
-{
+static const char *verdict_of(const ReviewCase *c) {
     return c ? verdict_names[c->verdict] : "–";
 }
 
-static const char *figure_of(const ReviewCase *c, Arena *arena)
-{
+static const char *figure_of(const ReviewCase *c, Arena *arena) {
     return c ? words_judged_and_levels(c, arena) : "–";
 }
 
-static const char *margin_of(const ReviewCase *c, Arena *arena)
-{
+static const char *margin_of(const ReviewCase *c, Arena *arena) {
     const LimitVerdict *limit = c ? case_worst_limit(c) : NULL;
     return limit ? words_margin(limit->margin, arena) : "–";
 }
 
-static void add_case_change(json_t *list, const CaseDiff *d, Arena *arena)
-{
+static void add_case_change(json_t *list, const CaseDiff *d, Arena *arena) {
     const ReviewCase *either = d->after ? d->after : d->before, *b = d->before, *a = d->after;
-    json_t           *to = add_change(
-        list, d->kind, false,
-        (const char *const[3]){either->symbol, either->condition, either->eye});
+    json_t *to = add_change(list, d->kind, false,
+                            (const char *const[3]){either->symbol, either->condition, either->eye});
     set_change(to, "verdict", verdict_of(b), verdict_of(a), arena);
     set_change(to, "figure", figure_of(b, arena), figure_of(a, arena), arena);
     set_change(to, "margin", margin_of(b, arena), margin_of(a, arena), arena);
 }
 
-static void add_sweep_change(json_t *list, const SweepDiff *d, Arena *arena)
-{
+static void add_sweep_change(json_t *list, const SweepDiff *d, Arena *arena) {
     const ReviewSweep *b = d->before, *a = d->after, *either = a ? a : b;
-    json_t            *to = add_change(
-        list, d->kind, true,
-        (const char *const[3]){either->symbol, either->condition, either->eye});
+    json_t *to = add_change(list, d->kind, true,
+                            (const char *const[3]){either->symbol, either->condition, either->eye});
     set_change(to, "failed", words_share(b ? b->failed_share : NAN, arena),
                words_share(a ? a->failed_share : NAN, arena), arena);
     set_change(to, "longest", words_minutes(b ? b->longest_failure_minutes : NAN, arena),
                words_minutes(a ? a->longest_failure_minutes : NAN, arena), arena);
 }
 
-static const char *figure_change(double before, double after, Arena *arena)
-{
-    return arena_format(arena, "%s → %s", words_figure(before, arena),
-                        words_figure(after, arena));
+static const char *figure_change(double before, double after, Arena *arena) {
+    return arena_format(arena, "%s → %s", words_figure(before, arena), words_figure(after, arena));
 }
 
-static void add_gaze_change(json_t *list, const GazeDiff *d, Arena *arena)
-{
+static void add_gaze_change(json_t *list, const GazeDiff *d, Arena *arena) {
     const GazeFinding *either = d->after ? d->after : d->before;
     const GazeFinding *b = d->before ? d->before : &diff_no_gaze;
     const GazeFinding *a = d->after ? d->after : &diff_no_gaze;
-    json_t            *to = add_change(
-        list, d->kind, false,
-        (const char *const[3]){either->gaze, either->condition, either->eye});
+    json_t *to = add_change(list, d->kind, false,
+                            (const char *const[3]){either->gaze, either->condition, either->eye});
     set_change(to, "left", words_share(b->contrast_left, arena),
                words_share(a->contrast_left, arena), arena);
     page_set(to, "mirrored", figure_change(b->mirrored, a->mirrored, arena));
@@ -284,8 +258,7 @@ static void add_gaze_change(json_t *list, const GazeDiff *d, Arena *arena)
 }
 
 /* All sweeps, and of the others those that are not the same: these come last. */
-static void values_add_diff(const PageValues *v)
-{
+static void values_add_diff(const PageValues *v) {
     const ReviewDiff *diff = v->page->diff;
     if (!diff) return;
     json_t *to = values_object(v->doc, "diff"), *cases = values_list(to, "cases");
@@ -311,39 +284,41 @@ static void values_add_diff(const PageValues *v)
 
 #define SUMMARY_ROWS 5 /* verdicts that fit on one page of paper */
 
-static const char *size_words(double bytes, Arena *arena)
-{
+static const char *size_words(double bytes, Arena *arena) {
     return bytes < 1e6 ? arena_format(arena, "%s kB", words_figure(bytes / 1e3, arena))
                        : arena_format(arena, "%s MB", words_figure(bytes / 1e6, arena));
 }
 
-const PageFormat review_formats[] = {
-    {"figure", words_figure}, {"share", words_share}, {"minutes", words_minutes},
-    {"bytes", size_words}, {NULL, NULL}};
+const PageFormat review_formats[] = {{"figure", words_figure},
+                                     {"share", words_share},
+                                     {"minutes", words_minutes},
+                                     {"bytes", size_words},
+                                     {NULL, NULL}};
 
 /* ---- the document ----------------------------------------------------------------------- */
 
 /* What a page about one symbol alone is about; NULL: it is about all. */
-static const char *only_symbol(const Review *review)
-{
+static const char *only_symbol(const Review *review) {
     if (!review->whole) return NULL;
-    return review->case_count ? review->cases[0].symbol
-           : review->sweep_count ? review->sweeps[0].symbol : NULL;
+    return review->case_count    ? review->cases[0].symbol
+           : review->sweep_count ? review->sweeps[0].symbol
+                                 : NULL;
 }
 
-static bool set_head(const PageValues *v, Error *err)
-{
+static bool set_head(const PageValues *v, Error *err) {
     const Review *review = v->review;
-    const char   *symbol = only_symbol(review);
-    const char   *title = review->title && *review->title ? review->title : "Glare review";
-    json_t       *elsewhere = values_object(v->doc, "elsewhere");
+    const char *symbol = only_symbol(review);
+    const char *title = review->title && *review->title ? review->title : "Glare review";
+    json_t *elsewhere = values_object(v->doc, "elsewhere");
     page_set(v->doc, "title", title);
     page_set_flag(v->doc, "is_beside", review->is_beside);
     page_set(elsewhere, "href", review->is_beside ? "index.html" : REVIEW_PAGE_BESIDE);
     page_set(elsewhere, "what", review->is_beside ? "the worst" : "a page of their own");
-    return page_set_head(v->doc, &(PageHead){.title = symbol ? symbol : title,
-                                             .command = "review",
-                                             .is_dark = v->page->is_dark}, err);
+    return page_set_head(v->doc,
+                         &(PageHead){.title = symbol ? symbol : title,
+                                     .command = "review",
+                                     .is_dark = v->page->is_dark},
+                         err);
 }
 
 /* ---- cards ------------------------------------------------------------------------------ */
@@ -351,14 +326,13 @@ static bool set_head(const PageValues *v, Error *err)
 /* Those of the page in hand, the worst first. */
 typedef struct CardList {
     const ReviewCase **list;
-    int                count, passing, elsewhere;
+    int count, passing, elsewhere;
 } CardList;
 
-static CardList list_cards(const Review *review, bool of_sweeps, Arena *arena)
-{
-    int                all = review_case_count(review);
+static CardList list_cards(const Review *review, bool of_sweeps, Arena *arena) {
+    int all = review_case_count(review);
     const ReviewCase **ranked = review_rank(review, arena);
-    CardList           cards = {.list = ARENA_NEW(arena, const ReviewCase *, all)};
+    CardList cards = {.list = ARENA_NEW(arena, const ReviewCase *, all)};
     for (int i = 0; i < all; i++) {
         bool is_here = !review->main_cards || (i < review->main_cards) != review->is_beside;
         if ((review_sweep_of(review, ranked[i]) != NULL) != of_sweeps) continue;
@@ -371,12 +345,11 @@ static CardList list_cards(const Review *review, bool of_sweeps, Arena *arena)
 }
 
 /* The first is open. */
-static void set_cards(const PageValues *v)
-{
+static void set_cards(const PageValues *v) {
     CardList cards = list_cards(v->review, false, v->arena);
-    json_t  *to = values_object(v->doc, "cards");
-    json_t  *open = values_list(to, "open"), *passing = values_list(to, "passing");
-    int      folded = cards.count > cards.passing ? cards.passing : 0;
+    json_t *to = values_object(v->doc, "cards");
+    json_t *open = values_list(to, "open"), *passing = values_list(to, "passing");
+    int folded = cards.count > cards.passing ? cards.passing : 0;
     for (int i = 0; i < cards.count; i++) {
         json_t *card = values_of_case(v, cards.list[i]);
         page_set_flag(card, "is_open", i == 0);
@@ -391,23 +364,20 @@ static void set_cards(const PageValues *v)
 /* ---- sweeps ----------------------------------------------------------------------------- */
 
 /* Of what the share is that stands above it; "": there is none. */
-static const char *of_whom(const ReviewSweep *s, Arena *arena)
-{
+static const char *of_whom(const ReviewSweep *s, Arena *arena) {
     bool fails = sweep_verdict(s) == VERDICT_FAIL, is_share = fails && s->failed_share > 0;
     if (fails && sweep_has_box(s))
         return arena_format(arena, "%s · worst eye ", words_middle(s, arena));
     return is_share ? arena_format(arena, "%s · worst ", words_of_what(s)) : "";
 }
 
-static bool set_drawings(const PageValues *v, json_t *to, const ReviewSweep *s, Error *err)
-{
+static bool set_drawings(const PageValues *v, json_t *to, const ReviewSweep *s, Error *err) {
     const ReviewPage *page = v->page;
     json_t *maps = values_list(to, "maps"), *calendars = values_list(to, "calendars");
-    bool    ok = true;
+    bool ok = true;
     for (int i = 0; i < page->map_count && ok; i++)
         if (page->maps[i].of == s)
-            ok = !json_array_append_new(
-                maps, review_map_values(&page->maps[i], *v->arena, err));
+            ok = !json_array_append_new(maps, review_map_values(&page->maps[i], *v->arena, err));
     for (int i = 0; i < page->calendar_count && ok; i++)
         if (page->calendars[i].of == s)
             ok = !json_array_append_new(
@@ -415,13 +385,12 @@ static bool set_drawings(const PageValues *v, json_t *to, const ReviewSweep *s, 
     return ok;
 }
 
-static bool set_sweep(const PageValues *v, const ReviewSweep *s, Error *err)
-{
+static bool set_sweep(const PageValues *v, const ReviewSweep *s, Error *err) {
     static const char *const NAMES[] = {"symbol", "eye", "condition", NULL};
     json_t *to = values_of_sweep(v, s);
-    Arena  *arena = v->arena;
-    bool    is_sure = sweep_verdict(s) == VERDICT_FAIL, has_box = sweep_has_box(s);
-    bool    has_middle = has_box && s->middle_contrast > 0;
+    Arena *arena = v->arena;
+    bool is_sure = sweep_verdict(s) == VERDICT_FAIL, has_box = sweep_has_box(s);
+    bool has_middle = has_box && s->middle_contrast > 0;
     values_set_names(to, NAMES);
     values_set_verdict(to, sweep_verdict(s));
     page_set(to, "often", words_often(s, arena));
@@ -439,12 +408,11 @@ static bool set_sweep(const PageValues *v, const ReviewSweep *s, Error *err)
 }
 
 /* The worst is open; all others are a line each. */
-static bool set_sweeps(const PageValues *v, Error *err)
-{
+static bool set_sweeps(const PageValues *v, Error *err) {
     CardList cards = list_cards(v->review, true, v->arena);
-    json_t  *to = values_object(v->doc, "swept"), *open = values_list(to, "open");
-    json_t  *more = values_list(to, "more"), *passing = values_list(to, "passing");
-    int      failing = cards.count - cards.passing;
+    json_t *to = values_object(v->doc, "swept"), *open = values_list(to, "open");
+    json_t *more = values_list(to, "more"), *passing = values_list(to, "passing");
+    int failing = cards.count - cards.passing;
     for (int i = 0; i < v->review->sweep_count; i++)
         if (!set_sweep(v, &v->review->sweeps[i], err)) return false;
     for (int i = 0; i < cards.count; i++) {
@@ -464,10 +432,9 @@ static bool set_sweeps(const PageValues *v, Error *err)
 
 /* ---- what stands behind it -------------------------------------------------------------- */
 
-static void set_provenance(const PageValues *v)
-{
+static void set_provenance(const PageValues *v) {
     const ReviewPage *page = v->page;
-    json_t           *facts = values_list(v->doc, "made_of");
+    json_t *facts = values_list(v->doc, "made_of");
     for (int i = 0; i < page->fact_count; i++) {
         json_t *fact = page_add(facts);
         page_set(fact, "name", page->facts[i].name);
@@ -480,20 +447,17 @@ static void set_provenance(const PageValues *v)
     page_set_count(v->doc, "response_count", v->review->response_count);
 }
 
-static bool set_live(const PageValues *v, Error *err)
-{
+static bool set_live(const PageValues *v, Error *err) {
     Arena own = arena_reserve(WORDS_BYTES);
-    Text  html = {.arena = &own};
-    bool  ok = !v->page->live ||
-              review_live_add(&html, v->review, v->page->live, err);
+    Text html = {.arena = &own};
+    bool ok = !v->page->live || review_live_add(&html, v->review, v->page->live, err);
     json_object_set_new(v->doc, "live", json_stringn(html.size ? html.data : "", html.size));
     arena_release(&own);
     return ok;
 }
 
 /* most: verdicts that are listed; 0: all. */
-static bool set_all(const PageValues *v, int most, Error *err)
-{
+static bool set_all(const PageValues *v, int most, Error *err) {
     if (!set_head(v, err) || !values_add_cases(v, err) || !values_add_answer(v, err) ||
         !set_sweeps(v, err))
         return false;
@@ -510,8 +474,7 @@ static bool set_all(const PageValues *v, int most, Error *err)
 /* ---- one symbol alone ------------------------------------------------------------------- */
 
 /* The review of one symbol alone. */
-static Review part_of(const Review *whole, const char *symbol, Arena *arena)
-{
+static Review part_of(const Review *whole, const char *symbol, Arena *arena) {
     Review part = *whole;
     part.whole = whole;
     part.main_cards = part.case_count = part.sweep_count = part.gaze_count = 0;
@@ -529,17 +492,15 @@ static Review part_of(const Review *whole, const char *symbol, Arena *arena)
 }
 
 /* The part's own of a case or sweep of the whole; NULL: it is another symbol's. */
-static const ReviewCase *case_of_part(const Review *part, const ReviewCase *of)
-{
+static const ReviewCase *case_of_part(const Review *part, const ReviewCase *of) {
     const ReviewCase *like = review_case_like(part, of);
     return like && words_same(like->symbol, of->symbol) ? like : NULL;
 }
 
-static ReviewPage page_of_part(const ReviewPage *page, const Review *part, Arena *arena)
-{
-    ReviewPage     out = {.review = part, .is_dark = page->is_dark};
+static ReviewPage page_of_part(const ReviewPage *page, const Review *part, Arena *arena) {
+    ReviewPage out = {.review = part, .is_dark = page->is_dark};
     ReviewPicture *pictures = ARENA_NEW(arena, ReviewPicture, page->picture_count);
-    ReviewMap     *maps = ARENA_NEW(arena, ReviewMap, page->map_count);
+    ReviewMap *maps = ARENA_NEW(arena, ReviewMap, page->map_count);
     for (int i = 0; i < page->picture_count; i++) {
         const ReviewCase *of = case_of_part(part, page->pictures[i].of);
         if (!of) continue;
@@ -562,8 +523,7 @@ static ReviewPage page_of_part(const ReviewPage *page, const Review *part, Arena
 
 /* ---- as a file -------------------------------------------------------------------------- */
 
-json_t *review_page_values(const ReviewPage *page, int most, Arena *arena, Error *err)
-{
+json_t *review_page_values(const ReviewPage *page, int most, Arena *arena, Error *err) {
     PageValues v = {review_json(page->review), page, page->review, arena};
     if (set_all(&v, most, err)) return v.doc;
     json_decref(v.doc);
@@ -571,28 +531,25 @@ json_t *review_page_values(const ReviewPage *page, int most, Arena *arena, Error
 }
 
 static bool write_page(const ReviewPage *page, const char *template, int most, Arena *words,
-                       const char *path, Error *err)
-{
+                       const char *path, Error *err) {
     json_t *values = review_page_values(page, most, words, err);
     return values && page_write_values(template, values, review_formats, path, err);
 }
 
 bool review_page_write_summary(const ReviewPage *page, const char *symbol, const char *path,
-                               Error *err)
-{
-    Arena      words = arena_reserve(WORDS_BYTES);
-    Review     part = part_of(page->review, symbol, &words);
+                               Error *err) {
+    Arena words = arena_reserve(WORDS_BYTES);
+    Review part = part_of(page->review, symbol, &words);
     ReviewPage alone = page_of_part(page, &part, &words);
-    bool       ok = write_page(&alone, "summary.html", SUMMARY_ROWS, &words, path, err);
+    bool ok = write_page(&alone, "summary.html", SUMMARY_ROWS, &words, path, err);
     arena_release(&words);
     return ok;
 }
 
-bool review_page_write(const ReviewPage *page, const char *path, Error *err)
-{
-    Arena       words = arena_reserve(WORDS_BYTES);
+bool review_page_write(const ReviewPage *page, const char *path, Error *err) {
+    Arena words = arena_reserve(WORDS_BYTES);
     const char *template = page->review->is_beside ? "cases.html" : "review.html";
-    bool        ok = write_page(page, template, 0, &words, path, err);
+    bool ok = write_page(page, template, 0, &words, path, err);
     arena_release(&words);
     return ok;
 }

@@ -14,8 +14,7 @@ static const unsigned char COLOURS[][3] = {
 #define COLOUR_COUNT (int)(sizeof COLOURS / sizeof *COLOURS)
 
 /* sRGB of cause i, 0..1: distinct without colour vision, too, by their order in lightness. */
-static void ray_colour(int i, float srgb[3])
-{
+static void ray_colour(int i, float srgb[3]) {
     for (int k = 0; k < 3; k++) srgb[k] = (float)COLOURS[i % COLOUR_COUNT][k] / 255;
 }
 
@@ -30,15 +29,13 @@ typedef struct SeenPoint {
     double x, y, z;
 } SeenPoint;
 
-static SeenPoint before_eye(const CaseView *view, Vec3 p)
-{
+static SeenPoint before_eye(const CaseView *view, Vec3 p) {
     Vec3 d = vec3_sub(p, view->eye);
     return (SeenPoint){(double)vec3_dot(d, view->right), (double)vec3_dot(d, view->up),
                        (double)vec3_dot(d, view->forward)};
 }
 
-static SeenPoint in_picture(const CaseView *view, SeenPoint p)
-{
+static SeenPoint in_picture(const CaseView *view, SeenPoint p) {
     double depth = view->is_perspective ? p.z : 1;
     double x = (p.x / (depth * view->half_width) + 1) * 0.5 * view->width;
     double y = (1 - p.y / (depth * view->half_height)) * 0.5 * view->height;
@@ -46,8 +43,7 @@ static SeenPoint in_picture(const CaseView *view, SeenPoint p)
 }
 
 /* Narrows `kept`, shares 0..1 of the stretch, to what lies in 0..size along one axis. */
-static void keep_within(double from, double to, double size, double kept[2])
-{
+static void keep_within(double from, double to, double size, double kept[2]) {
     double step = to - from, low = -from / step, high = (size - from) / step;
     if (fabs(step) < 1e-9) {
         if (from < 0 || from > size) kept[1] = -1;
@@ -58,20 +54,18 @@ static void keep_within(double from, double to, double size, double kept[2])
 }
 
 /* The point of the stretch where it comes before the eye. */
-static SeenPoint cut(SeenPoint hidden, SeenPoint shown)
-{
+static SeenPoint cut(SeenPoint hidden, SeenPoint shown) {
     double t = (NEAR_M - shown.z) / (hidden.z - shown.z);
     return (SeenPoint){shown.x + t * (hidden.x - shown.x), shown.y + t * (hidden.y - shown.y),
                        NEAR_M};
 }
 
-static void add_stretch(Text *html, const CaseView *view, SeenPoint a, SeenPoint b)
-{
+static void add_stretch(Text *html, const CaseView *view, SeenPoint a, SeenPoint b) {
     if (a.z < NEAR_M && b.z < NEAR_M) return;
     if (a.z < NEAR_M) a = cut(a, b);
     if (b.z < NEAR_M) b = cut(b, a);
     SeenPoint p = in_picture(view, a), q = in_picture(view, b);
-    double    kept[2] = {0, 1};
+    double kept[2] = {0, 1};
     keep_within(p.x, q.x, view->width, kept);
     keep_within(p.y, q.y, view->height, kept);
     if (!(kept[0] < kept[1])) return;
@@ -81,8 +75,7 @@ static void add_stretch(Text *html, const CaseView *view, SeenPoint a, SeenPoint
 }
 
 /* A cause's, all but the first stretch of each, which runs along the look. */
-static void add_rays(Text *html, const CaseView *view, const CaseCause *cause)
-{
+static void add_rays(Text *html, const CaseView *view, const CaseCause *cause) {
     for (int k = 0; k < cause->ray_count; k++) {
         const CaseRay *ray = &cause->rays[k];
         for (int i = 1; i + 1 < ray->count; i++)
@@ -91,8 +84,7 @@ static void add_rays(Text *html, const CaseView *view, const CaseCause *cause)
     }
 }
 
-static void add_place(Text *html, const CaseView *view, const CaseRay *ray)
-{
+static void add_place(Text *html, const CaseView *view, const CaseRay *ray) {
     SeenPoint p = before_eye(view, ray->points[1]);
     if (p.z < NEAR_M) return;
     p = in_picture(view, p);
@@ -106,49 +98,43 @@ typedef struct PictureBox {
     double x, y, half_width, half_height;
 } PictureBox;
 
-static PictureBox rim_box(const ReviewCase *c)
-{
+static PictureBox rim_box(const ReviewCase *c) {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int i = 0; i < c->rim_count; i++) {
         SeenPoint p = in_picture(c->view, before_eye(c->view, c->rim[i]));
-        double    at[2] = {p.x, p.y};
+        double at[2] = {p.x, p.y};
         for (int k = 0; k < 2; k++) {
             low[k] = fmin(low[k], at[k]);
             high[k] = fmax(high[k], at[k]);
         }
     }
-    return (PictureBox){(low[0] + high[0]) / 2, (low[1] + high[1]) / 2,
-                        (high[0] - low[0]) / 2, (high[1] - low[1]) / 2};
+    return (PictureBox){(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (high[0] - low[0]) / 2,
+                        (high[1] - low[1]) / 2};
 }
 
 /* Made wider by so many pixels on either side. */
-static double widened(double x, double middle, double half, double by)
-{
+static double widened(double x, double middle, double half, double by) {
     return middle + (x - middle) * (1 + by / fmax(half, 1));
 }
 
-static bool is_before_eye(const ReviewCase *c)
-{
+static bool is_before_eye(const ReviewCase *c) {
     for (int i = 0; i < c->rim_count; i++)
         if (before_eye(c->view, c->rim[i]).z < NEAR_M) return false;
     return c->rim_count > 0;
 }
 
-static void add_rim_path(Text *html, const ReviewCase *c)
-{
+static void add_rim_path(Text *html, const ReviewCase *c) {
     PictureBox box = rim_box(c);
-    double     by = RIM_APART * c->view->width;
+    double by = RIM_APART * c->view->width;
     for (int i = 0; i < c->rim_count; i++) {
         SeenPoint p = in_picture(c->view, before_eye(c->view, c->rim[i]));
-        text_format(html, "%c%.1f %.1f", i ? 'L' : 'M',
-                    widened(p.x, box.x, box.half_width, by),
+        text_format(html, "%c%.1f %.1f", i ? 'L' : 'M', widened(p.x, box.x, box.half_width, by),
                     widened(p.y, box.y, box.half_height, by));
     }
     text_add(html, "Z\"/>");
 }
 
-static void add_line(Text *html, const ReviewCase *c)
-{
+static void add_line(Text *html, const ReviewCase *c) {
     text_add(html, "<g class=\"rim\"><path class=\"under\" d=\"");
     add_rim_path(html, c);
     text_add(html, "<path d=\"");
@@ -156,19 +142,19 @@ static void add_line(Text *html, const ReviewCase *c)
     text_add(html, "</g>");
 }
 
-const char *review_rays_line(const ReviewCase *c, Arena *arena)
-{
+const char *review_rays_line(const ReviewCase *c, Arena *arena) {
     Text svg = {.arena = arena};
     add_line(&svg, c);
     return svg.data;
 }
 
-const char *review_rays_rim(const ReviewCase *c, Arena *arena)
-{
+const char *review_rays_rim(const ReviewCase *c, Arena *arena) {
     Text svg = {.arena = arena};
     if (!c->view || !is_before_eye(c)) return "";
-    text_format(&svg, "<svg class=\"rim\" viewBox=\"0 0 %d %d\" aria-hidden=\"true\" "
-                "preserveAspectRatio=\"xMidYMid slice\">", c->view->width, c->view->height);
+    text_format(&svg,
+                "<svg class=\"rim\" viewBox=\"0 0 %d %d\" aria-hidden=\"true\" "
+                "preserveAspectRatio=\"xMidYMid slice\">",
+                c->view->width, c->view->height);
     add_line(&svg, c);
     text_add(&svg, "</svg>");
     return svg.data;
@@ -179,19 +165,17 @@ const char *review_rays_rim(const ReviewCase *c, Arena *arena)
 #define CLOSE_MOST 0.4
 
 /* Where a stretch of `size` about `middle` begins, so that it lies within 0..all. */
-static double begin_within(double middle, double size, double all)
-{
+static double begin_within(double middle, double size, double all) {
     return fmin(fmax(middle - size / 2, 0), all - size);
 }
 
-bool review_rays_close_up(const ReviewCase *c, double box[4])
-{
+bool review_rays_close_up(const ReviewCase *c, double box[4]) {
     const CaseView *view = c->view;
     if (!view || !is_before_eye(c)) return false;
     PictureBox at = rim_box(c);
     if (at.x < 0 || at.x > view->width || at.y < 0 || at.y > view->height) return false;
-    double share = CLOSE_SIZE * 2 * fmax(at.half_width / view->width,
-                                         at.half_height / view->height);
+    double share =
+        CLOSE_SIZE * 2 * fmax(at.half_width / view->width, at.half_height / view->height);
     share = fmin(fmax(share, CLOSE_LEAST), CLOSE_MOST);
     box[2] = share * view->width;
     box[3] = share * view->height;
@@ -200,20 +184,17 @@ bool review_rays_close_up(const ReviewCase *c, double box[4])
     return true;
 }
 
-bool review_rays_has(const ReviewCase *c, int i)
-{
+bool review_rays_has(const ReviewCase *c, int i) {
     return c->frame && c->view && c->causes[i].ray_count > 0;
 }
 
-const char *review_rays_id(const char *card_id, int i, Arena *arena)
-{
+const char *review_rays_id(const char *card_id, int i, Arena *arena) {
     return arena_format(arena, "%s-way%d", card_id, i + 1);
 }
 
-const char *review_rays_drawn(const ReviewCase *c, const char *card_id, Arena *arena)
-{
+const char *review_rays_drawn(const ReviewCase *c, const char *card_id, Arena *arena) {
     const CaseView *view = c->view;
-    Text            svg = {.arena = arena}, *html = &svg;
+    Text svg = {.arena = arena}, *html = &svg;
     text_format(html, "<svg class=\"rays\" viewBox=\"0 0 %d %d\">", view->width, view->height);
     for (int i = 0; i < c->cause_count; i++) {
         const CaseCause *cause = &c->causes[i];

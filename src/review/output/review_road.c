@@ -14,21 +14,18 @@
 
 /* That decides; without a limit the oldest, whose increment is the greatest; NULL: none is
  * known. */
-static const RoadAge *shown_age(const GazeFinding *g)
-{
+static const RoadAge *shown_age(const GazeFinding *g) {
     const RoadAge *age = gaze_worst_age(g);
     return age || !g->road->age_count ? age : &g->road->ages[g->road->age_count - 1];
 }
 
-static bool has_roads(const Review *review)
-{
+static bool has_roads(const Review *review) {
     for (int i = 0; i < review->gaze_count; i++)
         if (review->gazes[i].road) return true;
     return false;
 }
 
-bool review_has_dimming(const Review *review)
-{
+bool review_has_dimming(const Review *review) {
     for (int i = 0; i < review->gaze_count; i++)
         if (review->gazes[i].road && review->gazes[i].road->dimming_count) return true;
     return false;
@@ -36,21 +33,18 @@ bool review_has_dimming(const Review *review)
 
 /* ---- words ------------------------------------------------------------------------------- */
 
-const char *road_outcome(const GazeFinding *gaze)
-{
+const char *road_outcome(const GazeFinding *gaze) {
     if (gaze->road->left_out) return "not evaluated";
     return gaze_counts(gaze) ? verdict_names[gaze->road->verdict] : "no limit";
 }
 
-const char *road_name(const GazeFinding *gaze, Arena *arena)
-{
+const char *road_name(const GazeFinding *gaze, Arena *arena) {
     return arena_format(arena, "%s, seen by %s, %s", gaze->gaze ? gaze->gaze : "?",
                         gaze->eye ? gaze->eye : "?", gaze->condition ? gaze->condition : "?");
 }
 
 /* "all straight", "72 % by windscreen (glass)": by which way most of it comes. */
-static const char *way_words(const RoadDisplay *d, Arena *arena)
-{
+static const char *way_words(const RoadDisplay *d, Arena *arena) {
     if (isnan(d->straight_share)) return "";
     if (d->straight_share >= 0.5)
         return arena_format(arena, ", %s straight",
@@ -64,23 +58,22 @@ static const char *way_words(const RoadDisplay *d, Arena *arena)
 }
 
 /* What the displays make, and which of them most. */
-static const char *displays_words(const RoadAge *age, Arena *arena)
-{
+static const char *displays_words(const RoadAge *age, Arena *arena) {
     double share = 0;
     for (int i = 0; i < age->display_count; i++) share += age->displays[i].share;
     if (!age->display_count) return "; no display makes any of it";
     const RoadDisplay *d = &age->displays[0];
     const char *all = age->display_count == 1 ? ""
-                      : arena_format(arena, "displays make %s of it, ",
-                                     words_share(fmin(share, 1), arena));
+                                              : arena_format(arena, "displays make %s of it, ",
+                                                             words_share(fmin(share, 1), arena));
     return arena_format(arena, "; %s%s %s%s", all, d->display,
                         words_share(fmin(d->share, 1), arena), way_words(d, arena));
 }
 
-static const char *unjudged_because(const GazeRoad *road, Arena *arena)
-{
+static const char *unjudged_because(const GazeRoad *road, Arena *arena) {
     if (road->unjudged == UNJUDGED_DATA)
-        return arena_format(arena, "cannot be judged: %s of the veil came via materials "
+        return arena_format(arena,
+                            "cannot be judged: %s of the veil came via materials "
                             "without optical data; ",
                             words_share(road->without_data_share, arena));
     if (road->unjudged == UNJUDGED_PANEL)
@@ -89,36 +82,32 @@ static const char *unjudged_because(const GazeRoad *road, Arena *arena)
     return "";
 }
 
-const char *road_words(const GazeFinding *gaze, Arena *arena)
-{
+const char *road_words(const GazeFinding *gaze, Arena *arena) {
     const GazeRoad *road = gaze->road;
     if (road->left_out)
         return arena_format(arena, "threshold increment not evaluated: %s",
                             road_left_outs[road->left_out]);
     const RoadAge *age = shown_age(gaze);
-    LimitVerdict   as = age->limit;
+    LimitVerdict as = age->limit;
     as.unit = "%";
     as.found = age->increment_pct;
     as.low = age->increment_range.low;
     as.high = age->increment_range.high;
     const char *required =
-        gaze_counts(gaze) ? arena_format(arena, ", required %s", words_required(&as, arena))
-                          : "";
+        gaze_counts(gaze) ? arena_format(arena, ", required %s", words_required(&as, arena)) : "";
     return arena_format(
-        arena, "%s%sthreshold increment %s%s, at %.4g years on a road of %.4g cd/m2 (with the "
+        arena,
+        "%s%sthreshold increment %s%s, at %.4g years on a road of %.4g cd/m2 (with the "
         "veil by CIE 135 %.3g %%)%s%s",
         unjudged_because(road, arena),
-        road->is_after_dark ? "after dark, without sun and sky: " : "",
-        words_measured(&as, arena),
+        road->is_after_dark ? "after dark, without sun and sky: " : "", words_measured(&as, arena),
         required, age->age_years, road->luminance_cd_m2, age->increment_by_spread_pct,
-        displays_words(age, arena),
-        gaze_counts(gaze) ? "" : "; the profile has no limit of it");
+        displays_words(age, arena), gaze_counts(gaze) ? "" : "; the profile has no limit of it");
 }
 
 /* ---- of variants ------------------------------------------------------------------------- */
 
-static const GazeFinding *gaze_like(const Review *review, const GazeFinding *like)
-{
+static const GazeFinding *gaze_like(const Review *review, const GazeFinding *like) {
     for (int i = 0; i < review->gaze_count; i++) {
         const GazeFinding *g = &review->gazes[i];
         if (g->road && g->road->age_count && words_same(g->condition, like->condition) &&
@@ -128,8 +117,7 @@ static const GazeFinding *gaze_like(const Review *review, const GazeFinding *lik
     return NULL;
 }
 
-bool road_change_at(const Review *review, const Review *variant, int at, RoadChange *out)
-{
+bool road_change_at(const Review *review, const Review *variant, int at, RoadChange *out) {
     for (int i = 0; i < variant->gaze_count; i++) {
         const GazeFinding *after = &variant->gazes[i];
         if (!after->road || !after->road->age_count || at-- > 0) continue;
@@ -142,14 +130,14 @@ bool road_change_at(const Review *review, const Review *variant, int at, RoadCha
     return false;
 }
 
-const char *road_change_words(const RoadChange *c, Arena *arena)
-{
+const char *road_change_words(const RoadChange *c, Arena *arena) {
     const RoadAge *a = c->age_after, *b = c->age_before;
-    const char    *after = words_within(a->increment_pct, a->increment_range.low,
-                                        a->increment_range.high, arena);
+    const char *after =
+        words_within(a->increment_pct, a->increment_range.low, a->increment_range.high, arena);
     const char *before = b ? arena_format(arena, "%s → ",
                                           words_within(b->increment_pct, b->increment_range.low,
-                                                       b->increment_range.high, arena)) : "";
+                                                       b->increment_range.high, arena))
+                           : "";
     const char *was = c->before ? arena_format(arena, "%s → ", road_outcome(c->before)) : "";
     return arena_format(arena, "%s: threshold increment %s%s %% (%s) at %.4g years, %s%s",
                         road_name(c->after, arena), before, after,
@@ -159,29 +147,25 @@ const char *road_change_words(const RoadChange *c, Arena *arena)
 
 /* ---- windows ----------------------------------------------------------------------------- */
 
-static const char *percent(double level, Arena *arena)
-{
+static const char *percent(double level, Arena *arena) {
     if (isnan(level)) return "–";
-    if (!(level < 10)) return "more than 1000 %"; /* nobody sets more, */
+    if (!(level < 10)) return "more than 1000 %";              /* nobody sets more, */
     if (level > 0 && level < 1e-5) return "less than 0.001 %"; /* nor less */
     return arena_format(arena, "%.3g %%", 100 * level);
 }
 
 /* Is the limit exceeded there without any display's light? */
-static bool is_beyond_displays(const GazeRoad *road, const RoadDimming *row)
-{
+static bool is_beyond_displays(const GazeRoad *road, const RoadDimming *row) {
     for (int i = 0; i < road->dimming_count; i++) {
         const RoadDimming *all = &road->dimming[i];
-        if (!all->display && all->age_years == row->age_years &&
-            all->road_cd_m2 == row->road_cd_m2)
+        if (!all->display && all->age_years == row->age_years && all->road_cd_m2 == row->road_cd_m2)
             return !(all->level_most > 0) && all->window == ROAD_WINDOW_EMPTY;
     }
     return false;
 }
 
 /* What one sentence names: of an age, a display's rows, or those that no display decides. */
-static bool is_told_with(const GazeRoad *road, const RoadDimming *row, const RoadDimming *first)
-{
+static bool is_told_with(const GazeRoad *road, const RoadDimming *row, const RoadDimming *first) {
     if (row->window != ROAD_WINDOW_EMPTY || row->age_years != first->age_years) return false;
     return is_beyond_displays(road, first)
                ? !row->display && is_beyond_displays(road, row)
@@ -189,10 +173,9 @@ static bool is_told_with(const GazeRoad *road, const RoadDimming *row, const Roa
 }
 
 /* Rows of one display and age stand apart by their roads. */
-static const char *empty_words(const GazeFinding *gaze, const RoadDimming *first, Arena *arena)
-{
+static const char *empty_words(const GazeFinding *gaze, const RoadDimming *first, Arena *arena) {
     const GazeRoad *road = gaze->road;
-    const char     *roads = "";
+    const char *roads = "";
     const RoadDimming *last = first;
     const RoadDimming *row = is_beyond_displays(road, first) ? road->dimming : first;
     for (; row < road->dimming + road->dimming_count; row++) {
@@ -201,13 +184,16 @@ static const char *empty_words(const GazeFinding *gaze, const RoadDimming *first
         last = row;
     }
     if (is_beyond_displays(road, first))
-        return arena_format(arena, "%s, %.4g years, roads of %s cd/m²: the limit is exceeded "
+        return arena_format(arena,
+                            "%s, %.4g years, roads of %s cd/m²: the limit is exceeded "
                             "without any display's light; no level keeps it.",
                             road_name(gaze, arena), first->age_years, roads);
     return arena_format(
-        arena, "%s, %.4g years, roads of %s cd/m²: no level of %s does both. Its symbols take "
-        "%s%s%s%s, and the increment is kept up to %s%s.", road_name(gaze, arena),
-        first->age_years, roads, first->display ? first->display : "all displays together",
+        arena,
+        "%s, %.4g years, roads of %s cd/m²: no level of %s does both. Its symbols take "
+        "%s%s%s%s, and the increment is kept up to %s%s.",
+        road_name(gaze, arena), first->age_years, roads,
+        first->display ? first->display : "all displays together",
         isfinite(last->level_least_sure) ? percent(last->level_least_sure, arena)
                                          : "more than ten times today's level",
         last->symbol ? " (" : "", last->symbol ? last->symbol : "", last->symbol ? ")" : "",
@@ -216,14 +202,13 @@ static const char *empty_words(const GazeFinding *gaze, const RoadDimming *first
                              : ": the rest of the veil is too much");
 }
 
-const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *arena)
-{
+const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *arena) {
     const GazeRoad *road = gaze->road;
-    const char    **list = ARENA_NEW(arena, const char *, road->dimming_count + 1);
+    const char **list = ARENA_NEW(arena, const char *, road->dimming_count + 1);
     *count = 0;
     for (int i = 0; i < road->dimming_count; i++) {
         const RoadDimming *row = &road->dimming[i];
-        bool               is_first = is_told_with(road, row, row);
+        bool is_first = is_told_with(road, row, row);
         for (int k = 0; k < i && is_first; k++)
             is_first = !is_told_with(road, &road->dimming[k], row);
         if (is_first) list[(*count)++] = empty_words(gaze, row, arena);
@@ -256,38 +241,31 @@ typedef struct ChartAxes {
     double road_low, road_high, level_low, level_high;
 } ChartAxes;
 
-static double place(double value, double low, double high)
-{
+static double place(double value, double low, double high) {
     return (log10_d(value) - log10_d(low)) / (log10_d(high) - log10_d(low));
 }
 
-static double chart_x(const ChartAxes *axes, double road)
-{
+static double chart_x(const ChartAxes *axes, double road) {
     return LEFT + (WIDTH - LEFT - RIGHT) * place(road, axes->road_low, axes->road_high);
 }
 
-static double chart_y(const ChartAxes *axes, double level)
-{
+static double chart_y(const ChartAxes *axes, double level) {
     double shown = fmin(fmax(level, axes->level_low), axes->level_high);
-    return TOP + (HEIGHT - TOP - BOTTOM) *
-                     (1 - place(shown, axes->level_low, axes->level_high));
+    return TOP + (HEIGHT - TOP - BOTTOM) * (1 - place(shown, axes->level_low, axes->level_high));
 }
 
-static bool is_of(const RoadDimming *row, const char *display)
-{
+static bool is_of(const RoadDimming *row, const char *display) {
     return !row->display == !display && words_same(row->display, display);
 }
 
-static void widen(ChartAxes *axes, double level)
-{
+static void widen(ChartAxes *axes, double level) {
     if (!(level > LEVEL_LEAST && level < LEVEL_SEEN)) return;
     axes->level_low = fmin(axes->level_low, level);
     axes->level_high = fmax(axes->level_high, level);
 }
 
 /* Whole decades of levels. False: nothing to draw. */
-static bool chart_axes(const GazeRoad *road, const char *display, ChartAxes *axes)
-{
+static bool chart_axes(const GazeRoad *road, const char *display, ChartAxes *axes) {
     *axes = (ChartAxes){INFINITY, 0, 1, 1};
     for (int i = 0; i < road->dimming_count; i++) {
         const RoadDimming *row = &road->dimming[i];
@@ -303,21 +281,19 @@ static bool chart_axes(const GazeRoad *road, const char *display, ChartAxes *axe
     return axes->road_low < axes->road_high;
 }
 
-static void add_grid(Text *svg, const ChartAxes *axes, const GazeRoad *road,
-                     const char *display)
-{
+static void add_grid(Text *svg, const ChartAxes *axes, const GazeRoad *road, const char *display) {
     for (double level = axes->level_low; level <= axes->level_high * 1.001; level *= 10) {
         double y = chart_y(axes, level);
-        text_format(svg, "<path class=\"tick\" d=\"M%.1f %.1fH%.1f\"/><text x=\"%.1f\" "
-                    "y=\"%.1f\" class=\"end\">%.4g %%</text>", LEFT, y, WIDTH - RIGHT, LEFT - 5,
-                    y + 4, 100 * level);
+        text_format(svg,
+                    "<path class=\"tick\" d=\"M%.1f %.1fH%.1f\"/><text x=\"%.1f\" "
+                    "y=\"%.1f\" class=\"end\">%.4g %%</text>",
+                    LEFT, y, WIDTH - RIGHT, LEFT - 5, y + 4, 100 * level);
     }
     double before = -HUGE_VAL;
     for (int i = 0; i < road->dimming_count; i++) {
         const RoadDimming *row = &road->dimming[i];
         double x = chart_x(axes, row->road_cd_m2);
-        if (!is_of(row, display) || row->age_years != road->ages[0].age_years ||
-            x - before < 26)
+        if (!is_of(row, display) || row->age_years != road->ages[0].age_years || x - before < 26)
             continue;
         before = x;
         text_format(svg, "<text x=\"%.1f\" y=\"%.1f\" class=\"mid\">%.4g</text>", x,
@@ -327,11 +303,10 @@ static void add_grid(Text *svg, const ChartAxes *axes, const GazeRoad *road,
                 LEFT + 0.5 * (WIDTH - LEFT - RIGHT), HEIGHT - 5);
 }
 
-static void add_line(Text *svg, const ChartAxes *axes, const GazeRoad *road,
-                     const char *display, double age)
-{
+static void add_line(Text *svg, const ChartAxes *axes, const GazeRoad *road, const char *display,
+                     double age) {
     const char *step = "M";
-    double      x = 0, y = 0;
+    double x = 0, y = 0;
     text_add(svg, "<path class=\"most\" d=\"");
     for (int i = 0; i < road->dimming_count; i++) {
         const RoadDimming *row = &road->dimming[i];
@@ -344,23 +319,23 @@ static void add_line(Text *svg, const ChartAxes *axes, const GazeRoad *road,
     text_format(svg, "\"/><text x=\"%.1f\" y=\"%.1f\">%.4g years</text>", x + 5, y + 4, age);
 }
 
-static void add_level(Text *svg, const ChartAxes *axes, double level, const char *kind)
-{
+static void add_level(Text *svg, const ChartAxes *axes, double level, const char *kind) {
     if (!(level > LEVEL_LEAST && level < LEVEL_SEEN)) return;
-    text_format(svg, "<path class=\"%s\" d=\"M%.1f %.1fH%.1f\"/>", kind, LEFT,
-                chart_y(axes, level), WIDTH - RIGHT);
+    text_format(svg, "<path class=\"%s\" d=\"M%.1f %.1fH%.1f\"/>", kind, LEFT, chart_y(axes, level),
+                WIDTH - RIGHT);
 }
 
 /* One display's levels over the road's luminance, as SVG: a line an age for what keeps the
  * limit, one for what its symbols take. display NULL: all by one factor; "": nothing to
  * draw. */
-static const char *chart_of(const GazeRoad *road, const char *display, Arena *arena)
-{
+static const char *chart_of(const GazeRoad *road, const char *display, Arena *arena) {
     ChartAxes axes;
-    Text      svg = {.arena = arena};
+    Text svg = {.arena = arena};
     if (!chart_axes(road, display, &axes)) return "";
-    text_format(&svg, "<svg class=\"dimming\" viewBox=\"0 0 %.0f %.0f\" role=\"img\" "
-                "aria-label=\"levels over the road's luminance\">", WIDTH, HEIGHT);
+    text_format(&svg,
+                "<svg class=\"dimming\" viewBox=\"0 0 %.0f %.0f\" role=\"img\" "
+                "aria-label=\"levels over the road's luminance\">",
+                WIDTH, HEIGHT);
     text_add(&svg, STYLE);
     add_grid(&svg, &axes, road, display);
     for (int i = 0; i < road->dimming_count; i++) {
@@ -378,40 +353,36 @@ static const char *chart_of(const GazeRoad *road, const char *display, Arena *ar
 
 /* ---- values ------------------------------------------------------------------------------ */
 
-static json_t *new_list(json_t *to, const char *name)
-{
+static json_t *new_list(json_t *to, const char *name) {
     json_t *list = json_array();
     json_object_set_new(to, name, list);
     return list;
 }
 
-static const char *around(double low, double high, const char *unit, Arena *arena)
-{
-    return low < high ? arena_format(arena, "%s%s", words_interval(low, high, arena), unit)
-                      : NULL;
+static const char *around(double low, double high, const char *unit, Arena *arena) {
+    return low < high ? arena_format(arena, "%s%s", words_interval(low, high, arena), unit) : NULL;
 }
 
-static void set_age(json_t *to, const RoadAge *age, bool has_limit, Arena *arena)
-{
+static void set_age(json_t *to, const RoadAge *age, bool has_limit, Arena *arena) {
     const MeanInterval *range = &age->increment_range;
-    json_t             *displays = new_list(to, "displays");
+    json_t *displays = new_list(to, "displays");
     page_set(to, "age", arena_format(arena, "%.4g", age->age_years));
     page_set(to, "increment", words_within(age->increment_pct, range->low, range->high, arena));
     page_set(to, "range", around(range->low, range->high, " %", arena));
-    page_set(to, "veil", words_within(age->veil, age->veil_range.low, age->veil_range.high,
-                                      arena));
+    page_set(to, "veil", words_within(age->veil, age->veil_range.low, age->veil_range.high, arena));
     page_set(to, "by_cie_135", words_figure(age->increment_by_spread_pct, arena));
     page_set(to, "class", has_limit ? words_class(age->limit.verdict) : "");
     page_set(to, "mark", has_limit ? words_mark(age->limit.verdict) : "");
     page_set(to, "margin", has_limit ? words_margin(age->limit.margin, arena) : "");
     for (int i = 0; i < age->display_count; i++) {
         const RoadDisplay *d = &age->displays[i];
-        json_t            *row = page_add(displays);
+        json_t *row = page_add(displays);
         page_set(row, "name", d->display);
         page_set(row, "level", percent(d->level, arena));
         page_set(row, "share", words_share(d->share, arena));
-        page_set(row, "increment", words_within(d->increment_pct, d->increment_range.low,
-                                                d->increment_range.high, arena));
+        page_set(
+            row, "increment",
+            words_within(d->increment_pct, d->increment_range.low, d->increment_range.high, arena));
         page_set(row, "straight", words_share(d->straight_share, arena));
         page_set(row, "mirrored", words_share(d->mirrored_share, arena));
         page_set(row, "mirrored_by", d->mirrored_by);
@@ -423,41 +394,40 @@ static void set_age(json_t *to, const RoadAge *age, bool has_limit, Arena *arena
     }
 }
 
-static void set_row(json_t *to, const RoadDimming *row, Arena *arena)
-{
+static void set_row(json_t *to, const RoadDimming *row, Arena *arena) {
     const char *most = row->level_most > 0 ? percent(row->level_most, arena) : "not even dark";
     page_set(to, "age", arena_format(arena, "%.4g", row->age_years));
     page_set(to, "road", arena_format(arena, "%.4g", row->road_cd_m2));
     page_set(to, "most", isnan(row->level_most) ? "–" : most);
-    page_set(to, "most_range",
-             row->level_most_range.high < LEVEL_SEEN
-                 ? around(100 * row->level_most_range.low, 100 * row->level_most_range.high,
-                          " %", arena)
-                 : NULL);
+    page_set(
+        to, "most_range",
+        row->level_most_range.high < LEVEL_SEEN
+            ? around(100 * row->level_most_range.low, 100 * row->level_most_range.high, " %", arena)
+            : NULL);
     page_set(to, "window", row->window ? road_windows[row->window] : "–");
-    page_set(to, "class", row->window == ROAD_WINDOW_EMPTY   ? "bad"
-                          : row->window == ROAD_WINDOW_CLOSE ? "close"
-                                                             : "");
+    page_set(to, "class",
+             row->window == ROAD_WINDOW_EMPTY   ? "bad"
+             : row->window == ROAD_WINDOW_CLOSE ? "close"
+                                                : "");
 }
 
-static void set_least(json_t *to, const RoadDimming *first, Arena *arena)
-{
+static void set_least(json_t *to, const RoadDimming *first, Arena *arena) {
     double sure = first->level_least_sure;
     page_set(to, "display", first->display ? first->display : "all displays by one factor");
     page_set(to, "level", percent(first->level, arena));
     page_set(to, "symbol", first->symbol);
-    page_set(to, "least", isnan(sure)    ? NULL
-                          : isinf(sure)  ? "more than ten times today's"
-                          : !(sure > 0)  ? "none"
-                                         : percent(sure, arena));
+    page_set(to, "least",
+             isnan(sure)   ? NULL
+             : isinf(sure) ? "more than ten times today's"
+             : !(sure > 0) ? "none"
+                           : percent(sure, arena));
 }
 
-static void add_dimming(json_t *to, const GazeRoad *road, Arena *arena)
-{
+static void add_dimming(json_t *to, const GazeRoad *road, Arena *arena) {
     json_t *list = new_list(to, "dimmed");
     for (int i = 0; i < road->dimming_count; i++) {
         const RoadDimming *first = &road->dimming[i];
-        bool               is_first = true;
+        bool is_first = true;
         for (int k = 0; k < i; k++) is_first &= !is_of(&road->dimming[k], first->display);
         if (!is_first) continue;
         json_t *of = page_add(list), *rows = new_list(of, "rows");
@@ -469,12 +439,11 @@ static void add_dimming(json_t *to, const GazeRoad *road, Arena *arena)
     }
 }
 
-static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena)
-{
+static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena) {
     const GazeRoad *road = gaze->road;
-    json_t     *to = page_add(list), *ages = new_list(to, "ages");
-    json_t     *empty = new_list(to, "empty");
-    int         count;
+    json_t *to = page_add(list), *ages = new_list(to, "ages");
+    json_t *empty = new_list(to, "empty");
+    int count;
     const char **windows = road_empty_windows(gaze, &count, arena);
     page_set(to, "name", road_name(gaze, arena));
     page_set(to, "words", road_words(gaze, arena));
@@ -482,45 +451,42 @@ static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena)
     page_set(to, "class", gaze_counts(gaze) ? words_class(road->verdict) : "");
     page_set(to, "road", arena_format(arena, "%.4g", road->luminance_cd_m2));
     page_set(to, "s_p", isnan(road->s_p) ? NULL : arena_format(arena, "%.4g", road->s_p));
-    page_set(to, "mesopic", isnan(road->mesopic_cd_m2)
-                                ? NULL : arena_format(arena, "%.4g", road->mesopic_cd_m2));
+    page_set(to, "mesopic",
+             isnan(road->mesopic_cd_m2) ? NULL : arena_format(arena, "%.4g", road->mesopic_cd_m2));
     page_set_flag(to, "is_evaluated", !road->left_out);
     page_set_flag(to, "has_limit", road->has_limit);
     page_set_count(to, "dimming_count", road->dimming_count);
-    if (road->age_count)
-        page_set(to, "limit", words_number(road->ages[0].limit.value, arena));
+    if (road->age_count) page_set(to, "limit", words_number(road->ages[0].limit.value, arena));
     for (int i = 0; i < road->age_count; i++)
         set_age(page_add(ages), &road->ages[i], road->has_limit, arena);
     add_dimming(to, road, arena);
     for (int i = 0; i < count; i++) json_array_append_new(empty, json_string(windows[i]));
 }
 
-void road_add_values(json_t *document, const Review *review, Arena *arena)
-{
+void road_add_values(json_t *document, const Review *review, Arena *arena) {
     json_t *roads = new_list(document, "roads");
     for (int i = 0; i < review->gaze_count; i++)
         if (review->gazes[i].road) add_road(roads, &review->gazes[i], arena);
     page_set_flag(document, "has_roads", json_array_size(roads) > 0);
 }
 
-void road_add_columns(json_t *document, const Review *review)
-{
+void road_add_columns(json_t *document, const Review *review) {
     json_t *gazes = json_object_get(document, "gazes");
     page_set_flag(document, "has_roads", has_roads(review));
     for (int i = 0; i < review->gaze_count; i++) {
         const GazeFinding *gaze = &review->gazes[i];
-        json_t            *to = json_array_get(gazes, (size_t)i);
+        json_t *to = json_array_get(gazes, (size_t)i);
         if (!gaze->road) {
             json_object_set_new(to, "road", json_null());
             continue;
         }
-        json_t        *road = json_object_get(to, "road");
+        json_t *road = json_object_get(to, "road");
         const RoadAge *age = shown_age(gaze);
         page_set(road, "outcome", road_outcome(gaze));
         json_object_set_new(road, "shown", json_null());
         if (age)
-            json_object_set(road, "shown",
-                            json_array_get(json_object_get(road, "ages"),
-                                           (size_t)(age - gaze->road->ages)));
+            json_object_set(
+                road, "shown",
+                json_array_get(json_object_get(road, "ages"), (size_t)(age - gaze->road->ages)));
     }
 }

@@ -29,7 +29,7 @@ const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *aren
  * is told of the variant. */
 typedef struct RoadChange {
     const GazeFinding *before, *after;
-    const RoadAge     *age_before, *age_after;
+    const RoadAge *age_before, *age_after;
 } RoadChange;
 
 /* The at-th of a variant's evaluated roads; false: it has no more. before NULL: none is like

@@ -22,48 +22,41 @@
 #include "text/json_text.h"
 #include "text/text.h"
 
-json_t *values_list(json_t *to, const char *name)
-{
+json_t *values_list(json_t *to, const char *name) {
     json_t *list = json_array();
     json_object_set_new(to, name, list);
     return list;
 }
 
-json_t *values_object(json_t *to, const char *name)
-{
+json_t *values_object(json_t *to, const char *name) {
     json_t *object = json_object();
     json_object_set_new(to, name, object);
     return object;
 }
 
-json_t *values_of_sweep(const PageValues *v, const ReviewSweep *s)
-{
+json_t *values_of_sweep(const PageValues *v, const ReviewSweep *s) {
     return json_array_get(json_object_get(v->doc, "sweeps"), (size_t)(s - v->review->sweeps));
 }
 
-json_t *values_of_case(const PageValues *v, const ReviewCase *c)
-{
+json_t *values_of_case(const PageValues *v, const ReviewCase *c) {
     const ReviewSweep *sweep = review_sweep_of(v->review, c);
     if (sweep) return json_object_get(values_of_sweep(v, sweep), "worst");
     return json_array_get(json_object_get(v->doc, "cases"), (size_t)(c - v->review->cases));
 }
 
-void values_add_case(const PageValues *v, json_t *list, const ReviewCase *c)
-{
+void values_add_case(const PageValues *v, json_t *list, const ReviewCase *c) {
     if (c) json_array_append(list, values_of_case(v, c));
     else page_set(page_add(list), "link", NULL);
 }
 
-void values_set_verdict(json_t *to, Verdict verdict)
-{
+void values_set_verdict(json_t *to, Verdict verdict) {
     page_set(to, "class", words_class(verdict));
     page_set(to, "mark", words_mark(verdict));
     page_set(to, "outcome", words_verdict(verdict));
     page_set_flag(to, "passes", verdict == VERDICT_PASS);
 }
 
-void values_set_names(json_t *to, const char *const *keys)
-{
+void values_set_names(json_t *to, const char *const *keys) {
     for (; *keys; keys++) {
         const char *name = json_string_value(json_object_get(to, *keys));
         if (!name || !*name) page_set(to, *keys, "?");
@@ -75,8 +68,7 @@ void values_set_names(json_t *to, const char *const *keys)
 
 /* ---- limits ------------------------------------------------------------------------------ */
 
-static void set_limit(json_t *to, const LimitVerdict *limit, Arena *arena)
-{
+static void set_limit(json_t *to, const LimitVerdict *limit, Arena *arena) {
     if (!limit) return;
     values_set_verdict(to, limit->verdict);
     page_set(to, "found", isnan(limit->found) ? NULL : words_found(limit, arena));
@@ -90,10 +82,9 @@ static void set_limit(json_t *to, const LimitVerdict *limit, Arena *arena)
 }
 
 /* Limits without a figure are named behind the table. */
-static void set_limits(json_t *to, const ReviewCase *c, Arena *arena)
-{
+static void set_limits(json_t *to, const ReviewCase *c, Arena *arena) {
     Text missing = {.arena = arena};
-    int  missing_count = 0;
+    int missing_count = 0;
     for (int i = 0; i < c->limit_count; i++) {
         const LimitVerdict *limit = &c->limits[i];
         set_limit(json_array_get(json_object_get(to, "limits"), (size_t)i), limit, arena);
@@ -108,10 +99,9 @@ static void set_limits(json_t *to, const ReviewCase *c, Arena *arena)
 
 /* ---- causes and remedies ----------------------------------------------------------------- */
 
-static void set_cause(json_t *to, const char *card, const ReviewCase *c, int i, Arena *arena)
-{
+static void set_cause(json_t *to, const char *card, const ReviewCase *c, int i, Arena *arena) {
     const CaseCause *cause = &c->causes[i];
-    double           low = cause->low, high = cause->high, without = cause->contrast_without;
+    double low = cause->low, high = cause->high, without = cause->contrast_without;
     page_set(to, "rays", review_rays_has(c, i) ? review_rays_id(card, i, arena) : NULL);
     page_set(to, "chain", words_chain(cause, arena));
     page_set(to, "percent", review_bar_percent(cause->share, arena));
@@ -122,24 +112,21 @@ static void set_cause(json_t *to, const char *card, const ReviewCase *c, int i, 
 }
 
 /* The light by where it began, came in and shines from: each adds up to all of it. */
-static void set_groups(json_t *to, const ReviewCase *c, Arena *arena)
-{
+static void set_groups(json_t *to, const ReviewCase *c, Arena *arena) {
     static const char *const NAMES[CAUSE_GROUPS] = {"light", "opening", "surface"};
     for (int g = 0; g < CAUSE_GROUPS; g++) {
         Text text = {.arena = arena};
         for (int i = 0; i < c->groups[g].count; i++)
             text_format(&text, "%s%s %s", i ? " · " : "",
-                        words_share(c->groups[g].list[i].share, arena),
-                        c->groups[g].list[i].what);
+                        words_share(c->groups[g].list[i].share, arena), c->groups[g].list[i].what);
         page_set(to, NAMES[g], text.data);
     }
 }
 
-static void set_causes(json_t *to, const ReviewCase *c, Arena *arena)
-{
+static void set_causes(json_t *to, const ReviewCase *c, Arena *arena) {
     json_t *causes = json_object_get(to, "causes"), *more = values_list(to, "more_causes");
-    int     first = c->cause_count > FIRST_CAUSES + 1 ? FIRST_CAUSES : c->cause_count;
-    double  left = 1;
+    int first = c->cause_count > FIRST_CAUSES + 1 ? FIRST_CAUSES : c->cause_count;
+    double left = 1;
     const char *card = json_string_value(json_object_get(to, "id"));
     for (int i = 0; i < c->cause_count; i++) {
         set_cause(json_array_get(causes, (size_t)i), card, c, i, arena);
@@ -156,13 +143,12 @@ static void set_causes(json_t *to, const ReviewCase *c, Arena *arena)
     set_groups(values_object(to, "groups"), c, arena);
 }
 
-static void set_remedies(json_t *to, const ReviewCase *c, Arena *arena)
-{
+static void set_remedies(json_t *to, const ReviewCase *c, Arena *arena) {
     page_set_flag(to, "has_remedies", c->remedy_count > 0);
     for (int i = 0; i < c->remedy_count; i++) {
         const CaseRemedy *r = &c->remedies[i];
         json_t *remedy = json_array_get(json_object_get(to, "remedies"), (size_t)i);
-        bool    is_told = !isnan(r->level) && r->level != c->level;
+        bool is_told = !isnan(r->level) && r->level != c->level;
         page_set(remedy, "result", words_remedy(r, arena));
         json_object_set_new(remedy, "brightness", is_told ? json_real(r->level) : json_null());
     }
@@ -171,10 +157,9 @@ static void set_remedies(json_t *to, const ReviewCase *c, Arena *arena)
 /* ---- figures ----------------------------------------------------------------------------- */
 
 /* Of a case that another limit decides: its contrast, too; NULL: it is decided by that. */
-static const char *other_contrast(const ReviewCase *c, Arena *arena)
-{
+static const char *other_contrast(const ReviewCase *c, Arena *arena) {
     const LimitVerdict *limit = case_worst_limit(c);
-    LimitKind           kind = limit ? limit_kind_named(limit->kind) : LIMIT_KIND_COUNT;
+    LimitKind kind = limit ? limit_kind_named(limit->kind) : LIMIT_KIND_COUNT;
     bool is_contrast = !limit || (kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast);
     if (c->unjudged || is_contrast || isnan(c->contrast_ratio)) return NULL;
     bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
@@ -183,8 +168,7 @@ static const char *other_contrast(const ReviewCase *c, Arena *arena)
               : arena_format(arena, "contrast %s", words_contrast(c, arena));
 }
 
-static void set_contrast(json_t *to, const ReviewCase *c, Arena *arena)
-{
+static void set_contrast(json_t *to, const ReviewCase *c, Arena *arena) {
     double low = c->contrast_low, high = c->contrast_high;
     page_set(to, "contrast", isnan(c->contrast_ratio) ? NULL : words_contrast(c, arena));
     page_set(to, "contrast_from", words_within(low, low, high, arena));
@@ -195,13 +179,12 @@ static void set_contrast(json_t *to, const ReviewCase *c, Arena *arena)
     page_set(to, "other_contrast", other_contrast(c, arena));
 }
 
-static void set_levels(json_t *to, const ReviewCase *c, Arena *arena)
-{
+static void set_levels(json_t *to, const ReviewCase *c, Arena *arena) {
     json_t *list = values_list(to, "levels");
     page_set(to, "target", NULL);
     for (int i = 0; i < c->visibility_count; i++) {
         const CaseVisibility *v = &c->visibilities[i];
-        const char           *whose = v->is_observer ? ", the observer" : "";
+        const char *whose = v->is_observer ? ", the observer" : "";
         if (isnan(c->contrast_ratio)) continue; /* it is not seen */
         json_t *level = page_add(list);
         page_set(level, "who", arena_format(arena, "%g years%s", v->age_years, whose));
@@ -211,8 +194,7 @@ static void set_levels(json_t *to, const ReviewCase *c, Arena *arena)
 }
 
 /* words_directions for a case's sun; NULL: what its azimuth counts from is not known. */
-static const char *const *values_directions(const PageValues *v, const ReviewCase *c)
-{
+static const char *const *values_directions(const PageValues *v, const ReviewCase *c) {
     if (!review_sweep_of(v->review, c)) return words_directions(false);
     for (int i = 0; i < v->page->map_count; i++)
         if (c == &v->page->maps[i].of->worst)
@@ -223,12 +205,11 @@ static const char *const *values_directions(const PageValues *v, const ReviewCas
 /* ---- pictures ---------------------------------------------------------------------------- */
 
 /* The bytes of a picture's file, as they stand, or its size. */
-static bool set_file(json_t *to, const ReviewPicture *p, Arena scratch, Error *err)
-{
-    FileBytes   bytes;
-    PlainPng    png;
+static bool set_file(json_t *to, const ReviewPicture *p, Arena scratch, Error *err) {
+    FileBytes bytes;
+    PlainPng png;
     const char *ending = path_ending(p->file);
-    bool        is_png = !strcasecmp(ending, ".png");
+    bool is_png = !strcasecmp(ending, ".png");
     if (!is_png && strcasecmp(ending, ".jpg") != 0 && strcasecmp(ending, ".jpeg") != 0)
         return error_at(err, ERROR_INPUT, p->file, "",
                         "required: a picture ending in .png or .jpg");
@@ -239,13 +220,12 @@ static bool set_file(json_t *to, const ReviewPicture *p, Arena scratch, Error *e
     page_set_count(to, "height", is_plain ? png.height : 0);
     page_set(to, "id", is_shared ? p->id : NULL);
     if (!p->beside && !(is_shared && p->is_again))
-        json_object_set_new(to, "data", page_bytes(is_png ? "png" : "jpeg", bytes.data,
-                                                   bytes.size, scratch));
+        json_object_set_new(to, "data",
+                            page_bytes(is_png ? "png" : "jpeg", bytes.data, bytes.size, scratch));
     return true;
 }
 
-bool values_add_picture(json_t *to, const ReviewPicture *p, Arena scratch, Error *err)
-{
+bool values_add_picture(json_t *to, const ReviewPicture *p, Arena scratch, Error *err) {
     page_set(to, "title", p->title ? p->title : "");
     page_set(to, "caption", p->caption);
     page_set(to, "label", p->label);
@@ -259,20 +239,18 @@ bool values_add_picture(json_t *to, const ReviewPicture *p, Arena scratch, Error
 
 /* The causes' rays, and displays in glass. */
 static const char *drawn_over(const Review *review, const ReviewCase *c, const char *card,
-                              Arena *arena)
-{
+                              Arena *arena) {
     const char *rays = review_rays_drawn(c, card, arena);
     const char *panes = review_panes_drawn(review, c, arena);
     return rays && panes ? arena_format(arena, "%s%s", rays, panes) : panes ? panes : rays;
 }
 
-static bool set_pictures(const PageValues *v, json_t *to, const ReviewCase *c, Error *err)
-{
+static bool set_pictures(const PageValues *v, json_t *to, const ReviewCase *c, Error *err) {
     json_t *list = values_list(to, "pictures");
     for (int i = 0; i < v->page->picture_count; i++) {
         const ReviewPicture *p = &v->page->pictures[i];
-        Arena                scratch = *v->arena;
-        const char          *card = json_string_value(json_object_get(to, "id"));
+        Arena scratch = *v->arena;
+        const char *card = json_string_value(json_object_get(to, "id"));
         if (p->of != c) continue;
         json_t *picture = page_add(list);
         page_set_flag(picture, "is_frame", p->is_frame);
@@ -285,11 +263,10 @@ static bool set_pictures(const PageValues *v, json_t *to, const ReviewCase *c, E
 
 /* ---- the case ---------------------------------------------------------------------------- */
 
-static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error *err)
-{
+static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error *err) {
     static const char *const NAMES[] = {"symbol", "eye", "condition", NULL};
     Arena *arena = v->arena;
-    bool   has_veil;
+    bool has_veil;
     values_set_names(to, NAMES);
     values_set_verdict(to, c->verdict);
     page_set(to, "id", review_card_id(v->review, c, arena));
@@ -315,8 +292,7 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
     return set_pictures(v, to, c, err);
 }
 
-bool values_add_cases(const PageValues *v, Error *err)
-{
+bool values_add_cases(const PageValues *v, Error *err) {
     page_set_flag(v->doc, "has_private", review_has_privacy(v->review));
     page_set_flag(v->doc, "has_levels", review_has_levels(v->review));
     for (int i = 0; i < review_case_count(v->review); i++) {
@@ -330,12 +306,12 @@ bool values_add_cases(const PageValues *v, Error *err)
 
 #define GRID_ROWS 7
 #define GRID_EYES 4
-#define GRID_WIDTH 790   /* pixels, of a screen of 1280, beside the worst case (review.css) */
-#define LETTER 8.7       /* pixels: bold letters of 13 pixels, wide ones */
+#define GRID_WIDTH 790 /* pixels, of a screen of 1280, beside the worst case (review.css) */
+#define LETTER 8.7     /* pixels: bold letters of 13 pixels, wide ones */
 #define SMALL_LETTER 6.8
 #define LEAST_CELL 90
 #define CELL_MARGIN 22
-#define PHONE_WIDTH 355  /* of a telephone of 390 pixels, likewise: letters of 11 and 9.5 */
+#define PHONE_WIDTH 355 /* of a telephone of 390 pixels, likewise: letters of 11 and 9.5 */
 #define PHONE_MARGIN 14
 #define PHONE_LETTER 7.4
 #define PHONE_SMALL 5.8
@@ -343,8 +319,7 @@ bool values_add_cases(const PageValues *v, Error *err)
 /* ---- the verdict ------------------------------------------------------------------------ */
 
 /* Words before the worst case; "": none. */
-static const char *answer_words(const Review *review, const ReviewCase *worst)
-{
+static const char *answer_words(const Review *review, const ReviewCase *worst) {
     if (!review_case_counts(worst)) return "nothing is required to be read; ";
     if (!review->pass) return worst->verdict == VERDICT_PASS ? "the worst is " : "";
     return worst->verdict == VERDICT_PASS ? "closest to its limit is "
@@ -352,21 +327,20 @@ static const char *answer_words(const Review *review, const ReviewCase *worst)
 }
 
 /* A gaze at a road that decides more than any symbol does is named first. */
-static const char *lead_words(const Review *review, const ReviewCase *worst, Arena *arena)
-{
+static const char *lead_words(const Review *review, const ReviewCase *worst, Arena *arena) {
     const GazeFinding *road = review_worst_road(review);
-    const char        *words = answer_words(review, worst);
+    const char *words = answer_words(review, worst);
     int rank = review_case_counts(worst) ? verdict_rank(worst->verdict) : -1;
     if (!road || verdict_rank(road->road->verdict) <= rank) return words;
     return arena_format(arena, "%s: %s; of what is read the worst is ", road_name(road, arena),
                         road_words(road, arena));
 }
 
-static void set_verdict(json_t *to, const Review *review, const ReviewCase *worst, Arena *arena)
-{
-    static const char *const CLASSES[4] = {
-        [VERDICT_PASS] = " same", [VERDICT_FAIL] = "", [VERDICT_TOO_CLOSE] = " open",
-        [VERDICT_UNJUDGED] = " unknown"};
+static void set_verdict(json_t *to, const Review *review, const ReviewCase *worst, Arena *arena) {
+    static const char *const CLASSES[4] = {[VERDICT_PASS] = " same",
+                                           [VERDICT_FAIL] = "",
+                                           [VERDICT_TOO_CLOSE] = " open",
+                                           [VERDICT_UNJUDGED] = " unknown"};
     Verdict verdict = review_verdict(review);
     page_set(to, "class", CLASSES[verdict]);
     page_set(to, "outcome", words_verdict(verdict));
@@ -377,13 +351,12 @@ static void set_verdict(json_t *to, const Review *review, const ReviewCase *wors
 
 typedef struct Grid {
     const ReviewCase **ranked; /* the worst first */
-    int                count;
-    WordList           symbols, eyes; /* in the order of their worst */
+    int count;
+    WordList symbols, eyes; /* in the order of their worst */
 } Grid;
 
-static Grid make_grid(const Review *review, Arena *arena)
-{
-    int  count = review_case_count(review);
+static Grid make_grid(const Review *review, Arena *arena) {
+    int count = review_case_count(review);
     Grid grid = {review_rank(review, arena), count, words_list(count, arena),
                  words_list(count, arena)};
     for (int i = 0; i < count; i++) {
@@ -393,46 +366,39 @@ static Grid make_grid(const Review *review, Arena *arena)
     return grid;
 }
 
-static const ReviewCase *worst_of(const Grid *grid, const char *symbol, const char *eye)
-{
+static const ReviewCase *worst_of(const Grid *grid, const char *symbol, const char *eye) {
     for (int i = 0; i < grid->count; i++)
-        if (words_same(grid->ranked[i]->symbol, symbol) &&
-            words_same(grid->ranked[i]->eye, eye))
+        if (words_same(grid->ranked[i]->symbol, symbol) && words_same(grid->ranked[i]->eye, eye))
             return grid->ranked[i];
     return NULL;
 }
 
-static json_t *row_values(const PageValues *v, const Grid *grid, int row, int eyes)
-{
-    json_t     *to = json_object(), *cells = values_list(to, "cells");
+static json_t *row_values(const PageValues *v, const Grid *grid, int row, int eyes) {
+    json_t *to = json_object(), *cells = values_list(to, "cells");
     const char *symbol = grid->symbols.list[row];
-    bool        has_summary = v->review->has_summaries && !v->review->whole;
+    bool has_summary = v->review->has_summaries && !v->review->whole;
     page_set(to, "name", symbol);
-    page_set(to, "summary", has_summary ? review_summary_name(v->review, symbol, v->arena)
-                                        : NULL);
+    page_set(to, "summary", has_summary ? review_summary_name(v->review, symbol, v->arena) : NULL);
     for (int i = 0; i < eyes; i++)
         values_add_case(v, cells, worst_of(grid, symbol, grid->eyes.list[i]));
     return to;
 }
 
 /* Of those that do not count. */
-static int count_unlimited(const Review *review)
-{
+static int count_unlimited(const Review *review) {
     int count = 0;
     for (int i = 0; i < review_case_count(review); i++)
         count += review_case_at(review, i)->unjudged == UNJUDGED_LIMIT;
     return count;
 }
 
-static const char *count_words(const Review *review, Arena *arena)
-{
-    static const char *const NAMES[4] = {"pass", "fail", "too close to call",
-                                         "cannot be judged"};
+static const char *count_words(const Review *review, Arena *arena) {
+    static const char *const NAMES[4] = {"pass", "fail", "too close to call", "cannot be judged"};
     static const Verdict ORDER[4] = {VERDICT_FAIL, VERDICT_UNJUDGED, VERDICT_TOO_CLOSE,
                                      VERDICT_PASS};
     ReviewCounts counts = review_count(review);
-    Text         text = {.arena = arena};
-    const char  *before = ":";
+    Text text = {.arena = arena};
+    const char *before = ":";
     text_format(&text, "%d verdict%s", counts.total, counts.total == 1 ? "" : "s");
     for (int i = 0; i < 4; i++) {
         if (!counts.of[ORDER[i]]) continue;
@@ -440,8 +406,7 @@ static const char *count_words(const Review *review, Arena *arena)
         before = ",";
     }
     int unlimited = count_unlimited(review), optional = counts.not_asked - unlimited;
-    if (unlimited)
-        text_format(&text, "%s %d to which no limit applies", before, unlimited);
+    if (unlimited) text_format(&text, "%s %d to which no limit applies", before, unlimited);
     if (optional)
         text_format(&text, "%s %d hidden that need not be seen", unlimited ? "," : before,
                     optional);
@@ -450,8 +415,7 @@ static const char *count_words(const Review *review, Arena *arena)
 
 /* Letters of its longest word. Text in letters that need no space between words, as in
  * Chinese, breaks anywhere. */
-static int longest_word(const char *text)
-{
+static int longest_word(const char *text) {
     int most = 0, letters = 0;
     for (const unsigned char *at = (const unsigned char *)(text ? text : ""); *at; at++) {
         bool is_end = *at == ' ' || *at == '-' || *at >= 0xe3;
@@ -463,8 +427,7 @@ static int longest_word(const char *text)
 
 /* So that no word breaks and none is cut off, in pixels: about what letters of 13 and 11
  * pixels take, and what is around them. */
-static double grid_width(const Grid *grid, int rows, int eyes)
-{
+static double grid_width(const Grid *grid, int rows, int eyes) {
     double symbol = 0, below = LEAST_CELL, width = 0;
     for (int i = 0; i < rows; i++)
         symbol = fmax(symbol, LETTER * longest_word(grid->symbols.list[i]));
@@ -476,10 +439,9 @@ static double grid_width(const Grid *grid, int rows, int eyes)
 }
 
 /* Do the columns of a telephone hold the longest words? */
-static bool fits_phone(const Grid *grid, int eyes)
-{
+static bool fits_phone(const Grid *grid, int eyes) {
     double room = (double)PHONE_WIDTH / eyes - PHONE_MARGIN;
-    int    eye = 0, condition = 0;
+    int eye = 0, condition = 0;
     for (int i = 0; i < eyes; i++) {
         int word = longest_word(grid->eyes.list[i]);
         if (word > eye) eye = word;
@@ -491,13 +453,12 @@ static bool fits_phone(const Grid *grid, int eyes)
     return PHONE_LETTER * eye <= room && PHONE_SMALL * condition <= room;
 }
 
-static void set_grid(const PageValues *v, json_t *to)
-{
+static void set_grid(const PageValues *v, json_t *to) {
     Grid grid = make_grid(v->review, v->arena);
-    int  eyes = grid.eyes.count < GRID_EYES ? grid.eyes.count : GRID_EYES;
-    int  symbols = grid.symbols.count, rows = symbols < GRID_ROWS ? symbols : GRID_ROWS;
+    int eyes = grid.eyes.count < GRID_EYES ? grid.eyes.count : GRID_EYES;
+    int symbols = grid.symbols.count, rows = symbols < GRID_ROWS ? symbols : GRID_ROWS;
     while (eyes > 1 && grid_width(&grid, rows, eyes) > GRID_WIDTH) eyes--;
-    bool    has_all_eyes = eyes == grid.eyes.count;
+    bool has_all_eyes = eyes == grid.eyes.count;
     json_t *list = values_list(to, "rows");
     json_object_set_new(to, "eyes", json_texts(grid.eyes.list, eyes));
     for (int row = 0; row < rows; row++)
@@ -514,8 +475,7 @@ static void set_grid(const PageValues *v, json_t *to)
 
 /* ---- the worst case --------------------------------------------------------------------- */
 
-static const ReviewPicture *frame_of(const ReviewPage *page, const ReviewCase *c)
-{
+static const ReviewPicture *frame_of(const ReviewPage *page, const ReviewCase *c) {
     for (int i = 0; i < page->picture_count; i++) {
         const ReviewPicture *p = &page->pictures[i];
         if (p->of == c && p->is_frame) return p;
@@ -524,34 +484,31 @@ static const ReviewPicture *frame_of(const ReviewPage *page, const ReviewCase *c
 }
 
 /* The part of the frame about the symbol, larger; of a frame that stands elsewhere. */
-static void set_close_up(json_t *to, const ReviewPicture *frame, Arena scratch)
-{
+static void set_close_up(json_t *to, const ReviewPicture *frame, Arena scratch) {
     const CaseView *view = frame->of->view;
-    double          box[4];
+    double box[4];
     if (!(frame->beside || frame->id) || !review_rays_close_up(frame->of, box)) return;
     json_t *close_up = values_object(to, "close_up");
-    page_set(close_up, "box", arena_format(&scratch, "%.1f %.1f %.1f %.1f", box[0], box[1],
-                                           box[2], box[3]));
+    page_set(close_up, "box",
+             arena_format(&scratch, "%.1f %.1f %.1f %.1f", box[0], box[1], box[2], box[3]));
     page_set_count(close_up, "view_width", view->width);
     page_set_count(close_up, "view_height", view->height);
     page_set(close_up, "line", review_rays_line(frame->of, &scratch));
 }
 
 /* The case's card has it, too: there it stands. */
-static bool set_frame(const PageValues *v, const ReviewPicture *frame, Error *err)
-{
-    json_t       *to = values_object(v->doc, "first_frame");
+static bool set_frame(const PageValues *v, const ReviewPicture *frame, Error *err) {
+    json_t *to = values_object(v->doc, "first_frame");
     ReviewPicture shown = *frame;
-    Arena         scratch = *v->arena;
+    Arena scratch = *v->arena;
     shown.is_again = shown.id != NULL;
     page_set(to, "rim", review_rays_rim(shown.of, &scratch));
     set_close_up(to, &shown, scratch);
     return values_add_picture(to, &shown, scratch, err);
 }
 
-static void set_facts(const PageValues *v, const ReviewCase *c)
-{
-    json_t     *list = values_list(v->doc, "facts");
+static void set_facts(const PageValues *v, const ReviewCase *c) {
+    json_t *list = values_list(v->doc, "facts");
     ReviewFacts facts = review_facts_of(v->review, c, values_directions(v, c), v->arena);
     for (int i = 0; i < facts.count; i++) {
         json_t *fact = page_add(list);
@@ -560,9 +517,8 @@ static void set_facts(const PageValues *v, const ReviewCase *c)
     }
 }
 
-bool values_add_answer(const PageValues *v, Error *err)
-{
-    const ReviewCase    *worst = review_worst(v->review, *v->arena);
+bool values_add_answer(const PageValues *v, Error *err) {
+    const ReviewCase *worst = review_worst(v->review, *v->arena);
     const ReviewPicture *frame = worst ? frame_of(v->page, worst) : NULL;
     set_verdict(values_object(v->doc, "answer"), v->review, worst, v->arena);
     if (!worst) return true;

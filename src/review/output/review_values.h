@@ -18,43 +18,43 @@
 
 /* Shown in the card of a case. Several of one case stand side by side. */
 typedef struct ReviewPicture {
-    const ReviewCase *of;      /* one of the review's cases, or a sweep's worst: the pointer */
-    const char       *title, *caption;
-    const char       *label;   /* what it is not for, behind the caption; NULL: no picture of
-                                  filtered light */
-    const CaseView   *view;    /* rays are drawn over it; NULL: none */
-    const Picture    *picture; /* NULL: the file */
-    const char       *file;    /* PNG or JPEG by its ending; goes into the page as it stands */
-    const char       *beside;  /* its name from the page on goes there instead; or NULL */
-    bool              is_frame; /* the frame itself */
-    const char       *id;      /* a file's that several cards show: it stands in the first */
-    bool              is_again; /* of them, and this is another; NULL: one card shows it */
+    const ReviewCase *of; /* one of the review's cases, or a sweep's worst: the pointer */
+    const char *title, *caption;
+    const char *label;      /* what it is not for, behind the caption; NULL: no picture of
+                               filtered light */
+    const CaseView *view;   /* rays are drawn over it; NULL: none */
+    const Picture *picture; /* NULL: the file */
+    const char *file;       /* PNG or JPEG by its ending; goes into the page as it stands */
+    const char *beside;     /* its name from the page on goes there instead; or NULL */
+    bool is_frame;          /* the frame itself */
+    const char *id;         /* a file's that several cards show: it stands in the first */
+    bool is_again;          /* of them, and this is another; NULL: one card shows it */
 } ReviewPicture;
 
 typedef struct ReviewPage {
-    const Review         *review;
-    const ReviewPicture  *pictures;
-    int                   picture_count;
-    const ReviewPicture  *pairs;    /* two a variant: without and with its change; no file:
-                                       none */
-    const ReviewMap      *maps;
-    int                   map_count;
+    const Review *review;
+    const ReviewPicture *pictures;
+    int picture_count;
+    const ReviewPicture *pairs; /* two a variant: without and with its change; no file:
+                                   none */
+    const ReviewMap *maps;
+    int map_count;
     const ReviewCalendar *calendars;
-    int                   calendar_count;
-    const ReviewFact     *facts;    /* scene, panels, sky, program: with versions and hashes */
-    int                   fact_count;
-    const char *const    *commands; /* that make this page again, and look further */
-    int                   command_count;
-    const ReviewDiff     *diff;     /* NULL: none */
-    const ReviewLive     *live;     /* the interactive parts; NULL: none */
-    bool                  is_dark;  /* for readers with a light scheme, too */
+    int calendar_count;
+    const ReviewFact *facts; /* scene, panels, sky, program: with versions and hashes */
+    int fact_count;
+    const char *const *commands; /* that make this page again, and look further */
+    int command_count;
+    const ReviewDiff *diff; /* NULL: none */
+    const ReviewLive *live; /* the interactive parts; NULL: none */
+    bool is_dark;           /* for readers with a light scheme, too */
 } ReviewPage;
 
 typedef struct PageValues {
-    json_t           *doc;
+    json_t *doc;
     const ReviewPage *page;
-    const Review     *review; /* the page's */
-    Arena            *arena;
+    const Review *review; /* the page's */
+    Arena *arena;
 } PageValues;
 
 /* A case's object in the document, and a sweep's; borrowed. */

@@ -17,25 +17,21 @@
 /* ---- the order --------------------------------------------------------------------------- */
 
 /* The greatest failed share of all sweeps; -1: there is none. */
-static double most_failed(const Review *review)
-{
+static double most_failed(const Review *review) {
     double most = -1;
-    for (int i = 0; i < review->sweep_count; i++)
-        most = fmax(most, review->sweeps[i].failed_share);
+    for (int i = 0; i < review->sweep_count; i++) most = fmax(most, review->sweeps[i].failed_share);
     return most;
 }
 
-static double least_margin(const ReviewVariantFound *v)
-{
+static double least_margin(const ReviewVariantFound *v) {
     return v->worst.after ? v->worst.after->margin : (double)INFINITY;
 }
 
-static int compare(const void *a, const void *b)
-{
+static int compare(const void *a, const void *b) {
     const ReviewVariantFound *one = *(const ReviewVariantFound *const *)a;
     const ReviewVariantFound *other = *(const ReviewVariantFound *const *)b;
-    int verdicts = verdict_rank(review_verdict(one->review)) -
-                   verdict_rank(review_verdict(other->review));
+    int verdicts =
+        verdict_rank(review_verdict(one->review)) - verdict_rank(review_verdict(other->review));
     if (verdicts) return verdicts;
     double margins = least_margin(other) - least_margin(one);
     if (margins != 0 && !isnan(margins)) return margins > 0 ? 1 : -1;
@@ -48,39 +44,32 @@ static int compare(const void *a, const void *b)
 
 #define SHOWN_SHARE 0.001 /* of a limit: the least that is reported */
 
-static const char *difference_words(const ReviewDifference *d, Arena *arena)
-{
+static const char *difference_words(const ReviewDifference *d, Arena *arena) {
     return effect_text(d->margin, d->margin_range, SHOWN_SHARE, arena);
 }
 
-static const char *difference_class(const ReviewDifference *d)
-{
+static const char *difference_class(const ReviewDifference *d) {
     if (effect_is_none(d->margin, d->margin_range, SHOWN_SHARE)) return "n";
     if (d->margin_range.low > 0) return "n good";
     return d->margin_range.high < 0 ? "n bad" : "n";
 }
 
-static const char *changes_words(const ReviewVariantFound *v, Arena *arena)
-{
+static const char *changes_words(const ReviewVariantFound *v, Arena *arena) {
     Text text = {.arena = arena};
-    for (int i = 0; i < v->word_count; i++)
-        text_format(&text, "%s%s", i ? "; " : "", v->words[i]);
+    for (int i = 0; i < v->word_count; i++) text_format(&text, "%s%s", i ? "; " : "", v->words[i]);
     return text.data ? text.data : "";
 }
 
-static const char *counts_words(const Review *review, Arena *arena)
-{
+static const char *counts_words(const Review *review, Arena *arena) {
     ReviewCounts counts = review_count(review);
     int open = counts.of[VERDICT_TOO_CLOSE] + counts.of[VERDICT_UNJUDGED];
     if (!open) return arena_format(arena, "%d of %d", counts.of[VERDICT_FAIL], counts.total);
-    return arena_format(arena, "%d of %d, %d open", counts.of[VERDICT_FAIL], counts.total,
-                        open);
+    return arena_format(arena, "%d of %d, %d open", counts.of[VERDICT_FAIL], counts.total, open);
 }
 
 /* The sweep that fails most, of those with times or of those over directions alone; NULL: none
  * of them fails for sure. */
-static const ReviewSweep *failing_most(const Review *review, bool has_times)
-{
+static const ReviewSweep *failing_most(const Review *review, bool has_times) {
     const ReviewSweep *most = NULL;
     for (int i = 0; i < review->sweep_count; i++) {
         const ReviewSweep *s = &review->sweeps[i];
@@ -93,8 +82,7 @@ static const ReviewSweep *failing_most(const Review *review, bool has_times)
 }
 
 /* Of none that fails: the worst outcome. */
-static const char *unfailed_words(const Review *review, Arena *arena)
-{
+static const char *unfailed_words(const Review *review, Arena *arena) {
     const ReviewSweep *worst = NULL;
     for (int i = 0; i < review->sweep_count; i++) {
         const ReviewSweep *s = &review->sweeps[i];
@@ -104,14 +92,12 @@ static const char *unfailed_words(const Review *review, Arena *arena)
     return worst ? words_often(worst, arena) : "–";
 }
 
-static const char *share_words(const ReviewSweep *s, Arena *arena)
-{
+static const char *share_words(const ReviewSweep *s, Arena *arena) {
     return arena_format(arena, "%s %s", words_share(s->failed_share, arena), words_of_what(s));
 }
 
 /* "3.2 % of the sun's directions"; a share of time and one of directions are two. */
-static const char *failed_words(const Review *review, Arena *arena)
-{
+static const char *failed_words(const Review *review, Arena *arena) {
     Text text = {.arena = arena};
     for (int i = 0; i < 2; i++) {
         const ReviewSweep *s = failing_most(review, i == 0);
@@ -125,55 +111,47 @@ static const char *failed_words(const Review *review, Arena *arena)
 }
 
 /* In the quantity of its limit of contrast. */
-static const char *figure_words(const ReviewCase *c, Arena *arena)
-{
+static const char *figure_words(const ReviewCase *c, Arena *arena) {
     bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
     if (c->unjudged) return words_judged(c, arena);
-    return has_limit ? words_quantity(&c->limits[c->limit_id], arena)
-                     : words_contrast(c, arena);
+    return has_limit ? words_quantity(&c->limits[c->limit_id], arena) : words_contrast(c, arena);
 }
 
 /* Letters of the words that stand before both figures: "luminance contrast ". */
-static size_t name_length(const char *before, const char *after)
-{
+static size_t name_length(const char *before, const char *after) {
     size_t name = 0;
     for (size_t i = 0; before[i] && before[i] == after[i] && !isdigit((unsigned char)before[i]);
          i++)
         if (before[i] == ' ') name = i + 1;
-    bool are_figures = isdigit((unsigned char)before[name]) &&
-                       isdigit((unsigned char)after[name]);
+    bool are_figures = isdigit((unsigned char)before[name]) && isdigit((unsigned char)after[name]);
     return are_figures ? name : 0;
 }
 
 /* "24 → 114 : 1": a unit or name that both have stands once. */
-static const char *change_words(const char *before, const char *after, Arena *arena)
-{
+static const char *change_words(const char *before, const char *after, Arena *arena) {
     static const char UNIT[] = " : 1";
     size_t size = strlen(before), unit = strlen(UNIT), end = strlen(after);
-    bool   is_ratio = size > unit && end > unit && !strcmp(before + size - unit, UNIT) &&
+    bool is_ratio = size > unit && end > unit && !strcmp(before + size - unit, UNIT) &&
                     !strcmp(after + end - unit, UNIT);
     if (is_ratio) before = arena_string(arena, before, size - unit);
     after += name_length(before, after);
     return arena_format(arena, "%s → %s", before, after);
 }
 
-static const char *moved_words(const ReviewDifference *d, Arena *arena)
-{
+static const char *moved_words(const ReviewDifference *d, Arena *arena) {
     const char *after = figure_words(d->after, arena);
     return d->before ? change_words(figure_words(d->before, arena), after, arena) : after;
 }
 
 /* How far a case moves: first what is judged in one of both alone, then by the margin. */
-static double distance_of(const ReviewDifference *d)
-{
+static double distance_of(const ReviewDifference *d) {
     if (!d->before || !d->after) return -1;
     if (!d->before->unjudged != !d->after->unjudged) return (double)INFINITY;
     return isnan(d->margin) ? -1 : fabs(d->margin);
 }
 
 /* NULL: of none is it known, or none moves. */
-static const ReviewDifference *moving_most(const ReviewVariantFound *v)
-{
+static const ReviewDifference *moving_most(const ReviewVariantFound *v) {
     const ReviewDifference *most = NULL;
     for (int i = 0; i < v->difference_count; i++)
         if (distance_of(&v->differences[i]) > (most ? distance_of(most) : -1))
@@ -184,8 +162,7 @@ static const ReviewDifference *moving_most(const ReviewVariantFound *v)
 }
 
 /* Whose the least margin is, before and after. */
-static const char *least_where(const ReviewDifference *d, Arena *arena)
-{
+static const char *least_where(const ReviewDifference *d, Arena *arena) {
     const ReviewCase *b = d->before, *a = d->after;
     bool is_same = !b || (words_same(b->symbol, a->symbol) && words_same(b->eye, a->eye) &&
                           words_same(b->condition, a->condition));
@@ -193,17 +170,14 @@ static const char *least_where(const ReviewDifference *d, Arena *arena)
     return arena_format(arena, "before %s; now %s", words_case(b, arena), words_case(a, arena));
 }
 
-static const char *margins_words(const ReviewDifference *d, Arena *arena)
-{
+static const char *margins_words(const ReviewDifference *d, Arena *arena) {
     const char *after = words_margin(d->after->margin, arena);
     if (!d->before) return arena_format(arena, "margin %s", after);
     return arena_format(arena, "margin %s → %s, difference %s",
-                        words_margin(d->before->margin, arena), after,
-                        difference_words(d, arena));
+                        words_margin(d->before->margin, arena), after, difference_words(d, arena));
 }
 
-const char *review_variants_words(const ReviewVariantFound *v, Arena *arena)
-{
+const char *review_variants_words(const ReviewVariantFound *v, Arena *arena) {
     const ReviewDifference *least = &v->worst, *most = moving_most(v);
     Text text = {.arena = arena};
     if (!least->after) return "nothing has a limit of contrast";
@@ -219,17 +193,15 @@ const char *review_variants_words(const ReviewVariantFound *v, Arena *arena)
 /* ---- the table of all -------------------------------------------------------------------- */
 
 /* A figure, and below it its margin and whose it is. */
-static void set_figure(json_t *to, const ReviewDifference *d, const char *where, Arena *arena)
-{
+static void set_figure(json_t *to, const ReviewDifference *d, const char *where, Arena *arena) {
     page_set(to, "kind", difference_class(d));
     page_set(to, "figure", moved_words(d, arena));
     page_set(to, "margins", margins_words(d, arena));
     page_set(to, "where", where);
 }
 
-static json_t *add_row(json_t *list, const char *name, const char *changes,
-                       const Review *review, Arena *arena)
-{
+static json_t *add_row(json_t *list, const char *name, const char *changes, const Review *review,
+                       Arena *arena) {
     json_t *to = page_add(list);
     page_set(to, "name", name);
     page_set(to, "changes", changes);
@@ -241,8 +213,7 @@ static json_t *add_row(json_t *list, const char *name, const char *changes,
     return to;
 }
 
-static void add_base_row(const PageValues *v, json_t *list, const ReviewCase *least)
-{
+static void add_base_row(const PageValues *v, json_t *list, const ReviewCase *least) {
     ReviewDifference none = {.after = least, .margin = NAN, .margin_range = {NAN, NAN}};
     json_t *to = add_row(list, "as it stands", "the review itself", v->review, v->arena);
     page_set_flag(to, "is_base", true);
@@ -252,17 +223,15 @@ static void add_base_row(const PageValues *v, json_t *list, const ReviewCase *le
 
 /* ---- each by itself ---------------------------------------------------------------------- */
 
-static int compare_change(const void *a, const void *b)
-{
+static int compare_change(const void *a, const void *b) {
     const ReviewDifference *one = *(const ReviewDifference *const *)a;
     const ReviewDifference *other = *(const ReviewDifference *const *)b;
     double x = distance_of(one), y = distance_of(other);
     return x != y ? (x < y ? 1 : -1) : one < other ? -1 : 1;
 }
 
-static void add_difference(json_t *list, const ReviewDifference *d, Arena *arena)
-{
-    json_t     *to = page_add(list);
+static void add_difference(json_t *list, const ReviewDifference *d, Arena *arena) {
+    json_t *to = page_add(list);
     const char *before = d->before ? words_margin(d->before->margin, arena) : "–";
     values_set_verdict(to, d->after->verdict);
     page_set(to, "case", words_case(d->after, arena));
@@ -274,9 +243,8 @@ static void add_difference(json_t *list, const ReviewDifference *d, Arena *arena
 }
 
 /* Those that change most first. */
-static void add_differences(json_t *to, const ReviewVariantFound *v, Arena *arena)
-{
-    size_t  count = (size_t)v->difference_count;
+static void add_differences(json_t *to, const ReviewVariantFound *v, Arena *arena) {
+    size_t count = (size_t)v->difference_count;
     json_t *list = values_list(to, "changed");
     const ReviewDifference **sorted = ARENA_NEW(arena, const ReviewDifference *, count + 1);
     for (size_t i = 0; i < count; i++) sorted[i] = &v->differences[i];
@@ -284,16 +252,14 @@ static void add_differences(json_t *to, const ReviewVariantFound *v, Arena *aren
     for (size_t i = 0; i < count; i++) add_difference(list, sorted[i], arena);
 }
 
-static void add_roads(json_t *to, const Review *review, const Review *variant, Arena *arena)
-{
-    json_t    *list = values_list(to, "road_changes");
+static void add_roads(json_t *to, const Review *review, const Review *variant, Arena *arena) {
+    json_t *list = values_list(to, "road_changes");
     RoadChange change;
     for (int i = 0; road_change_at(review, variant, i, &change); i++)
         json_array_append_new(list, json_string(road_change_words(&change, arena)));
 }
 
-static bool add_pair(json_t *to, const ReviewPicture pair[2], Arena scratch, Error *err)
-{
+static bool add_pair(json_t *to, const ReviewPicture pair[2], Arena scratch, Error *err) {
     json_t *list = values_list(to, "pair");
     page_set_flag(to, "has_pair", pair && pair[1].file);
     for (int i = 0; pair && pair[1].file && i < 2; i++)
@@ -302,30 +268,25 @@ static bool add_pair(json_t *to, const ReviewPicture pair[2], Arena scratch, Err
 }
 
 static bool add_variant(const PageValues *v, json_t *list, const ReviewVariantFound *variant,
-                        Error *err)
-{
+                        Error *err) {
     const ReviewDifference *most = moving_most(variant), *least = &variant->worst;
-    const ReviewPicture    *pairs = v->page->pairs;
-    Arena  *arena = v->arena;
-    json_t *to = add_row(list, variant->name, changes_words(variant, arena), variant->review,
-                         arena);
+    const ReviewPicture *pairs = v->page->pairs;
+    Arena *arena = v->arena;
+    json_t *to =
+        add_row(list, variant->name, changes_words(variant, arena), variant->review, arena);
     page_set_flag(to, "is_base", false);
     if (least->after)
         set_figure(values_object(to, "least"), least, least_where(least, arena), arena);
-    if (most)
-        set_figure(values_object(to, "most"), most, words_case(most->after, arena), arena);
+    if (most) set_figure(values_object(to, "most"), most, words_case(most->after, arena), arena);
     add_differences(to, variant, arena);
     add_roads(to, v->review, variant->review, arena);
-    return add_pair(to, pairs ? &pairs[2 * (variant - v->review->variants)] : NULL, *arena,
-                    err);
+    return add_pair(to, pairs ? &pairs[2 * (variant - v->review->variants)] : NULL, *arena, err);
 }
 
-static bool add_variants(const PageValues *v, Error *err)
-{
-    int     count = v->review->variant_count;
+static bool add_variants(const PageValues *v, Error *err) {
+    int count = v->review->variant_count;
     json_t *list = values_list(v->doc, "variant_rows");
-    const ReviewVariantFound **ranked = ARENA_NEW(v->arena, const ReviewVariantFound *,
-                                                  count + 1);
+    const ReviewVariantFound **ranked = ARENA_NEW(v->arena, const ReviewVariantFound *, count + 1);
     for (int i = 0; i < count; i++) ranked[i] = &v->review->variants[i];
     qsort(ranked, (size_t)count, sizeof *ranked, compare);
     page_set_flag(v->doc, "has_variants", count > 0);
@@ -336,17 +297,15 @@ static bool add_variants(const PageValues *v, Error *err)
 }
 
 /* Those of what must not be read say so. */
-static bool add_places(const PageValues *v)
-{
+static bool add_places(const PageValues *v) {
     json_t *places = json_object_get(v->doc, "eye_places"), *place;
-    size_t  i;
+    size_t i;
     json_array_foreach(places, i, place)
         page_set_flag(place, "is_private", json_object_get(place, "must_not_be_read") != NULL);
     return json_array_size(places) > 0;
 }
 
-bool values_add_variants(const PageValues *v, Error *err)
-{
+bool values_add_variants(const PageValues *v, Error *err) {
     page_set_flag(v->doc, "has_places", add_places(v));
     return add_variants(v, err);
 }

@@ -13,11 +13,11 @@ bool words_same(const char *a, const char *b);
 /* Names, each once. */
 typedef struct WordList {
     const char **list; /* room for all that are added */
-    int          count;
+    int count;
 } WordList;
 
 WordList words_list(int most, Arena *arena);
-void     words_list_add(WordList *names, const char *name);
+void words_list_add(WordList *names, const char *name);
 
 /* Three significant digits; "–" for NaN, "∞". */
 const char *words_figure(double value, Arena *arena);
@@ -105,7 +105,6 @@ const char *const *words_directions(bool is_of_vehicle);
 /* "sun 32.0° high, in the south-east, azimuth 135.0°". directions: what azimuths count from;
  * NULL: nobody knows, and no direction is named. */
 const char *words_sun(const ReviewCase *c, const char *const *directions, Arena *arena);
-
 
 /* "wheel (leather) hides 62 %, rim (steel) hides 3.1 %, others 1.0 %"; "": nothing is hidden,
  * or that is not known. */

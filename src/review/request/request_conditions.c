@@ -14,29 +14,27 @@
 
 /* ---- weather ----------------------------------------------------------------------------- */
 
-static bool add_weather(const JsonView *view, const char *path, Error *err)
-{
+static bool add_weather(const JsonView *view, const char *path, Error *err) {
     ReviewRequest *request = view->whole;
-    ReviewWeather  found = {.path = path};
-    int            count = request->weather_count;
+    ReviewWeather found = {.path = path};
+    int count = request->weather_count;
     if (!weather_read(path, view->arena, &found.weather, err) ||
         !request_note_file(view, path, err))
         return false;
     found.clock = weather_clock_find(&found.weather, NULL, *view->arena);
     if (!(count & (count - 1))) /* full: it doubles */
-        request->weathers = ARENA_GROW(view->arena, ReviewWeather, request->weathers, count,
-                                       count ? 2 * count : 1);
+        request->weathers =
+            ARENA_GROW(view->arena, ReviewWeather, request->weathers, count, count ? 2 * count : 1);
     request->weathers[request->weather_count++] = found;
     return true;
 }
 
 /* "clear": NO_ID; else the file's place among the request's weathers. */
-static bool read_weather(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_weather(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     const ReviewRequest *request = view->whole;
-    int                 *weather_id = &((ReviewCondition *)item)->weather_id;
-    RecordRow            word = {.key = row->key, .kind = RECORD_TEXT};
-    const char          *text, *path;
+    int *weather_id = &((ReviewCondition *)item)->weather_id;
+    RecordRow word = {.key = row->key, .kind = RECORD_TEXT};
+    const char *text, *path;
     if (!record_read_kind(view, &word, &text, err)) return false;
     if (!strcmp(text, "clear")) return true;
     if (strcmp(path_ending(text), ".epw"))
@@ -50,15 +48,13 @@ static bool read_weather(const JsonView *view, const RecordRow *row, void *item,
     return add_weather(view, path, err);
 }
 
-static bool check_weather(const JsonView *view, const ReviewCondition *condition, Error *err)
-{
+static bool check_weather(const JsonView *view, const ReviewCondition *condition, Error *err) {
     return condition->weather_id != NO_ID || !record_has(view, "weather_lux") ||
            record_fails(view, "weather_lux", err,
                         "stands without a weather file, required: one in 'weather'");
 }
 
-static const char *const LUX[] = {[WEATHER_LUX_PEREZ] = "perez", [WEATHER_LUX_FILE] = "file",
-                                  NULL};
+static const char *const LUX[] = {[WEATHER_LUX_PEREZ] = "perez", [WEATHER_LUX_FILE] = "file", NULL};
 
 /* ---- over the sun's direction ------------------------------------------------------------ */
 
@@ -68,17 +64,15 @@ static const char *const LUX[] = {[WEATHER_LUX_PEREZ] = "perez", [WEATHER_LUX_FI
 #define STEP_SLACK 1e-6 /* of a step: how much its multiples may miss the last value by */
 
 /* The step nearest to the written one that divides first to last into whole steps. */
-static double fitting_step(const double value[3])
-{
+static double fitting_step(const double value[3]) {
     double length = value[1] - value[0];
     return length / fmax(1, round(length / value[2]));
 }
 
-static bool read_range(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    double        value[3];
-    const char   *key = row->key;
-    RecordRow     own = *row;
+static bool read_range(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    double value[3];
+    const char *key = row->key;
+    RecordRow own = *row;
     const json_t *step = json_array_get(json_object_get(view->object, key), 2);
     if (json_array_size(json_object_get(view->object, key)) == 3 && json_is_number(step) &&
         !(json_number_value(step) >= STEP_LEAST))
@@ -89,7 +83,8 @@ static bool read_range(const JsonView *view, const RecordRow *row, void *item, E
     if (value[1] < value[0])
         return record_fails(view, key, err,
                             "goes from %g to %g, which is empty; required: [first, last, step] "
-                            "with last not below first", value[0], value[1]);
+                            "with last not below first",
+                            value[0], value[1]);
     double steps = (value[1] - value[0]) / value[2];
     if (steps > RANGE_MAX)
         return record_fails(view, key, err, "has %.0f values, required: at most %d", steps + 1,
@@ -97,15 +92,22 @@ static bool read_range(const JsonView *view, const RecordRow *row, void *item, E
     if (fabs(steps - round(steps)) > STEP_SLACK)
         return record_fails(view, key, err,
                             "does not come from %g to %g in steps of %g, required: a step such "
-                            "as %.6g", value[0], value[1], value[2], fitting_step(value));
+                            "as %.6g",
+                            value[0], value[1], value[2], fitting_step(value));
     *(ReviewRange *)(void *)((char *)item + row->offset) =
         (ReviewRange){value[0], value[1], value[2], (int)round(steps) + 1};
     return true;
 }
 
-#define RANGE(key, member, low, high, words)                                                   \
-    {key, RECORD_NUMBERS, MUST, RECORD_AT(OWNER, member), RECORD_RANGE(low, high),             \
-     RECORD_COUNT(3, 3), .read = read_range, .doc = words}
+#define RANGE(key, member, low, high, words) \
+    {key, \
+     RECORD_NUMBERS, \
+     MUST, \
+     RECORD_AT(OWNER, member), \
+     RECORD_RANGE(low, high), \
+     RECORD_COUNT(3, 3), \
+     .read = read_range, \
+     .doc = words}
 
 static const RecordRow SUN[] = {
     RANGE("azimuth_deg", azimuth_deg, -360, 720,
@@ -114,25 +116,22 @@ static const RecordRow SUN[] = {
     RANGE("elevation_deg", elevation_deg, -18, 90, "[first, last, step], both ends in."),
     {0}};
 
-static bool check_sun(const JsonView *view, void *item, Error *err)
-{
+static bool check_sun(const JsonView *view, void *item, Error *err) {
     const ReviewCondition *condition = item;
-    const ReviewRange     *azimuth = &condition->azimuth_deg;
+    const ReviewRange *azimuth = &condition->azimuth_deg;
     if (azimuth->last - azimuth->first > 360)
         return record_fails(view, "azimuth_deg", err, "spans %g degrees, required: at most 360",
                             azimuth->last - azimuth->first);
     double suns = (double)azimuth->count * condition->elevation_deg.count;
-    return suns <= SUNS_MAX ||
-           error_at(err, ERROR_INPUT, view->file, view->path,
-                    "has %.0f suns, required: at most %d", suns, SUNS_MAX);
+    return suns <= SUNS_MAX || error_at(err, ERROR_INPUT, view->file, view->path,
+                                        "has %.0f suns, required: at most %d", suns, SUNS_MAX);
 }
 
 static const RecordFormat sun_format = {"sun", sizeof(OWNER), SUN, .check = check_sun};
 
 /* ---- over a year ------------------------------------------------------------------------- */
 
-static bool read_place(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_place(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     double place[3] = {0, 0, 0};
     if (!record_read_kind(view, row, place, err)) return false;
     if (fabs(place[0]) > 90 || fabs(place[1]) > 360)
@@ -144,8 +143,7 @@ static bool read_place(const JsonView *view, const RecordRow *row, void *item, E
 }
 
 /* A heading that stands twice would count twice. */
-static bool check_headings(const JsonView *view, const ReviewCondition *condition, Error *err)
-{
+static bool check_headings(const JsonView *view, const ReviewCondition *condition, Error *err) {
     const double *degrees = condition->headings_deg;
     for (int i = 0; i < condition->heading_count; i++)
         for (int k = 0; k < i; k++)
@@ -157,20 +155,17 @@ static bool check_headings(const JsonView *view, const ReviewCondition *conditio
 }
 
 /* What is not said: each hour, heading north, where the weather was measured. */
-static bool check_year(const JsonView *view, ReviewCondition *condition, Error *err)
-{
-    static const double  NORTH[1];
+static bool check_year(const JsonView *view, ReviewCondition *condition, Error *err) {
+    static const double NORTH[1];
     const ReviewRequest *request = view->whole;
-    if (!check_weather(view, condition, err) || !check_headings(view, condition, err))
-        return false;
+    if (!check_weather(view, condition, err) || !check_headings(view, condition, err)) return false;
     if (!record_has(view, "step_minutes")) condition->step_minutes = 60;
     if (!record_has(view, "headings_deg")) {
         condition->headings_deg = NORTH;
         condition->heading_count = 1;
     }
     if (record_has(view, "where")) return true;
-    if (condition->weather_id == NO_ID)
-        return record_misses(view, "where", err);
+    if (condition->weather_id == NO_ID) return record_misses(view, "where", err);
     condition->where = request->weathers[condition->weather_id].weather.place;
     return true;
 }
@@ -200,10 +195,9 @@ static const RecordRow SWEEP[] = {
 #define OF_SUN 2 /* rows */
 
 /* Sets the condition's kind and what belongs to it. */
-static bool check_sweep(const JsonView *view, void *item, Error *err)
-{
+static bool check_sweep(const JsonView *view, void *item, Error *err) {
     ReviewCondition *condition = item;
-    bool             has_sun = record_has(view, "sun");
+    bool has_sun = record_has(view, "sun");
     if (!record_one_of(view, "sun", "year", err)) return false;
     for (int i = 0; SWEEP[i].key; i++)
         if (record_has(view, SWEEP[i].key) && (i < OF_SUN) != has_sun)
@@ -224,8 +218,7 @@ static const RecordFormat sweep_format = {
 
 /* `forward` stands once at the top of the file, a heading once in the condition. */
 static bool check_directions(const JsonView *view, const JsonView *environment,
-                             const ReviewCondition *condition, Error *err)
-{
+                             const ReviewCondition *condition, Error *err) {
     bool has_heading = record_has(environment, "heading_deg");
     if (record_has(environment, "forward"))
         return record_fails(environment, "forward", err,
@@ -239,9 +232,7 @@ static bool check_directions(const JsonView *view, const JsonView *environment,
 }
 
 /* Beside a sweep the environment gives a clear sky's air. */
-static bool check_kind(const JsonView *environment, const ReviewCondition *condition,
-                       Error *err)
-{
+static bool check_kind(const JsonView *environment, const ReviewCondition *condition, Error *err) {
     if (condition->kind == CONDITION_MOMENT) return true;
     if (condition->weather_id != NO_ID)
         return error_at(err, ERROR_INPUT, environment->file, environment->path,
@@ -252,19 +243,18 @@ static bool check_kind(const JsonView *environment, const ReviewCondition *condi
 }
 
 /* As in a scene; the condition's time and heading are read already. */
-static bool read_environment(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    EnvironmentFound     found;
-    JsonView             inside;
-    ReviewCondition     *condition = item;
+static bool read_environment(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    EnvironmentFound found;
+    JsonView inside;
+    ReviewCondition *condition = item;
     const ReviewRequest *request = view->whole;
     if (!json_view_child(view, row->key, &inside, err) ||
         !check_directions(view, &inside, condition, err))
         return false;
     char *text = json_dumps(inside.object, JSON_COMPACT);
-    bool  is_read = environment_text_read(
-        &(EnvironmentText){view->file, inside.path, text, view->root}, view->arena,
-        view->problems, &found, err);
+    bool is_read =
+        environment_text_read(&(EnvironmentText){view->file, inside.path, text, view->root},
+                              view->arena, view->problems, &found, err);
     free(text);
     if (!is_read) return false;
     condition->has_environment = true;
@@ -272,8 +262,7 @@ static bool read_environment(const JsonView *view, const RecordRow *row, void *i
     condition->environment.daylight.cloud_relief_m = 0; /* review/light/setup.h */
     if (record_has(&inside, "heading_deg")) {
         condition->has_heading = true;
-        condition->heading_deg = json_number_value(json_object_get(inside.object,
-                                                                   "heading_deg"));
+        condition->heading_deg = json_number_value(json_object_get(inside.object, "heading_deg"));
     }
     condition->environment.forward = vec3_from_doubles(request->forward);
     condition->environment.heading = (float)radians_from_degrees(condition->heading_deg);
@@ -283,9 +272,8 @@ static bool read_environment(const JsonView *view, const RecordRow *row, void *i
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static bool read_polarity(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    ReviewCondition     *condition = item;
+static bool read_polarity(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    ReviewCondition *condition = item;
     const ReviewRequest *request = view->whole;
     if (!condition->polarity)
         condition->polarity = ARENA_NEW(view->arena, ReviewPolarity, request->symbol_count);
@@ -309,43 +297,42 @@ static const RecordRow CONDITION[] = {
     {"sweep", RECORD_OBJECT, .of = &sweep_format},
     OBJECT("sunglasses", RECORD_APART, glasses, review_glasses_format,
            "What the observer wears; default: none."),
-    {"environment", RECORD_OWN, .read = read_environment,
-     .of = &environment_extension},
+    {"environment", RECORD_OWN, .read = read_environment, .of = &environment_extension},
     {0}};
 
-static void start_condition(void *item)
-{
-    *(ReviewCondition *)item = (ReviewCondition){.level_id = NO_ID, .with_id = NO_ID,
-                                                 .weather_id = NO_ID};
+static void start_condition(void *item) {
+    *(ReviewCondition *)item =
+        (ReviewCondition){.level_id = NO_ID, .with_id = NO_ID, .weather_id = NO_ID};
 }
 
 /* Keys that mean nothing beside others are errors, not skipped. */
-static bool check_together(const JsonView *view, const ReviewCondition *condition, Error *err)
-{
-    const ReviewGlasses     *glasses = condition->glasses;
+static bool check_together(const JsonView *view, const ReviewCondition *condition, Error *err) {
+    const ReviewGlasses *glasses = condition->glasses;
     if (record_has(view, "heading_deg") && condition->kind == CONDITION_YEAR_SWEEP)
-        return record_fails(view, "heading_deg", err, "stands beside the sweep of a year, "
+        return record_fails(view, "heading_deg", err,
+                            "stands beside the sweep of a year, "
                             "required: 'headings_deg' in it");
     if (glasses && (glasses->curve || glasses->is_polarising) &&
         condition->kind != CONDITION_MOMENT)
-        return record_fails(view, "sunglasses", err, "is coloured or polarising beside a sweep, "
+        return record_fails(view, "sunglasses", err,
+                            "is coloured or polarising beside a sweep, "
                             "required: a grey one, or a moment");
     return true;
 }
 
-static bool check_condition(const JsonView *view, void *item, Error *err)
-{
-    ReviewCondition     *condition = item;
+static bool check_condition(const JsonView *view, void *item, Error *err) {
+    ReviewCondition *condition = item;
     const ReviewRequest *request = view->whole;
     for (const ReviewCondition *before = request->conditions; before < condition; before++)
         if (!strcmp(before->name, condition->name))
-            return record_fails(view, "name", err, "is '%.60s' as that of condition %d, "
-                                "required: another name", condition->name,
-                                (int)(before - request->conditions));
+            return record_fails(view, "name", err,
+                                "is '%.60s' as that of condition %d, "
+                                "required: another name",
+                                condition->name, (int)(before - request->conditions));
     condition->has_heading |= record_has(view, "heading_deg");
     if (!condition->polarity) read_polarity(view, NULL, condition, err);
     return check_together(view, condition, err);
 }
 
-const RecordFormat review_condition_format = {
-    "condition", sizeof(OWNER), CONDITION, .start = start_condition, .check = check_condition};
+const RecordFormat review_condition_format = {"condition", sizeof(OWNER), CONDITION,
+                                              .start = start_condition, .check = check_condition};

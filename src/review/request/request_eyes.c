@@ -18,8 +18,7 @@ static const RecordRow CAMERA[] = {
 
 static const RecordRow EYE[] = {
     {"camera", RECORD_EITHER, .forms = CAMERA},
-    VECTOR("position_m", RECORD_OPEN, position_m, 3, -METRES_MAX, METRES_MAX,
-           "In the scene, m."),
+    VECTOR("position_m", RECORD_OPEN, position_m, 3, -METRES_MAX, METRES_MAX, "In the scene, m."),
     VECTOR("centre_m", RECORD_OPEN, position_m, 3, -METRES_MAX, METRES_MAX,
            "Of a box or an ellipse of eyes, m."),
     VECTOR("half_size_m", RECORD_OPEN, half_size_m, 3, 0, 10, "Of a box, m."),
@@ -32,13 +31,11 @@ static const RecordRow EYE[] = {
          "the eye is right; until then a review says that its eye is a proposal."),
     {0}};
 
-static void start_eye(void *item)
-{
+static void start_eye(void *item) {
     *(ReviewEye *)item = (ReviewEye){.camera_id = NO_ID, .grid = {3, 3, 3}};
 }
 
-static bool check_grid(const JsonView *view, const ReviewEye *eye, Error *err)
-{
+static bool check_grid(const JsonView *view, const ReviewEye *eye, Error *err) {
     for (int axis = 0; axis < 3; axis++)
         if (eye->grid[axis] > 1 && !(eye->half_size_m[axis] > 0))
             return record_fails(view, "grid", err,
@@ -47,28 +44,24 @@ static bool check_grid(const JsonView *view, const ReviewEye *eye, Error *err)
     return true;
 }
 
-static bool check_wide(const JsonView *view, ReviewEye *eye, Error *err)
-{
+static bool check_wide(const JsonView *view, ReviewEye *eye, Error *err) {
     bool is_ellipse = record_has(view, "ellipse_m");
     if (is_ellipse && record_has(view, "half_size_m"))
-        return record_fails(view, "ellipse_m", err,
-                            "stands beside 'half_size_m', required: one");
+        return record_fails(view, "ellipse_m", err, "stands beside 'half_size_m', required: one");
     if (is_ellipse && record_has(view, "grid"))
         return record_fails(view, "grid", err, "is a box's, not an ellipse's");
     if (!is_ellipse && record_has(view, "tilt_deg"))
-        return record_fails(view, "tilt_deg", err,
-                            "is an ellipse's: 'ellipse_m' is missing");
+        return record_fails(view, "tilt_deg", err, "is an ellipse's: 'ellipse_m' is missing");
     if (!is_ellipse && !record_has(view, "half_size_m"))
         return record_misses(view, "half_size_m", err);
     eye->kind = is_ellipse ? EYE_ELLIPSE : EYE_BOX;
     return is_ellipse || check_grid(view, eye, err);
 }
 
-static bool check_eye(const JsonView *view, void *item, Error *err)
-{
+static bool check_eye(const JsonView *view, void *item, Error *err) {
     ReviewEye *eye = item;
     bool has_centre = record_has(view, "centre_m");
-    int  forms = record_has(view, "camera") + record_has(view, "position_m") + has_centre;
+    int forms = record_has(view, "camera") + record_has(view, "position_m") + has_centre;
     bool has_more = record_has(view, "half_size_m") || record_has(view, "ellipse_m") ||
                     record_has(view, "grid") || record_has(view, "tilt_deg");
     if (forms != 1 || (!has_centre && has_more))
@@ -83,7 +76,11 @@ static bool check_eye(const JsonView *view, void *item, Error *err)
 }
 
 const RecordFormat review_eye_format = {
-    "eye", sizeof(OWNER), EYE, .start = start_eye, .check = check_eye,
+    "eye",
+    sizeof(OWNER),
+    EYE,
+    .start = start_eye,
+    .check = check_eye,
     .rules = "{'oneOf': [{'required': ['camera']}, {'required': ['position_m']}, "
              "{'required': ['centre_m'], 'anyOf': [{'required': ['half_size_m']}, "
              "{'required': ['ellipse_m']}]}], 'dependentRequired': {'half_size_m': "
@@ -104,9 +101,8 @@ static const RecordRow ROAD[] = {
            "Scotopic over photopic luminance of its light: for the mesopic luminance."),
     FIGURES("ages_years", 0, ages, age_count, 1, ROAD_AGES_MOST, HUMAN_EYE_AGE_MIN,
             HUMAN_EYE_AGE_MAX, "Rising. Default: the observer's."),
-    FIGURES("dimming_cd_m2", 0, dimming, dimming_count, 1, ROAD_DIMMING_MOST,
-            ROAD_LUMINANCE_MIN, 1000,
-            "Rising: the road luminances of the table of levels. Default: 0.1 to 2."),
+    FIGURES("dimming_cd_m2", 0, dimming, dimming_count, 1, ROAD_DIMMING_MOST, ROAD_LUMINANCE_MIN,
+            1000, "Rising: the road luminances of the table of levels. Default: 0.1 to 2."),
     {"conditions", RECORD_TEXTS, RECORD_MANY(OWNER, conditions, condition_count),
      RECORD_COUNT(1, 1000),
      .doc = "Names of those in which it is evaluated: moments, where no sun stands above the "
@@ -114,14 +110,12 @@ static const RecordRow ROAD[] = {
             "such moments."},
     {0}};
 
-static void start_road(void *item)
-{
+static void start_road(void *item) {
     *(ReviewRoad *)item = (ReviewRoad){.s_p = NAN};
 }
 
 static bool check_rising(const JsonView *view, const char *key, const double *list, int count,
-                         Error *err)
-{
+                         Error *err) {
     for (int i = 1; i < count; i++)
         if (!(list[i] > list[i - 1]))
             return record_fails(view, key, err, "has %g behind %g, required: rising numbers",
@@ -129,8 +123,7 @@ static bool check_rising(const JsonView *view, const char *key, const double *li
     return true;
 }
 
-static bool check_road(const JsonView *view, void *item, Error *err)
-{
+static bool check_road(const JsonView *view, void *item, Error *err) {
     const ReviewRoad *road = item;
     return check_rising(view, "ages_years", road->ages, road->age_count, err) &&
            check_rising(view, "dimming_cd_m2", road->dimming, road->dimming_count, err);
@@ -144,20 +137,19 @@ static const RecordFormat road_format = {"road", sizeof(OWNER), ROAD, .start = s
 
 static const char *const SYMBOLS[] = {"symbols", NULL};
 
-static const RecordRow    LOOKER = {.kind = RECORD_REFER, .among = &review_eye_names};
+static const RecordRow LOOKER = {.kind = RECORD_REFER, .among = &review_eye_names};
 static const RecordFormat looker_format = {"looker", sizeof(int), .value = &LOOKER};
 
 typedef struct Lookers {
     const int *eyes;
-    int        count;
+    int count;
 } Lookers;
 
 /* Which eyes look so: those of the list. */
-static bool read_lookers(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    Lookers              listed;
+static bool read_lookers(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    Lookers listed;
     const ReviewRequest *request = view->whole;
-    ReviewGaze          *gaze = item;
+    ReviewGaze *gaze = item;
     if (!record_read_kind(view, row, &listed, err)) return false;
     gaze->for_eye = ARENA_NEW(view->arena, bool, request->eye_count);
     for (int i = 0; i < listed.count; i++) gaze->for_eye[listed.eyes[i]] = true;
@@ -178,9 +170,8 @@ static const RecordRow GAZE[] = {
            "the eye sees is evaluated."),
     {0}};
 
-static bool check_gaze(const JsonView *view, void *item, Error *err)
-{
-    ReviewGaze    *gaze = item;
+static bool check_gaze(const JsonView *view, void *item, Error *err) {
+    ReviewGaze *gaze = item;
     ReviewRequest *request = view->whole;
     gaze->at_symbols = record_has(view, "at");
     if (!record_one_of(view, "at", "direction", err)) return false;
@@ -192,8 +183,7 @@ static bool check_gaze(const JsonView *view, void *item, Error *err)
     for (const ReviewGaze *before = request->gazes; before < gaze; before++)
         if (!strcmp(before->name, gaze->name))
             return error_at(err, ERROR_INPUT, view->file, view->path,
-                            "is the second gaze named '%.60s', required: another name",
-                            gaze->name);
+                            "is the second gaze named '%.60s', required: another name", gaze->name);
     return true;
 }
 

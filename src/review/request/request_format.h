@@ -23,13 +23,13 @@ extern const RecordNames review_with_names;
 /* A word for all of some names, or one by name. */
 typedef struct WordOf {
     const char *name;
-    int         word;
+    int word;
 } WordOf;
 
 typedef struct WordsSaid {
-    int           all; /* -1: they are by name */
+    int all; /* -1: they are by name */
     const WordOf *by_name;
-    int           count;
+    int count;
 } WordsSaid;
 
 /* Of a row whose two forms fill a WordsSaid, the second by names: out gets each name's. */

@@ -12,38 +12,35 @@
 /* The middles of their ranges. */
 static const double TRANSMITTANCE[CATEGORIES] = {0.9, 0.615, 0.305, 0.13, 0.055};
 
-static bool read_category(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_category(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     ReviewGlasses *out = item;
-    int            category;
+    int category;
     if (!record_read_kind(view, row, &category, err)) return false;
     out->transmittance = TRANSMITTANCE[category];
-    out->words = arena_format(view->arena, "sunglasses of category %d (ISO 12312-1, as quoted; "
-                              "%.3g %%, the middle of its range)", category,
-                              100 * out->transmittance);
+    out->words = arena_format(view->arena,
+                              "sunglasses of category %d (ISO 12312-1, as quoted; "
+                              "%.3g %%, the middle of its range)",
+                              category, 100 * out->transmittance);
     if (category == NOT_FOR_DRIVING)
         problems_add(view->problems, SEVERITY_WARNING, view->file, view->path,
                      "sunglasses of category 4 are not for driving (ISO 12312-1)");
     return true;
 }
 
-static bool read_grey(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_grey(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     ReviewGlasses *out = item;
     if (!record_read_kind(view, row, out, err)) return false;
-    out->words = arena_format(view->arena, "grey sunglasses of %.3g %%",
-                              100 * out->transmittance);
+    out->words = arena_format(view->arena, "grey sunglasses of %.3g %%", 100 * out->transmittance);
     return true;
 }
 
-static bool read_curve(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_curve(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     ReviewGlasses *out = item;
-    const char    *path;
-    FileBytes      bytes;
-    Curve         *curve = ARENA_NEW(view->arena, Curve, 1);
-    double         beyond;
-    bool           lets_some = false;
+    const char *path;
+    FileBytes bytes;
+    Curve *curve = ARENA_NEW(view->arena, Curve, 1);
+    double beyond;
+    bool lets_some = false;
     if (!record_read_kind(view, row, &path, err) ||
         !file_read(path, CURVE_FILE_BYTES_MAX, view->arena, &bytes, err) ||
         !curve_parse(arena_string(view->arena, (const char *)bytes.data, bytes.size), path,
@@ -66,8 +63,7 @@ static bool read_curve(const JsonView *view, const RecordRow *row, void *item, E
 static const RecordRow TRANSMITTANCES[] = {
     {"a number", RECORD_NUMBER, RECORD_AT(OWNER, transmittance), RECORD_RANGE(0.001, 1),
      .read = read_grey, .doc = "Luminous: grey lenses."},
-    {"a file", RECORD_FILE, .read = read_curve,
-     .doc = "A CSV, nm,value from 0 to 1. Of moments."},
+    {"a file", RECORD_FILE, .read = read_curve, .doc = "A CSV, nm,value from 0 to 1. Of moments."},
     {0}};
 
 static const RecordRow POLARISER[] = {
@@ -75,39 +71,42 @@ static const RecordRow POLARISER[] = {
            "Along which light comes through, from upright towards the right."),
     NUMBER("extinction", 0, extinction, 1, 1e9, "Light along the axis over light across it."),
     {0}};
-static const RecordFormat polariser_format = {"polariser", sizeof(OWNER), POLARISER,
-                                              .doc = NULL};
+static const RecordFormat polariser_format = {"polariser", sizeof(OWNER), POLARISER, .doc = NULL};
 
 static const RecordRow GLASSES[] = {
     {"category", RECORD_INTEGER, RECORD_RANGE(0, CATEGORIES - 1), .read = read_category,
      .doc = "Of ISO 12312-1: the middle of its range, 0.9, 0.615, 0.305, 0.13, 0.055."},
     {"transmittance", RECORD_EITHER, .forms = TRANSMITTANCES},
-    {"polarising", RECORD_OBJECT, .count = offsetof(OWNER, is_polarising),
-     .of = &polariser_format, .doc = "They polarise, too. Of moments."},
+    {"polarising", RECORD_OBJECT, .count = offsetof(OWNER, is_polarising), .of = &polariser_format,
+     .doc = "They polarise, too. Of moments."},
     {0}};
 
-static void start_glasses(void *item)
-{
+static void start_glasses(void *item) {
     *(ReviewGlasses *)item = (ReviewGlasses){.extinction = 100}; /* of good lenses */
 }
 
 /* Of unpolarised light half is lost, but for what comes through across the axis. */
-static bool check_glasses(const JsonView *view, void *item, Error *err)
-{
+static bool check_glasses(const JsonView *view, void *item, Error *err) {
     ReviewGlasses *out = item;
-    double         most = 0.5 * (1 + 1 / out->extinction);
+    double most = 0.5 * (1 + 1 / out->extinction);
     if (!record_one_of(view, "category", "transmittance", err)) return false;
     if (!out->is_polarising) return true;
     if (!out->curve && !(out->transmittance <= most))
         return record_fails(view, "polarising", err,
                             "lets through at most %.3g of unpolarised light, required: "
-                            "'transmittance' or a 'category' below that", most);
-    out->words = arena_format(view->arena, "%s, polarising along %.4g degrees from upright, "
-                              "%.4g : 1", out->words, out->axis_deg, out->extinction);
+                            "'transmittance' or a 'category' below that",
+                            most);
+    out->words = arena_format(view->arena,
+                              "%s, polarising along %.4g degrees from upright, "
+                              "%.4g : 1",
+                              out->words, out->axis_deg, out->extinction);
     return true;
 }
 
-const RecordFormat review_glasses_format = {
-    "sunglasses", sizeof(OWNER), GLASSES, .start = start_glasses, .check = check_glasses,
-    .rules = "{'oneOf': [{'required': ['category']}, "
-             "{'required': ['transmittance']}]}"};
+const RecordFormat review_glasses_format = {"sunglasses",
+                                            sizeof(OWNER),
+                                            GLASSES,
+                                            .start = start_glasses,
+                                            .check = check_glasses,
+                                            .rules = "{'oneOf': [{'required': ['category']}, "
+                                                     "{'required': ['transmittance']}]}"};

@@ -10,26 +10,27 @@
 /* ---- fixed ------------------------------------------------------------------------------- */
 
 /* 25 is meant as 25 %: a level above what was measured has to say so. */
-static bool check_level(const JsonView *view, const char *place, double level, Error *err)
-{
+static bool check_level(const JsonView *view, const char *place, double level, Error *err) {
     double most = ((const ReviewRequest *)view->whole)->max_level;
     return (level >= 0 && level <= most) ||
            record_fails(view, place, err,
                         "is %.9g, required: a level from 0 to %g: 1 is as measured, 0.25 a "
                         "quarter of it; \"max_level\" of the request allows panels driven "
-                        "above that", level, most);
+                        "above that",
+                        level, most);
 }
 
-static bool read_level(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_level(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     RecordRow any = *row;
     any.low = -HUGE_VAL, any.high = HUGE_VAL;
     return record_read_kind(view, &any, item, err) &&
            check_level(view, row->key, ((ReviewFixedLevel *)item)->level, err);
 }
 
-static const RecordRow FIXED = {.kind = RECORD_NUMBER, RECORD_AT(ReviewFixedLevel, level),
-                                RECORD_RANGE(0, LEVEL_MAX), .read = read_level};
+static const RecordRow FIXED = {.kind = RECORD_NUMBER,
+                                RECORD_AT(ReviewFixedLevel, level),
+                                RECORD_RANGE(0, LEVEL_MAX),
+                                .read = read_level};
 static const RecordFormat fixed_format = {"fixed", sizeof(ReviewFixedLevel), .value = &FIXED};
 
 /* ---- by a sensor ------------------------------------------------------------------------- */
@@ -42,8 +43,10 @@ static const RecordRow SENSOR[] = {
     {0}};
 static const RecordFormat sensor_format = {"sensor", sizeof(OWNER), SENSOR, .doc = NULL};
 
-static const RecordRow POINT = {.kind = RECORD_NUMBERS, RECORD_AT(ReviewLevelPoint, lux),
-                                RECORD_RANGE(0, LUX_MAX), RECORD_COUNT(2, 2)};
+static const RecordRow POINT = {.kind = RECORD_NUMBERS,
+                                RECORD_AT(ReviewLevelPoint, lux),
+                                RECORD_RANGE(0, LUX_MAX),
+                                RECORD_COUNT(2, 2)};
 _Static_assert(sizeof(ReviewLevelPoint) == 2 * sizeof(double), "a pair");
 static const RecordFormat point_format = {"point", sizeof(ReviewLevelPoint), .value = &POINT};
 
@@ -56,8 +59,7 @@ static const RecordRow CURVE[] = {
     {0}};
 
 /* Each point of the table is held against the one before. */
-static bool check_curve(const JsonView *view, void *item, Error *err)
-{
+static bool check_curve(const JsonView *view, void *item, Error *err) {
     const ReviewLevel *curve = item;
     for (int i = 0; i < curve->point_count; i++) {
         const ReviewLevelPoint *p = &curve->points[i];
@@ -65,9 +67,8 @@ static bool check_curve(const JsonView *view, void *item, Error *err)
         if (!check_level(view, arena_format(view->arena, "%s/1", place), p->level, err))
             return false;
         if (i && !(p->lux > p[-1].lux))
-            return record_fails(view, place, err,
-                                "is at %g lx behind %g lx, required: more lx", p->lux,
-                                p[-1].lux);
+            return record_fails(view, place, err, "is at %g lx behind %g lx, required: more lx",
+                                p->lux, p[-1].lux);
         if (i && p->level < p[-1].level)
             return record_fails(view, place, err,
                                 "falls from level %g to %g, required: one that does not fall",
@@ -86,8 +87,7 @@ static const RecordRow LEVEL_FORMS[] = {
      .of = &curve_format},
     {0}};
 
-static bool read_either(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_either(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     const json_t *value = json_object_get(view->object, row->key);
     bool is_curve = json_object_get(value, "sensor") || json_object_get(value, "table_lx");
     RecordRow own = row->forms[is_curve];
@@ -95,6 +95,5 @@ static bool read_either(const JsonView *view, const RecordRow *row, void *item, 
     return record_read_kind(view, &own, item, err);
 }
 
-static const RecordRow LEVEL = {.kind = RECORD_EITHER, .forms = LEVEL_FORMS,
-                                .read = read_either};
+static const RecordRow LEVEL = {.kind = RECORD_EITHER, .forms = LEVEL_FORMS, .read = read_either};
 const RecordFormat review_level_format = {"level", sizeof(OWNER), .value = &LEVEL};

@@ -22,8 +22,7 @@ static const RecordRow AREA[] = {
            CONTRAST_DOC " Default: that of pane_images."),
     {0}};
 
-static void start_area(void *item)
-{
+static void start_area(void *item) {
     *(ReviewPaneArea *)item = (ReviewPaneArea){.within_deg = NAN, .contrast_most = NAN};
 }
 
@@ -47,14 +46,11 @@ static const RecordRow PANES[] = {
          "More parts of the view to be kept free: mirrors, lamps."),
     {0}};
 
-static void start_panes(void *item)
-{
-    *(ReviewPaneImages *)item =
-        (ReviewPaneImages){.within_deg = WITHIN_DEG, .contrast_most = NAN};
+static void start_panes(void *item) {
+    *(ReviewPaneImages *)item = (ReviewPaneImages){.within_deg = WITHIN_DEG, .contrast_most = NAN};
 }
 
-static bool check_panes(const JsonView *view, void *item, Error *err)
-{
+static bool check_panes(const JsonView *view, void *item, Error *err) {
     ReviewPaneImages *panes = item;
     for (int i = 0; i < panes->area_count; i++) {
         ReviewPaneArea *area = &panes->areas[i];
@@ -69,5 +65,5 @@ static bool check_panes(const JsonView *view, void *item, Error *err)
     return true;
 }
 
-const RecordFormat review_panes_format = {"pane_images", sizeof(OWNER), PANES,
-                                          .start = start_panes, .check = check_panes};
+const RecordFormat review_panes_format = {"pane_images", sizeof(OWNER), PANES, .start = start_panes,
+                                          .check = check_panes};

@@ -27,8 +27,8 @@ static const RecordFormat observer_format = {"observer", sizeof(OWNER), OBSERVER
 #define OWNER ReviewVisibility
 
 static const RecordRow VISIBILITY[] = {
-    FIGURES("ages", 0, ages, age_count, 0, REVIEW_AGES_MOST, VISIBILITY_AGE_MIN,
-            VISIBILITY_AGE_MAX, "Years; besides the observer's own age."),
+    FIGURES("ages", 0, ages, age_count, 0, REVIEW_AGES_MOST, VISIBILITY_AGE_MIN, VISIBILITY_AGE_MAX,
+            "Years; besides the observer's own age."),
     NUMBER("glance_s", 0, glance_s, 0.01, 100,
            "How long the symbol is looked at; 2 and more: as long as it takes."),
     {0}};
@@ -42,10 +42,10 @@ static const RecordFormat visibility_format = {"visibility", sizeof(OWNER), VISI
 
 #define OWNER ReviewPrivacy
 
-static const RecordRow PRIVACY[] = {
-    NUMBER("security_min_s", MUST | RECORD_ABOVE, security_min, 0, 10,
-           "The least visual security S of what must not be read."),
-    {0}};
+static const RecordRow PRIVACY[] = {NUMBER("security_min_s", MUST | RECORD_ABOVE, security_min, 0,
+                                           10,
+                                           "The least visual security S of what must not be read."),
+                                    {0}};
 
 static const RecordFormat privacy_format = {
     "privacy", sizeof(OWNER), PRIVACY,
@@ -69,8 +69,7 @@ static const RecordRow PRECISION[] = {
           "Of the random numbers: another one shows what of a figure is luck."),
     {0}};
 
-static bool check_precision(const JsonView *view, void *item, Error *err)
-{
+static bool check_precision(const JsonView *view, void *item, Error *err) {
     ReviewRequest *r = item;
     if (!record_has(view, "clear"))
         r->precision_clear = fmax(r->precision_clear, r->precision_contrast);
@@ -103,9 +102,8 @@ static const RecordFormat frames_format = {"frames", sizeof(OWNER), FRAMES, .doc
 #define OWNER ReviewRequest
 
 /* A name, or a path as seen from the request's folder. */
-static bool read_profile(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    ReviewRequest  *request = item;
+static bool read_profile(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    ReviewRequest *request = item;
     const RecordRow text = {row->key, RECORD_TEXT, row->flags, RECORD_AT(OWNER, profile)};
     if (!record_read_value(view, &text, item, err)) return false;
     if (strchr(request->profile, '/') || !strcmp(path_ending(request->profile), ".json"))
@@ -117,8 +115,7 @@ static bool read_profile(const JsonView *view, const RecordRow *row, void *item,
 static const RecordRow REVIEW[] = {
     TEXT("title", 0, title, "Default: the file's name."),
     FILES("scene", MUST, scenes, scene_count, 256, "The first holds the displays."),
-    {"profile", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(OWNER, profile),
-     .read = read_profile,
+    {"profile", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(OWNER, profile), .read = read_profile,
      .doc = "A list of limits: NAME of assets/profiles/NAME.json, or the path of a file, which "
             "holds a '/' or ends in .json."},
     MAP("eyes", MUST, eyes, eye_count, 256, review_eye_format, "Who looks, by name."),
@@ -144,26 +141,26 @@ static const RecordRow REVIEW[] = {
     OBJECT("frames", 0, frames, frames_format, NULL),
     OBJECT("pane_images", RECORD_APART, pane_images, review_panes_format,
            "Displays as glass shows them to each eye, in moments: where, how bright."),
-    LIST("conditions", MUST, conditions, condition_count, 1, 10000, review_condition_format,
-         NULL),
+    LIST("conditions", MUST, conditions, condition_count, 1, 10000, review_condition_format, NULL),
     MAP("variants", 0, variants, variant_count, 100, review_variant_format,
         "The same review with something changed, by name: each is held against the review "
         "itself."),
     {0}};
 
-static void start_review(void *item)
-{
-    *(ReviewRequest *)item = (ReviewRequest){
-        .title = "", .forward = {0, 0, -1}, .observer = {50, 0.5},
-        .visibility = {.glance_s = VISIBILITY_GLANCE_LONG},
-        .max_level = 1, .precision_contrast = 0.01,
-        .precision_clear = CLEAR_USUAL, .precision_paths = 262144,
-        .frames = {960, 540, 0.1, 2, true}};
+static void start_review(void *item) {
+    *(ReviewRequest *)item = (ReviewRequest){.title = "",
+                                             .forward = {0, 0, -1},
+                                             .observer = {50, 0.5},
+                                             .visibility = {.glance_s = VISIBILITY_GLANCE_LONG},
+                                             .max_level = 1,
+                                             .precision_contrast = 0.01,
+                                             .precision_clear = CLEAR_USUAL,
+                                             .precision_paths = 262144,
+                                             .frames = {960, 540, 0.1, 2, true}};
 }
 
 /* Ahead on the horizontal, its front down by the tilt; across; upright on both. */
-static void turn_ellipse(const double forward[3], ReviewEye *eye)
-{
+static void turn_ellipse(const double forward[3], ReviewEye *eye) {
     double level = hypot_d(forward[0], forward[2]);
     double ahead[3] = {forward[0] / level, 0, forward[2] / level};
     double across[3] = {-ahead[2], 0, ahead[0]};
@@ -176,16 +173,13 @@ static void turn_ellipse(const double forward[3], ReviewEye *eye)
     }
 }
 
-static void turn_ellipses(ReviewRequest *request)
-{
+static void turn_ellipses(ReviewRequest *request) {
     for (int i = 0; i < request->eye_count; i++)
-        if (request->eyes[i].kind == EYE_ELLIPSE)
-            turn_ellipse(request->forward, &request->eyes[i]);
+        if (request->eyes[i].kind == EYE_ELLIPSE) turn_ellipse(request->forward, &request->eyes[i]);
 }
 
 /* Where no gaze is given: at the symbols. One that names no eyes is of all. */
-static void look(ReviewRequest *request, Arena *arena)
-{
+static void look(ReviewRequest *request, Arena *arena) {
     if (!request->gaze_count) {
         request->gazes = ARENA_NEW(arena, ReviewGaze, 1);
         request->gaze_count = 1;
@@ -200,16 +194,16 @@ static void look(ReviewRequest *request, Arena *arena)
 }
 
 /* A road of which nothing would be evaluated is no road. */
-static bool check_road(const JsonView *view, const ReviewRequest *request,
-                       const ReviewGaze *gaze, Error *err)
-{
+static bool check_road(const JsonView *view, const ReviewRequest *request, const ReviewGaze *gaze,
+                       Error *err) {
     const ReviewRoad *road = gaze->road;
     bool is_any = false;
     for (int i = 0; i < road->condition_count; i++) {
         if (!review_condition_named(request, road->conditions[i]))
             return record_fails(view, "gaze", err,
                                 "'%.60s' has a road in '%.60s', which is none; required: the "
-                                "name of a condition", gaze->name, road->conditions[i]);
+                                "name of a condition",
+                                gaze->name, road->conditions[i]);
         is_any = true;
     }
     for (int i = 0; i < request->condition_count; i++)
@@ -217,19 +211,18 @@ static bool check_road(const JsonView *view, const ReviewRequest *request,
     return is_any || record_fails(view, "gaze", err,
                                   "'%.60s' has a road, which is evaluated in moments, and "
                                   "there is none; required: one, or the names of sweeps in "
-                                  "its 'conditions'", gaze->name);
+                                  "its 'conditions'",
+                                  gaze->name);
 }
 
-static bool check_roads(const JsonView *view, const ReviewRequest *request, Error *err)
-{
+static bool check_roads(const JsonView *view, const ReviewRequest *request, Error *err) {
     for (int i = 0; i < request->gaze_count; i++)
         if (request->gazes[i].road && !check_road(view, request, &request->gazes[i], err))
             return false;
     return true;
 }
 
-static bool check_review(const JsonView *view, void *item, Error *err)
-{
+static bool check_review(const JsonView *view, void *item, Error *err) {
     ReviewRequest *request = item;
     if (!(hypot_d(request->forward[0], request->forward[2]) > UPRIGHT))
         return record_fails(view, "forward", err,
@@ -241,16 +234,19 @@ static bool check_review(const JsonView *view, void *item, Error *err)
 }
 
 const RecordFormat review_format = {
-    "review", sizeof(OWNER), REVIEW, .start = start_review, .check = check_review,
+    "review",
+    sizeof(OWNER),
+    REVIEW,
+    .start = start_review,
+    .check = check_review,
     .doc = "Files are relative to this one. Every name that is used (levels, with, eyes, "
            "symbols) is defined in it; displays and cameras are the scene's."};
 
 /* ---- a file ------------------------------------------------------------------------------ */
 
 bool review_request_read(const char *file, const char *root, Arena *arena, Problems *problems,
-                         ReviewRequest *out, Error *err)
-{
-    JsonView      view;
+                         ReviewRequest *out, Error *err) {
+    JsonView view;
     ReviewRequest request;
     if (!json_view_open(file, arena, &view, err)) return false;
     start_review(&request);

@@ -16,12 +16,11 @@
 
 /* ---- by display -------------------------------------------------------------------------- */
 
-static bool check_panel(const JsonView *view, void *item, Error *err)
-{
+static bool check_panel(const JsonView *view, void *item, Error *err) {
     SceneOverride *panel = item;
     (void)err;
-    panel->said = arena_format(view->arena, "%s: %s", view->file,
-                               json_view_path(view, panel->material));
+    panel->said =
+        arena_format(view->arena, "%s: %s", view->file, json_view_path(view, panel->material));
     return true;
 }
 
@@ -29,31 +28,29 @@ static const RecordRow PANEL = {.kind = RECORD_FILE, RECORD_AT(SceneOverride, va
 static const RecordFormat panel_format = {"panel", sizeof(SceneOverride), .value = &PANEL,
                                           .check = check_panel};
 
-static bool check_brightness(const JsonView *view, void *item, Error *err)
-{
+static bool check_brightness(const JsonView *view, void *item, Error *err) {
     const ReviewFixedLevel *b = item;
     (void)err;
     if (b->level > BRIGHTNESS_USUAL)
-        problems_add(view->problems, SEVERITY_WARNING, view->file,
-                     json_view_path(view, b->display),
+        problems_add(view->problems, SEVERITY_WARNING, view->file, json_view_path(view, b->display),
                      "is %g times as bright: if per cent are meant, %g is", b->level,
                      b->level / 100);
     return true;
 }
 
-static const RecordRow BRIGHTNESS = {.kind = RECORD_NUMBER, RECORD_AT(ReviewFixedLevel, level),
-                                     RECORD_RANGE(0, 100)};
-static const RecordFormat brightness_format = {
-    "brightness", sizeof(ReviewFixedLevel), .value = &BRIGHTNESS, .check = check_brightness};
+static const RecordRow BRIGHTNESS = {
+    .kind = RECORD_NUMBER, RECORD_AT(ReviewFixedLevel, level), RECORD_RANGE(0, 100)};
+static const RecordFormat brightness_format = {"brightness", sizeof(ReviewFixedLevel),
+                                               .value = &BRIGHTNESS, .check = check_brightness};
 
 /* A hood's depth in m is kept as a level is. */
-static const RecordRow HOOD = {.kind = RECORD_NUMBER, RECORD_AT(ReviewFixedLevel, level),
-                               RECORD_RANGE(1e-3, 2)};
+static const RecordRow HOOD = {
+    .kind = RECORD_NUMBER, RECORD_AT(ReviewFixedLevel, level), RECORD_RANGE(1e-3, 2)};
 static const RecordFormat hood_format = {"hood", sizeof(ReviewFixedLevel), .value = &HOOD};
 
 typedef struct FinishSaid {
     const char *display;
-    double      scatters, width_deg;
+    double scatters, width_deg;
 } FinishSaid;
 
 #define OWNER FinishSaid
@@ -72,12 +69,11 @@ static const RecordFormat finish_format = {"finish", sizeof(OWNER), FINISH, .doc
 /* JSON of a material's; valid while the file is read. */
 typedef struct PatchSaid {
     const char *material;
-    json_t     *json;
+    json_t *json;
 } PatchSaid;
 
 /* The row's schema names the kinds that it takes, its words say them. */
-static bool read_patch(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool read_patch(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     json_t *value = json_object_get(view->object, row->key);
     if (!json_is_object(value) && !(json_is_null(value) && strstr(row->schema, "null")) &&
         !(json_is_string(value) && strstr(row->schema, "string")))
@@ -86,11 +82,12 @@ static bool read_patch(const JsonView *view, const RecordRow *row, void *item, E
     return true;
 }
 
-#define PATCH_FORMAT(name, VALUE, kinds, said)                                                 \
-    static const char *const VALUE##_WORDS[] = {said};                                         \
-    static const RecordRow VALUE = {.kind = RECORD_OWN, .read = read_patch,                    \
-                                    .words = VALUE##_WORDS,                                    \
-                                    .schema = "{'type': " kinds "}"};                        \
+#define PATCH_FORMAT(name, VALUE, kinds, said) \
+    static const char *const VALUE##_WORDS[] = {said}; \
+    static const RecordRow VALUE = {.kind = RECORD_OWN, \
+                                    .read = read_patch, \
+                                    .words = VALUE##_WORDS, \
+                                    .schema = "{'type': " kinds "}"}; \
     static const RecordFormat name = {#name, sizeof(PatchSaid), .value = &VALUE}
 
 PATCH_FORMAT(coating_format, COATING, "['object', 'string', 'null']",
@@ -102,17 +99,15 @@ PATCH_FORMAT(material_format, MATERIAL, "'object'", "an object, merged into the 
 
 #define OWNER SceneHinge
 
-static const RecordRow HINGE[] = {
-    VECTOR("axis", MUST | RECORD_UNIT | RECORD_FLOAT, axis, 3, -1e6, 1e6,
-           "In the scene's axes; of any length but 0."),
-    VECTOR("through_m", RECORD_OPEN, through_m, 3, -1e6, 1e6,
-           "A point of the axis, m; default: the node's own origin."),
-    NUMBER("angle_deg", MUST | RECORD_RADIANS | RECORD_FLOAT, angle, -180, 180,
-           "Anticlockwise as seen against the axis."),
-    {0}};
+static const RecordRow HINGE[] = {VECTOR("axis", MUST | RECORD_UNIT | RECORD_FLOAT, axis, 3, -1e6,
+                                         1e6, "In the scene's axes; of any length but 0."),
+                                  VECTOR("through_m", RECORD_OPEN, through_m, 3, -1e6, 1e6,
+                                         "A point of the axis, m; default: the node's own origin."),
+                                  NUMBER("angle_deg", MUST | RECORD_RADIANS | RECORD_FLOAT, angle,
+                                         -180, 180, "Anticlockwise as seen against the axis."),
+                                  {0}};
 
-static bool check_hinge(const JsonView *view, void *item, Error *err)
-{
+static bool check_hinge(const JsonView *view, void *item, Error *err) {
     (void)err;
     ((SceneHinge *)item)->is_own = !record_has(view, "through_m");
     return true;
@@ -121,7 +116,7 @@ static bool check_hinge(const JsonView *view, void *item, Error *err)
 static const RecordFormat hinge_format = {"hinge", sizeof(OWNER), HINGE, .check = check_hinge};
 #undef OWNER
 #define OWNER SceneChange
-#define ANGLE(key, member, words)                                                              \
+#define ANGLE(key, member, words) \
     NUMBER(key, RECORD_RADIANS | RECORD_FLOAT, member, -180, 180, words)
 
 static const RecordRow NODE[] = {
@@ -139,14 +134,13 @@ static const RecordFormat node_format = {"node", sizeof(OWNER), NODE, .doc = NUL
 
 typedef struct EyeMove {
     const char *eye;
-    double      move_m[3];
+    double move_m[3];
 } EyeMove;
 
 #define OWNER EyeMove
 
 static const RecordRow EYE_MOVE[] = {
-    VECTOR("move_m", MUST, move_m, 3, -METRES_MAX, METRES_MAX, "In the scene's axes."),
-    {0}};
+    VECTOR("move_m", MUST, move_m, 3, -METRES_MAX, METRES_MAX, "In the scene's axes."), {0}};
 static const RecordFormat eye_format = {"eye_move", sizeof(OWNER), EYE_MOVE, .doc = NULL};
 #undef OWNER
 
@@ -167,19 +161,19 @@ static const RecordFormat mirror_format = {"mirror", sizeof(OWNER), MIRROR, .doc
 
 /* What a variant keeps as the file has it, and what becomes changes of its scene. */
 typedef struct VariantSaid {
-    ReviewVariant           of;
-    const PatchSaid        *coatings, *glazings, *materials;
-    const SceneChange      *nodes;
+    ReviewVariant of;
+    const PatchSaid *coatings, *glazings, *materials;
+    const SceneChange *nodes;
     const ReviewFixedLevel *hoods;
-    const FinishSaid       *finishes;
-    const MirrorSaid       *mirror;
-    const EyeMove          *eyes;
+    const FinishSaid *finishes;
+    const MirrorSaid *mirror;
+    const EyeMove *eyes;
     int coating_count, glazing_count, material_count, node_count, hood_count, finish_count,
         eye_count;
 } VariantSaid;
 
 #define OWNER VariantSaid
-#define BY_NAME(key, member, counted, format, words)                                           \
+#define BY_NAME(key, member, counted, format, words) \
     MAP(key, 0, member, counted, NAMES_MAX, format, words)
 
 static const RecordRow VARIANT[] = {
@@ -223,15 +217,14 @@ static const RecordFormat said_format = {"variant", sizeof(OWNER), VARIANT,
 
 /* view: of the variant. */
 typedef struct Making {
-    const JsonView    *view;
+    const JsonView *view;
     const VariantSaid *said;
-    ReviewVariant     *variant;
-    SceneChange       *scene; /* the change's own */
+    ReviewVariant *variant;
+    SceneChange *scene; /* the change's own */
 } Making;
 
 static void say(Making *m, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static void say(Making *m, const char *format, ...)
-{
+static void say(Making *m, const char *format, ...) {
     va_list list;
     va_start(list, format);
     m->variant->words[m->variant->word_count++] =
@@ -241,25 +234,24 @@ static void say(Making *m, const char *format, ...)
 
 /* group: the member that it stands in. */
 static SceneChange *add_change(Making *m, SceneChangeKind kind, const char *group,
-                               const char *name)
-{
+                               const char *name) {
     SceneChange *change = &m->scene[m->variant->change.scene_count++];
     const double *ahead = ((const ReviewRequest *)m->view->whole)->forward;
-    *change = (SceneChange){.kind = kind, .name = name, .file = m->view->file,
-                            .place = arena_format(m->view->arena, "%s/%s%s%s", m->view->path,
-                                                  group, *name ? "/" : "", name)};
+    *change = (SceneChange){.kind = kind,
+                            .name = name,
+                            .file = m->view->file,
+                            .place = arena_format(m->view->arena, "%s/%s%s%s", m->view->path, group,
+                                                  *name ? "/" : "", name)};
     if (kind == CHANGE_NODES || kind == CHANGE_MIRROR)
         for (int k = 0; k < 3; k++) change->ahead[k] = (float)ahead[k];
     return change;
 }
 
 /* Those of displays: their words alone. */
-static void make_displays(Making *m)
-{
+static void make_displays(Making *m) {
     const ReviewChange *change = &m->variant->change;
     for (int i = 0; i < change->panel_count; i++)
-        say(m, "panel of %s: %s", change->panels[i].material,
-            path_name(change->panels[i].value));
+        say(m, "panel of %s: %s", change->panels[i].material, path_name(change->panels[i].value));
     for (int i = 0; i < change->content_count; i++)
         say(m, "%s shows %s", change->contents[i].display, path_name(change->contents[i].path));
     for (int i = 0; i < m->variant->level_count; i++)
@@ -272,8 +264,7 @@ static void make_displays(Making *m)
 }
 
 /* Takes the patch. The text is the arena's. */
-static void add_patch(Making *m, const char *group, const char *material, json_t *patch)
-{
+static void add_patch(Making *m, const char *group, const char *material, json_t *patch) {
     char *text = json_dumps(patch, JSON_COMPACT | JSON_ENCODE_ANY);
     add_change(m, CHANGE_MATERIAL, group, material)->patch =
         text ? arena_string(m->view->arena, text, strlen(text)) : "{}";
@@ -284,12 +275,11 @@ static void add_patch(Making *m, const char *group, const char *material, json_t
 /* A name is a stack that the program carries; null takes the coating away. The old one is
  * removed first: it is replaced, not merged. */
 static void make_extension(Making *m, const char *group, const char *extension,
-                           const PatchSaid *p)
-{
+                           const PatchSaid *p) {
     const char *stack = json_string_value(p->json);
-    int         one = (int)strlen(group) - 1; /* "coating" */
-    add_patch(m, group, p->material, json_pack("{s:{s:n}, s:{s:n}}", "extensions", extension,
-                                               "extras", extension));
+    int one = (int)strlen(group) - 1; /* "coating" */
+    add_patch(m, group, p->material,
+              json_pack("{s:{s:n}, s:{s:n}}", "extensions", extension, "extras", extension));
     if (json_is_null(p->json)) {
         say(m, "no %.*s on %s", one, group, p->material);
         return;
@@ -300,8 +290,7 @@ static void make_extension(Making *m, const char *group, const char *extension,
     say(m, "%.*s of %s%s%s", one, group, p->material, stack ? ": " : "", stack ? stack : "");
 }
 
-static void make_materials(Making *m)
-{
+static void make_materials(Making *m) {
     const VariantSaid *said = m->said;
     for (int i = 0; i < said->coating_count; i++)
         make_extension(m, "coatings", "PARHELION_coating", &said->coatings[i]);
@@ -314,12 +303,11 @@ static void make_materials(Making *m)
     }
 }
 
-static void make_node(Making *m, const SceneChange *said)
-{
+static void make_node(Making *m, const SceneChange *said) {
     static const char *const WAYS[3] = {"tilted", "turned", "rolled"};
     SceneChange *c = add_change(m, CHANGE_NODES, "nodes", said->name);
-    const float  angles[3] = {said->tilt, said->turn, said->roll};
-    Text         text = {.arena = m->view->arena};
+    const float angles[3] = {said->tilt, said->turn, said->roll};
+    Text text = {.arena = m->view->arena};
     c->tilt = said->tilt, c->turn = said->turn, c->roll = said->roll;
     c->hinge = said->hinge, c->with = said->with, c->with_count = said->with_count;
     memcpy(c->move_m, said->move_m, sizeof c->move_m);
@@ -329,8 +317,7 @@ static void make_node(Making *m, const SceneChange *said)
             text_format(&text, " %s by %.4g°", WAYS[i],
                         (double)degrees_from_radians((double)angles[i]));
     if (c->hinge.angle != 0)
-        text_format(&text, " swung by %.4g°",
-                    (double)degrees_from_radians((double)c->hinge.angle));
+        text_format(&text, " swung by %.4g°", (double)degrees_from_radians((double)c->hinge.angle));
     if (c->move_m[0] != 0 || c->move_m[1] != 0 || c->move_m[2] != 0)
         text_format(&text, " moved by (%.4g, %.4g, %.4g) m", (double)c->move_m[0],
                     (double)c->move_m[1], (double)c->move_m[2]);
@@ -339,13 +326,11 @@ static void make_node(Making *m, const SceneChange *said)
 
 /* Of a lobe whose full width at half its height is `width` radians: facets turn light by twice
  * their slope's angle, and GGX falls to a half where tan^2 = alpha^2 (sqrt 2 - 1). */
-static double alpha_of(double width)
-{
+static double alpha_of(double width) {
     return tan_d(width / 4) / sqrt(sqrt(2.0) - 1);
 }
 
-static void make_surfaces(Making *m)
-{
+static void make_surfaces(Making *m) {
     const VariantSaid *said = m->said;
     for (int i = 0; i < said->hood_count; i++) {
         const ReviewFixedLevel *h = &said->hoods[i];
@@ -356,16 +341,15 @@ static void make_surfaces(Making *m)
         const FinishSaid *f = &said->finishes[i];
         add_change(m, CHANGE_FINISH, "finishes", f->display)->finish = (DisplayFinish){
             (float)f->scatters, (float)alpha_of(radians_from_degrees(f->width_deg))};
-        say(m, "%s matte: %.3g %% of its mirror image scattered, %.3g° wide (modelled)",
-            f->display, 100 * f->scatters, f->width_deg);
+        say(m, "%s matte: %.3g %% of its mirror image scattered, %.3g° wide (modelled)", f->display,
+            100 * f->scatters, f->width_deg);
     }
 }
 
 /* The plane is vertical and along where the vehicle points. */
-static void make_mirror(Making *m)
-{
+static void make_mirror(Making *m) {
     const double *ahead = ((const ReviewRequest *)m->view->whole)->forward;
-    double        level = hypot_d(ahead[0], ahead[2]), middle = m->said->mirror->middle_m;
+    double level = hypot_d(ahead[0], ahead[2]), middle = m->said->mirror->middle_m;
     ReviewMirror *mirror = ARENA_NEW(m->view->arena, ReviewMirror, 1);
     *mirror = (ReviewMirror){{-ahead[2] / level, 0, ahead[0] / level}, middle};
     add_change(m, CHANGE_MIRROR, "mirror", "")->middle_m = (float)middle;
@@ -373,36 +357,30 @@ static void make_mirror(Making *m)
     say(m, "mirrored, at %.4g m right of the origin; displays are not", middle);
 }
 
-static void make_eyes(Making *m)
-{
+static void make_eyes(Making *m) {
     const ReviewRequest *request = m->view->whole;
     if (!m->said->eye_count) return;
-    m->variant->eye_moves = (double(*)[3])ARENA_NEW(m->view->arena, double,
-                                                    3 * request->eye_count);
+    m->variant->eye_moves = (double(*)[3])ARENA_NEW(m->view->arena, double, 3 * request->eye_count);
     for (int i = 0; i < m->said->eye_count; i++) {
         const EyeMove *moved = &m->said->eyes[i];
-        double *move = m->variant->eye_moves[review_eye_named(request, moved->eye) -
-                                             request->eyes];
+        double *move = m->variant->eye_moves[review_eye_named(request, moved->eye) - request->eyes];
         memcpy(move, moved->move_m, sizeof moved->move_m);
         say(m, "%s moved by (%.4g, %.4g, %.4g) m", moved->eye, move[0], move[1], move[2]);
     }
 }
 
-static void make_files(Making *m)
-{
+static void make_files(Making *m) {
     const ReviewVariant *v = m->variant;
     if (v->scene_count) say(m, "scene %s", path_name(v->scenes[0]));
     for (int i = 0; i < v->more_count; i++) say(m, "with %s", path_name(v->more[i]));
 }
 
-static void make_variant(const JsonView *view, const VariantSaid *said, ReviewVariant *out)
-{
+static void make_variant(const JsonView *view, const VariantSaid *said, ReviewVariant *out) {
     const ReviewChange *c = &said->of.change;
     int changes = 2 * (said->coating_count + said->glazing_count) + said->material_count +
                   said->node_count + said->hood_count + said->finish_count + 1;
-    int words = changes + c->panel_count + c->content_count +
-                said->of.level_count + c->brightness_count + said->eye_count +
-                said->of.more_count + 1;
+    int words = changes + c->panel_count + c->content_count + said->of.level_count +
+                c->brightness_count + said->eye_count + said->of.more_count + 1;
     Making m = {view, said, out, ARENA_NEW(view->arena, SceneChange, changes)};
     const char *name = out->name;
     *out = said->of;
@@ -419,19 +397,18 @@ static void make_variant(const JsonView *view, const VariantSaid *said, ReviewVa
     make_files(&m);
 }
 
-static bool read_variant(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
-    JsonView    inside;
+static bool read_variant(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    JsonView inside;
     VariantSaid said = {.coatings = NULL};
     if (!json_view_child(view, row->key, &inside, err)) return false;
     if (!json_object_size(inside.object))
-        return record_fails(view, row->key, err, "changes nothing, required: one of 'panels', "
+        return record_fails(view, row->key, err,
+                            "changes nothing, required: one of 'panels', "
                             "'levels', 'nodes' ...");
     if (!record_read(&inside, &said_format, &said, err)) return false;
     make_variant(&inside, &said, item);
     return true;
 }
 
-static const RecordRow VALUE = {.kind = RECORD_OBJECT, .of = &said_format,
-                                .read = read_variant};
+static const RecordRow VALUE = {.kind = RECORD_OBJECT, .of = &said_format, .read = read_variant};
 const RecordFormat review_variant_format = {"variant", sizeof(ReviewVariant), .value = &VALUE};

@@ -7,22 +7,24 @@
 #include "vision/eye_spread.h"
 #include "vision/visibility.h"
 
-double symbol_stroke_deg(const SymbolSplit *split, double height_arcmin)
-{
+double symbol_stroke_deg(const SymbolSplit *split, double height_arcmin) {
     double height_px = (split->box[3] - split->box[1]) * split->light.content_height;
     return height_arcmin / 60 * split->stroke_px / height_px;
 }
 
-void case_visibility_start(const ReviewRequest *request, const SymbolSplit *split,
-                           ReviewCase *c, Arena *arena)
-{
-    const double            nan = (double)NAN;
+void case_visibility_start(const ReviewRequest *request, const SymbolSplit *split, ReviewCase *c,
+                           Arena *arena) {
+    const double nan = (double)NAN;
     const ReviewVisibility *asked = &request->visibility;
     CaseVisibility *list = ARENA_NEW(arena, CaseVisibility, asked->age_count + 1);
-    CaseVisibility  unknown = {.size_arcmin = 60 * symbol_stroke_deg(split, c->height_arcmin),
-                               .glance_s = asked->glance_s, .veil_times = 1,
-                               .adapted_cd_m2 = nan, .threshold_cd_m2 = nan, .level = nan,
-                               .low = nan, .high = nan};
+    CaseVisibility unknown = {.size_arcmin = 60 * symbol_stroke_deg(split, c->height_arcmin),
+                              .glance_s = asked->glance_s,
+                              .veil_times = 1,
+                              .adapted_cd_m2 = nan,
+                              .threshold_cd_m2 = nan,
+                              .level = nan,
+                              .low = nan,
+                              .high = nan};
     double own = request->observer.age_years;
     c->visibilities = list;
     c->visibility_count = 0;
@@ -37,16 +39,14 @@ void case_visibility_start(const ReviewRequest *request, const SymbolSplit *spli
 }
 
 /* Far enough from the observer's for the line to be known. */
-static double other_age(double own)
-{
+static double other_age(double own) {
     double middle = 0.5 * (VISIBILITY_AGE_MIN + VISIBILITY_AGE_MAX);
     return own < middle ? VISIBILITY_AGE_MAX : VISIBILITY_AGE_MIN;
 }
 
-static double veil_at(const Setup *lit, const EyeLook *look, double age_years, Arena scratch)
-{
+static double veil_at(const Setup *lit, const EyeLook *look, double age_years, Arena scratch) {
     ReviewRequest request = *lit->request;
-    Setup         setup = *lit;
+    Setup setup = *lit;
     request.observer.age_years = age_years;
     setup.request = &request;
     return eye_read(&setup, look, scratch).veil;
@@ -54,16 +54,14 @@ static double veil_at(const Setup *lit, const EyeLook *look, double age_years, A
 
 /* Half the interval over the veil: of the older and the younger eye alike, whose paths are the
  * same. */
-static double doubt_of(const EyeReading *reading)
-{
+static double doubt_of(const EyeReading *reading) {
     MeanInterval range = reading->veil_range;
-    double       half = fmax(range.high - reading->veil, reading->veil - range.low);
+    double half = fmax(range.high - reading->veil, reading->veil - range.low);
     return half > 0 ? half / reading->veil : 0;
 }
 
 void case_visibility_veils(const Setup *lit, const EyeLook *look, const EyeReading *observers,
-                           ReviewCase *c, Arena *arena)
-{
+                           ReviewCase *c, Arena *arena) {
     double own = lit->request->observer.age_years, other = other_age(own), rise = 0;
     if (!(observers->veil > 0)) return;
     CaseVisibility *list = ARENA_NEW(arena, CaseVisibility, c->visibility_count);

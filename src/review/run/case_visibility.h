@@ -19,8 +19,8 @@
 double symbol_stroke_deg(const SymbolSplit *split, double height_arcmin);
 
 /* Levels that nobody knows yet, of a symbol whose height the case has. */
-void case_visibility_start(const ReviewRequest *request, const SymbolSplit *split,
-                           ReviewCase *c, Arena *arena);
+void case_visibility_start(const ReviewRequest *request, const SymbolSplit *split, ReviewCase *c,
+                           Arena *arena);
 
 /* A level hangs on the veil, so that it is read by so many rounds, close (EyeLook). */
 #define VISIBILITY_ROUNDS 8

@@ -36,13 +36,12 @@
 /* ---- the display's face ------------------------------------------------------------------ */
 
 /* Illuminance of a symbol's middle. */
-static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena scratch)
-{
-    const Setup       *setup = tools->setup;
+static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena scratch) {
+    const Setup *setup = tools->setup;
     SymbolPoint point = symbol_middle(symbol);
-    LitPoint    head = {symbol_point_start(setup->scene, &point), point.ns, false};
-    ProbeAim    aim = {.context = &setup->context, .meter = &head,
-                       .seed = review_seed(setup->request, FACE_SEED)};
+    LitPoint head = {symbol_point_start(setup->scene, &point), point.ns, false};
+    ProbeAim aim = {
+        .context = &setup->context, .meter = &head, .seed = review_seed(setup->request, FACE_SEED)};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
     return reading_take(&aim, &goal, &setup->tools, scratch).reflected;
 }
@@ -52,14 +51,13 @@ typedef struct DirectSun {
     double scattered, mirror;
 } DirectSun;
 
-static DirectSun direct_sun(const Setup *setup, const ProbeAim *aim, Arena scratch)
-{
-    Vec3      towards;
-    float     bands[LIGHT_BANDS];
+static DirectSun direct_sun(const Setup *setup, const ProbeAim *aim, Arena scratch) {
+    Vec3 towards;
+    float bands[LIGHT_BANDS];
     DirectSun direct = {0, 0};
     if (!setup_sun_coloured(setup, aim->colour, &towards, bands)) return direct;
-    float           radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
-    ProbeSuns       suns = {&towards, 1, radius, false};
+    float radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
+    ProbeSuns suns = {&towards, 1, radius, false};
     ResponseOptions options = {setup->tools.kernel, 0, SUN_PATHS, setup->tools.threads, 0};
     for (int by_mirror = 0; by_mirror < 2; by_mirror++) {
         Arena room = scratch;
@@ -73,15 +71,13 @@ static DirectSun direct_sun(const Setup *setup, const ProbeAim *aim, Arena scrat
 
 /* Does most of what the display reflects come straight from the sun? Then it stands in the sun,
  * whichever part of it. */
-static bool is_in_sun(DirectSun direct, double reflected)
-{
+static bool is_in_sun(DirectSun direct, double reflected) {
     return direct.scattered + direct.mirror > CASE_SUNLIT * reflected;
 }
 
 /* ---- one case ---------------------------------------------------------------------------- */
 
-static void set_contrasts(ReviewCase *c, MeanInterval reflected)
-{
+static void set_contrasts(ReviewCase *c, MeanInterval reflected) {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double veil = isnan(l->veil) ? 0 : l->veil, lets = c->glasses_transmittance;
     judge_contrasts(c, reflected);
@@ -93,25 +89,24 @@ static void set_contrasts(ReviewCase *c, MeanInterval reflected)
  * without stray light. */
 typedef struct CaseLook {
     const SetupSymbol *symbol;
-    Vec3               eye;
-    bool               is_coarse, is_bare;
-    const Vec3        *points; /* [point_count], all of the eye's; NULL: no glass is searched */
-    int                point_count;
+    Vec3 eye;
+    bool is_coarse, is_bare;
+    const Vec3 *points; /* [point_count], all of the eye's; NULL: no glass is searched */
+    int point_count;
 } CaseLook;
 
 /* ---- until its verdict is clear ---------------------------------------------------------- */
 
 /* A case of which all but the reflected light is known. */
 typedef struct VerdictArgs {
-    const CaseTools  *tools;
+    const CaseTools *tools;
     const ReviewCase *of;
-    DirectSun         direct; /* of the reflected light */
+    DirectSun direct; /* of the reflected light */
 } VerdictArgs;
 
 /* With so much reflected; false: sun or day, which of them is open. */
 static bool judge_with(const VerdictArgs *args, double reflected, MeanInterval within,
-                       ReviewCase *out, Arena *arena)
-{
+                       ReviewCase *out, Arena *arena) {
     bool in_sun = is_in_sun(args->direct, within.low);
     *out = *args->of;
     if (in_sun != is_in_sun(args->direct, within.high)) return false;
@@ -123,8 +118,7 @@ static bool judge_with(const VerdictArgs *args, double reflected, MeanInterval w
 }
 
 /* Is each limit that counts met, or missed, wherever in the interval the light lies? */
-static bool is_verdict_clear(void *user, MeanInterval reflected, Arena scratch)
-{
+static bool is_verdict_clear(void *user, MeanInterval reflected, Arena scratch) {
     ReviewCase c;
     if (!judge_with(user, 0.5 * (reflected.low + reflected.high), reflected, &c, &scratch))
         return false;
@@ -134,16 +128,14 @@ static bool is_verdict_clear(void *user, MeanInterval reflected, Arena scratch)
 }
 
 /* The share of a reading's interval that is known of the sun's image: no path lessens it. */
-static double known_share(DirectSun direct, MeanInterval reflected)
-{
+static double known_share(DirectSun direct, MeanInterval reflected) {
     double range = reflected.high - reflected.low;
     return range > 0 ? fmin(4 * RESPONSE_MIRROR_ERROR * direct.mirror / range, 1) : 0;
 }
 
 /* For a variant: paths of its review's same case, a sweep's worst or a moment's; else 0. */
-static long base_paths(const VerdictArgs *args)
-{
-    const Review     *review = args->tools->base;
+static long base_paths(const VerdictArgs *args) {
+    const Review *review = args->tools->base;
     const ReviewCase *base = review ? review_case_like(review, args->of) : NULL;
     return base ? base->paths : 0;
 }
@@ -151,22 +143,21 @@ static long base_paths(const VerdictArgs *args)
 /* The sun's image in a display is so small that few paths meet it: it is known by itself, but
  * not as a polariser sees it. */
 static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArgs *args,
-                           Arena scratch)
-{
+                           Arena scratch) {
     PathContext without = *aim->context;
-    ProbeAim    rest = *aim;
-    const Setup          *setup = args->tools->setup;
-    const ReviewRequest  *request = setup->request;
+    ProbeAim rest = *aim;
+    const Setup *setup = args->tools->setup;
+    const ReviewRequest *request = setup->request;
     const CaseLuminances *shown = &args->of->luminance_cd_m2;
     ReadingQuestion question = {is_verdict_clear, args, request->precision_clear};
-    ReadingGoal     goal = {.brighter = fmax(shown->foreground, shown->background),
-                            .darker = fmin(shown->foreground, shown->background),
-                            .precision = request->precision_contrast,
-                            .most = request->precision_paths,
-                            .known = aim->context->eye ? 0 : args->direct.mirror,
-                            .times = request->is_compared ? COMPARED_TIMES : 1,
-                            .least = base_paths(args),
-                            .question = &question};
+    ReadingGoal goal = {.brighter = fmax(shown->foreground, shown->background),
+                        .darker = fmin(shown->foreground, shown->background),
+                        .precision = request->precision_contrast,
+                        .most = request->precision_paths,
+                        .known = aim->context->eye ? 0 : args->direct.mirror,
+                        .times = request->is_compared ? COMPARED_TIMES : 1,
+                        .least = base_paths(args),
+                        .question = &question};
     without.without_mirrored_sun = goal.known > 0;
     rest.context = &without;
     if (look->is_coarse) {
@@ -180,18 +171,20 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArg
 }
 
 /* The panel's emission dimmed by what the eye looks through. */
-static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double transmittance)
-{
+static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double transmittance) {
     l->foreground = emission->foreground_xyz[1] * transmittance;
     l->background = emission->background_xyz[1] * transmittance;
 }
 
-static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 eye,
-                            ReviewCase *c, Arena *arena)
-{
-    bool       has_levels = c->visibility_count > 0;
-    EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye),
-                       has_levels ? VISIBILITY_ROUNDS : 1, NULL, has_levels, NULL};
+static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 eye, ReviewCase *c,
+                            Arena *arena) {
+    bool has_levels = c->visibility_count > 0;
+    EyeLook look = {eye,
+                    vec3_sub(symbol_middle(symbol).position, eye),
+                    has_levels ? VISIBILITY_ROUNDS : 1,
+                    NULL,
+                    has_levels,
+                    NULL};
     EyeReading stray = eye_read(setup, &look, *arena);
     c->luminance_cd_m2.veil = stray.veil;
     if (has_levels) case_visibility_veils(setup, &look, &stray, c, arena);
@@ -199,39 +192,33 @@ static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 
 }
 
 /* A stroke and a gap as wide are one cycle. */
-static double visibility_of(const ReviewCase *c, const SymbolSplit *split)
-{
+static double visibility_of(const ReviewCase *c, const SymbolSplit *split) {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double stroke_deg = symbol_stroke_deg(split, c->height_arcmin);
-    double mean = c->glasses_transmittance *
-                  (0.5 * (l->foreground + l->background) + l->reflected + l->veil);
+    double mean =
+        c->glasses_transmittance * (0.5 * (l->foreground + l->background) + l->reflected + l->veil);
     double michelson = (c->contrast_with_veil - 1) / (c->contrast_with_veil + 1);
-    return michelson *
-           contrast_sensitivity(1 / (2 * stroke_deg), mean, c->height_arcmin / 60);
+    return michelson * contrast_sensitivity(1 / (2 * stroke_deg), mean, c->height_arcmin / 60);
 }
 
 _Static_assert(CASE_BATCHES == READING_BATCHES, "a case keeps what a reading has");
 
-static const double *keep_batches(const Reading *reading, Arena *arena)
-{
+static const double *keep_batches(const Reading *reading, Arena *arena) {
     double *kept = ARENA_NEW(arena, double, READING_BATCHES);
     for (int i = 0; i < READING_BATCHES; i++) kept[i] = reading->batches[i];
     return kept;
 }
 
 /* A look without stray light has levels only where a limit is about them. */
-static bool has_visibility(const CaseTools *tools, const CaseLook *look)
-{
+static bool has_visibility(const CaseTools *tools, const CaseLook *look) {
     bool is_limited = profile_has(tools->profile, LIMIT_VISIBILITY_LEVEL);
     return is_limited || (!look->is_bare && tools->setup->request->visibility.is_asked);
 }
 
 /* Before anything of it was seen. */
-static void start_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
-                       Arena *arena)
-{
-    const double         nan = (double)NAN;
-    const Setup         *setup = tools->setup;
+static void start_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c, Arena *arena) {
+    const double nan = (double)NAN;
+    const Setup *setup = tools->setup;
     const SymbolSurface *surface = &look->symbol->surface;
     c->luminance_cd_m2 = (CaseLuminances){nan, nan, nan, nan, nan, nan};
     c->glasses_transmittance = 1;
@@ -248,8 +235,7 @@ static void start_look(const CaseTools *tools, const CaseLook *look, ReviewCase 
         case_visibility_start(setup->request, &look->symbol->split, c, arena);
 }
 
-static void set_mean(const Profile *profile, ReviewCase *c)
-{
+static void set_mean(const Profile *profile, ReviewCase *c) {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double veil = profile->uses_veil && !isnan(l->veil) ? l->veil : 0;
     c->whole.contrast_ratio =
@@ -258,9 +244,8 @@ static void set_mean(const Profile *profile, ReviewCase *c)
 
 /* Of the worst part, or of all of the symbol where that is the worse (symbols.h). Sets the
  * case's part and what is direct in its light. */
-static Reading read_part(const CaseLook *look, WorstPart *part, ReviewCase *c,
-                         VerdictArgs *args, Arena *arena)
-{
+static Reading read_part(const CaseLook *look, WorstPart *part, ReviewCase *c, VerdictArgs *args,
+                         Arena *arena) {
     const Setup *setup = args->tools->setup;
     args->direct = direct_sun(setup, &part->aim, *arena);
     Reading reading = read_symbol(look, &part->aim, args, *arena);
@@ -275,8 +260,7 @@ static Reading read_part(const CaseLook *look, WorstPart *part, ReviewCase *c,
 }
 
 static void keep_reading(const Reading *reading, const CaseLook *look, ReviewCase *c,
-                         Arena *arena)
-{
+                         Arena *arena) {
     CaseLuminances *l = &c->luminance_cd_m2;
     c->paths = reading->paths;
     c->batches = look->is_coarse ? NULL : keep_batches(reading, arena);
@@ -291,29 +275,27 @@ static void keep_reading(const Reading *reading, const CaseLook *look, ReviewCas
 /* *c holds all that does not depend on the eye. The aim has no targets where it is not
  * seen; *direct: of what is reflected. */
 static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
-                           DirectSun *direct, Arena *arena)
-{
-    const Setup       *setup = tools->setup;
+                           DirectSun *direct, Arena *arena) {
+    const Setup *setup = tools->setup;
     const SetupSymbol *symbol = look->symbol;
-    SymbolVisibility   seen =
-        symbol_visibility(&symbol->surface, &setup->context, look->eye, NULL);
+    SymbolVisibility seen = symbol_visibility(&symbol->surface, &setup->context, look->eye, NULL);
     c->visible_share = seen.visible_share;
     start_look(tools, look, c, arena);
     if (!case_is_seen(c)) return (ProbeAim){.target_count = 0};
     SymbolLook shown = {&symbol->surface, &symbol->split, look->eye, setup->tools.threads};
     SymbolEmission emission = symbol_emission(&shown, c->level);
     set_shown(&c->luminance_cd_m2, &emission, seen.transmittance);
-    ProbeAim aim = {.context = &setup->context, .eye = look->eye,
-                    .seed = review_seed(setup->request,
-                                        look->is_coarse ? COARSE_SEED : EYE_SEED)};
+    ProbeAim aim = {.context = &setup->context,
+                    .eye = look->eye,
+                    .seed = review_seed(setup->request, look->is_coarse ? COARSE_SEED : EYE_SEED)};
     symbol_put_on_glasses(setup, symbol, &aim, c, arena);
-    PartArgs   in = {symbol, &aim, look->is_coarse, c->must_not_be_read};
+    PartArgs in = {symbol, &aim, look->is_coarse, c->must_not_be_read};
     WorstPart part = worst_part_find(setup, &in, arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil ||
                       profile_has(tools->profile, LIMIT_VISIBILITY_LEVEL);
     if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, look->eye, c, arena);
     VerdictArgs args = {.tools = tools, .of = c};
-    Reading    reading = read_part(look, &part, c, &args, arena);
+    Reading reading = read_part(look, &part, c, &args, arena);
     *direct = args.direct;
     keep_reading(&reading, look, c, arena);
     c->precision_asked = is_verdict_clear(&args, reading.interval, *arena)
@@ -323,19 +305,17 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
 }
 
 /* By how bad its verdict is, then by its margin. */
-static bool is_worse(const ReviewCase *a, const ReviewCase *b)
-{
+static bool is_worse(const ReviewCase *a, const ReviewCase *b) {
     int rank_a = verdict_rank(a->verdict), rank_b = verdict_rank(b->verdict);
     return rank_a != rank_b ? rank_a > rank_b : a->margin < b->margin;
 }
 
 static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
-                             const SetupSymbol *symbol)
-{
+                             const SetupSymbol *symbol) {
     const Setup *setup = tools->setup;
-    Vec3         towards;
-    float        bands[LIGHT_BANDS];
-    ReviewCase   c = review_case_unknown();
+    Vec3 towards;
+    float bands[LIGHT_BANDS];
+    ReviewCase c = review_case_unknown();
     c.condition = setup->condition->name;
     c.eye = eye->name;
     c.symbol = symbol->name;
@@ -356,22 +336,21 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
 
 /* The question of one symbol and one eye. */
 typedef struct CaseArgs {
-    const ReviewEye   *eye;
+    const ReviewEye *eye;
     const SetupSymbol *symbol;
-    double             face_lux;
-    bool               is_bare; /* its light and verdict alone */
+    double face_lux;
+    bool is_bare; /* its light and verdict alone */
 } CaseArgs;
 
 /* A variant has no causes, and its light may come by other materials than the review's:
  * its own paths show, where any of them has no data. Of one whose levels alone differ, and to
  * find the worst of many points, the review's share counts. */
 static double data_share_of(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
-                            const ReviewCase *c, Arena scratch)
-{
-    const Setup      *setup = tools->setup;
+                            const ReviewCase *c, Arena scratch) {
+    const Setup *setup = tools->setup;
     const ReviewCase *like = tools->base ? review_case_like(tools->base, c) : NULL;
-    CauseArgs          args = {.tools = &setup->tools, .aim = aim, .paths = CAUSE_PATHS};
-    int               count;
+    CauseArgs args = {.tools = &setup->tools, .aim = aim, .paths = CAUSE_PATHS};
+    int count;
     if (!like || look->is_coarse || setup->request->is_relevelled || !aim->target_count)
         return like ? like->without_data_share : 0;
     scene_without_data(setup->scene, &count, &scratch);
@@ -379,13 +358,12 @@ static double data_share_of(const CaseTools *tools, const CaseLook *look, const 
 }
 
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
-                           Arena *arena)
-{
+                           Arena *arena) {
     DirectSun direct = {0, 0};
     ProbeAim aim = see_symbol(tools, look, c, &direct, arena);
     if (c->must_not_be_read && look->points)
-        private_images_find(&(PrivateLook){tools->setup, look->symbol, look->points,
-                                           look->point_count}, c, arena);
+        private_images_find(
+            &(PrivateLook){tools->setup, look->symbol, look->points, look->point_count}, c, arena);
     judge_ambient(c, tools->profile,
                   aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
     c->without_data_share = data_share_of(tools, look, &aim, c, *arena);
@@ -397,13 +375,13 @@ static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewC
 /* The points of an eye; places: NULL, or [count] to be filled. */
 typedef struct EyePlaces {
     const Vec3 *points;
-    int         count;
-    CasePlace  *places;
+    int count;
+    CasePlace *places;
 } EyePlaces;
 
-static CasePlace place_of(const Setup *setup, Vec3 eye, const ReviewCase *seen)
-{
-    CasePlace place = {.verdict = seen->verdict, .visible_share = seen->visible_share,
+static CasePlace place_of(const Setup *setup, Vec3 eye, const ReviewCase *seen) {
+    CasePlace place = {.verdict = seen->verdict,
+                       .visible_share = seen->visible_share,
                        .contrast_ratio = seen->contrast_ratio,
                        .contrast_low = seen->contrast_low,
                        .contrast_high = seen->contrast_high};
@@ -414,13 +392,12 @@ static CasePlace place_of(const Setup *setup, Vec3 eye, const ReviewCase *seen)
 /* The index of an eye's worst point; sets the share of points that fail, and of what must not
  * be read how each sees it: [count] in `places`. */
 static int worst_point(const CaseTools *tools, const CaseLook *look, const EyePlaces *of,
-                       ReviewCase *c, Arena scratch)
-{
+                       ReviewCase *c, Arena scratch) {
     ReviewCase start = *c, worst;
-    int        at = 0, failed = 0;
+    int at = 0, failed = 0;
     for (int i = 0; i < of->count; i++) {
-        Arena      room = scratch;
-        CaseLook   one = {look->symbol, of->points[i], true, true, NULL, 0};
+        Arena room = scratch;
+        CaseLook one = {look->symbol, of->points[i], true, true, NULL, 0};
         ReviewCase seen = start;
         judge_look(tools, &one, &seen, &room);
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
@@ -434,9 +411,8 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const EyePl
 }
 
 /* The worst of an eye's points, which all of them are read for where there are several. */
-static Vec3 worst_place(const CaseTools *tools, const CaseLook *look, EyePlaces of,
-                        ReviewCase *c, Arena *arena)
-{
+static Vec3 worst_place(const CaseTools *tools, const CaseLook *look, EyePlaces of, ReviewCase *c,
+                        Arena *arena) {
     if (of.count == 1) return of.points[0];
     if (c->must_not_be_read) {
         c->places = of.places = ARENA_NEW(arena, CasePlace, of.count);
@@ -446,12 +422,11 @@ static Vec3 worst_place(const CaseTools *tools, const CaseLook *look, EyePlaces 
 }
 
 static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, ReviewCase *out,
-                    Error *err)
-{
-    int        count;
-    Vec3      *points = setup_eye_points(tools->setup, args->eye, &count, arena, err);
+                    Error *err) {
+    int count;
+    Vec3 *points = setup_eye_points(tools->setup, args->eye, &count, arena, err);
     ReviewCase c = start_case(tools, args->eye, args->symbol);
-    CaseLook   look = {.symbol = args->symbol, .is_bare = args->is_bare};
+    CaseLook look = {.symbol = args->symbol, .is_bare = args->is_bare};
     if (!points || !review_goes_on(err)) return false;
     c.display_lux = args->face_lux;
     c.eye_failed_share = (double)NAN;
@@ -462,13 +437,13 @@ static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, 
     world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
     c.panel = symbol_panel(args->symbol, arena);
     if (aim.target_count && !args->is_bare) {
-        long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
-        int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
+        long paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
+        int rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
         const Setup *setup = tools->setup;
-        ChainSeat    seat = seat_of_eye(aim.eye, symbol_middle(args->symbol).position,
-                                        setup->request->forward);
-        bool         is_empty = !setup->condition || setup->condition->with_id == NO_ID;
-        CauseArgs    causes = {&setup->tools, &aim, paths, rays, is_empty ? &seat : NULL};
+        ChainSeat seat =
+            seat_of_eye(aim.eye, symbol_middle(args->symbol).position, setup->request->forward);
+        bool is_empty = !setup->condition || setup->condition->with_id == NO_ID;
+        CauseArgs causes = {&setup->tools, &aim, paths, rays, is_empty ? &seat : NULL};
         case_causes(&causes, &c, arena);
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */
         case_remedies(tools->profile, &c, arena);
@@ -480,30 +455,27 @@ static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, 
 /* ---- all cases --------------------------------------------------------------------------- */
 
 bool setup_case(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
-                Arena *arena, ReviewCase *out, Error *err)
-{
+                Arena *arena, ReviewCase *out, Error *err) {
     CaseArgs args = {eye, symbol, face_lux(tools, symbol, *arena), tools->base != NULL};
     return case_of(tools, &args, arena, out, err);
 }
 
 bool setup_verdict(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
-                   Arena *arena, ReviewCase *out, Error *err)
-{
+                   Arena *arena, ReviewCase *out, Error *err) {
     return case_of(tools, &(CaseArgs){eye, symbol, out->display_lux, true}, arena, out, err);
 }
 
-bool setup_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err)
-{
+bool setup_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err) {
     const ReviewRequest *request = tools->setup->request;
-    int     symbols = tools->symbol_count, count = request->eye_count * symbols;
+    int symbols = tools->symbol_count, count = request->eye_count * symbols;
     double *faces = ARENA_NEW(arena, double, symbols);
-    bool   *is_known = ARENA_NEW(arena, bool, symbols);
+    bool *is_known = ARENA_NEW(arena, bool, symbols);
     for (int i = 0; i < count; i++) {
         int s = i % symbols;
         if (!is_known[s]) faces[s] = face_lux(tools, &tools->symbols[s], *arena);
         is_known[s] = true;
         CaseArgs args = {&request->eyes[i / symbols], &tools->symbols[s], faces[s],
-                       tools->base != NULL};
+                         tools->base != NULL};
         if (!case_of(tools, &args, arena, &out[i], err)) return false;
         if (tools->progress) progress_update(tools->progress, tools->progress->done + 1);
     }

@@ -15,16 +15,16 @@
 #include "review/verdict.h"
 
 typedef struct CaseTools {
-    const Setup       *setup;
-    const Profile     *profile;
+    const Setup *setup;
+    const Profile *profile;
     const SetupSymbol *symbols;
-    int                symbol_count;
-    long               cause_paths; /* by which causes are found; 0: CAUSE_PATHS */
-    int                cause_rays;  /* that are kept of each; 0: CAUSE_RAYS */
-    Progress          *progress;    /* of setup_cases, in cases; or NULL */
-    const Review      *base;        /* of a variant: the review itself. Cases are bare then
-                                       (setup_verdict), and read from no fewer paths than its
-                                       own, so that what differs is known sharply; or NULL */
+    int symbol_count;
+    long cause_paths;   /* by which causes are found; 0: CAUSE_PATHS */
+    int cause_rays;     /* that are kept of each; 0: CAUSE_RAYS */
+    Progress *progress; /* of setup_cases, in cases; or NULL */
+    const Review *base; /* of a variant: the review itself. Cases are bare then
+                           (setup_verdict), and read from no fewer paths than its
+                           own, so that what differs is known sharply; or NULL */
 } CaseTools;
 
 /* Share of what a display reflects from which on its light is that of direct sun. */

@@ -17,13 +17,12 @@
 
 /* A list of names, and what they name. */
 typedef struct KnownNames {
-    const char  *what;
+    const char *what;
     const char **names;
-    int          count;
+    int count;
 } KnownNames;
 
-static const char *all_names(const KnownNames *list, Arena *arena)
-{
+static const char *all_names(const KnownNames *list, Arena *arena) {
     Text text = {.arena = arena};
     for (int i = 0; i < list->count; i++)
         text_format(&text, "%s'%s'", i ? ", " : "", list->names[i]);
@@ -32,8 +31,7 @@ static const char *all_names(const KnownNames *list, Arena *arena)
 
 /* wanted NULL: the only one. */
 static bool find_name(const KnownNames *list, const char *wanted, int *out, Arena scratch,
-                      Error *err)
-{
+                      Error *err) {
     for (int i = 0; i < list->count && wanted; i++)
         if (!strcmp(list->names[i], wanted)) {
             *out = i;
@@ -44,16 +42,15 @@ static bool find_name(const KnownNames *list, const char *wanted, int *out, Aren
     if (!wanted)
         return error_set(err, ERROR_USAGE, "--%s: which one? There are %s", list->what,
                          all_names(list, &scratch));
-    return error_set(err, ERROR_USAGE, "--%s '%s': there is none of this name, but %s",
-                     list->what, wanted, all_names(list, &scratch));
+    return error_set(err, ERROR_USAGE, "--%s '%s': there is none of this name, but %s", list->what,
+                     wanted, all_names(list, &scratch));
 }
 
 static bool find_condition(const ReviewRequest *request, const ExplainOptions *options,
-                           const ReviewCondition **out, Arena scratch, Error *err)
-{
+                           const ReviewCondition **out, Arena scratch, Error *err) {
     KnownNames list = {"condition", ARENA_NEW(&scratch, const char *, request->condition_count),
-                     request->condition_count};
-    int      id;
+                       request->condition_count};
+    int id;
     for (int i = 0; i < list.count; i++) list.names[i] = request->conditions[i].name;
     if (!find_name(&list, options->condition, &id, scratch, err)) return false;
     *out = &request->conditions[id];
@@ -66,11 +63,10 @@ static bool find_condition(const ReviewRequest *request, const ExplainOptions *o
 }
 
 static bool find_eye(const ReviewRequest *request, const char *wanted, const ReviewEye **out,
-                     Arena scratch, Error *err)
-{
+                     Arena scratch, Error *err) {
     KnownNames list = {"eye", ARENA_NEW(&scratch, const char *, request->eye_count),
-                     request->eye_count};
-    int      id;
+                       request->eye_count};
+    int id;
     for (int i = 0; i < list.count; i++) list.names[i] = request->eyes[i].name;
     if (!find_name(&list, wanted, &id, scratch, err)) return false;
     *out = &request->eyes[id];
@@ -78,10 +74,9 @@ static bool find_eye(const ReviewRequest *request, const char *wanted, const Rev
 }
 
 static bool find_symbol(const SetupSymbol *symbols, int count, const char *wanted,
-                        const SetupSymbol **out, Arena scratch, Error *err)
-{
+                        const SetupSymbol **out, Arena scratch, Error *err) {
     KnownNames list = {"symbol", ARENA_NEW(&scratch, const char *, count), count};
-    int      id;
+    int id;
     for (int i = 0; i < count; i++) list.names[i] = symbols[i].name;
     if (!find_name(&list, wanted, &id, scratch, err)) return false;
     *out = &symbols[id];
@@ -90,9 +85,8 @@ static bool find_symbol(const SetupSymbol *symbols, int count, const char *wante
 
 /* ---- a symbol of a review ---------------------------------------------------------------- */
 
-static bool explain_symbol(const CaseTools *tools, const SetupSymbol *symbol,
-                           const ReviewEye *eye, Arena *arena, Explained *out, Error *err)
-{
+static bool explain_symbol(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
+                           Arena *arena, Explained *out, Error *err) {
     ReviewCase *c = &out->of;
     if (!setup_case(tools, symbol, eye, arena, c, err)) return false;
     c->symbol = arena_string(arena, c->symbol, strlen(c->symbol));
@@ -101,27 +95,29 @@ static bool explain_symbol(const CaseTools *tools, const SetupSymbol *symbol,
     return true;
 }
 
-static bool light_setup(Setup *setup, const ExplainOptions *options, Arena *scratch, Error *err)
-{
+static bool light_setup(Setup *setup, const ExplainOptions *options, Arena *scratch, Error *err) {
     const ReviewCondition *condition = setup->condition;
     if (condition->kind == CONDITION_MOMENT)
         return setup_light(setup, condition->has_environment ? &condition->environment : NULL,
                            scratch, err);
-    SweepSun    sun = {.azimuth_deg = options->sun_deg[0], .compass_deg = options->sun_deg[0],
-                       .elevation_deg = options->sun_deg[1], .step = -1};
+    SweepSun sun = {.azimuth_deg = options->sun_deg[0],
+                    .compass_deg = options->sun_deg[0],
+                    .elevation_deg = options->sun_deg[1],
+                    .step = -1};
     Environment sky = sweep_environment(setup, &sun);
     return setup_light(setup, &sky, scratch, err);
 }
 
 /* The setup is open. */
-static bool explain_on(Setup *setup, const ExplainOptions *options, Arena *scratch,
-                       Arena *arena, Explained *out, Error *err)
-{
-    const ReviewEye   *eye;
+static bool explain_on(Setup *setup, const ExplainOptions *options, Arena *scratch, Arena *arena,
+                       Explained *out, Error *err) {
+    const ReviewEye *eye;
     const SetupSymbol *symbol;
-    SetupSymbol       *symbols;
-    CaseTools tools = {.setup = setup, .profile = options->profile,
-                       .cause_paths = options->paths, .cause_rays = CHAIN_RAYS};
+    SetupSymbol *symbols;
+    CaseTools tools = {.setup = setup,
+                       .profile = options->profile,
+                       .cause_paths = options->paths,
+                       .cause_rays = CHAIN_RAYS};
     if (!light_setup(setup, options, scratch, err) ||
         !setup_symbols(setup, scratch, &symbols, &tools.symbol_count, err) ||
         (setup->condition->kind == CONDITION_MOMENT &&
@@ -134,14 +130,13 @@ static bool explain_on(Setup *setup, const ExplainOptions *options, Arena *scrat
 }
 
 bool explain_review(const ReviewRequest *request, const ExplainOptions *options, Arena *arena,
-                    Explained *out, Error *err)
-{
+                    Explained *out, Error *err) {
     SetupOptions setup_options = {.request = request, .means = options->means};
     Setup setup;
     *out = (Explained){.has_pixel = false};
     if (!find_condition(request, options, &setup_options.condition, *arena, err)) return false;
     Arena scratch = arena_reserve(SETUP_BYTES);
-    bool  ok = setup_open(&setup_options, &scratch, options->problems, &setup, err);
+    bool ok = setup_open(&setup_options, &scratch, options->problems, &setup, err);
     if (ok) {
         ok = (!options->read || options->read(options->user, setup.scene, err)) &&
              (review_request_check(request, setup.scene, options->problems) ||
@@ -158,14 +153,13 @@ bool explain_review(const ReviewRequest *request, const ExplainOptions *options,
 #define PANES 16 /* before a display, at most */
 
 /* Leaves the targets that show a display, if at least half of them do. */
-static bool aim_at_displays(const ExplainPlace *place, ProbeAim *aim, Arena *arena)
-{
+static bool aim_at_displays(const ExplainPlace *place, ProbeAim *aim, Arena *arena) {
     const ProbeAim *all = &place->aim;
-    Vec3       *targets = ARENA_NEW(arena, Vec3, all->target_count);
+    Vec3 *targets = ARENA_NEW(arena, Vec3, all->target_count);
     ProbePatch *patches = all->patches ? ARENA_NEW(arena, ProbePatch, all->target_count) : NULL;
-    int         count = 0;
+    int count = 0;
     for (int i = 0; i < all->target_count; i++) {
-        ProbeLook      look;
+        ProbeLook look;
         PathStatistics statistics = {0};
         place->tools->kernel->look(aim, i, i + 1, &look, &statistics);
         if (!look.is_found) continue;
@@ -180,12 +174,11 @@ static bool aim_at_displays(const ExplainPlace *place, ProbeAim *aim, Arena *are
 }
 
 /* The first surface along the look that is no pane, or NO_ID; of a display its face. */
-static bool meet(const ExplainPlace *place, Vec3 target, bool wants_display, Hit *hit)
-{
+static bool meet(const ExplainPlace *place, Vec3 target, bool wants_display, Hit *hit) {
     const Scene *scene = place->aim.context->scene;
     Ray ray = {place->aim.eye, vec3_normalize(vec3_sub(target, place->aim.eye)), 0, INFINITY};
     for (int i = 0; i < PANES && bvh_intersect(place->aim.context->bvh, ray, 0, hit); i++) {
-        const Part     *part = &scene->parts[scene->triangles[hit->triangle].part_id];
+        const Part *part = &scene->parts[scene->triangles[hit->triangle].part_id];
         const Material *m = &scene->materials[part->material_id];
         if (wants_display ? m->display_id != NO_ID : !m->lets_light_through) return true;
         ray = ray_behind(scene, ray, hit);
@@ -194,22 +187,21 @@ static bool meet(const ExplainPlace *place, Vec3 target, bool wants_display, Hit
 }
 
 /* Adds the Y that the display there sends towards the eye, in white, in black and as it is. */
-static bool add_sent(const ExplainPlace *place, Vec3 target, double sent[3], int *display_id)
-{
+static bool add_sent(const ExplainPlace *place, Vec3 target, double sent[3], int *display_id) {
     static const float codes[2][3] = {{255, 255, 255}, {0, 0, 0}};
     const Scene *scene = place->aim.context->scene;
-    Hit   hit;
+    Hit hit;
     float xyz[3];
     if (!meet(place, target, true, &hit)) return false;
     TrianglePoint point = triangle_point(scene, hit.triangle, hit.u, hit.v);
-    const Part   *part = &scene->parts[scene->triangles[hit.triangle].part_id];
+    const Part *part = &scene->parts[scene->triangles[hit.triangle].part_id];
     *display_id = scene->materials[part->material_id].display_id;
     const Display *display = &scene->displays[*display_id];
     Frame frame = display_frame(scene, display, hit.triangle, &point);
-    Vec3  wo = vec3_normalize(vec3_sub(place->aim.eye, point.position));
+    Vec3 wo = vec3_normalize(vec3_sub(place->aim.eye, point.position));
     for (int k = 0; k < 2; k++) {
-        (k ? display_panel_xyz : display_full_xyz)(display, &point,
-                                                   frame_to_local(&frame, wo), codes[k], xyz);
+        (k ? display_panel_xyz : display_full_xyz)(display, &point, frame_to_local(&frame, wo),
+                                                   codes[k], xyz);
         sent[k] += (double)(xyz[1] * display->level);
     }
     display_emission_xyz(scene, display, hit.triangle, &point, wo, xyz);
@@ -217,11 +209,10 @@ static bool add_sent(const ExplainPlace *place, Vec3 target, double sent[3], int
     return true;
 }
 
-static void set_sent(const ExplainPlace *place, const ProbeAim *aim, Explained *out)
-{
+static void set_sent(const ExplainPlace *place, const ProbeAim *aim, Explained *out) {
     const Scene *scene = place->aim.context->scene;
     double sent[3] = {0, 0, 0};
-    int    count = 0, display_id = NO_ID;
+    int count = 0, display_id = NO_ID;
     for (int i = 0; i < aim->target_count; i++)
         count += add_sent(place, aim->targets[i], sent, &display_id);
     if (!count) return;
@@ -232,20 +223,22 @@ static void set_sent(const ExplainPlace *place, const ProbeAim *aim, Explained *
     out->of.level = (double)scene->displays[display_id].level;
 }
 
-static ReviewCase fresh_case(const Scene *scene, Vec3 eye)
-{
+static ReviewCase fresh_case(const Scene *scene, Vec3 eye) {
     const double nan = (double)NAN;
-    ReviewCase   c = {.luminance_cd_m2 = {nan, nan, nan, nan, nan, nan}, .contrast_ratio = nan,
-                      .contrast_low = nan, .contrast_high = nan, .limit_id = -1, .level = nan,
-                      .visible_share = 1};
+    ReviewCase c = {.luminance_cd_m2 = {nan, nan, nan, nan, nan, nan},
+                    .contrast_ratio = nan,
+                    .contrast_low = nan,
+                    .contrast_high = nan,
+                    .limit_id = -1,
+                    .level = nan,
+                    .visible_share = 1};
     memcpy(c.origin_m, scene->origin, sizeof c.origin_m);
     world_from_scene(scene->origin, eye, c.eye_m);
     return c;
 }
 
 /* Of a pixel's light some is what the display itself sends. */
-static void set_light(const Chains *chains, bool is_display, ReviewCase *c)
-{
+static void set_light(const Chains *chains, bool is_display, ReviewCase *c) {
     CaseLuminances *l = &c->luminance_cd_m2;
     const ChainFigure *found = is_display ? &chains->reflected : &chains->all;
     l->reflected = found->cd_m2;
@@ -256,18 +249,21 @@ static void set_light(const Chains *chains, bool is_display, ReviewCase *c)
     judge_contrasts(c, c->reflected_range);
 }
 
-void explain_place(const ExplainPlace *place, Arena *arena, Explained *out)
-{
+void explain_place(const ExplainPlace *place, Arena *arena, Explained *out) {
     ProbeAim aim = place->aim;
     const ProbePixel *pixel = aim.pixel;
     aim.pixel = NULL; /* its targets are asked what they show */
     bool is_display = aim_at_displays(place, &aim, arena);
-    *out = (Explained){.of = fresh_case(aim.context->scene, aim.eye), .shown = (double)NAN,
+    *out = (Explained){.of = fresh_case(aim.context->scene, aim.eye),
+                       .shown = (double)NAN,
                        .has_pixel = pixel != NULL};
     if (is_display) set_sent(place, &aim, out);
     if (pixel) aim = place->aim;
-    ChainArgs args = {.aim = &aim, .tools = place->tools, .paths = place->paths,
-                      .most = place->most, .with_direct = pixel || !is_display,
+    ChainArgs args = {.aim = &aim,
+                      .tools = place->tools,
+                      .paths = place->paths,
+                      .most = place->most,
+                      .with_direct = pixel || !is_display,
                       .with_first_pane = pixel != NULL};
     out->chains = chains_find(&args, arena);
     out->paths = out->chains.paths;

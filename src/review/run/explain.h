@@ -17,23 +17,23 @@
 
 typedef struct ExplainOptions {
     const char *condition, *eye, *symbol; /* NULL: there is only one */
-    bool        has_sun;                  /* of a sweep: which of its suns, */
-    double      sun_deg[2];               /* azimuth of the vehicle, elevation */
-    SetupMeans  means;
-    long        paths;
-    const Profile *profile;               /* limits */
-    Problems      *problems;              /* warnings of the scene */
-    bool         (*read)(void *user, const Scene *scene, Error *err); /* before it is traced */
-    void          *user;
+    bool has_sun;                         /* of a sweep: which of its suns, */
+    double sun_deg[2];                    /* azimuth of the vehicle, elevation */
+    SetupMeans means;
+    long paths;
+    const Profile *profile;                                   /* limits */
+    Problems *problems;                                       /* warnings of the scene */
+    bool (*read)(void *user, const Scene *scene, Error *err); /* before it is traced */
+    void *user;
 } ExplainOptions;
 
 typedef struct Explained {
-    ReviewCase  of;       /* `symbol` NULL: no symbol; contrasts NaN: no display */
-    double      shown;    /* cd m^-2: of a display without a symbol what it emits, mean */
-    Chains      chains;   /* of a place: as its causes, first to last */
-    bool        has_pixel;
-    PixelLight  light;    /* of a pixel */
-    long        paths;
+    ReviewCase of; /* `symbol` NULL: no symbol; contrasts NaN: no display */
+    double shown;  /* cd m^-2: of a display without a symbol what it emits, mean */
+    Chains chains; /* of a place: as its causes, first to last */
+    bool has_pixel;
+    PixelLight light; /* of a pixel */
+    long paths;
 } Explained;
 
 bool explain_review(const ReviewRequest *request, const ExplainOptions *options, Arena *arena,
@@ -42,11 +42,11 @@ bool explain_review(const ReviewRequest *request, const ExplainOptions *options,
 /* A scene that is lit, and what is looked at in it. */
 typedef struct ExplainPlace {
     const ReadingTools *tools;
-    ProbeAim            aim; /* along its targets the eye looks; a path each, and again. With a
-                                pixel its samples are traced, and the targets, which lie in
-                                it, tell whether it shows a display */
-    long                paths;
-    int                 most; /* chains that are listed by themselves */
+    ProbeAim aim; /* along its targets the eye looks; a path each, and again. With a
+                     pixel its samples are traced, and the targets, which lie in
+                     it, tell whether it shows a display */
+    long paths;
+    int most; /* chains that are listed by themselves */
 } ExplainPlace;
 
 /* Where at least half of the targets show a display, contrasts are those of white and black as

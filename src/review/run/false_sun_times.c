@@ -16,34 +16,31 @@
 
 typedef struct Gaze {
     const char *name;
-    Vec3        direction; /* unit, world */
+    Vec3 direction; /* unit, world */
 } Gaze;
 
 typedef struct Gazes {
     Gaze *list;
-    int   count;
+    int count;
 } Gazes;
 
-static void add_symbols(const Sweep *sweep, int eye_id, Gazes *to)
-{
+static void add_symbols(const Sweep *sweep, int eye_id, Gazes *to) {
     for (int i = 0; i < sweep->symbol_count; i++) {
         const Sight *sight = &sweep->sights[eye_id * sweep->symbol_count + i];
         Vec3 middle = symbol_middle(sight->symbol).position;
-        to->list[to->count++] = (Gaze){
-            sight->symbol->name, vec3_normalize(vec3_sub(middle, sight->from))};
+        to->list[to->count++] =
+            (Gaze){sight->symbol->name, vec3_normalize(vec3_sub(middle, sight->from))};
     }
 }
 
-static Gazes gazes_of(const Sweep *sweep, int eye_id, Arena *arena)
-{
+static Gazes gazes_of(const Sweep *sweep, int eye_id, Arena *arena) {
     const ReviewRequest *request = sweep->run->request;
     Gazes gazes = {ARENA_NEW(arena, Gaze, sweep->symbol_count + request->gaze_count), 0};
     add_symbols(sweep, eye_id, &gazes);
     for (int i = 0; i < request->gaze_count; i++) {
         const ReviewGaze *gaze = &request->gazes[i];
         if (!gaze->at_symbols && gaze->for_eye[eye_id])
-            gazes.list[gazes.count++] =
-                (Gaze){gaze->name, vec3_from_doubles(gaze->direction)};
+            gazes.list[gazes.count++] = (Gaze){gaze->name, vec3_from_doubles(gaze->direction)};
     }
     return gazes;
 }
@@ -52,19 +49,18 @@ static Gazes gazes_of(const Sweep *sweep, int eye_id, Arena *arena)
 
 typedef struct Veil {
     double cd_m2, angle_deg;
-    int    gaze_id;
+    int gaze_id;
 } Veil;
 
 /* The worst that a source does to any gaze. */
-static Veil worst_veil(const Gazes *gazes, HumanEye whose, Vec3 seen, double lux)
-{
+static Veil worst_veil(const Gazes *gazes, HumanEye whose, Vec3 seen, double lux) {
     Veil worst = {0, 0, NO_ID};
     for (int i = 0; i < gazes->count; i++) {
         double cosine = (double)vec3_dot(gazes->list[i].direction, seen);
         double angle = degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
         if (!(cosine > 0)) continue;
-        double veil = lux * cosine *
-                      eye_spread_at(fmin(fmax(angle, FALSE_SUN_NEAR_DEG), 90), whose);
+        double veil =
+            lux * cosine * eye_spread_at(fmin(fmax(angle, FALSE_SUN_NEAR_DEG), 90), whose);
         if (veil > worst.cd_m2) worst = (Veil){veil, angle, i};
     }
     return worst;
@@ -72,26 +68,25 @@ static Veil worst_veil(const Gazes *gazes, HumanEye whose, Vec3 seen, double lux
 
 /* The sun in one mirror as one eye sees it. */
 typedef struct Tally {
-    int    part_id;
+    int part_id;
     double minutes, suns, longest;
-    double run;       /* minutes at a stretch so far, */
-    int    run_step;  /* up to this step */
+    double run;   /* minutes at a stretch so far, */
+    int run_step; /* up to this step */
     double run_heading;
-    Veil   worst;
+    Veil worst;
     double lux;
-    SweepSun sun;     /* of the worst */
+    SweepSun sun; /* of the worst */
 } Tally;
 
 #define TALLIES 256
 
 typedef struct Tallies {
-    Tally  list[TALLIES];
-    int    count;
+    Tally list[TALLIES];
+    int count;
     double minutes, suns; /* that were tested */
 } Tallies;
 
-static Tally *tally_of(Tallies *all, int part_id)
-{
+static Tally *tally_of(Tallies *all, int part_id) {
     for (int i = 0; i < all->count; i++)
         if (all->list[i].part_id == part_id) return &all->list[i];
     if (all->count == TALLIES) return NULL;
@@ -99,8 +94,7 @@ static Tally *tally_of(Tallies *all, int part_id)
     return &all->list[all->count++];
 }
 
-static void add_run(Tally *tally, const SweepSun *sun)
-{
+static void add_run(Tally *tally, const SweepSun *sun) {
     bool follows = tally->run_step + 1 == sun->step && tally->run_heading == sun->heading_deg;
     tally->run = (follows ? tally->run : 0) + sun->minutes;
     tally->run_step = sun->step;
@@ -109,19 +103,18 @@ static void add_run(Tally *tally, const SweepSun *sun)
 }
 
 typedef struct Watch {
-    const Sweep     *sweep;
+    const Sweep *sweep;
     const FalseSuns *images;
-    Gazes            gazes;
-    HumanEye         whose;
-    Tallies         *tallies;
+    Gazes gazes;
+    HumanEye whose;
+    Tallies *tallies;
 } Watch;
 
-static void watch_sun(const Watch *watch, const SweepSun *sun)
-{
+static void watch_sun(const Watch *watch, const SweepSun *sun) {
     const Setup *setup = watch->sweep->setup;
-    SunAngles    angles = {sun->azimuth_deg, sun->elevation_deg};
-    float        bands[LIGHT_BANDS];
-    double       lux = 0;
+    SunAngles angles = {sun->azimuth_deg, sun->elevation_deg};
+    float bands[LIGHT_BANDS];
+    double lux = 0;
     watch->tallies->minutes += sun->minutes;
     watch->tallies->suns++;
     if (sun->elevation_deg < -SUN_MEAN_RADIUS_DEG) return;
@@ -129,9 +122,9 @@ static void watch_sun(const Watch *watch, const SweepSun *sun)
     if (!(sight.share > 0)) return;
     sky_table_sun(&watch->sweep->table, sun->elevation_deg, sun->light, bands);
     for (int b = 0; b < LIGHT_BANDS; b++) lux += (double)bands[b];
-    Veil   veil = worst_veil(&watch->gazes, watch->whose, sight.seen, sight.share * lux);
-    Tally *tally = veil.cd_m2 >= FALSE_SUN_VEIL_CD_M2 ? tally_of(watch->tallies, sight.part_id)
-                                                      : NULL;
+    Veil veil = worst_veil(&watch->gazes, watch->whose, sight.seen, sight.share * lux);
+    Tally *tally =
+        veil.cd_m2 >= FALSE_SUN_VEIL_CD_M2 ? tally_of(watch->tallies, sight.part_id) : NULL;
     if (!tally) return;
     tally->minutes += sun->minutes;
     tally->suns++;
@@ -144,8 +137,7 @@ static void watch_sun(const Watch *watch, const SweepSun *sun)
 
 /* ---- all suns ---------------------------------------------------------------------------- */
 
-static void narrow(ReviewRange *range)
-{
+static void narrow(ReviewRange *range) {
     int parts = (int)ceil(range->step / STEP_DEG);
     if (range->count < 2 || parts < 2) return;
     range->count = (range->count - 1) * parts + 1;
@@ -153,8 +145,7 @@ static void narrow(ReviewRange *range)
 }
 
 /* The same sweep in smaller steps, of the first heading alone: the sun's way is the same. */
-static SweepSuns closer_suns(const ReviewCondition *condition, int threads, Arena *arena)
-{
+static SweepSuns closer_suns(const ReviewCondition *condition, int threads, Arena *arena) {
     ReviewCondition closer = *condition;
     if (condition->kind == CONDITION_YEAR_SWEEP) {
         closer.step_minutes = fmin(STEP_MINUTES, condition->step_minutes);
@@ -165,8 +156,7 @@ static SweepSuns closer_suns(const ReviewCondition *condition, int threads, Aren
     return sweep_suns(&closer, threads, arena);
 }
 
-static void watch_heading(const Watch *watch, const SweepSuns *suns, const double *heading_deg)
-{
+static void watch_heading(const Watch *watch, const SweepSuns *suns, const double *heading_deg) {
     for (int i = 0; i < suns->count; i++) {
         SweepSun sun = suns->list[i];
         if (heading_deg) {
@@ -177,8 +167,7 @@ static void watch_heading(const Watch *watch, const SweepSuns *suns, const doubl
     }
 }
 
-static void watch_all(const Watch *watch, const SweepSuns *suns)
-{
+static void watch_all(const Watch *watch, const SweepSuns *suns) {
     const ReviewCondition *condition = watch->sweep->setup->condition;
     if (condition->kind != CONDITION_YEAR_SWEEP) watch_heading(watch, suns, NULL);
     else
@@ -188,19 +177,17 @@ static void watch_all(const Watch *watch, const SweepSuns *suns)
 
 /* ---- results ----------------------------------------------------------------------------- */
 
-static int by_veil(const void *a, const void *b)
-{
+static int by_veil(const void *a, const void *b) {
     const Tally *x = a, *y = b;
     if (x->worst.cd_m2 != y->worst.cd_m2) return x->worst.cd_m2 > y->worst.cd_m2 ? -1 : 1;
     return x->part_id - y->part_id;
 }
 
 static ReviewFalseSun listed(const Watch *watch, const Tally *tally, const SweepSuns *suns,
-                             Arena *arena)
-{
+                             Arena *arena) {
     const Setup *setup = watch->sweep->setup;
-    bool         timed = suns->has_time;
-    double       all = timed ? watch->tallies->minutes : watch->tallies->suns;
+    bool timed = suns->has_time;
+    double all = timed ? watch->tallies->minutes : watch->tallies->suns;
     return (ReviewFalseSun){
         .condition = setup->condition->name,
         .mirror = chain_part_words(setup->scene, tally->part_id, arena),
@@ -209,14 +196,15 @@ static ReviewFalseSun listed(const Watch *watch, const Tally *tally, const Sweep
         .longest_minutes = timed ? tally->longest : (double)NAN,
         .when = sweep_suns_when(setup->condition, suns, &tally->sun, arena),
         .sun_azimuth_deg = fmod(tally->sun.azimuth_deg + 360, 360),
-        .sun_elevation_deg = tally->sun.elevation_deg, .lux = tally->lux,
+        .sun_elevation_deg = tally->sun.elevation_deg,
+        .lux = tally->lux,
         .gaze = arena_format(arena, "%s", watch->gazes.list[tally->worst.gaze_id].name),
-        .angle_deg = tally->worst.angle_deg, .veil_cd_m2 = tally->worst.cd_m2};
+        .angle_deg = tally->worst.angle_deg,
+        .veil_cd_m2 = tally->worst.cd_m2};
 }
 
-static void report(const Watch *watch, const ReviewEye *eye, const SweepSuns *suns,
-                   Arena *arena, Review *out)
-{
+static void report(const Watch *watch, const ReviewEye *eye, const SweepSuns *suns, Arena *arena,
+                   Review *out) {
     Tallies *all = watch->tallies;
     qsort(all->list, (size_t)all->count, sizeof *all->list, by_veil);
     for (int i = 0; i < all->count && i < FALSE_SUNS_LISTED; i++) {
@@ -227,26 +215,23 @@ static void report(const Watch *watch, const ReviewEye *eye, const SweepSuns *su
 
 /* Every eye watches the same suns, each for itself. */
 typedef struct Watching {
-    Watch           *eyes;
+    Watch *eyes;
     const SweepSuns *suns;
 } Watching;
 
-static void watch_eye(void *context, int eye, int worker)
-{
+static void watch_eye(void *context, int eye, int worker) {
     const Watching *watching = context;
     (void)worker;
     watch_all(&watching->eyes[eye], watching->suns);
 }
 
-void false_sun_times(const Sweep *sweep, Arena scratch, Arena *arena, Review *out)
-{
+void false_sun_times(const Sweep *sweep, Arena scratch, Arena *arena, Review *out) {
     const ReviewRequest *request = sweep->run->request;
     SweepSuns suns = closer_suns(sweep->setup->condition, sweep->run->means.threads, &scratch);
-    Watching  watching = {ARENA_NEW(&scratch, Watch, request->eye_count), &suns};
+    Watching watching = {ARENA_NEW(&scratch, Watch, request->eye_count), &suns};
     for (int e = 0; e < request->eye_count; e++)
-        watching.eyes[e] =
-            (Watch){sweep, &sweep->false_suns[e], gazes_of(sweep, e, &scratch),
-                    request->observer, ARENA_NEW(&scratch, Tallies, 1)};
+        watching.eyes[e] = (Watch){sweep, &sweep->false_suns[e], gazes_of(sweep, e, &scratch),
+                                   request->observer, ARENA_NEW(&scratch, Tallies, 1)};
     parallel_for(sweep->run->means.threads, request->eye_count, watch_eye, &watching);
     for (int e = 0; e < request->eye_count; e++)
         report(&watching.eyes[e], &request->eyes[e], &suns, arena, out);

@@ -24,23 +24,21 @@
 #define FRAMES_PAIR 2       /* a variant's is so many times smaller each way */
 #define FRAMES_CONTRAST 100 /* : 1, where the scale of contrasts ends */
 
-typedef enum FrameView {
-    FRAME_PICTURE, FRAME_LUMINANCE, FRAME_CONTRAST, FRAME_VIEWS
-} FrameView;
+typedef enum FrameView { FRAME_PICTURE, FRAME_LUMINANCE, FRAME_CONTRAST, FRAME_VIEWS } FrameView;
 
 /* The picture's name, from that of any other of the frame's files. */
 const char *frame_view(const char *frame, FrameView view, Arena *arena);
 
 typedef struct FrameArgs {
-    const Setup     *setup;
+    const Setup *setup;
     const ReviewEye *eye;
-    Vec3             look_at; /* m, scene: of an eye that is no camera */
-    const char      *folder;
-    const char      *unfinished; /* folder of its checkpoint */
-    const char      *name;    /* without an ending */
-    const char      *exposure; /* of a frame to stand beside (frame_exposure): this one is
-                                  smaller, and its picture alone is made; NULL: by itself */
-    Progress        *progress; /* of which the frame is a step */
+    Vec3 look_at; /* m, scene: of an eye that is no camera */
+    const char *folder;
+    const char *unfinished; /* folder of its checkpoint */
+    const char *name;       /* without an ending */
+    const char *exposure;   /* of a frame to stand beside (frame_exposure): this one is
+                               smaller, and its picture alone is made; NULL: by itself */
+    Progress *progress;     /* of which the frame is a step */
 } FrameArgs;
 
 /* Pictures of a review that is made: of its worst cases, and of the very

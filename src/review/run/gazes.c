@@ -19,27 +19,23 @@
 
 /* ---- one eye's point --------------------------------------------------------------------- */
 
-static GazeGoal goal_of(Vec3 eye, const ReviewGaze *gaze, int most)
-{
+static GazeGoal goal_of(Vec3 eye, const ReviewGaze *gaze, int most) {
     return (GazeGoal){eye, vec3_from_doubles(gaze->direction), PRECISION, most};
 }
 
 /* Light over the view, quickly. */
-static double coarse_veil(const Setup *setup, const GazeGoal *goal, Arena scratch)
-{
+static double coarse_veil(const Setup *setup, const GazeGoal *goal, Arena scratch) {
     EyeLook look = {goal->eye, goal->towards, 1, NULL, false, NULL};
-    return eye_read(setup, &look, scratch).veil +
-           gaze_read(setup, goal, scratch).mirrored.mean;
+    return eye_read(setup, &look, scratch).veil + gaze_read(setup, goal, scratch).mirrored.mean;
 }
 
-static Vec3 worst_point(const Setup *setup, const ReviewGaze *gaze, const Vec3 *points,
-                        int count, Arena scratch)
-{
-    int    worst = 0;
+static Vec3 worst_point(const Setup *setup, const ReviewGaze *gaze, const Vec3 *points, int count,
+                        Arena scratch) {
+    int worst = 0;
     double most = -1;
     for (int i = 0; i < count && count > 1; i++) {
         GazeGoal goal = goal_of(points[i], gaze, COARSE_PATHS);
-        double   veil = coarse_veil(setup, &goal, scratch);
+        double veil = coarse_veil(setup, &goal, scratch);
         if (veil > most) worst = i;
         most = fmax(most, veil);
     }
@@ -49,8 +45,7 @@ static Vec3 worst_point(const Setup *setup, const ReviewGaze *gaze, const Vec3 *
 /* ---- figures ----------------------------------------------------------------------------- */
 
 static void name_mirrored(const Setup *setup, const GazeMirrored *most, GazeFinding *out,
-                          Arena *arena)
-{
+                          Arena *arena) {
     static const char *const SOURCES[LIGHT_SETS] = {"sun", "sky", "a display", "a lamp"};
     if (most->pane_id == NO_ID) return;
     out->mirrored_by = chain_part_words(setup->scene, most->pane_id, arena);
@@ -64,39 +59,32 @@ typedef struct Veiled {
     double own, over;
 } Veiled;
 
-static double contrast_left(double own, double over)
-{
+static double contrast_left(double own, double over) {
     return own + over > 0 ? own / (own + over) : (double)NAN;
 }
 
 /* Of a contrast that falls as one grows and rises as the other: what moving each to an end of
  * its interval moves it by, together as if by chance (Zou and Donner, Stat. Med. 27 (2008)
  * 1693-1702, for any function that is monotone). */
-static MeanInterval contrast_range(Veiled at, MeanInterval own, MeanInterval over)
-{
+static MeanInterval contrast_range(Veiled at, MeanInterval own, MeanInterval over) {
     double c = contrast_left(at.own, at.over);
-    double low = hypot(c - contrast_left(own.low, at.over),
-                       c - contrast_left(at.own, over.high));
-    double high = hypot(contrast_left(own.high, at.over) - c,
-                        contrast_left(at.own, over.low) - c);
+    double low = hypot(c - contrast_left(own.low, at.over), c - contrast_left(at.own, over.high));
+    double high = hypot(contrast_left(own.high, at.over) - c, contrast_left(at.own, over.low) - c);
     return (MeanInterval){fmax(c - low, 0), fmin(c + high, 1)};
 }
 
 /* Of a sum of two that are read independently, likewise; from 0 on. */
-static MeanInterval sum_range(double a, MeanInterval of_a, double b, MeanInterval of_b)
-{
+static MeanInterval sum_range(double a, MeanInterval of_a, double b, MeanInterval of_b) {
     return (MeanInterval){fmax(a + b - hypot(a - of_a.low, b - of_b.low), 0),
                           a + b + hypot(of_a.high - a, of_b.high - b)};
 }
 
-static void set_contrasts(const GazeReading *along, GazeFinding *out)
-{
+static void set_contrasts(const GazeReading *along, GazeFinding *out) {
     double seen = along->through.mean + along->mirrored.mean, near = out->veil_parts.near;
     double veil = out->veil - near;
     Veiled at = {along->through.mean, along->mirrored.mean + veil};
     MeanInterval of_veil = {out->veil_range.low - near, out->veil_range.high - near};
-    MeanInterval over =
-        sum_range(along->mirrored.mean, along->mirrored.interval, veil, of_veil);
+    MeanInterval over = sum_range(along->mirrored.mean, along->mirrored.interval, veil, of_veil);
     out->contrast_behind_glass = seen > 0 ? along->through.mean / seen : (double)NAN;
     out->contrast_left = contrast_left(at.own, at.over);
     out->contrast_range = (MeanInterval){(double)NAN, (double)NAN};
@@ -104,9 +92,8 @@ static void set_contrasts(const GazeReading *along, GazeFinding *out)
         out->contrast_range = contrast_range(at, along->through.interval, over);
 }
 
-static double sun_from_gaze(const Setup *setup, Vec3 gaze)
-{
-    Vec3  towards;
+static double sun_from_gaze(const Setup *setup, Vec3 gaze) {
+    Vec3 towards;
     float bands[LIGHT_BANDS];
     if (!setup_sun(setup, &towards, bands)) return (double)NAN;
     double cosine = (double)vec3_dot(towards, vec3_normalize(gaze));
@@ -115,13 +102,12 @@ static double sun_from_gaze(const Setup *setup, Vec3 gaze)
 
 /* The sun in mirrors is looked for, if there is a sun. ages: of a road, or NULL. */
 static EyeReading read_eye(const Setup *setup, SunSearches *searches, const GazeGoal *goal,
-                           const RoadAges *ages, RoadReading *road)
-{
-    EyeLook   look = {goal->eye, goal->towards, ROUNDS, NULL, false, NULL};
-    Arena     scratch = arena_reserve(EYE_BYTES);
+                           const RoadAges *ages, RoadReading *road) {
+    EyeLook look = {goal->eye, goal->towards, ROUNDS, NULL, false, NULL};
+    Arena scratch = arena_reserve(EYE_BYTES);
     FalseSuns images;
-    Vec3      towards;
-    float     bands[LIGHT_BANDS];
+    Vec3 towards;
+    float bands[LIGHT_BANDS];
     if (setup_sun(setup, &towards, bands)) {
         images = false_suns_of(sun_searches_find(searches, setup, goal->eye), bands, &scratch);
         look.images = &images;
@@ -135,41 +121,38 @@ static EyeReading read_eye(const Setup *setup, SunSearches *searches, const Gaze
 
 /* One gaze. */
 typedef struct GazeArgs {
-    const Setup      *setup;
-    SunSearches      *searches;
+    const Setup *setup;
+    SunSearches *searches;
     const ReviewGaze *gaze;
-    const Profile    *profile;
+    const Profile *profile;
 } GazeArgs;
 
 static EyeReading read_light(const GazeArgs *args, const GazeGoal *goal, Arena *arena,
-                             GazeFinding *out)
-{
-    const Setup      *setup = args->setup;
+                             GazeFinding *out) {
+    const Setup *setup = args->setup;
     const ReviewRoad *road = args->gaze->road;
-    RoadLeftOut       left_out = road ? road_left_out(setup, road) : ROAD_EVALUATED;
+    RoadLeftOut left_out = road ? road_left_out(setup, road) : ROAD_EVALUATED;
     if (!road || left_out) {
         if (road) out->road = road_stated(road, left_out, arena);
         return read_eye(setup, args->searches, goal, NULL, NULL);
     }
-    RoadAges    ages = road_ages(setup->request, road, arena);
+    RoadAges ages = road_ages(setup->request, road, arena);
     RoadReading reading = road_reading_start(ages.count, setup->scene->display_count, arena);
-    EyeReading  eye = read_eye(setup, args->searches, goal, &ages, &reading);
+    EyeReading eye = read_eye(setup, args->searches, goal, &ages, &reading);
     out->road = road_of(setup, road, &reading, args->profile, arena);
     return eye;
 }
 
-static void read_gaze(const GazeArgs *args, const GazeGoal *goal, Arena *arena,
-                      GazeFinding *out)
-{
+static void read_gaze(const GazeArgs *args, const GazeGoal *goal, Arena *arena, GazeFinding *out) {
     const Setup *setup = args->setup;
-    EyeReading   eye = read_light(args, goal, arena, out);
+    EyeReading eye = read_light(args, goal, arena, out);
     GazeReading along = gaze_read(setup, goal, *arena);
     out->sun_deg = sun_from_gaze(setup, goal->towards);
     out->veil = eye.veil;
     out->veil_range = eye.veil_range;
-    out->veil_parts = (GazeVeil){eye.parts[EYE_SUN], eye.parts[EYE_SKY], eye.parts[EYE_LAMPS],
-                                 eye.parts[EYE_GLINTS], eye.parts[EYE_SURFACES],
-                                 eye.parts[EYE_NEAR]};
+    out->veil_parts =
+        (GazeVeil){eye.parts[EYE_SUN],    eye.parts[EYE_SKY],      eye.parts[EYE_LAMPS],
+                   eye.parts[EYE_GLINTS], eye.parts[EYE_SURFACES], eye.parts[EYE_NEAR]};
     out->cornea_lux = eye.vertical_lx;
     out->through = along.through.mean;
     out->mirrored = along.mirrored.mean;
@@ -179,14 +162,12 @@ static void read_gaze(const GazeArgs *args, const GazeGoal *goal, Arena *arena,
 }
 
 /* A sweep's name must be among the road's own conditions. */
-static bool is_in_sweep(const ReviewGaze *gaze, const ReviewCondition *condition)
-{
+static bool is_in_sweep(const ReviewGaze *gaze, const ReviewCondition *condition) {
     return gaze->road && gaze->road->condition_count &&
            review_road_is_in(gaze->road, condition->name);
 }
 
-int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *condition)
-{
+int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *condition) {
     int count = 0;
     for (int g = 0; g < request->gaze_count; g++)
         for (int e = 0; e < request->eye_count; e++)
@@ -195,16 +176,14 @@ int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *conditio
     return count;
 }
 
-static bool is_wanted(const Setup *setup, const ReviewGaze *gaze)
-{
+static bool is_wanted(const Setup *setup, const ReviewGaze *gaze) {
     if (setup->condition->kind != CONDITION_MOMENT) return is_in_sweep(gaze, setup->condition);
     return gaze->road && !road_left_out(setup, gaze->road);
 }
 
-int roads_of_moment(const Setup *setup)
-{
+int roads_of_moment(const Setup *setup) {
     const ReviewRequest *request = setup->request;
-    int                  count = 0;
+    int count = 0;
     for (int g = 0; g < request->gaze_count; g++)
         for (int e = 0; e < request->eye_count; e++)
             count += !request->gazes[g].at_symbols && request->gazes[g].for_eye[e] &&
@@ -212,25 +191,24 @@ int roads_of_moment(const Setup *setup)
     return count;
 }
 
-bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *err)
-{
-    const Setup         *setup = gazes->setup;
+bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *err) {
+    const Setup *setup = gazes->setup;
     const ReviewRequest *request = setup->request;
     int at = -1;
     for (int g = 0; g < request->gaze_count; g++)
         for (int e = 0; e < request->eye_count; e++) {
             const ReviewGaze *gaze = &request->gazes[g];
-            const ReviewEye  *eye = &request->eyes[e];
+            const ReviewEye *eye = &request->eyes[e];
             int count;
             if (gaze->at_symbols || !gaze->for_eye[e]) continue;
             if (gazes->roads_only && !is_wanted(setup, gaze)) continue;
             at++;
             Vec3 *points = setup_eye_points(setup, eye, &count, arena, err);
             if (!points) return false;
-            GazeGoal goal = goal_of(worst_point(setup, gaze, points, count, *arena), gaze,
-                                    PATHS_MOST);
-            out[at] = (GazeFinding){.condition = setup->condition->name, .eye = eye->name,
-                                 .gaze = gaze->name};
+            GazeGoal goal =
+                goal_of(worst_point(setup, gaze, points, count, *arena), gaze, PATHS_MOST);
+            out[at] = (GazeFinding){
+                .condition = setup->condition->name, .eye = eye->name, .gaze = gaze->name};
             GazeArgs args = {setup, gazes->searches, gaze, gazes->profile};
             read_gaze(&args, &goal, arena, &out[at]);
             if (gaze->road)

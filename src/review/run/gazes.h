@@ -14,12 +14,12 @@
 #include "review/verdict.h"
 
 typedef struct GazesArgs {
-    const Setup       *setup;
-    SunSearches       *searches;
-    const Profile     *profile; /* limits of roads */
-    const ReviewCase  *cases;   /* of this moment, which are made before */
-    int                case_count;
-    bool               roads_only; /* of others nothing is set, and they are left out */
+    const Setup *setup;
+    SunSearches *searches;
+    const Profile *profile;  /* limits of roads */
+    const ReviewCase *cases; /* of this moment, which are made before */
+    int case_count;
+    bool roads_only; /* of others nothing is set, and they are left out */
 } GazesArgs;
 
 /* Fills review_look_count(request) findings, eyes fastest; with

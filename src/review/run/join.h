@@ -10,5 +10,5 @@
 #include "review/run/review_run.h"
 
 /* Neither decided nor compared yet. */
-void review_join(const ReviewRun *run, const ReviewOutcome *const *parts, int count,
-                 Arena *arena, ReviewOutcome *out);
+void review_join(const ReviewRun *run, const ReviewOutcome *const *parts, int count, Arena *arena,
+                 ReviewOutcome *out);

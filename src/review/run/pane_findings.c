@@ -15,32 +15,27 @@
 /* ---- where ------------------------------------------------------------------------------- */
 
 /* Axes of the directions that are told: the vehicle's. */
-static Frame frame_of(const ReviewRequest *request)
-{
+static Frame frame_of(const ReviewRequest *request) {
     Vec3 z = vec3_from_doubles(request->forward);
     Vec3 x = vec3_normalize(vec3_cross(z, vec3(0, 1, 0)));
     return (Frame){x, vec3_cross(x, z), z};
 }
 
-static void angles_of(const Frame *frame, Vec3 towards, double out_deg[2])
-{
-    Vec3   local = frame_to_local(frame, towards);
+static void angles_of(const Frame *frame, Vec3 towards, double out_deg[2]) {
+    Vec3 local = frame_to_local(frame, towards);
     double x = (double)local.x, y = (double)local.y, z = (double)local.z;
     out_deg[0] = degrees_from_radians(atan2(x, z));
     out_deg[1] = degrees_from_radians(atan2(y, sqrt(x * x + z * z)));
 }
 
 /* Degrees, within 180 of another: outlines behind the eye do not break. */
-static double near_to(double degrees, double other)
-{
+static double near_to(double degrees, double other) {
     return degrees - 360 * round((degrees - other) / 360);
 }
 
-static void set_place(const PaneImage *image, const Frame *frame, PaneFinding *out,
-                      Arena *arena)
-{
+static void set_place(const PaneImage *image, const Frame *frame, PaneFinding *out, Arena *arena) {
     double *outline = ARENA_NEW(arena, double, 2 * image->outline_count), middle[2];
-    double  low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     angles_of(frame, image->towards, middle);
     for (int i = 0; i < image->outline_count; i++) {
         double *at = outline + 2 * i;
@@ -62,9 +57,8 @@ static void set_place(const PaneImage *image, const Frame *frame, PaneFinding *o
 }
 
 /* From a direction to the nearest of the image's. */
-static double degrees_off(const PaneImage *image, const double direction[3])
-{
-    Vec3   axis = vec3_from_doubles(direction);
+static double degrees_off(const PaneImage *image, const double direction[3]) {
+    Vec3 axis = vec3_from_doubles(direction);
     double least = INFINITY;
     for (int i = 0; i < 3 * image->cell_count; i++) {
         Vec3 at = image->cells[i / 3].corner[i % 3], across = vec3_cross(at, axis);
@@ -76,8 +70,7 @@ static double degrees_off(const PaneImage *image, const double direction[3])
 /* ---- what is to be kept free ------------------------------------------------------------- */
 
 /* Those of an eye: its gazes and the areas; straight ahead where there is neither. */
-static ReviewPaneArea *areas_of(const ReviewRequest *request, int eye, int *count, Arena *arena)
-{
+static ReviewPaneArea *areas_of(const ReviewRequest *request, int eye, int *count, Arena *arena) {
     const ReviewPaneImages *panes = request->pane_images;
     ReviewPaneArea *list =
         ARENA_NEW(arena, ReviewPaneArea, request->gaze_count + panes->area_count + 1);
@@ -85,22 +78,25 @@ static ReviewPaneArea *areas_of(const ReviewRequest *request, int eye, int *coun
     for (int i = 0; i < request->gaze_count; i++) {
         const ReviewGaze *gaze = &request->gazes[i];
         if (gaze->at_symbols || !gaze->for_eye[eye]) continue;
-        list[(*count)++] = (ReviewPaneArea){
-            gaze->name, {gaze->direction[0], gaze->direction[1], gaze->direction[2]},
-            panes->within_deg, panes->contrast_most};
+        list[(*count)++] =
+            (ReviewPaneArea){gaze->name,
+                             {gaze->direction[0], gaze->direction[1], gaze->direction[2]},
+                             panes->within_deg,
+                             panes->contrast_most};
     }
     for (int i = 0; i < panes->area_count; i++) list[(*count)++] = panes->areas[i];
     if (!*count)
-        list[(*count)++] = (ReviewPaneArea){
-            "ahead", {request->forward[0], request->forward[1], request->forward[2]},
-            panes->within_deg, panes->contrast_most};
+        list[(*count)++] =
+            (ReviewPaneArea){"ahead",
+                             {request->forward[0], request->forward[1], request->forward[2]},
+                             panes->within_deg,
+                             panes->contrast_most};
     return list;
 }
 
 /* The area that allows the least; of several, or none with a limit, the nearest. */
 static void set_area(const PaneImage *image, const ReviewPaneArea *areas, int count,
-                     PaneFinding *out)
-{
+                     PaneFinding *out) {
     double most = INFINITY;
     out->off_deg = INFINITY;
     for (int i = 0; i < count; i++) {
@@ -118,8 +114,7 @@ static void set_area(const PaneImage *image, const ReviewPaneArea *areas, int co
 
 /* ---- one display in one pane ------------------------------------------------------------- */
 
-static const char *why_none(const PaneFinding *f, Arena *arena)
-{
+static const char *why_none(const PaneFinding *f, Arena *arena) {
     if (f->shown_share > 0) return NULL;
     if (f->ends_share >= f->away_share && f->ends_share >= f->covered_share)
         return "the pane ends before it";
@@ -127,16 +122,14 @@ static const char *why_none(const PaneFinding *f, Arena *arena)
     return arena_format(arena, "%s stands between", f->covered_by);
 }
 
-static void set_figure(GazeFound found, double least, double *value, MeanInterval *range)
-{
+static void set_figure(GazeFound found, double least, double *value, MeanInterval *range) {
     *value = fmax(found.mean, least);
     *range = (MeanInterval){fmax(found.interval.low, least), fmax(found.interval.high, least)};
 }
 
 static void set_light(const Setup *setup, Vec3 eye, const PaneImage *image, PaneFinding *out,
-                      Arena scratch)
-{
-    PaneImageGoal    goal = {eye, image, PRECISION, PATHS_MOST, 0};
+                      Arena scratch) {
+    PaneImageGoal goal = {eye, image, PRECISION, PATHS_MOST, 0};
     PaneImageReading found = pane_image_read(setup, &goal, scratch);
     set_figure(found.image, 0, &out->image, &out->image_range);
     set_figure(found.through, 0, &out->behind, &out->behind_range);
@@ -147,31 +140,39 @@ static void set_light(const Setup *setup, Vec3 eye, const PaneImage *image, Pane
     pane_set_contrast(out);
 }
 
-static PaneFinding finding_unknown(void)
-{
-    const double       nan = (double)NAN;
+static PaneFinding finding_unknown(void) {
+    const double nan = (double)NAN;
     const MeanInterval range = {nan, nan};
-    return (PaneFinding){.right_deg = nan, .up_deg = nan, .width_deg = nan, .height_deg = nan,
-                         .image = nan, .image_range = range, .behind = nan,
-                         .behind_range = range, .against = nan, .against_range = range,
-                         .contrast = nan, .contrast_range = range, .ghost_share = nan,
-                         .ghost_arcmin = nan, .off_deg = nan};
+    return (PaneFinding){.right_deg = nan,
+                         .up_deg = nan,
+                         .width_deg = nan,
+                         .height_deg = nan,
+                         .image = nan,
+                         .image_range = range,
+                         .behind = nan,
+                         .behind_range = range,
+                         .against = nan,
+                         .against_range = range,
+                         .contrast = nan,
+                         .contrast_range = range,
+                         .ghost_share = nan,
+                         .ghost_arcmin = nan,
+                         .off_deg = nan};
 }
 
 typedef struct PaneEye {
-    const Setup          *setup;
-    const char           *name;
-    Vec3                  at;
+    const Setup *setup;
+    const char *name;
+    Vec3 at;
     const ReviewPaneArea *areas;
-    int                   area_count;
+    int area_count;
 } PaneEye;
 
 static PaneFinding finding_of(const PaneEye *eye, const PaneImage *image, Arena scratch,
-                              Arena *arena)
-{
+                              Arena *arena) {
     const Setup *setup = eye->setup;
-    Frame        frame = frame_of(setup->request);
-    PaneFinding  out = finding_unknown();
+    Frame frame = frame_of(setup->request);
+    PaneFinding out = finding_unknown();
     out.condition = setup->condition->name;
     out.eye = eye->name;
     out.display = chain_part_words(setup->scene, image->part_id, arena);
@@ -192,22 +193,19 @@ static PaneFinding finding_of(const PaneEye *eye, const PaneImage *image, Arena 
 
 /* ---- all of them ------------------------------------------------------------------------- */
 
-static void add_eye(const PaneEye *eye, Arena *arena, Review *review)
-{
-    int        count;
-    Arena      scratch = arena_reserve(SEARCH_BYTES);
+static void add_eye(const PaneEye *eye, Arena *arena, Review *review) {
+    int count;
+    Arena scratch = arena_reserve(SEARCH_BYTES);
     PaneImage *images = pane_images_find(eye->setup, eye->at, &count, &scratch);
-    review->pane_images =
-        ARENA_GROW(arena, PaneFinding, review->pane_images, review->pane_image_count,
-                   review->pane_image_count + count);
+    review->pane_images = ARENA_GROW(arena, PaneFinding, review->pane_images,
+                                     review->pane_image_count, review->pane_image_count + count);
     for (int i = 0; i < count; i++)
         review->pane_images[review->pane_image_count++] =
             finding_of(eye, &images[i], scratch, arena);
     arena_release(&scratch);
 }
 
-bool setup_pane_images(const Setup *setup, Arena *arena, Review *review, Error *err)
-{
+bool setup_pane_images(const Setup *setup, Arena *arena, Review *review, Error *err) {
     const ReviewRequest *request = setup->request;
     for (int i = 0; i < request->eye_count; i++) {
         PaneEye eye = {.setup = setup, .name = request->eyes[i].name};

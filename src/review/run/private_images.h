@@ -20,10 +20,10 @@
 #include "review/run/symbols.h"
 
 typedef struct PrivateLook {
-    const Setup       *setup; /* lit */
+    const Setup *setup; /* lit */
     const SetupSymbol *symbol;
-    const Vec3        *points; /* the eye's places, m, scene */
-    int                point_count;
+    const Vec3 *points; /* the eye's places, m, scene */
+    int point_count;
 } PrivateLook;
 
 /* Sets images and image_count of a case whose level and panel are known: of the panes that show

@@ -23,40 +23,34 @@
 #define SETUP_BYTES ((size_t)1 << 36)
 
 /* Of one condition. */
-static int most_cases(const ReviewRequest *request)
-{
+static int most_cases(const ReviewRequest *request) {
     return request->eye_count * request->symbol_count * SYMBOLS_FOUND_MOST;
 }
 
 /* A response for each sight, face and sensor. */
-static int most_responses(const ReviewRequest *request)
-{
-    return most_cases(request) + request->symbol_count * SYMBOLS_FOUND_MOST +
-           request->level_count;
+static int most_responses(const ReviewRequest *request) {
+    return most_cases(request) + request->symbol_count * SYMBOLS_FOUND_MOST + request->level_count;
 }
 
 /* Names of symbols that were found live in the setup's memory. */
-static void keep_names(ReviewCase *cases, int count, Arena *arena)
-{
+static void keep_names(ReviewCase *cases, int count, Arena *arena) {
     for (int i = 0; i < count; i++)
         cases[i].symbol = arena_string(arena, cases[i].symbol, strlen(cases[i].symbol));
 }
 
 /* Of a variant's gazes only the roads' increments: nothing else of them has a limit. */
-static bool add_roads(const GazesArgs *looks, Arena *arena, Review *review, Error *err)
-{
+static bool add_roads(const GazesArgs *looks, Arena *arena, Review *review, Error *err) {
     if (!setup_gazes(looks, arena, review->gazes + review->gaze_count, err)) return false;
     review->gaze_count += roads_of_moment(looks->setup);
     return true;
 }
 
 static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena *arena,
-                       ReviewOutcome *out, Error *err)
-{
+                       ReviewOutcome *out, Error *err) {
     const ReviewCondition *condition = setup->condition;
-    Review   *review = &out->review;
-    CaseTools tools = {.setup = setup, .profile = run->profile, .progress = run->progress,
-                       .base = run->base};
+    Review *review = &out->review;
+    CaseTools tools = {
+        .setup = setup, .profile = run->profile, .progress = run->progress, .base = run->base};
     SetupSymbol *symbols;
     const Environment *sky = condition->has_environment ? &condition->environment : NULL;
     if (!setup_light(setup, sky, scratch, err) ||
@@ -85,23 +79,21 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
 /* The roads of a sweep, as it is after dark: with its lamps, displays and levels, but
  * without sun and sky. */
 static bool run_after_dark(const ReviewRun *run, const ReviewCondition *condition, Arena *arena,
-                           ReviewOutcome *out, Error *err)
-{
+                           ReviewOutcome *out, Error *err) {
     SetupOptions options = {run->request, condition, run->means};
-    Review      *review = &out->review;
-    int          count = roads_of_sweep(run->request, condition);
+    Review *review = &out->review;
+    int count = roads_of_sweep(run->request, condition);
     if (!count || run->base) return true;
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
     GazeFinding *found = review->gazes + review->gaze_count;
-    bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
+    bool ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         Environment dark = setup.scene->environment;
-        GazesArgs    looks = {&setup, run->sun_searches, run->profile, NULL, 0, true};
+        GazesArgs looks = {&setup, run->sun_searches, run->profile, NULL, 0, true};
         dark.kind = ENVIRONMENT_NONE;
         dark.has_sun = false;
-        ok = setup_light(&setup, &dark, &scratch, err) &&
-             setup_gazes(&looks, arena, found, err);
+        ok = setup_light(&setup, &dark, &scratch, err) && setup_gazes(&looks, arena, found, err);
         for (int i = 0; ok && i < count; i++) found[i].road->is_after_dark = true;
         setup_close(&setup);
     }
@@ -112,12 +104,10 @@ static bool run_after_dark(const ReviewRun *run, const ReviewCondition *conditio
 
 /* Do two conditions have one scene? */
 static bool same_scene(const ReviewRequest *request, const ReviewCondition *a,
-                       const ReviewCondition *b)
-{
+                       const ReviewCondition *b) {
     if (a->with_id != b->with_id || a->light_count != b->light_count ||
         a->content_count != b->content_count ||
-        memcmp(a->polarity, b->polarity,
-               (size_t)request->symbol_count * sizeof *a->polarity) != 0)
+        memcmp(a->polarity, b->polarity, (size_t)request->symbol_count * sizeof *a->polarity) != 0)
         return false;
     for (int i = 0; i < a->light_count; i++)
         if (strcmp(a->lights[i], b->lights[i]) != 0) return false;
@@ -128,8 +118,7 @@ static bool same_scene(const ReviewRequest *request, const ReviewCondition *a,
     return true;
 }
 
-bool review_check(const ReviewRequest *request, Arena scratch, Error *err)
-{
+bool review_check(const ReviewRequest *request, Arena scratch, Error *err) {
     for (int i = 0; i < request->condition_count; i++)
         if (request->conditions[i].kind != CONDITION_MOMENT &&
             !sweep_check(request, i, scratch, err))
@@ -138,9 +127,8 @@ bool review_check(const ReviewRequest *request, Arena scratch, Error *err)
 }
 
 /* Keeps the list of the scene that has most of them. */
-static void report_without_data(const Scene *scene, Review *review, Arena scratch, Arena *arena)
-{
-    int  count;
+static void report_without_data(const Scene *scene, Review *review, Arena scratch, Arena *arena) {
+    int count;
     int *list = scene_without_data(scene, &count, &scratch);
     if (count <= review->without_data_count) return;
     review->without_data_count = count;
@@ -148,12 +136,11 @@ static void report_without_data(const Scene *scene, Review *review, Arena scratc
 }
 
 static bool run_condition(const ReviewRun *run, const ReviewCondition *condition, Arena *arena,
-                          ReviewOutcome *out, Error *err)
-{
+                          ReviewOutcome *out, Error *err) {
     SetupOptions options = {run->request, condition, run->means};
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
-    bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
+    bool ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         report_without_data(setup.scene, &out->review, scratch, arena);
         rests_add_scene(run->request, setup.scene, &out->review, arena);
@@ -170,26 +157,23 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     return ok;
 }
 
-static void start(const ReviewRequest *request, ReviewOutcome *out, Arena *arena)
-{
+static void start(const ReviewRequest *request, ReviewOutcome *out, Arena *arena) {
     int most = most_cases(request);
     *out = (ReviewOutcome){.tables = ARENA_NEW(arena, SweepTable, most)};
-    out->review = (Review){.cases = ARENA_NEW(arena, ReviewCase, most),
-                           .sweeps = ARENA_NEW(arena, ReviewSweep, most),
-                           .gazes = ARENA_NEW(arena, GazeFinding, review_look_count(request)),
-                           .responses = ARENA_NEW(arena, ReviewResponse,
-                                                  most_responses(request)),
-                           .false_suns = ARENA_NEW(arena, ReviewFalseSun,
-                                                   request->eye_count * FALSE_SUNS_LISTED)};
+    out->review = (Review){
+        .cases = ARENA_NEW(arena, ReviewCase, most),
+        .sweeps = ARENA_NEW(arena, ReviewSweep, most),
+        .gazes = ARENA_NEW(arena, GazeFinding, review_look_count(request)),
+        .responses = ARENA_NEW(arena, ReviewResponse, most_responses(request)),
+        .false_suns = ARENA_NEW(arena, ReviewFalseSun, request->eye_count * FALSE_SUNS_LISTED)};
 }
 
 /* Progress counts what of it is read. */
-bool review_run_condition(const ReviewRun *run, int condition_id, Arena *arena,
-                          ReviewOutcome *out, Error *err)
-{
+bool review_run_condition(const ReviewRun *run, int condition_id, Arena *arena, ReviewOutcome *out,
+                          Error *err) {
     const ReviewCondition *condition = &run->request->conditions[condition_id];
-    int       steps = review_condition_steps(run->request, condition);
-    Progress  part = progress_part(run->progress, steps, steps);
+    int steps = review_condition_steps(run->request, condition);
+    Progress part = progress_part(run->progress, steps, steps);
     ReviewRun own = *run;
     own.progress = &part;
     start(run->request, out, arena);
@@ -206,8 +190,7 @@ bool review_run_condition(const ReviewRun *run, int condition_id, Arena *arena,
 
 /* All moments, or all sweeps, of one scene: they need the same, and are done as the first
  * is. */
-static void mark_scene(const ReviewRequest *request, int first, int *done_by)
-{
+static void mark_scene(const ReviewRequest *request, int first, int *done_by) {
     const ReviewCondition *c = request->conditions;
     bool is_moment = c[first].kind == CONDITION_MOMENT;
     for (int i = first; i < request->condition_count; i++)
@@ -217,36 +200,33 @@ static void mark_scene(const ReviewRequest *request, int first, int *done_by)
 }
 
 /* A moment has symbols, but needs no response. */
-static bool plan_condition(const ReviewRun *run, const ReviewCondition *condition,
-                           ReviewPlan *plan, Error *err)
-{
+static bool plan_condition(const ReviewRun *run, const ReviewCondition *condition, ReviewPlan *plan,
+                           Error *err) {
     SetupOptions options = {run->request, condition, run->means};
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
-    bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
+    bool ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
-        Sweep        sweep = {.run = run, .setup = &setup};
+        Sweep sweep = {.run = run, .setup = &setup};
         SetupSymbol *symbols;
-        int          count;
+        int count;
         ok = (review_request_check(run->request, setup.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
              (condition->kind == CONDITION_MOMENT
                   ? setup_symbols(&setup, &scratch, &symbols, &count, err)
                   : sweep_place_probes(&sweep, &scratch, err));
         plan->responses += sweep.call_count;
-        for (int i = 0; i < sweep.call_count; i++)
-            plan->responses_kept += sweep.calls[i].is_kept;
+        for (int i = 0; i < sweep.call_count; i++) plan->responses_kept += sweep.calls[i].is_kept;
         setup_close(&setup);
     }
     arena_release(&scratch);
     return ok;
 }
 
-bool review_plan(const ReviewRun *run, Arena *arena, ReviewPlan *out, Error *err)
-{
+bool review_plan(const ReviewRun *run, Arena *arena, ReviewPlan *out, Error *err) {
     const ReviewRequest *request = run->request;
-    int                  count = request->condition_count;
-    int                 *done_by = ARENA_NEW(arena, int, count);
+    int count = request->condition_count;
+    int *done_by = ARENA_NEW(arena, int, count);
     *out = (ReviewPlan){0};
     for (int i = 0; i < count; i++) done_by[i] = -1;
     for (int i = 0; i < count; i++) {
@@ -259,29 +239,25 @@ bool review_plan(const ReviewRun *run, Arena *arena, ReviewPlan *out, Error *err
 
 /* ---- what a reader must know ------------------------------------------------------------- */
 
-static void add_note(Review *review, const char ***notes, const char *text)
-{
+static void add_note(Review *review, const char ***notes, const char *text) {
     (*notes)[review->note_count++] = text;
     review->notes = *notes;
 }
 
-static bool has_sweeps(const ReviewRun *run)
-{
+static bool has_sweeps(const ReviewRun *run) {
     for (int i = 0; i < run->request->condition_count; i++)
         if (review_is_wanted(run, i) && run->request->conditions[i].kind != CONDITION_MOMENT)
             return true;
     return false;
 }
 
-static bool has_boxes(const ReviewRequest *request)
-{
+static bool has_boxes(const ReviewRequest *request) {
     for (int i = 0; i < request->eye_count; i++)
         if (review_eye_is_wide(&request->eyes[i])) return true;
     return false;
 }
 
-static bool takes_lux(const ReviewRequest *request, int weather_id, WeatherLux lux)
-{
+static bool takes_lux(const ReviewRequest *request, int weather_id, WeatherLux lux) {
     for (int i = 0; i < request->condition_count; i++) {
         const ReviewCondition *condition = &request->conditions[i];
         if (condition->weather_id == weather_id && condition->weather_lux == lux) return true;
@@ -290,8 +266,7 @@ static bool takes_lux(const ReviewRequest *request, int weather_id, WeatherLux l
 }
 
 static void add_weather_notes(const ReviewRequest *request, int weather_id, Review *review,
-                              const char ***notes, Arena *arena)
-{
+                              const char ***notes, Arena *arena) {
     const ReviewWeather *weather = &request->weathers[weather_id];
     add_note(review, notes, sweep_weather_note(weather, arena));
     for (int lux = WEATHER_LUX_PEREZ; lux <= WEATHER_LUX_FILE; lux++)
@@ -299,24 +274,24 @@ static void add_weather_notes(const ReviewRequest *request, int weather_id, Revi
             add_note(review, notes, sweep_weather_lux_note(weather, (WeatherLux)lux, arena));
 }
 
-static void add_glasses_notes(const ReviewRequest *request, Review *review,
-                              const char ***notes, Arena *arena)
-{
+static void add_glasses_notes(const ReviewRequest *request, Review *review, const char ***notes,
+                              Arena *arena) {
     for (int i = 0; i < request->condition_count; i++) {
         const ReviewCondition *c = &request->conditions[i];
         if (!c->glasses) continue;
-        add_note(review, notes, arena_format(arena,
-                 "%s: seen through %s. They darken display, reflections and the veil in the "
-                 "eye by one factor, which leaves contrasts; figures in cd/m2 are told "
-                 "without it, grey steps and visibility with it. Limits are those of the naked "
-                 "eye. Pictures and gazes are without them%s.", c->name,
-                 c->glasses->words,
-                 c->glasses->is_polarising ? ", and causes as unpolarised light" : ""));
+        add_note(review, notes,
+                 arena_format(
+                     arena,
+                     "%s: seen through %s. They darken display, reflections and the veil in the "
+                     "eye by one factor, which leaves contrasts; figures in cd/m2 are told "
+                     "without it, grey steps and visibility with it. Limits are those of the naked "
+                     "eye. Pictures and gazes are without them%s.",
+                     c->name, c->glasses->words,
+                     c->glasses->is_polarising ? ", and causes as unpolarised light" : ""));
     }
 }
 
-static bool has_private_night(const Review *review)
-{
+static bool has_private_night(const Review *review) {
     for (int i = 0; i < review_case_count(review); i++) {
         const ReviewCase *c = review_case_at(review, i);
         if (c->must_not_be_read && c->ambient == AMBIENT_NIGHT) return true;
@@ -326,28 +301,29 @@ static bool has_private_night(const Review *review)
 
 /* By what it is judged, and whether its worst light was among the conditions. */
 static void add_privacy_notes(const ReviewRun *run, Review *review, const char ***notes,
-                              Arena *arena)
-{
+                              Arena *arena) {
     const ProfileLimit *limit = &run->profile->security;
     if (!review_has_private(run->request)) return;
-    add_note(review, notes, arena_format(arena,
-             "What must not be read is judged by its visual security S = log10 V, "
-             "V = (Y + R)/(Y - K) (US 11,106,103 B2): Y and K are its brighter and its darker "
-             "part's own light to that eye, R what the display reflects in the part of the "
-             "symbol that reflects least. The eye's veil does not count, and it passes by no "
-             "size: who leans forward reads smaller letters. Where the profile limits nothing "
-             "S is to be at least %.4g (%s).", limit->value, limit->source));
+    add_note(review, notes,
+             arena_format(
+                 arena,
+                 "What must not be read is judged by its visual security S = log10 V, "
+                 "V = (Y + R)/(Y - K) (US 11,106,103 B2): Y and K are its brighter and its darker "
+                 "part's own light to that eye, R what the display reflects in the part of the "
+                 "symbol that reflects least. The eye's veil does not count, and it passes by no "
+                 "size: who leans forward reads smaller letters. Where the profile limits nothing "
+                 "S is to be at least %.4g (%s).",
+                 limit->value, limit->source));
     if (!has_private_night(review))
         add_note(review, notes,
                  "What must not be read is read best in a dark night: no case of it is by "
                  "night, so that its worst light was not reviewed.");
 }
 
-void review_add_notes(const ReviewRun *run, Review *review, Arena *arena)
-{
+void review_add_notes(const ReviewRun *run, Review *review, Arena *arena) {
     const ReviewRequest *request = run->request;
-    const char **notes = ARENA_NEW(arena, const char *, 3 * request->weather_count + 7 +
-                                                        request->condition_count);
+    const char **notes =
+        ARENA_NEW(arena, const char *, 3 * request->weather_count + 7 + request->condition_count);
     if (has_sweeps(run)) {
         add_note(review, &notes,
                  "Sweeps: skies are clear, or those of a weather file where one is named; "

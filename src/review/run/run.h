@@ -9,8 +9,8 @@
 #include "review/run/review_run.h"
 
 /* One moment or sweep, by itself: nothing of it hangs on another condition. */
-bool review_run_condition(const ReviewRun *run, int condition_id, Arena *arena,
-                          ReviewOutcome *out, Error *err);
+bool review_run_condition(const ReviewRun *run, int condition_id, Arena *arena, ReviewOutcome *out,
+                          Error *err);
 
 /* What a reader must know of the whole: approximations, gaps in data. */
 void review_add_notes(const ReviewRun *run, Review *review, Arena *arena);

@@ -22,7 +22,7 @@ void sun_figures_judge(const Sweep *sweep, const Sight *sight, const DistantTool
 /* Steps whose suns lie apart from others'. */
 typedef struct FarSteps {
     double apart_deg; /* at least */
-    bool   fail;      /* those that fail for sure; else whatever their verdict */
+    bool fail;        /* those that fail for sure; else whatever their verdict */
 } FarSteps;
 
 /* The worst of them; -1: none. */

@@ -16,8 +16,9 @@
 #include "review/run/sweep_weather.h"
 #include "review/suns/sweep_suns.h"
 
-#define WORST_READ 3          /* steps that are read again, at most */
-#define WORST_APART_DEG 5.0   /* the suns of two of them, at least: a response's angular
+#define WORST_READ 3 /* steps that are read again, at most */
+#define WORST_APART_DEG \
+    5.0                       /* the suns of two of them, at least: a response's angular \
                                  resolution */
 #define REFINED 4             /* steps about which the worst is looked for, at most */
 #define REFINED_APART_DEG 3.0 /* the suns of two of them, at least */
@@ -25,8 +26,7 @@
 #define SWEEP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
 /* Air and ground: the condition's, or as usual. */
-static DaylightInput air_of(const ReviewCondition *condition)
-{
+static DaylightInput air_of(const ReviewCondition *condition) {
     DaylightInput air = condition->has_environment ? condition->environment.daylight
                                                    : daylight_input_default(DAYLIGHT_CLEAR);
     air.kind = DAYLIGHT_CLEAR;
@@ -35,8 +35,7 @@ static DaylightInput air_of(const ReviewCondition *condition)
 }
 
 /* For a sweep without times: every sun counts alike. */
-static double failed_share(const SweepSuns *suns, const SunFigures *figures)
-{
+static double failed_share(const SweepSuns *suns, const SunFigures *figures) {
     double failed = 0;
     for (int i = 0; i < suns->count; i++) failed += figures->verdict[i] == VERDICT_FAIL;
     return failed / suns->count;
@@ -45,17 +44,15 @@ static double failed_share(const SweepSuns *suns, const SunFigures *figures)
 /* ---- the worst, read again as a moment --------------------------------------------------- */
 
 /* Sets a weather file's sky: none when it is dark. */
-static void set_weather(const Setup *setup, const SweepSun *sun, Environment *environment)
-{
-    bool is_lit = sweep_weather_light(setup->request, setup->condition, sun,
-                                      &environment->daylight);
+static void set_weather(const Setup *setup, const SweepSun *sun, Environment *environment) {
+    bool is_lit =
+        sweep_weather_light(setup->request, setup->condition, sun, &environment->daylight);
     environment->kind = is_lit ? ENVIRONMENT_PEREZ : ENVIRONMENT_NONE;
 }
 
 /* The sun's place is known; the date gives the earth's distance. Sweeps have no moon. */
-static void set_date(const ReviewCondition *condition, const SweepSun *sun, DaylightInput *out)
-{
-    bool   is_year = condition->kind == CONDITION_YEAR_SWEEP;
+static void set_date(const ReviewCondition *condition, const SweepSun *sun, DaylightInput *out) {
+    bool is_year = condition->kind == CONDITION_YEAR_SWEEP;
     double later = is_year ? sun->later_minutes / condition->step_minutes : 0;
     out->has_time = sun->step >= 0;
     out->no_moon = true;
@@ -63,11 +60,9 @@ static void set_date(const ReviewCondition *condition, const SweepSun *sun, Dayl
         out->when = sweep_time(condition, condition->step_minutes, sun->step + later);
 }
 
-Environment sweep_environment(const Setup *setup, const SweepSun *sun)
-{
-    Environment environment = {
-        .forward = vec3_from_doubles(setup->request->forward),
-        .heading = (float)radians_from_degrees(sun->heading_deg)};
+Environment sweep_environment(const Setup *setup, const SweepSun *sun) {
+    Environment environment = {.forward = vec3_from_doubles(setup->request->forward),
+                               .heading = (float)radians_from_degrees(sun->heading_deg)};
     if (setup->condition->weather_id != NO_ID && sun->step >= 0) {
         set_weather(setup, sun, &environment);
         return environment;
@@ -91,25 +86,24 @@ typedef struct SightFigures {
 
 /* The state of reporting a sweep's sights. */
 typedef struct SweepReport {
-    Sweep           *sweep;
+    Sweep *sweep;
     const DistantTools *tools;
-    const SweepSuns *suns;   /* kept */
-    SightFigures    *sights; /* of those that have twins */
-    SweepTable      *tables; /* one a sight; those without suns are none */
-    int              first;  /* sweep of the review: that of the first sight */
-    ReviewOutcome   *out;
-    Arena           *arena;  /* of what is kept */
-    Arena            scratch;
+    const SweepSuns *suns; /* kept */
+    SightFigures *sights;  /* of those that have twins */
+    SweepTable *tables;    /* one a sight; those without suns are none */
+    int first;             /* sweep of the review: that of the first sight */
+    ReviewOutcome *out;
+    Arena *arena; /* of what is kept */
+    Arena scratch;
 } SweepReport;
 
 /* By the probes, for other suns. */
 static SunFigures judge_others(const SweepReport *to, const Sight *sight, const SweepSuns *suns,
-                               Arena *scratch)
-{
-    Sweep      sweep = *to->sweep;
+                               Arena *scratch) {
+    Sweep sweep = *to->sweep;
     DistantTools tools = *to->tools, of_meters;
     SweepMeter face = *sight->face, sensor;
-    Sight      seen = *sight;
+    Sight seen = *sight;
     sweep.suns = *suns;
     tools.suns = (DistantSuns){suns->distant, suns->count};
     of_meters = tools;
@@ -130,18 +124,16 @@ static SunFigures judge_others(const SweepReport *to, const Sight *sight, const 
 /* A sun about a step, and the margin there, as the probes show it. */
 typedef struct Refined {
     SweepSun sun;
-    double   margin;
+    double margin;
 } Refined;
 
 /* Where about a step it is worst. */
 static Refined refine(const SweepReport *to, const Sight *sight, const SunFigures *figures,
-                      int step)
-{
+                      int step) {
     Refined at = {to->suns->list[step], (double)figures->margin[step]};
     for (int round = 0;; round++) {
-        Arena     scratch = to->scratch;
-        SweepSuns near =
-            sweep_suns_about(to->sweep->setup->condition, &at.sun, round, &scratch);
+        Arena scratch = to->scratch;
+        SweepSuns near = sweep_suns_about(to->sweep->setup->condition, &at.sun, round, &scratch);
         if (near.count < 2) return at;
         SunFigures of = judge_others(to, sight, &near, &scratch);
         at = (Refined){near.list[of.worst], (double)of.margin[of.worst]};
@@ -151,12 +143,11 @@ static Refined refine(const SweepReport *to, const Sight *sight, const SunFigure
 /* User data of states_between. */
 typedef struct Between {
     const SweepReport *to;
-    const Sight   *sight;
+    const Sight *sight;
 } Between;
 
 static void states_between(void *user, const SweepSuns *suns, unsigned char *states,
-                           Arena scratch)
-{
+                           Arena scratch) {
     const Between *between = user;
     SunFigures figures = judge_others(between->to, between->sight, suns, &scratch);
     sun_figures_states(&figures, suns->count, states);
@@ -164,39 +155,38 @@ static void states_between(void *user, const SweepSuns *suns, unsigned char *sta
 
 /* The skies of a weather file stand for their steps alone. */
 static void set_failures(const SweepReport *to, const Sight *sight, const SunFigures *figures,
-                         ReviewSweep *out)
-{
+                         ReviewSweep *out) {
     const ReviewCondition *condition = to->sweep->setup->condition;
-    bool       is_steady = condition->kind == CONDITION_YEAR_SWEEP && !to->sweep->has_hours;
-    Between    between = {to, sight};
+    bool is_steady = condition->kind == CONDITION_YEAR_SWEEP && !to->sweep->has_hours;
+    Between between = {to, sight};
     FailureArgs args = {states_between, &between};
-    Arena      scratch = to->scratch;
+    Arena scratch = to->scratch;
     if (!to->suns->has_time) {
         out->failed_share = failed_share(to->suns, figures);
         return;
     }
     unsigned char *states = ARENA_NEW(&scratch, unsigned char, to->suns->count);
     sun_figures_states(figures, to->suns->count, states);
-    Failures found = sweep_failures(condition, to->suns, states, is_steady ? &args : NULL,
-                                    scratch);
+    Failures found = sweep_failures(condition, to->suns, states, is_steady ? &args : NULL, scratch);
     out->failed_share = found.share;
     out->longest_failure_minutes = found.longest_minutes;
 }
 
 /* picks: to choose it, by other paths than those of the reported reading and of explain. */
 static bool read_worst(SweepReport *to, const Sight *sight, const SweepSun *sun, bool picks,
-                       ReviewCase *out, Error *err)
-{
-    Sweep        *sweep = to->sweep;
-    Environment   sky = sweep_environment(sweep->setup, sun);
-    Environment   dark = sweep->setup->scene->environment;
+                       ReviewCase *out, Error *err) {
+    Sweep *sweep = to->sweep;
+    Environment sky = sweep_environment(sweep->setup, sun);
+    Environment dark = sweep->setup->scene->environment;
     ReviewRequest request = *sweep->run->request;
     request.seed += picks ? PICK_SEED : 0;
     if (!sweep_light_sun(sweep, sun, &sky, err)) return false;
     Setup setup = sweep->lit->setup;
     setup.request = &request;
-    CaseTools tools = {.setup = &setup, .profile = sweep->run->profile,
-                       .symbols = sight->symbol, .symbol_count = 1,
+    CaseTools tools = {.setup = &setup,
+                       .profile = sweep->run->profile,
+                       .symbols = sight->symbol,
+                       .symbol_count = 1,
                        .base = sweep->run->base};
     bool ok = setup_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
     setup.scene->environment = dark; /* as the next sight is sampled */
@@ -204,23 +194,22 @@ static bool read_worst(SweepReport *to, const Sight *sight, const SweepSun *sun,
 }
 
 /* Azimuths of a sweep's worst are the vehicle's, as those of its map are. */
-static void set_when(const SweepReport *to, const SweepSun *sun, ReviewCase *c)
-{
+static void set_when(const SweepReport *to, const SweepSun *sun, ReviewCase *c) {
     const ReviewCondition *condition = to->sweep->setup->condition;
     const char *when = sweep_suns_when(condition, to->suns, sun, to->arena);
     c->sun_azimuth_deg = fmod(sun->azimuth_deg + 360, 360);
-    c->when = condition->weather_id == NO_ID
-                  ? when
-                  : arena_format(to->arena, "%s, %s", when,
-                                 sweep_weather_text(to->sweep->run->request, condition, sun,
-                                                    to->arena));
+    c->when =
+        condition->weather_id == NO_ID
+            ? when
+            : arena_format(to->arena, "%s, %s", when,
+                           sweep_weather_text(to->sweep->run->request, condition, sun, to->arena));
 }
 
-static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight)
-{
+static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight) {
     const char *symbol = sight->symbol->name;
     ReviewSweep sweep = {.condition = to->sweep->setup->condition->name,
-                         .eye = sight->eye->name, .cases = to->suns->count,
+                         .eye = sight->eye->name,
+                         .cases = to->suns->count,
                          .symbol = arena_string(to->arena, symbol, strlen(symbol)),
                          .longest_failure_minutes = to->suns->has_time ? 0 : (double)NAN,
                          .middle_contrast = (double)NAN};
@@ -231,12 +220,10 @@ static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight)
 
 /* Of the worst steps that lie apart the one about which it is worst: a sun's image that one
  * step all but meets is worse than what another meets halfway. */
-static SweepSun refine_worst(const SweepReport *to, const Sight *sight,
-                             const SunFigures *figures)
-{
+static SweepSun refine_worst(const SweepReport *to, const Sight *sight, const SunFigures *figures) {
     const FarSteps apart = {REFINED_APART_DEG, false};
-    SweepSun       steps[REFINED];
-    Refined        worst = refine(to, sight, figures, figures->worst);
+    SweepSun steps[REFINED];
+    Refined worst = refine(to, sight, figures, figures->worst);
     steps[0] = to->suns->list[figures->worst];
     for (int i = 1; i < REFINED; i++) {
         int step = sun_figures_next(figures, to->suns, apart, steps, i);
@@ -253,12 +240,11 @@ static SweepSun refine_worst(const SweepReport *to, const Sight *sight,
  * paths of its own, it is read once more and reported in any case: picking the reading that
  * fails of three is wrong three times as often. */
 static bool find_worst(SweepReport *to, const Sight *sight, const SunFigures *figures,
-                       SweepSun *worst, ReviewCase *out, Error *err)
-{
+                       SweepSun *worst, ReviewCase *out, Error *err) {
     const FarSteps failing = {WORST_APART_DEG, true};
-    SweepSun   read[WORST_READ];
+    SweepSun read[WORST_READ];
     ReviewCase found = *out;
-    int        sun = figures->worst;
+    int sun = figures->worst;
     for (int i = 0; i < WORST_READ && sun >= 0; i++) {
         read[i] = i ? refine(to, sight, figures, sun).sun : refine_worst(to, sight, figures);
         if (!read_worst(to, sight, &read[i], i > 0, &found, err)) return false;
@@ -276,8 +262,7 @@ static bool find_worst(SweepReport *to, const Sight *sight, const SunFigures *fi
 }
 
 static void add_table(const SweepReport *to, const Sight *sight, const SunFigures *figures,
-                      const SweepSun *worst)
-{
+                      const SweepSun *worst) {
     int id = (int)(sight - to->sweep->sights);
     if (to->sweep->run->base) return; /* variants have no tables */
     to->tables[id] = (SweepTable){to->first + id, *worst, to->suns, *figures};
@@ -286,13 +271,12 @@ static void add_table(const SweepReport *to, const Sight *sight, const SunFigure
 /* A variant's figures, whose tables nobody needs, last as long as the scratch. asked: the
  * sight with its suns. */
 static SunFigures figures_of(SweepReport *to, const Sight *sight, const Sight *asked,
-                             ReviewSweep *out)
-{
-    int        id = (int)(sight - to->sweep->sights);
+                             ReviewSweep *out) {
+    int id = (int)(sight - to->sweep->sights);
     SightFigures *kept = &to->sights[sight->twin != NO_ID ? sight->twin : id];
     if (sight->twin == NO_ID) {
-        kept->figures = sun_figures_start(to->suns->count,
-                                          to->sweep->run->base ? &to->scratch : to->arena);
+        kept->figures =
+            sun_figures_start(to->suns->count, to->sweep->run->base ? &to->scratch : to->arena);
         sun_figures_judge(to->sweep, asked, to->tools, &kept->figures, to->scratch);
         set_failures(to, asked, &kept->figures, out);
         kept->failed_share = out->failed_share;
@@ -303,11 +287,10 @@ static SunFigures figures_of(SweepReport *to, const Sight *sight, const Sight *a
     return kept->figures;
 }
 
-static bool report_sight(SweepReport *to, const Sight *sight, const Sight *asked, Error *err)
-{
-    Review     *review = &to->out->review;
+static bool report_sight(SweepReport *to, const Sight *sight, const Sight *asked, Error *err) {
+    Review *review = &to->out->review;
     ReviewSweep sweep = sweep_of(to, sight);
-    Arena       before = to->scratch;
+    Arena before = to->scratch;
     if (sight->probe.aim.target_count) {
         SunFigures figures = figures_of(to, sight, asked, &sweep);
         SweepSun worst = {0};
@@ -324,15 +307,14 @@ static bool report_sight(SweepReport *to, const Sight *sight, const Sight *asked
 
 /* Symbol by symbol, so that what its eyes share is at hand. A sight's suns are sampled, and
  * forgotten when it is reported. */
-static bool report_sights(SweepReport *to, Arena room, Error *err)
-{
+static bool report_sights(SweepReport *to, Arena room, Error *err) {
     Sweep *sweep = to->sweep;
-    int    symbols = sweep->symbol_count;
+    int symbols = sweep->symbol_count;
     for (int i = 0; i < sweep->sight_count; i++) {
-        int          eyes = sweep->sight_count / symbols;
+        int eyes = sweep->sight_count / symbols;
         const Sight *sight = &sweep->sights[i % eyes * symbols + i / eyes];
-        Arena        of_sight = room;
-        Sight        asked = *sight;
+        Arena of_sight = room;
+        Sight asked = *sight;
         if (!review_goes_on(err)) return false;
         if (sight->twin == NO_ID) asked = sweep_sample_sight(sweep, sight, &of_sight);
         if (!report_sight(to, sight, &asked, err)) return false;
@@ -341,8 +323,7 @@ static bool report_sights(SweepReport *to, Arena room, Error *err)
     return true;
 }
 
-static void keep_tables(const SweepReport *to)
-{
+static void keep_tables(const SweepReport *to) {
     ReviewOutcome *out = to->out;
     for (int i = 0; i < to->sweep->sight_count; i++)
         if (to->tables[i].suns) out->tables[out->table_count++] = to->tables[i];
@@ -350,27 +331,24 @@ static void keep_tables(const SweepReport *to)
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static void report_responses(const Sweep *sweep, Arena *arena, ReviewOutcome *out)
-{
+static void report_responses(const Sweep *sweep, Arena *arena, ReviewOutcome *out) {
     Review *review = &out->review;
     for (int i = 0; i < sweep->call_count; i++) {
         const ResponseArgs *args = &sweep->calls[i];
-        const Response    *response = &args->probe->response;
-        review->responses[review->response_count++] = (ReviewResponse){
-            arena_string(arena, args->name, strlen(args->name)),
-            arena_string(arena, args->shown, strlen(args->shown)), response->paths,
-            (long)args->file.bytes, response->relative_error};
+        const Response *response = &args->probe->response;
+        review->responses[review->response_count++] =
+            (ReviewResponse){arena_string(arena, args->name, strlen(args->name)),
+                             arena_string(arena, args->shown, strlen(args->shown)), response->paths,
+                             (long)args->file.bytes, response->relative_error};
         out->responses_kept += args->is_kept;
     }
 }
 
-static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
-{
+static bool make_skies(Sweep *sweep, Arena *scratch, Error *err) {
     const Setup *setup = sweep->setup;
     double low = 90, high = -90;
     sweep->has_hours = setup->condition->weather_id != NO_ID;
-    if (sweep->has_hours &&
-        !sweep_weather_skies(setup, &sweep->suns, scratch, &sweep->hours, err))
+    if (sweep->has_hours && !sweep_weather_skies(setup, &sweep->suns, scratch, &sweep->hours, err))
         return false;
     for (int i = 0; i < sweep->suns.count; i++) {
         low = fmin(low, sweep->suns.list[i].elevation_deg);
@@ -382,14 +360,13 @@ static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
     sweep->table = sky_table_start(&like, low, high, scratch);
     if (setup->condition->kind == CONDITION_SUN_SWEEP) {
         const ReviewRange *azimuths = &setup->condition->azimuth_deg;
-        double             heading = sweep->suns.list[0].heading_deg; /* of all of them */
+        double heading = sweep->suns.list[0].heading_deg; /* of all of them */
         sky_table_between(&sweep->table, azimuths->first - heading, azimuths->last - heading);
     }
     return true;
 }
 
-bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, Error *err)
-{
+bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, Error *err) {
     const ReviewCondition *condition = &request->conditions[condition_id];
     const char *place = arena_format(&scratch, "/conditions/%d", condition_id);
     SweepSuns suns = sweep_suns(condition, 1, &scratch);
@@ -401,16 +378,14 @@ bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, 
 }
 
 /* Responses that are to be traced, then sights. */
-static int steps_of(const Sweep *sweep)
-{
+static int steps_of(const Sweep *sweep) {
     int steps = sweep->sight_count;
     for (int i = 0; i < sweep->call_count; i++) steps += !sweep->calls[i].is_kept;
     return steps;
 }
 
-static void set_level(Sweep *sweep)
-{
-    const ReviewRequest   *request = sweep->run->request;
+static void set_level(Sweep *sweep) {
+    const ReviewRequest *request = sweep->run->request;
     const ReviewCondition *condition = sweep->setup->condition;
     bool has_level = condition->level_id != NO_ID;
     sweep->level = has_level ? &request->levels[condition->level_id] : NULL;
@@ -420,16 +395,20 @@ static void set_level(Sweep *sweep)
 
 /* Its probes are made. */
 static bool sweep_suns_of(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,
-                          Error *err)
-{
+                          Error *err) {
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
     sweep->suns = *suns = sweep_suns(sweep->setup->condition, sweep->run->means.threads, arena);
     set_level(sweep);
     if (!make_skies(sweep, &scratch, err)) return false;
     if (!sweep_sample_light(sweep, &scratch, err)) return false;
     DistantTools tools = sweep_tools(sweep);
-    SweepReport to = {.sweep = sweep, .tools = &tools, .suns = suns, .out = out, .arena = arena,
-                      .first = out->review.sweep_count, .scratch = sweep->figures,
+    SweepReport to = {.sweep = sweep,
+                      .tools = &tools,
+                      .suns = suns,
+                      .out = out,
+                      .arena = arena,
+                      .first = out->review.sweep_count,
+                      .scratch = sweep->figures,
                       .sights = ARENA_NEW(&scratch, SightFigures, sweep->sight_count),
                       .tables = ARENA_NEW(&scratch, SweepTable, sweep->sight_count)};
     if (!sweep->run->base) false_sun_times(sweep, scratch, arena, &out->review);
@@ -439,9 +418,7 @@ static bool sweep_suns_of(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutco
     return true;
 }
 
-static bool sweep_all(Sweep *sweep, Arena *scratch, Arena *arena, ReviewOutcome *out,
-                      Error *err)
-{
+static bool sweep_all(Sweep *sweep, Arena *scratch, Arena *arena, ReviewOutcome *out, Error *err) {
     if (!sweep_place_probes(sweep, scratch, err)) return false;
     rests_add_masks(sweep->symbols, sweep->symbol_count, &out->review, arena);
     sweep->run->progress->total = steps_of(sweep);
@@ -451,15 +428,16 @@ static bool sweep_all(Sweep *sweep, Arena *scratch, Arena *arena, ReviewOutcome 
            sweep_suns_of(sweep, *scratch, arena, out, err);
 }
 
-bool run_sweep(const ReviewRun *run, Setup *setup, Arena *arena, ReviewOutcome *out, Error *err)
-{
-    Arena    scratch = arena_reserve(SWEEP_BYTES);
-    SweepLit lit = {.of = setup, .room = arena_reserve(SWEEP_BYTES),
-                    .fresh = arena_reserve(SWEEP_BYTES)};
-    Sweep    sweep = {.run = run, .setup = setup, .lit = &lit,
-                      .figures = arena_reserve(SWEEP_BYTES),
-                      .between = arena_reserve(SWEEP_BYTES)};
-    bool     ok = sweep_all(&sweep, &scratch, arena, out, err);
+bool run_sweep(const ReviewRun *run, Setup *setup, Arena *arena, ReviewOutcome *out, Error *err) {
+    Arena scratch = arena_reserve(SWEEP_BYTES);
+    SweepLit lit = {
+        .of = setup, .room = arena_reserve(SWEEP_BYTES), .fresh = arena_reserve(SWEEP_BYTES)};
+    Sweep sweep = {.run = run,
+                   .setup = setup,
+                   .lit = &lit,
+                   .figures = arena_reserve(SWEEP_BYTES),
+                   .between = arena_reserve(SWEEP_BYTES)};
+    bool ok = sweep_all(&sweep, &scratch, arena, out, err);
     arena_release(&sweep.between);
     arena_release(&sweep.figures);
     arena_release(&lit.fresh);

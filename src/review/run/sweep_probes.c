@@ -20,23 +20,20 @@
 
 /* ---- files ------------------------------------------------------------------------------- */
 
-static void add_meter(Text *text, const LitPoint *meter)
-{
+static void add_meter(Text *text, const LitPoint *meter) {
     identity_vector(text, "meter", meter->position);
     identity_vector(text, "meter's normal", meter->ns);
     identity_line(text, "meter's sides", "%d", 1 + meter->both_sides);
 }
 
-static void add_eye(Text *text, const ProbeAim *aim)
-{
+static void add_eye(Text *text, const ProbeAim *aim) {
     identity_vector(text, "eye", aim->eye);
     identity_line(text, "looks at", "%d points, %016llx", aim->target_count,
                   (unsigned long long)reading_aim_hash(aim));
 }
 
 /* Everything that decides the response and what the probe reads of the scene's own light. */
-static const char *identity_of(const Setup *setup, const ResponseArgs *args, Arena *arena)
-{
+static const char *identity_of(const Setup *setup, const ResponseArgs *args, Arena *arena) {
     const ProbeAim *aim = &args->probe->aim;
     Text text = {.arena = arena};
     text_add(&text, setup->identity);
@@ -49,45 +46,39 @@ static const char *identity_of(const Setup *setup, const ResponseArgs *args, Are
     return text.data;
 }
 
-static void name_file(const ReviewRun *run, const Setup *setup, ResponseArgs *args,
-                      Arena *arena)
-{
+static void name_file(const ReviewRun *run, const Setup *setup, ResponseArgs *args, Arena *arena) {
     const char *identity = identity_of(setup, args, arena);
-    uint64_t    hash = XXH3_64bits(identity, strlen(identity));
+    uint64_t hash = XXH3_64bits(identity, strlen(identity));
     const char *name = arena_format(arena, "%s-%016llx.response",
-                                    words_file_name(args->name, arena),
-                                    (unsigned long long)hash);
+                                    words_file_name(args->name, arena), (unsigned long long)hash);
     args->file = (ResponseFile){.path = arena_format(arena, "%s/%s", run->responses, name),
-                               .identity = identity};
+                                .identity = identity};
     args->shown = arena_format(arena, "%s/%s", run->responses_shown, name);
 }
 
 /* Reads those that are there. Sets file, shown and is_kept of all. */
-static void responses_find(const ReviewRun *run, const Setup *setup, ResponseArgs *calls,
-                           int count, Arena *arena)
-{
+static void responses_find(const ReviewRun *run, const Setup *setup, ResponseArgs *calls, int count,
+                           Arena *arena) {
     for (int i = 0; i < count; i++) {
         Error err;
         if (!run->responses) continue;
         name_file(run, setup, &calls[i], arena);
         if (!file_exists(calls[i].file.path)) continue;
-        calls[i].is_kept = response_read(&calls[i].file, arena, &calls[i].probe->response,
-                                         calls[i].own, &err);
+        calls[i].is_kept =
+            response_read(&calls[i].file, arena, &calls[i].probe->response, calls[i].own, &err);
         if (calls[i].is_kept) continue;
-        problems_add(run->problems, SEVERITY_WARNING, err.file, err.path,
-                     "%s — it is traced again", err.text);
+        problems_add(run->problems, SEVERITY_WARNING, err.file, err.path, "%s — it is traced again",
+                     err.text);
     }
 }
 
 /* ---- the scene's own light --------------------------------------------------------------- */
 
-static bool gives_light(const Lights *lights)
-{
+static bool gives_light(const Lights *lights) {
     return lights_has(lights, LIGHTS_EMITTERS) || lights_has(lights, LIGHTS_PUNCTUAL);
 }
 
-static double own_reading(const Setup *setup, const ProbeAim *aim, Arena scratch)
-{
+static double own_reading(const Setup *setup, const ProbeAim *aim, Arena scratch) {
     ReadingGoal goal = {.precision = OWN_PRECISION, .most = OWN_PATHS};
     if (!gives_light(setup->context.lights)) return 0;
     return reading_take(aim, &goal, &setup->tools, scratch).reflected;
@@ -96,10 +87,9 @@ static double own_reading(const Setup *setup, const ProbeAim *aim, Arena scratch
 /* The own light of those that were not there: the scene is dark but for its lamps, or for its
  * lamps and displays at level 1, which is sampled after them. */
 static bool responses_read_own(const Setup *setup, const ResponseArgs *calls, int count,
-                               bool displays, Error *err)
-{
+                               bool displays, Error *err) {
     Arena scratch = arena_reserve(OWN_BYTES);
-    bool  ok = true;
+    bool ok = true;
     for (int i = 0; i < count && ok; i++) {
         if (calls[i].is_kept) continue;
         ok = review_goes_on(err);
@@ -116,8 +106,7 @@ static bool responses_read_own(const Setup *setup, const ResponseArgs *calls, in
 
 /* Traces and keeps the rest. */
 static bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseArgs *calls,
-                            int count, Arena *arena, Error *err)
-{
+                            int count, Arena *arena, Error *err) {
     DistantTools tools = {.setup = setup};
     for (int i = 0; i < count; i++) {
         ResponseArgs *args = &calls[i];
@@ -135,8 +124,9 @@ static bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAr
 
 #define RESPONSE_PATHS 65536
 #define RESPONSE_PRECISION 0.004
-#define RESPONSE_PRECISION_VARIANT 0.006 /* their worst is read by paths of its own; this is
-                                            for how long they fail */
+#define RESPONSE_PRECISION_VARIANT \
+    0.006 /* their worst is read by paths of its own; this is \
+             for how long they fail */
 #define METER_PATHS 16384
 #define SUN_PATHS SYMBOL_POINTS /* of the first vertex: a lobe is narrower than a symbol */
 #define METER_SUN_PATHS 64
@@ -145,14 +135,11 @@ static bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAr
 
 /* ---- a scene without a sky --------------------------------------------------------------- */
 
-static void set_all_levels(Setup *setup, float level)
-{
-    for (int i = 0; i < setup->scene->display_count; i++)
-        setup->scene->displays[i].level = level;
+static void set_all_levels(Setup *setup, float level) {
+    for (int i = 0; i < setup->scene->display_count; i++) setup->scene->displays[i].level = level;
 }
 
-bool sweep_light_dark(Setup *setup, float level, Arena *arena, Error *err)
-{
+bool sweep_light_dark(Setup *setup, float level, Arena *arena, Error *err) {
     setup->scene->environment.kind = ENVIRONMENT_NONE;
     setup->scene->environment.has_sun = false;
     setup->scene->environment.heading = 0;
@@ -160,15 +147,13 @@ bool sweep_light_dark(Setup *setup, float level, Arena *arena, Error *err)
     return setup_relight(setup, arena, err);
 }
 
-static bool is_same_light(const SweepSun *a, const SweepSun *b)
-{
+static bool is_same_light(const SweepSun *a, const SweepSun *b) {
     return a->elevation_deg == b->elevation_deg && a->compass_deg == b->compass_deg &&
            a->heading_deg == b->heading_deg && a->step == b->step;
 }
 
 /* Once a condition. */
-static bool make_ready(SweepLit *lit, Error *err)
-{
+static bool make_ready(SweepLit *lit, Error *err) {
     Arena arena = lit->room;
     if (lit->is_ready) return true;
     lit->ready = *lit->of;
@@ -176,11 +161,10 @@ static bool make_ready(SweepLit *lit, Error *err)
     return lit->is_ready;
 }
 
-static bool light_afresh(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err)
-{
+static bool light_afresh(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err) {
     SweepLit *lit = sweep->lit;
-    Arena     arena = lit->fresh;
-    Scene    *scene = sweep->setup->scene;
+    Arena arena = lit->fresh;
+    Scene *scene = sweep->setup->scene;
     if (!make_ready(lit, err)) return false;
     lit->sun = *sun;
     lit->is_lit = setup_light_again(&lit->setup, &lit->ready, sky, &arena, err);
@@ -190,12 +174,10 @@ static bool light_afresh(Sweep *sweep, const SweepSun *sun, const Environment *s
     return true;
 }
 
-bool sweep_light_sun(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err)
-{
+bool sweep_light_sun(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err) {
     SweepLit *lit = sweep->lit;
-    Scene    *scene = sweep->setup->scene;
-    if (!lit->is_lit || !is_same_light(&lit->sun, sun))
-        return light_afresh(sweep, sun, sky, err);
+    Scene *scene = sweep->setup->scene;
+    if (!lit->is_lit || !is_same_light(&lit->sun, sun)) return light_afresh(sweep, sun, sky, err);
     scene->environment = *sky;
     for (int i = 0; i < scene->display_count; i++) scene->displays[i].level = lit->levels[i];
     return true;
@@ -203,18 +185,15 @@ bool sweep_light_sun(Sweep *sweep, const SweepSun *sun, const Environment *sky, 
 
 /* ---- making them ------------------------------------------------------------------------- */
 
-static SweepMeter meter_at(Vec3 position, Vec3 normal)
-{
+static SweepMeter meter_at(Vec3 position, Vec3 normal) {
     return (SweepMeter){.head = {position, normal, false}};
 }
 
-static void place_meters(Sweep *sweep, Arena *arena)
-{
+static void place_meters(Sweep *sweep, Arena *arena) {
     sweep->faces = ARENA_NEW(arena, SweepMeter, sweep->symbol_count);
     for (int i = 0; i < sweep->symbol_count; i++) {
         SymbolPoint p = symbol_middle(&sweep->symbols[i]);
-        sweep->faces[i] =
-            meter_at(symbol_point_start(sweep->setup->scene, &p), p.ns);
+        sweep->faces[i] = meter_at(symbol_point_start(sweep->setup->scene, &p), p.ns);
     }
     const ReviewRequest *request = sweep->run->request;
     sweep->sensors = ARENA_NEW(arena, SweepMeter, request->level_count);
@@ -227,15 +206,13 @@ static void place_meters(Sweep *sweep, Arena *arena)
     }
 }
 
-bool sight_is_seen(const Sight *sight)
-{
+bool sight_is_seen(const Sight *sight) {
     double share = sight->seen.visible_share;
     return sight->is_private ? share > 0 : review_is_seen(share);
 }
 
-static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
-{
-    const Setup         *setup = sweep->setup;
+static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena) {
+    const Setup *setup = sweep->setup;
     const SymbolSurface *surface = &sight->symbol->surface;
     bool *is_visible = ARENA_NEW(arena, bool, surface->point_count);
     sight->seen = symbol_visibility(surface, &setup->context, sight->from, is_visible);
@@ -244,11 +221,10 @@ static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
     sight->shown.foreground = shown.foreground_xyz[1] * sight->seen.transmittance;
     sight->shown.background = shown.background_xyz[1] * sight->seen.transmittance;
     sight->height_arcmin = symbol_height_arcmin(surface, sight->symbol->split.box, sight->from);
-    sight->probe.aim =
-        (ProbeAim){.context = &setup->context, .eye = sight->from,
-                   .seed = review_seed(setup->request, EYE_SEED)};
-    if (sight_is_seen(sight))
-        symbol_aim(surface, is_visible, arena, &sight->probe.aim);
+    sight->probe.aim = (ProbeAim){.context = &setup->context,
+                                  .eye = sight->from,
+                                  .seed = review_seed(setup->request, EYE_SEED)};
+    if (sight_is_seen(sight)) symbol_aim(surface, is_visible, arena, &sight->probe.aim);
     if (!sight->probe.aim.target_count) return;
     LightParts *parts = ARENA_NEW(arena, LightParts, 1);
     *parts = symbol_parts(sight->symbol, &sight->probe.aim, SUN_PATHS, arena);
@@ -257,8 +233,7 @@ static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
 }
 
 /* Symbols follow each other eye by eye. */
-static void find_twin(Sweep *sweep, Sight *sight)
-{
+static void find_twin(Sweep *sweep, Sight *sight) {
     int id = (int)(sight - sweep->sights), same = id % sweep->symbol_count;
     sight->twin = NO_ID;
     for (int i = same; i < id && sight->twin == NO_ID; i += sweep->symbol_count) {
@@ -271,20 +246,21 @@ static void find_twin(Sweep *sweep, Sight *sight)
     }
 }
 
-static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
-{
+static bool place_sights(Sweep *sweep, Arena *arena, Error *err) {
     const ReviewRequest *request = sweep->run->request;
     sweep->sights = ARENA_NEW(arena, Sight, request->eye_count * sweep->symbol_count);
     for (int e = 0; e < request->eye_count; e++) {
         Vec3 from;
-        if (!setup_eye_middle(sweep->setup, &request->eyes[e], *arena, &from, err))
-            return false;
+        if (!setup_eye_middle(sweep->setup, &request->eyes[e], *arena, &from, err)) return false;
         for (int s = 0; s < sweep->symbol_count; s++) {
             Sight *sight = &sweep->sights[sweep->sight_count++];
-            *sight = (Sight){.eye = &request->eyes[e], .symbol = &sweep->symbols[s],
-                             .from = from, .face = &sweep->faces[s], .twin = NO_ID};
-            sight->is_private = review_is_private(request, sweep->symbols[s].symbol_id,
-                                                  &request->eyes[e]);
+            *sight = (Sight){.eye = &request->eyes[e],
+                             .symbol = &sweep->symbols[s],
+                             .from = from,
+                             .face = &sweep->faces[s],
+                             .twin = NO_ID};
+            sight->is_private =
+                review_is_private(request, sweep->symbols[s].symbol_id, &request->eyes[e]);
             aim_sight(sweep, sight, arena);
             find_twin(sweep, sight);
         }
@@ -295,24 +271,24 @@ static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
 /* ---- what they have to find -------------------------------------------------------------- */
 
 /* Levels move no response: those of the review serve. */
-static double response_precision(const Sweep *sweep)
-{
+static double response_precision(const Sweep *sweep) {
     const ReviewRun *run = sweep->run;
-    bool             is_bare = run->base && !run->request->is_relevelled;
+    bool is_bare = run->base && !run->request->is_relevelled;
     return is_bare ? RESPONSE_PRECISION_VARIANT : RESPONSE_PRECISION;
 }
 
-static void add_meter_call(Sweep *sweep, SweepMeter *meter, const char *name)
-{
-    meter->probe.aim = (ProbeAim){.context = &sweep->setup->context, .meter = &meter->head,
+static void add_meter_call(Sweep *sweep, SweepMeter *meter, const char *name) {
+    meter->probe.aim = (ProbeAim){.context = &sweep->setup->context,
+                                  .meter = &meter->head,
                                   .seed = review_seed(sweep->run->request, METER_SEED)};
-    sweep->calls[sweep->call_count++] =
-        (ResponseArgs){.name = name, .probe = &meter->probe, .own = &meter->own,
-                      .paths = METER_PATHS, .precision = response_precision(sweep)};
+    sweep->calls[sweep->call_count++] = (ResponseArgs){.name = name,
+                                                       .probe = &meter->probe,
+                                                       .own = &meter->own,
+                                                       .paths = METER_PATHS,
+                                                       .precision = response_precision(sweep)};
 }
 
-static void list_calls(Sweep *sweep, Arena *arena)
-{
+static void list_calls(Sweep *sweep, Arena *arena) {
     const ReviewRequest *request = sweep->run->request;
     sweep->calls = ARENA_NEW(arena, ResponseArgs,
                              sweep->symbol_count + request->level_count + sweep->sight_count);
@@ -328,22 +304,24 @@ static void list_calls(Sweep *sweep, Arena *arena)
         if (!sight->probe.aim.target_count || sight->twin != NO_ID) continue;
         sweep->calls[sweep->call_count++] = (ResponseArgs){
             .name = arena_format(arena, "%s, %s", sight->eye->name, sight->symbol->name),
-            .probe = &sight->probe, .own = &sight->own, .paths = RESPONSE_PATHS,
+            .probe = &sight->probe,
+            .own = &sight->own,
+            .paths = RESPONSE_PATHS,
             .precision = response_precision(sweep)};
     }
 }
 
-DistantTools sweep_tools(Sweep *sweep)
-{
-    return (DistantTools){.setup = sweep->setup, .table = &sweep->table,
+DistantTools sweep_tools(Sweep *sweep) {
+    return (DistantTools){.setup = sweep->setup,
+                          .table = &sweep->table,
                           .hours = sweep->has_hours ? &sweep->hours : NULL,
                           .suns = {sweep->suns.distant, sweep->suns.count},
-                          .sun_paths = SUN_PATHS, .has_mirror = true};
+                          .sun_paths = SUN_PATHS,
+                          .has_mirror = true};
 }
 
 /* Copies each sight's readings to its twin. */
-static void copy_twins(Sweep *sweep)
-{
+static void copy_twins(Sweep *sweep) {
     for (int i = 0; i < sweep->sight_count; i++) {
         Sight *sight = &sweep->sights[i];
         if (sight->twin == NO_ID) continue;
@@ -352,12 +330,10 @@ static void copy_twins(Sweep *sweep)
     }
 }
 
-static bool sample_skies(Sweep *sweep, const DistantTools *tools, Arena *arena, Error *err)
-{
-    int        most = sweep->symbol_count + 1 + sweep->sight_count, count = 0;
+static bool sample_skies(Sweep *sweep, const DistantTools *tools, Arena *arena, Error *err) {
+    int most = sweep->symbol_count + 1 + sweep->sight_count, count = 0;
     DistantProbe **probes = ARENA_NEW(arena, DistantProbe *, most);
-    for (int i = 0; i < sweep->symbol_count; i++)
-        probes[count++] = &sweep->faces[i].probe;
+    for (int i = 0; i < sweep->symbol_count; i++) probes[count++] = &sweep->faces[i].probe;
     if (sweep->sensor) probes[count++] = &sweep->sensor->probe;
     for (int i = 0; i < sweep->sight_count; i++) {
         Sight *sight = &sweep->sights[i];
@@ -378,8 +354,7 @@ typedef struct ReadWork {
     DistantReading *read;
 } ReadWork;
 
-static void read_chunk(void *user, int item, int worker)
-{
+static void read_chunk(void *user, int item, int worker) {
     (void)worker;
     const ReadWork *work = user;
     int first = item * READ_CHUNK, end = first + READ_CHUNK, count = work->tools->suns.count;
@@ -389,19 +364,17 @@ static void read_chunk(void *user, int item, int worker)
 
 /* [sun] of a probe that was taken by them. */
 static const DistantReading *read_suns(const DistantProbe *probe, const DistantTools *tools,
-                                       Arena *arena)
-{
-    int      count = tools->suns.count;
+                                       Arena *arena) {
+    int count = tools->suns.count;
     ReadWork work = {probe, tools, ARENA_NEW(arena, DistantReading, count)};
-    parallel_for(tools->setup->tools.threads, (count + READ_CHUNK - 1) / READ_CHUNK,
-                 read_chunk, &work);
+    parallel_for(tools->setup->tools.threads, (count + READ_CHUNK - 1) / READ_CHUNK, read_chunk,
+                 &work);
     return work.read;
 }
 
 /* lux: [sun] */
 static void sample_meter_suns(const SweepMeter *meter, const DistantTools *tools, Arena room,
-                              double *lux)
-{
+                              double *lux) {
     DistantProbe probe = meter->probe;
     distant_probe_sample_suns(&probe, tools, &room);
     const DistantReading *read = read_suns(&probe, tools, &room);
@@ -409,8 +382,7 @@ static void sample_meter_suns(const SweepMeter *meter, const DistantTools *tools
 }
 
 /* All suns whose reading is not kept are sampled at once, and kept. */
-static void keep_missing(const SweepMeter *meter, const DistantTools *tools, Arena room)
-{
+static void keep_missing(const SweepMeter *meter, const DistantTools *tools, Arena room) {
     DistantSun *missing = ARENA_NEW(&room, DistantSun, tools->suns.count);
     DistantTools of_missing = *tools;
     of_missing.suns = (DistantSuns){missing, 0};
@@ -425,8 +397,7 @@ static void keep_missing(const SweepMeter *meter, const DistantTools *tools, Are
             sun_readings_add(meter->kept, missing[i], lux[i]);
 }
 
-const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tools, Arena *arena)
-{
+const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tools, Arena *arena) {
     double *lux = ARENA_NEW(arena, double, tools->suns.count);
     if (!meter->kept) {
         sample_meter_suns(meter, tools, *arena, lux);
@@ -439,19 +410,16 @@ const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tool
 }
 
 /* Under the condition's own suns; others are kept from now on. */
-static void read_meter(SweepMeter *meter, const DistantTools *tools, Arena *between,
-                       Arena *arena)
-{
+static void read_meter(SweepMeter *meter, const DistantTools *tools, Arena *between, Arena *arena) {
     meter->kept = NULL;
     meter->lux = sweep_meter_read(meter, tools, arena);
     meter->kept = ARENA_NEW(arena, SunReadings, 1);
     *meter->kept = sun_readings_start(between);
 }
 
-bool sweep_sample_light(Sweep *sweep, Arena *arena, Error *err)
-{
+bool sweep_sample_light(Sweep *sweep, Arena *arena, Error *err) {
     DistantTools tools = sweep_tools(sweep);
-    Arena   *between = ARENA_NEW(arena, Arena, 1);
+    Arena *between = ARENA_NEW(arena, Arena, 1);
     *between = sweep->between;
     if (!sample_skies(sweep, &tools, arena, err)) return false;
     tools.has_mirror = false;
@@ -462,10 +430,9 @@ bool sweep_sample_light(Sweep *sweep, Arena *arena, Error *err)
     return true;
 }
 
-Sight sweep_sample_sight(Sweep *sweep, const Sight *sight, Arena *arena)
-{
+Sight sweep_sample_sight(Sweep *sweep, const Sight *sight, Arena *arena) {
     DistantTools tools = sweep_tools(sweep);
-    Sight    asked = *sight;
+    Sight asked = *sight;
     if (asked.probe.aim.target_count) distant_probe_sample_suns(&asked.probe, &tools, arena);
     return asked;
 }
@@ -474,12 +441,11 @@ Sight sweep_sample_sight(Sweep *sweep, const Sight *sight, Arena *arena)
 
 #define SUN_ELEVATION_DEG 30 /* mirrors take colours as those of this sun are */
 
-static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
-{
+static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err) {
     const ReviewRequest *request = sweep->run->request;
-    Daylight             sky;
-    DaylightInput        clear = daylight_input_default(DAYLIGHT_CLEAR);
-    float                bands[LIGHT_BANDS];
+    Daylight sky;
+    DaylightInput clear = daylight_input_default(DAYLIGHT_CLEAR);
+    float bands[LIGHT_BANDS];
     clear.has_sun = clear.no_moon = true;
     clear.sun_elevation = radians_from_degrees(SUN_ELEVATION_DEG);
     clear.sun_lux = -1;
@@ -488,10 +454,8 @@ static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
     sweep->false_suns = ARENA_NEW(arena, FalseSuns, request->eye_count);
     for (int e = 0; e < request->eye_count; e++) {
         Vec3 from;
-        if (!setup_eye_middle(sweep->setup, &request->eyes[e], *arena, &from, err))
-            return false;
-        const FalseSunRays *rays =
-            sun_searches_find(sweep->run->sun_searches, sweep->setup, from);
+        if (!setup_eye_middle(sweep->setup, &request->eyes[e], *arena, &from, err)) return false;
+        const FalseSunRays *rays = sun_searches_find(sweep->run->sun_searches, sweep->setup, from);
         sweep->false_suns[e] = false_suns_of(rays, bands, arena);
     }
     return true;
@@ -499,8 +463,7 @@ static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
 
 /* ---- all of them ------------------------------------------------------------------------- */
 
-bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
-{
+bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err) {
     Setup *setup = sweep->setup;
     if (!sweep_light_dark(setup, 0, arena, err) ||
         !setup_symbols(setup, arena, &sweep->symbols, &sweep->symbol_count, err))
@@ -512,8 +475,7 @@ bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
     return true;
 }
 
-bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
-{
+bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err) {
     Setup *setup = sweep->setup;
     const ReviewRun *run = sweep->run;
     return responses_read_own(setup, sweep->calls, sweep->call_count, false, err) &&

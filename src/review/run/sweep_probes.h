@@ -24,14 +24,14 @@
 
 /* A probe whose aim is set, with room for its answers. */
 typedef struct ResponseArgs {
-    const char  *name;      /* for people: "driver, speed" */
+    const char *name; /* for people: "driver, speed" */
     DistantProbe *probe;
-    OwnLight    *own;
-    int          paths;     /* at most */
-    double       precision; /* 0: all paths */
+    OwnLight *own;
+    int paths;        /* at most */
+    double precision; /* 0: all paths */
     ResponseFile file;
-    const char  *shown;     /* the file's name as review.json has it */
-    bool         is_kept;   /* it was read, not traced */
+    const char *shown; /* the file's name as review.json has it */
+    bool is_kept;      /* it was read, not traced */
 } ResponseArgs;
 
 typedef struct SweepMeter {
@@ -39,23 +39,23 @@ typedef struct SweepMeter {
     DistantProbe probe;
     OwnLight own;
     const double *lux; /* [sun of the condition in hand] all of its light but its own */
-    SunReadings  *kept; /* of other suns of that condition; NULL: none are kept */
+    SunReadings *kept; /* of other suns of that condition; NULL: none are kept */
 } SweepMeter;
 
 typedef struct Sight {
-    const ReviewEye   *eye;
+    const ReviewEye *eye;
     const SetupSymbol *symbol;
-    Vec3               from;
-    SymbolVisibility   seen;
-    CaseLuminances     shown;   /* foreground and background at level 1 */
-    double             height_arcmin;
-    DistantProbe       probe;
-    OwnLight           own;
-    const SweepMeter  *face;
-    int                twin;    /* an earlier sight from the same place, as an eye box about an
-                                   eye is: what is sampled there holds for both; NO_ID: none */
-    bool               has_twin; /* a later one has this for its twin */
-    bool               is_private; /* the eye must not read it */
+    Vec3 from;
+    SymbolVisibility seen;
+    CaseLuminances shown; /* foreground and background at level 1 */
+    double height_arcmin;
+    DistantProbe probe;
+    OwnLight own;
+    const SweepMeter *face;
+    int twin;        /* an earlier sight from the same place, as an eye box about an
+                        eye is: what is sampled there holds for both; NO_ID: none */
+    bool has_twin;   /* a later one has this for its twin */
+    bool is_private; /* the eye must not read it */
 } Sight;
 
 /* Is enough of it seen to judge it (case_is_seen)? */
@@ -64,37 +64,37 @@ bool sight_is_seen(const Sight *sight);
 /* The setup under the sun for which it was lit last: eyes that share a symbol often share its
  * worst. */
 typedef struct SweepLit {
-    const Setup *of;    /* the review's own */
-    bool     is_ready, is_lit; /* of the condition in hand */
-    Setup    ready;  /* before any sun shines */
+    const Setup *of;       /* the review's own */
+    bool is_ready, is_lit; /* of the condition in hand */
+    Setup ready;           /* before any sun shines */
     SweepSun sun;
-    Setup    setup;
-    float   *levels; /* of the displays */
-    Arena    room, fresh; /* for all that they are made of */
+    Setup setup;
+    float *levels;     /* of the displays */
+    Arena room, fresh; /* for all that they are made of */
 } SweepLit;
 
 typedef struct Sweep {
-    const ReviewRun   *run;
-    Setup             *setup;
-    SetupSymbol       *symbols;
-    int                symbol_count;
-    SweepMeter        *faces;   /* one a symbol */
-    SweepMeter        *sensors; /* one a level of the request; those of curves are used */
-    Sight             *sights;
-    int                sight_count;
-    FalseSuns         *false_suns; /* one an eye */
-    ResponseArgs       *calls;    /* of all of them that are used */
-    int                call_count;
+    const ReviewRun *run;
+    Setup *setup;
+    SetupSymbol *symbols;
+    int symbol_count;
+    SweepMeter *faces;   /* one a symbol */
+    SweepMeter *sensors; /* one a level of the request; those of curves are used */
+    Sight *sights;
+    int sight_count;
+    FalseSuns *false_suns; /* one an eye */
+    ResponseArgs *calls;   /* of all of them that are used */
+    int call_count;
     /* of the condition in hand: */
-    SweepSuns          suns;
-    SkyTable           table;
-    HourSkies          hours;
-    bool               has_hours; /* of a weather file: probes do not use the table */
-    const ReviewLevel *level;   /* NULL: the scene's */
-    SweepMeter        *sensor;  /* of the level; NULL: it is fixed */
-    SweepLit          *lit;
-    Arena              figures; /* scratch for the figures of a condition */
-    Arena              between; /* for what meters read between its suns */
+    SweepSuns suns;
+    SkyTable table;
+    HourSkies hours;
+    bool has_hours;           /* of a weather file: probes do not use the table */
+    const ReviewLevel *level; /* NULL: the scene's */
+    SweepMeter *sensor;       /* of the level; NULL: it is fixed */
+    SweepLit *lit;
+    Arena figures; /* scratch for the figures of a condition */
+    Arena between; /* for what meters read between its suns */
 } Sweep;
 
 /* The scene without sky and sun, its displays at one level. */
@@ -118,8 +118,7 @@ bool sweep_sample_light(Sweep *sweep, Arena *arena, Error *err);
 Sight sweep_sample_sight(Sweep *sweep, const Sight *sight, Arena *arena);
 
 /* The meter's readings under each of the tools' suns, sampled where they are not kept. */
-const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tools,
-                               Arena *arena);
+const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tools, Arena *arena);
 
 /* For the skies and suns of the condition in hand. */
 DistantTools sweep_tools(Sweep *sweep);

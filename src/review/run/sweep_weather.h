@@ -25,8 +25,8 @@ const char *sweep_weather_text(const ReviewRequest *request, const ReviewConditi
 bool sweep_weather_check(const ReviewRequest *request, const ReviewCondition *condition,
                          const SweepSuns *suns, Arena scratch, Error *err);
 
-bool sweep_weather_skies(const Setup *setup, const SweepSuns *suns, Arena *arena,
-                         HourSkies *out, Error *err);
+bool sweep_weather_skies(const Setup *setup, const SweepSuns *suns, Arena *arena, HourSkies *out,
+                         Error *err);
 
 /* A note for readers: where the instants of the file's rows lie, and how well that fits. */
 const char *sweep_weather_note(const ReviewWeather *weather, Arena *arena);

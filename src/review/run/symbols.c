@@ -21,36 +21,32 @@
 typedef struct SymbolList {
     const Setup *setup;
     SetupSymbol *list;
-    int          count;
+    int count;
 } SymbolList;
 
-static const Image *shown_content(const Scene *scene, const ReviewDisplay *display)
-{
+static const Image *shown_content(const Scene *scene, const ReviewDisplay *display) {
     int id = scene->displays[display->display_id].content.texture_id;
     return id == NO_ID ? NULL : &scene->textures[id].image;
 }
 
-static ReviewPolarity polarity_of(const Setup *setup, int symbol_id)
-{
+static ReviewPolarity polarity_of(const Setup *setup, int symbol_id) {
     if (setup->condition) return setup->condition->polarity[symbol_id];
     return setup->request->symbols[symbol_id].polarity;
 }
 
 static bool add_symbol(SymbolList *list, SetupSymbol symbol, const SymbolQuestion *question,
-                       Arena *arena, Error *err)
-{
+                       Arena *arena, Error *err) {
     const Scene *scene = list->setup->scene;
     if (!symbol_split(question, arena, &symbol.split, err)) return false;
     SetupSymbol *kept = &list->list[list->count];
     *kept = symbol;
-    SymbolPlace place = {.scene = scene, .display = &kept->display,
-                         .point_count = SYMBOL_POINTS};
+    SymbolPlace place = {.scene = scene, .display = &kept->display, .point_count = SYMBOL_POINTS};
     SymbolSurface rectangle;
     memcpy(place.uv, question->uv, sizeof place.uv);
     memcpy(kept->uv, question->uv, sizeof kept->uv);
     if (!symbol_surface_build(&place, arena, &rectangle, err) ||
-        !symbol_surface_within(&rectangle, kept->split.box, SYMBOL_POINTS, arena,
-                               &kept->surface, err))
+        !symbol_surface_within(&rectangle, kept->split.box, SYMBOL_POINTS, arena, &kept->surface,
+                               err))
         return false;
     list->count++;
     return true;
@@ -60,8 +56,7 @@ static bool add_symbol(SymbolList *list, SetupSymbol symbol, const SymbolQuestio
 
 /* Without one *file and *mask stay as they are. */
 static bool read_mask(const ReviewSymbol *asked, ReviewInput *file, Image *mask, Arena *arena,
-                      Error *err)
-{
+                      Error *err) {
     FileBytes bytes;
     if (!asked->mask) return true;
     if (!file_read(asked->mask, MASK_BYTES_MAX, arena, &bytes, err)) return false;
@@ -70,13 +65,12 @@ static bool read_mask(const ReviewSymbol *asked, ReviewInput *file, Image *mask,
 }
 
 static bool add_found(SymbolList *list, const SetupSymbol *symbol, SymbolQuestion *question,
-                      Arena *arena, Error *err)
-{
+                      Arena *arena, Error *err) {
     ContentLight light;
     if (!content_light(question->panel, question->content, question->uv, arena, &light, err))
         return false;
     TextProposal *found;
-    int           count = text_find(&light, SYMBOLS_FOUND_MOST, arena, &found);
+    int count = text_find(&light, SYMBOLS_FOUND_MOST, arena, &found);
     if (count == 0) return error_set(err, ERROR_INPUT, "no text was found there");
     for (int i = 0; i < count; i++) {
         SetupSymbol one = *symbol;
@@ -89,20 +83,18 @@ static bool add_found(SymbolList *list, const SetupSymbol *symbol, SymbolQuestio
     return true;
 }
 
-static CasePanel panel_of(const Panel *panel, Arena *arena)
-{
+static CasePanel panel_of(const Panel *panel, Arena *arena) {
     PanelStated stated = panel_stated(panel, arena);
-    return (CasePanel){stated.verdict, stated.reason, stated.is_coarse, stated.is_unusable,
-                       stated.emission_error, stated.reflection_error, stated.assumed};
+    return (CasePanel){stated.verdict,     stated.reason,         stated.is_coarse,
+                       stated.is_unusable, stated.emission_error, stated.reflection_error,
+                       stated.assumed};
 }
 
-static const char *copied(const char *text, Arena *arena)
-{
+static const char *copied(const char *text, Arena *arena) {
     return text ? arena_string(arena, text, strlen(text)) : NULL;
 }
 
-CasePanel symbol_panel(const SetupSymbol *symbol, Arena *arena)
-{
+CasePanel symbol_panel(const SetupSymbol *symbol, Arena *arena) {
     CasePanel panel = symbol->panel;
     panel.verdict = copied(panel.verdict, arena);
     panel.reason = copied(panel.reason, arena);
@@ -114,25 +106,24 @@ CasePanel symbol_panel(const SetupSymbol *symbol, Arena *arena)
  * a bar, is not made of strokes: bold faces of type have a fifth, the heaviest a quarter. */
 #define STROKE_MOST 0.25
 
-double symbol_stroke_ratio(const SetupSymbol *symbol)
-{
+double symbol_stroke_ratio(const SetupSymbol *symbol) {
     const SymbolSplit *split = &symbol->split;
     double ratio = split->stroke_px / (split->character_v * split->light.content_height);
     return ratio <= STROKE_MOST ? ratio : (double)NAN;
 }
 
-static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
-{
+static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err) {
     const ReviewSymbol *asked = &list->setup->request->symbols[id];
-    const Scene        *scene = list->setup->scene;
+    const Scene *scene = list->setup->scene;
     SetupSymbol symbol = {.name = asked->name, .display_name = asked->display, .symbol_id = id};
-    Image       mask;
+    Image mask;
     if (!review_display_find(scene, asked->display, arena, &symbol.display, err)) return false;
     const Panel *panel = scene->displays[symbol.display.display_id].panel;
     symbol.panel = panel_of(panel, arena);
     SymbolQuestion question = {.panel = panel,
                                .content = shown_content(scene, &symbol.display),
-                               .uv = {0, 0, 1, 1}, .polarity = polarity_of(list->setup, id)};
+                               .uv = {0, 0, 1, 1},
+                               .polarity = polarity_of(list->setup, id)};
     if (asked->has_uv) memcpy(question.uv, asked->uv, sizeof question.uv);
     if (!read_mask(asked, &symbol.mask, &mask, arena, err)) return false;
     if (symbol.mask.path) question.mask = &mask;
@@ -140,19 +131,16 @@ static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
     return add_symbol(list, symbol, &question, arena, err);
 }
 
-SymbolPoint symbol_middle(const SetupSymbol *symbol)
-{
+SymbolPoint symbol_middle(const SetupSymbol *symbol) {
     const double *uv = symbol->surface.uv;
-    const double  middle[2] = {0.5 * (uv[0] + uv[2]), 0.5 * (uv[1] + uv[3])};
-    SymbolPoint   point;
-    bool          is_shown = symbol_surface_at(&symbol->surface, middle, &point);
+    const double middle[2] = {0.5 * (uv[0] + uv[2]), 0.5 * (uv[1] + uv[3])};
+    SymbolPoint point;
+    bool is_shown = symbol_surface_at(&symbol->surface, middle, &point);
     return is_shown ? point : symbol->surface.points[0];
 }
 
-void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *arena,
-                ProbeAim *aim)
-{
-    Vec3       *targets = ARENA_NEW(arena, Vec3, surface->point_count);
+void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *arena, ProbeAim *aim) {
+    Vec3 *targets = ARENA_NEW(arena, Vec3, surface->point_count);
     ProbePatch *patches = ARENA_NEW(arena, ProbePatch, surface->point_count);
     aim->targets = targets;
     aim->patches = patches;
@@ -170,21 +158,18 @@ void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *are
 #define STEPS_MOST 8 /* in which a part slides over its own length */
 
 /* Cells of one length of the box, of which `steps` make a part. */
-static int cells_along(double box, double part, int steps)
-{
+static int cells_along(double box, double part, int steps) {
     return part > 0 && part < box ? (int)floor(steps * box / part) : steps;
 }
 
 /* Lengths of a part within the box: its share of the content. */
-static void part_size(const SymbolSplit *split, double size[2])
-{
+static void part_size(const SymbolSplit *split, double size[2]) {
     size[0] = split->stroke_px / split->light.content_width;
     size[1] = split->character_v;
 }
 
 /* Sets how the box is divided into no more than so many cells. */
-static void divide(const SymbolSplit *split, int most, LightParts *parts)
-{
+static void divide(const SymbolSplit *split, int most, LightParts *parts) {
     double size[2], width = split->box[2] - split->box[0];
     double height = split->box[3] - split->box[1], larger = 1;
     part_size(split, size);
@@ -199,8 +184,7 @@ static void divide(const SymbolSplit *split, int most, LightParts *parts)
 }
 
 static void cell_box(const SymbolSplit *split, const LightParts *parts, const int cell[4],
-                     double uv[4])
-{
+                     double uv[4]) {
     for (int k = 0; k < 4; k++) {
         double low = split->box[k % 2], high = split->box[k % 2 + 2];
         uv[k] = low + cell[k] * (high - low) / (k % 2 ? parts->rows : parts->columns);
@@ -209,31 +193,29 @@ static void cell_box(const SymbolSplit *split, const LightParts *parts, const in
 
 /* Left, top, right and bottom of one of them, uv. */
 static void symbol_part_box(const SetupSymbol *symbol, const LightParts *parts, int part,
-                            double uv[4])
-{
+                            double uv[4]) {
     int column, row;
     light_parts_place(parts, part, &column, &row);
     const int cell[4] = {column, row, column + parts->wide, row + parts->high};
     cell_box(&symbol->split, parts, cell, uv);
 }
 
-LightParts symbol_parts(const SetupSymbol *symbol, const ProbeAim *aim, int most, Arena *arena)
-{
+LightParts symbol_parts(const SetupSymbol *symbol, const ProbeAim *aim, int most, Arena *arena) {
     LightParts parts = {.aim = *aim};
     divide(&symbol->split, most, &parts);
-    int         count = parts.columns * parts.rows;
-    Vec3       *targets = ARENA_NEW(arena, Vec3, count);
+    int count = parts.columns * parts.rows;
+    Vec3 *targets = ARENA_NEW(arena, Vec3, count);
     ProbePatch *patches = ARENA_NEW(arena, ProbePatch, count);
-    int        *cell_of = ARENA_NEW(arena, int, count);
+    int *cell_of = ARENA_NEW(arena, int, count);
     parts.aim.targets = targets;
     parts.aim.patches = patches;
     parts.aim.target_count = 0;
     parts.cell_of = cell_of;
     for (int i = 0; i < count; i++) {
-        double      uv[4];
+        double uv[4];
         SymbolPatch patch;
-        int         column = i % parts.columns, row = i / parts.columns;
-        const int   cell[4] = {column, row, column + 1, row + 1};
+        int column = i % parts.columns, row = i / parts.columns;
+        const int cell[4] = {column, row, column + 1, row + 1};
         cell_box(&symbol->split, &parts, cell, uv);
         if (!symbol_box_seen(&symbol->surface, uv, aim->context, aim->eye, &patch)) continue;
         targets[parts.aim.target_count] = patch.middle;
@@ -243,9 +225,8 @@ LightParts symbol_parts(const SetupSymbol *symbol, const ProbeAim *aim, int most
     return parts;
 }
 
-bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *count, Error *err)
-{
-    int        most = setup->request->symbol_count * SYMBOLS_FOUND_MOST;
+bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *count, Error *err) {
+    int most = setup->request->symbol_count * SYMBOLS_FOUND_MOST;
     SymbolList list = {setup, ARENA_NEW(arena, SetupSymbol, most), 0};
     for (int id = 0; id < setup->request->symbol_count; id++) {
         if (add_asked(&list, id, arena, err)) continue;
@@ -259,20 +240,17 @@ bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *cou
 
 /* ---- through glasses --------------------------------------------------------------------- */
 
-static void scale_shown(ReviewCase *c, double foreground, double background)
-{
+static void scale_shown(ReviewCase *c, double foreground, double background) {
     c->luminance_cd_m2.foreground *= foreground;
     c->luminance_cd_m2.background *= background;
 }
 
-static double brighter(const CaseLuminances *l)
-{
+static double brighter(const CaseLuminances *l) {
     return fmax(l->foreground, l->background);
 }
 
 static void polarise_case(const SymbolSurface *surface, const PolarisedEye *polariser,
-                          ProbeAim *aim, ReviewCase *c, Arena *arena)
-{
+                          ProbeAim *aim, ReviewCase *c, Arena *arena) {
     PathContext *context = ARENA_NEW(arena, PathContext, 1);
     double passed = symbol_polarised_share(surface, aim->context, aim->eye, polariser);
     *context = *aim->context;
@@ -282,15 +260,14 @@ static void polarise_case(const SymbolSurface *surface, const PolarisedEye *pola
 }
 
 void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeAim *aim,
-                           ReviewCase *c, Arena *arena)
-{
-    Vec3       towards = vec3_sub(symbol_middle(symbol).position, aim->eye);
-    Glasses    glasses = glasses_worn(setup->condition, towards, arena);
+                           ReviewCase *c, Arena *arena) {
+    Vec3 towards = vec3_sub(symbol_middle(symbol).position, aim->eye);
+    Glasses glasses = glasses_worn(setup->condition, towards, arena);
     SymbolLook shown = {&symbol->surface, &symbol->split, aim->eye, setup->tools.threads};
-    double     bare = brighter(&c->luminance_cd_m2);
+    double bare = brighter(&c->luminance_cd_m2);
     c->glasses_transmittance = glasses.transmittance;
-    c->glasses = setup->condition && setup->condition->glasses
-                     ? setup->condition->glasses->words : NULL;
+    c->glasses =
+        setup->condition && setup->condition->glasses ? setup->condition->glasses->words : NULL;
     if (glasses.polariser) polarise_case(&symbol->surface, glasses.polariser, aim, c, arena);
     if (glasses.colour) {
         aim->colour = glasses.colour;
@@ -303,16 +280,15 @@ void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeA
 /* ---- cells, of which the worst is read --------------------------------------------------- */
 
 #define CELLS_MOST 1024
-#define SUN_PATHS 2048   /* the direct sun's, of all cells together */
-#define FIELD_PATHS 2048 /* where the direct sun tells parts apart; else */
-#define SHADE_PATHS 8192 /* they show a rise of about 15 % in the shipped car, by day */
+#define SUN_PATHS 2048         /* the direct sun's, of all cells together */
+#define FIELD_PATHS 2048       /* where the direct sun tells parts apart; else */
+#define SHADE_PATHS 8192       /* they show a rise of about 15 % in the shipped car, by day */
 #define FIELD_SEED 0x6669656cu /* whatever the review's: all seeds judge the same part */
-#define LIT_POINTS 4096  /* that show the share in the sun: within half a percent */
+#define LIT_POINTS 4096        /* that show the share in the sun: within half a percent */
 
 /* The direct sun of each cell that is seen, and its mean by the display's mirror. */
-static double add_sun(const Setup *setup, const LightParts *parts, double *known, Arena scratch)
-{
-    Vec3  towards;
+static double add_sun(const Setup *setup, const LightParts *parts, double *known, Arena scratch) {
+    Vec3 towards;
     float bands[LIGHT_BANDS];
     if (!setup_sun_coloured(setup, parts->aim.colour, &towards, bands)) return 0;
     ProbeSuns sun = {&towards, 1, (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG), false};
@@ -320,8 +296,7 @@ static double add_sun(const Setup *setup, const LightParts *parts, double *known
     return sun_parts_light(parts, &options, &sun, bands, known, scratch);
 }
 
-static bool is_shade(const double *known, int targets)
-{
+static bool is_shade(const double *known, int targets) {
     for (int i = 0; i < targets; i++)
         if (known[i] > 0) return false;
     return true;
@@ -329,28 +304,25 @@ static bool is_shade(const double *known, int targets)
 
 /* The part, and the mean of all that paths find. The sun's image is not known by itself as a
  * polariser sees it: paths find it then. */
-static int read_all(const Setup *setup, const LightParts *parts, CaseWhole *whole,
-                    Arena scratch)
-{
-    int          targets = parts->aim.target_count;
-    double      *known = ARENA_NEW(&scratch, double, targets);
+static int read_all(const Setup *setup, const LightParts *parts, CaseWhole *whole, Arena scratch) {
+    int targets = parts->aim.target_count;
+    double *known = ARENA_NEW(&scratch, double, targets);
     TargetLight *found = ARENA_NEW(&scratch, TargetLight, targets);
-    double       sun = add_sun(setup, parts, known, scratch);
-    double       mirror = parts->aim.context->eye ? 0 : sun;
-    PathContext  without = *parts->aim.context;
-    ProbeAim     aim = parts->aim;
+    double sun = add_sun(setup, parts, known, scratch);
+    double mirror = parts->aim.context->eye ? 0 : sun;
+    PathContext without = *parts->aim.context;
+    ProbeAim aim = parts->aim;
     without.without_mirrored_sun = mirror > 0;
     aim.context = &without;
     aim.seed = FIELD_SEED;
-    long    paths = is_shade(known, targets) ? SHADE_PATHS : FIELD_PATHS;
+    long paths = is_shade(known, targets) ? SHADE_PATHS : FIELD_PATHS;
     Reading mean = reading_field(&aim, paths, mirror, &setup->tools, found, scratch);
     whole->reflected = mean.reflected;
     whole->reflected_range = mean.interval;
     return light_parts_choose(parts, found, known, scratch);
 }
 
-static int part_by_sun(const Setup *setup, const LightParts *parts, Arena scratch)
-{
+static int part_by_sun(const Setup *setup, const LightParts *parts, Arena scratch) {
     double *known = ARENA_NEW(&scratch, double, parts->aim.target_count);
     TargetLight *none = ARENA_NEW(&scratch, TargetLight, parts->aim.target_count);
     add_sun(setup, parts, known, scratch);
@@ -358,12 +330,11 @@ static int part_by_sun(const Setup *setup, const LightParts *parts, Arena scratc
 }
 
 /* NaN: there is no sun. */
-static double lit_share(const Setup *setup, const PartArgs *args, Arena scratch)
-{
-    Vec3          towards;
-    float         bands[LIGHT_BANDS];
+static double lit_share(const Setup *setup, const PartArgs *args, Arena scratch) {
+    Vec3 towards;
+    float bands[LIGHT_BANDS];
     SymbolSurface surface;
-    Error         ignored;
+    Error ignored;
     bool *is_visible = ARENA_NEW(&scratch, bool, LIT_POINTS);
     if (!setup_sun(setup, &towards, bands) ||
         !symbol_surface_within(&args->symbol->surface, args->symbol->split.box, LIT_POINTS,
@@ -374,19 +345,16 @@ static double lit_share(const Setup *setup, const PartArgs *args, Arena scratch)
 }
 
 /* At what is seen of a part. */
-static void aim_at(const SymbolSurface *surface, ProbeAim *aim, Arena *arena)
-{
+static void aim_at(const SymbolSurface *surface, ProbeAim *aim, Arena *arena) {
     bool is_visible[SYMBOL_POINTS];
     symbol_visibility(surface, aim->context, aim->eye, is_visible);
     symbol_aim(surface, is_visible, arena, aim);
 }
 
 /* False: nothing of it is seen, or some of it is not shown. */
-static bool aim_at_box(const SymbolSurface *all, const double uv[4], WorstPart *out,
-                       Arena *arena)
-{
+static bool aim_at_box(const SymbolSurface *all, const double uv[4], WorstPart *out, Arena *arena) {
     SymbolSurface surface;
-    Error         ignored;
+    Error ignored;
     memcpy(&out->whole.part, uv, sizeof out->whole.part);
     out->aim.target_count = 0;
     if (symbol_surface_within(all, uv, SYMBOL_POINTS, arena, &surface, &ignored))
@@ -394,24 +362,22 @@ static bool aim_at_box(const SymbolSurface *all, const double uv[4], WorstPart *
     return out->aim.target_count > 0;
 }
 
-static void aim_at_all(const SymbolSurface *all, WorstPart *out, Arena *arena)
-{
+static void aim_at_all(const SymbolSurface *all, WorstPart *out, Arena *arena) {
     memcpy(&out->whole.part, all->uv, sizeof out->whole.part);
     aim_at(all, &out->aim, arena);
 }
 
-WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena)
-{
+WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena) {
     const SymbolSurface *all = &args->symbol->surface;
     WorstPart out = {*args->aim, case_whole_unknown()};
-    Arena     scratch = arena_reserve((size_t)1 << 28);
-    double    uv[4];
+    Arena scratch = arena_reserve((size_t)1 << 28);
+    double uv[4];
     LightParts parts = symbol_parts(args->symbol, args->aim, CELLS_MOST, &scratch);
     parts.takes_least = args->is_private;
     memcpy(uv, all->uv, sizeof uv);
     if (parts.aim.target_count) {
         int part = args->is_coarse ? part_by_sun(setup, &parts, scratch)
-                                  : read_all(setup, &parts, &out.whole, scratch);
+                                   : read_all(setup, &parts, &out.whole, scratch);
         if (part != LIGHT_PARTS_ALL) symbol_part_box(args->symbol, &parts, part, uv);
         if (!args->is_coarse) out.whole.lit_share = lit_share(setup, args, scratch);
     }
@@ -422,19 +388,16 @@ WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena
 
 /* ---- the mean in its place --------------------------------------------------------------- */
 
-bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading, bool is_private)
-{
+bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading, bool is_private) {
     MeanInterval mean = whole->reflected_range; /* NaN where it is not known */
     return is_private ? reading.low > mean.high : reading.high < mean.low;
 }
 
-void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena)
-{
+void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena) {
     aim_at_all(&symbol->surface, part, arena);
 }
 
-bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err)
-{
+bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err) {
     Vec3 eye, sum = vec3(0, 0, 0);
     if (!setup_eye_middle(setup, &setup->request->eyes[0], *arena, &eye, err)) return false;
     for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);

@@ -16,14 +16,14 @@
 #define SYMBOL_POINTS 256
 
 typedef struct SetupSymbol {
-    const char   *name, *display_name;
-    int           symbol_id;  /* of the request */
-    CasePanel     panel;
+    const char *name, *display_name;
+    int symbol_id; /* of the request */
+    CasePanel panel;
     ReviewDisplay display;
-    SymbolSplit   split;
-    ReviewInput   mask;       /* the file that was read; path NULL: none */
-    SymbolSurface surface;    /* of the box about its foreground: a margin is not read */
-    double        uv[4];      /* its rectangle */
+    SymbolSplit split;
+    ReviewInput mask;      /* the file that was read; path NULL: none */
+    SymbolSurface surface; /* of the box about its foreground: a margin is not read */
+    double uv[4];          /* its rectangle */
 } SetupSymbol;
 
 /* What its panel says, with texts of the arena: a case outlives its setup. */
@@ -37,8 +37,7 @@ SymbolPoint symbol_middle(const SetupSymbol *symbol);
 
 /* Aims a probe, whose context and eye are set, at what is visible (symbol_visibility): targets
  * and patches, from the arena. */
-void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *arena,
-                ProbeAim *aim);
+void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *arena, ProbeAim *aim);
 
 /* The parts of a symbol by which it is judged (light/light_parts.h), for an aim whose context,
  * eye and seed are set: as wide as one of its strokes and one character high, within the box
@@ -72,15 +71,15 @@ void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeA
 
 typedef struct PartArgs {
     const SetupSymbol *symbol;
-    const ProbeAim    *aim;  /* without targets; all of the symbol is read by a seed of its
-                                own */
-    bool     is_coarse;      /* by the direct sun alone: no mean */
-    bool     is_private;     /* it must not be read: the part from which least is reflected */
+    const ProbeAim *aim; /* without targets; all of the symbol is read by a seed of its
+                            own */
+    bool is_coarse;      /* by the direct sun alone: no mean */
+    bool is_private;     /* it must not be read: the part from which least is reflected */
 } PartArgs;
 
 typedef struct WorstPart {
-    ProbeAim  aim;    /* at what is seen of it; no targets: nothing of the symbol is */
-    CaseWhole whole;  /* without its contrast */
+    ProbeAim aim;    /* at what is seen of it; no targets: nothing of the symbol is */
+    CaseWhole whole; /* without its contrast */
 } WorstPart;
 
 WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena);

@@ -8,39 +8,35 @@
 
 #define LOWEST_DEG (-12) /* what the table of skies reaches */
 
-SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, double step)
-{
+SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, double step) {
     SkyTime start = {.year = condition->year, .month = 1, .day = 1};
     return sky_time_later(start, (step + 0.5) * step_minutes * 60);
 }
 
 typedef struct SunList {
     SweepSun *list;
-    int       count;
-    bool      with_night;
+    int count;
+    bool with_night;
 } SunList;
 
 /* Apparent, as the standard atmosphere at the place refracts. */
-static DistantSun sun_at(double julian_day, const SkyPlace *place)
-{
+static DistantSun sun_at(double julian_day, const SkyPlace *place) {
     SunPosition sun = sun_position(julian_day, sky_delta_t_s(julian_day), place);
-    double      mbar, celsius;
+    double mbar, celsius;
     standard_atmosphere(place->altitude_m, &mbar, &celsius);
     double lifted = sun_refraction_deg(sun.elevation_deg, mbar, celsius);
     return (DistantSun){{sun.azimuth_deg, sun.elevation_deg + lifted},
                         1 / (sun.distance_au * sun.distance_au)};
 }
 
-static void place_sun(SweepSun *sun, const DistantSun *found)
-{
+static void place_sun(SweepSun *sun, const DistantSun *found) {
     sun->compass_deg = found->at.azimuth_deg;
     sun->elevation_deg = found->at.elevation_deg;
     sun->azimuth_deg = fmod(found->at.azimuth_deg - sun->heading_deg + 720, 360);
     sun->light = found->light;
 }
 
-static void add_sun(SunList *to, DistantSun found, SweepSun sun)
-{
+static void add_sun(SunList *to, DistantSun found, SweepSun sun) {
     if (found.at.elevation_deg < (to->with_night ? LOWEST_DEG : 0)) return;
     place_sun(&sun, &found);
     to->list[to->count++] = sun;
@@ -50,13 +46,12 @@ static void add_sun(SunList *to, DistantSun found, SweepSun sun)
 
 typedef struct YearWork {
     const ReviewCondition *condition;
-    double     first; /* Julian day of its beginning */
-    int        steps;
-    DistantSun *at;   /* [step] */
+    double first; /* Julian day of its beginning */
+    int steps;
+    DistantSun *at; /* [step] */
 } YearWork;
 
-static void find_places(void *user, int item, int worker)
-{
+static void find_places(void *user, int item, int worker) {
     (void)worker;
     const YearWork *work = user;
     int first = item * YEAR_CHUNK, end = first + YEAR_CHUNK;
@@ -66,9 +61,8 @@ static void find_places(void *user, int item, int worker)
     }
 }
 
-static void year_suns(const ReviewCondition *c, int threads, SunList *to, Arena scratch)
-{
-    SkyTime  start = {.year = c->year, .month = 1, .day = 1};
+static void year_suns(const ReviewCondition *c, int threads, SunList *to, Arena scratch) {
+    SkyTime start = {.year = c->year, .month = 1, .day = 1};
     YearWork work = {.condition = c, .first = sky_julian_day(&start)};
     start.year++;
     double minutes = (sky_julian_day(&start) - work.first) * 1440;
@@ -77,44 +71,43 @@ static void year_suns(const ReviewCondition *c, int threads, SunList *to, Arena 
     parallel_for(threads, (work.steps + YEAR_CHUNK - 1) / YEAR_CHUNK, find_places, &work);
     for (int step = 0; step < work.steps; step++)
         for (int h = 0; h < c->heading_count; h++)
-            add_sun(to, work.at[step], (SweepSun){.heading_deg = c->headings_deg[h],
-                                                  .heading_id = h, .minutes = c->step_minutes,
-                                                  .step = step});
+            add_sun(to, work.at[step],
+                    (SweepSun){.heading_deg = c->headings_deg[h],
+                               .heading_id = h,
+                               .minutes = c->step_minutes,
+                               .step = step});
 }
 
-static void grid_suns(const ReviewCondition *c, SunList *to)
-{
+static void grid_suns(const ReviewCondition *c, SunList *to) {
     for (int e = 0; e < c->elevation_deg.count; e++)
         for (int a = 0; a < c->azimuth_deg.count; a++)
-            to->list[to->count++] = (SweepSun){
-                .azimuth_deg = review_range_value(&c->azimuth_deg, a) -
-                               (c->has_heading ? c->heading_deg : 0),
-                .compass_deg = review_range_value(&c->azimuth_deg, a),
-                .heading_deg = c->has_heading ? c->heading_deg : 0,
-                .elevation_deg = review_range_value(&c->elevation_deg, e), .step = -1,
-                .light = 1};
+            to->list[to->count++] =
+                (SweepSun){.azimuth_deg = review_range_value(&c->azimuth_deg, a) -
+                                          (c->has_heading ? c->heading_deg : 0),
+                           .compass_deg = review_range_value(&c->azimuth_deg, a),
+                           .heading_deg = c->has_heading ? c->heading_deg : 0,
+                           .elevation_deg = review_range_value(&c->elevation_deg, e),
+                           .step = -1,
+                           .light = 1};
 }
 
-static SweepSuns suns_of(const SunList *list, Arena *arena)
-{
-    SweepSuns suns = {.list = list->list, .count = list->count,
+static SweepSuns suns_of(const SunList *list, Arena *arena) {
+    SweepSuns suns = {.list = list->list,
+                      .count = list->count,
                       .distant = ARENA_NEW(arena, DistantSun, list->count)};
     for (int i = 0; i < list->count; i++) {
         const SweepSun *sun = &list->list[i];
-        suns.distant[i] =
-            (DistantSun){{sun->azimuth_deg, sun->elevation_deg}, sun->light};
+        suns.distant[i] = (DistantSun){{sun->azimuth_deg, sun->elevation_deg}, sun->light};
     }
     return suns;
 }
 
-static int most_suns(const ReviewCondition *c)
-{
+static int most_suns(const ReviewCondition *c) {
     if (c->kind == CONDITION_SUN_SWEEP) return c->azimuth_deg.count * c->elevation_deg.count;
     return c->heading_count * (int)ceil(366 * 1440 / c->step_minutes + 1);
 }
 
-SweepSuns sweep_suns(const ReviewCondition *c, int threads, Arena *arena)
-{
+SweepSuns sweep_suns(const ReviewCondition *c, int threads, Arena *arena) {
     SunList list = {ARENA_NEW(arena, SweepSun, most_suns(c)), 0, c->with_night};
     if (c->kind == CONDITION_SUN_SWEEP) grid_suns(c, &list);
     else year_suns(c, threads, &list, *arena);
@@ -131,25 +124,22 @@ SweepSuns sweep_suns(const ReviewCondition *c, int threads, Arena *arena)
 #define DEG_A_MINUTE 0.25
 #define COARSE_PARTS 5 /* of a step, in the first round over a grid */
 
-static double within(double value, const ReviewRange *range)
-{
+static double within(double value, const ReviewRange *range) {
     return fmin(fmax(value, range->first), range->last);
 }
 
 /* From a step before to a step after. */
 static void grid_about(const ReviewCondition *c, const SweepSun *sun, int round, SunList *to,
-                       Arena *arena)
-{
+                       Arena *arena) {
     double step = fmax(c->azimuth_deg.step, c->elevation_deg.step);
     double reach = round ? step / COARSE_PARTS : step;
     double close = round ? SWEEP_CLOSE_DEG : step / COARSE_PARTS;
-    int    parts = (int)ceil(reach / close);
+    int parts = (int)ceil(reach / close);
     to->list = ARENA_NEW(arena, SweepSun, (2 * parts + 1) * (2 * parts + 1));
     for (int e = -parts; e <= parts; e++)
         for (int a = -parts; a <= parts; a++) {
             SweepSun near = *sun;
-            near.elevation_deg =
-                within(sun->elevation_deg + e * reach / parts, &c->elevation_deg);
+            near.elevation_deg = within(sun->elevation_deg + e * reach / parts, &c->elevation_deg);
             near.compass_deg = within(sun->compass_deg + a * reach / parts, &c->azimuth_deg);
             near.azimuth_deg = near.compass_deg - near.heading_deg;
             to->list[to->count++] = near;
@@ -157,12 +147,11 @@ static void grid_about(const ReviewCondition *c, const SweepSun *sun, int round,
 }
 
 /* From the middle of the step before to that of the one after. */
-static void year_about(const ReviewCondition *c, const SweepSun *sun, SunList *to, Arena *arena)
-{
+static void year_about(const ReviewCondition *c, const SweepSun *sun, SunList *to, Arena *arena) {
     SkyTime start = {.year = c->year, .month = 1, .day = 1};
-    double  first = sky_julian_day(&start);
-    double  middle = (sun->step + 0.5) * c->step_minutes;
-    int     parts = (int)ceil(c->step_minutes * DEG_A_MINUTE / SWEEP_CLOSE_DEG);
+    double first = sky_julian_day(&start);
+    double middle = (sun->step + 0.5) * c->step_minutes;
+    int parts = (int)ceil(c->step_minutes * DEG_A_MINUTE / SWEEP_CLOSE_DEG);
     to->list = ARENA_NEW(arena, SweepSun, 2 * parts + 1);
     for (int i = -parts; i <= parts; i++) {
         SweepSun near = *sun;
@@ -171,9 +160,7 @@ static void year_about(const ReviewCondition *c, const SweepSun *sun, SunList *t
     }
 }
 
-SweepSuns sweep_suns_about(const ReviewCondition *c, const SweepSun *sun, int round,
-                           Arena *arena)
-{
+SweepSuns sweep_suns_about(const ReviewCondition *c, const SweepSun *sun, int round, Arena *arena) {
     SunList list = {.with_night = c->with_night};
     if (c->kind == CONDITION_SUN_SWEEP && round < 2) grid_about(c, sun, round, &list, arena);
     if (c->kind == CONDITION_YEAR_SWEEP && c->weather_id == NO_ID && round < 1)
@@ -185,10 +172,9 @@ SweepSuns sweep_suns_about(const ReviewCondition *c, const SweepSun *sun, int ro
     return suns_of(&list, arena);
 }
 
-SweepSuns sweep_suns_later(const ReviewCondition *c, SweepSun *list, int count, Arena *arena)
-{
+SweepSuns sweep_suns_later(const ReviewCondition *c, SweepSun *list, int count, Arena *arena) {
     SkyTime start = {.year = c->year, .month = 1, .day = 1};
-    double  first = sky_julian_day(&start);
+    double first = sky_julian_day(&start);
     for (int i = 0; i < count; i++) {
         double minutes = (list[i].step + 0.5) * c->step_minutes + list[i].later_minutes;
         DistantSun found = sun_at(first + minutes / 1440, &c->where);
@@ -197,8 +183,7 @@ SweepSuns sweep_suns_later(const ReviewCondition *c, SweepSun *list, int count, 
     return suns_of(&(SunList){.list = list, .count = count}, arena);
 }
 
-double sweep_suns_apart_deg(const SweepSun *a, const SweepSun *b)
-{
+double sweep_suns_apart_deg(const SweepSun *a, const SweepSun *b) {
     double up_a = radians_from_degrees(a->elevation_deg);
     double up_b = radians_from_degrees(b->elevation_deg);
     double turn = radians_from_degrees(a->azimuth_deg - b->azimuth_deg);
@@ -209,10 +194,9 @@ double sweep_suns_apart_deg(const SweepSun *a, const SweepSun *b)
 /* ---- words ------------------------------------------------------------------------------- */
 
 const char *sweep_suns_when(const ReviewCondition *condition, const SweepSuns *suns,
-                            const SweepSun *sun, Arena *arena)
-{
+                            const SweepSun *sun, Arena *arena) {
     if (condition->kind != CONDITION_YEAR_SWEEP) return NULL;
-    double  later = sun->later_minutes / suns->step_minutes;
+    double later = sun->later_minutes / suns->step_minutes;
     SkyTime when = sweep_time(condition, suns->step_minutes, sun->step + later);
     return arena_format(arena, "%d-%02d-%02d %02d:%02d UTC, heading %g degrees", when.year,
                         when.month, when.day, when.hour, when.minute, sun->heading_deg);
@@ -225,31 +209,28 @@ const char *sweep_suns_when(const ReviewCondition *condition, const SweepSuns *s
 /* A change between a step and the next of its heading, minutes after the first one's middle: it
  * lies between low and high. */
 typedef struct Edge {
-    int    before, after; /* suns */
+    int before, after; /* suns */
     double low, high;
 } Edge;
 
 typedef struct Steps {
     const ReviewCondition *condition;
-    const SweepSuns       *suns;
-    const unsigned char   *states;
-    int    *before; /* [sun] the step before under its heading; NO_ID: the sun was down */
+    const SweepSuns *suns;
+    const unsigned char *states;
+    int *before;    /* [sun] the step before under its heading; NO_ID: the sun was down */
     double *change; /* [sun] if its state is another than before: how long after that */
 } Steps;
 
 /* A step reaches as far to either side of its middle. */
-static double half_step(const Steps *steps, int sun)
-{
+static double half_step(const Steps *steps, int sun) {
     return steps->suns->list[sun].minutes / 2;
 }
 
-static bool fails(const Steps *steps, int sun)
-{
+static bool fails(const Steps *steps, int sun) {
     return steps->states[sun] != STEP_PASSES;
 }
 
-static int heading_count(const SweepSuns *suns)
-{
+static int heading_count(const SweepSuns *suns) {
     int count = 1;
     for (int i = 0; i < suns->count; i++)
         if (suns->list[i].heading_id >= count) count = suns->list[i].heading_id + 1;
@@ -257,11 +238,10 @@ static int heading_count(const SweepSuns *suns)
 }
 
 static Steps steps_of(const ReviewCondition *condition, const SweepSuns *suns,
-                      const unsigned char *states, Arena *arena)
-{
+                      const unsigned char *states, Arena *arena) {
     Steps steps = {condition, suns, states, ARENA_NEW(arena, int, suns->count),
                    ARENA_NEW(arena, double, suns->count)};
-    int   headings = heading_count(suns), *last = ARENA_NEW(arena, int, headings);
+    int headings = heading_count(suns), *last = ARENA_NEW(arena, int, headings);
     for (int h = 0; h < headings; h++) last[h] = NO_ID;
     for (int i = 0; i < suns->count; i++) {
         const SweepSun *sun = &suns->list[i];
@@ -276,8 +256,7 @@ static Steps steps_of(const ReviewCondition *condition, const SweepSuns *suns,
 
 /* ---- between steps ----------------------------------------------------------------------- */
 
-static Edge *edges_of(const Steps *steps, int *count, Arena *arena)
-{
+static Edge *edges_of(const Steps *steps, int *count, Arena *arena) {
     Edge *edges = ARENA_NEW(arena, Edge, steps->suns->count);
     *count = 0;
     for (int i = 0; i < steps->suns->count; i++) {
@@ -290,9 +269,8 @@ static Edge *edges_of(const Steps *steps, int *count, Arena *arena)
 
 /* Half of each is left. */
 static void halve(const Steps *steps, Edge *edges, int count, const FailureArgs *args,
-                  Arena scratch)
-{
-    SweepSun      *middle = ARENA_NEW(&scratch, SweepSun, count);
+                  Arena scratch) {
+    SweepSun *middle = ARENA_NEW(&scratch, SweepSun, count);
     unsigned char *states = ARENA_NEW(&scratch, unsigned char, count);
     for (int i = 0; i < count; i++) {
         middle[i] = steps->suns->list[edges[i].before];
@@ -310,17 +288,16 @@ static void halve(const Steps *steps, Edge *edges, int count, const FailureArgs 
 
 typedef struct Stretch {
     double minutes, step;
-    int    first, end; /* the suns before which it begins and ends, between steps; or NO_ID */
-    bool   is_open, is_sure;
+    int first, end; /* the suns before which it begins and ends, between steps; or NO_ID */
+    bool is_open, is_sure;
 } Stretch;
 
 typedef struct Stretches {
     Stretch *list; /* those that count */
-    int      count;
+    int count;
 } Stretches;
 
-static void end_stretch(Stretch *stretch, double more, double step, Stretches *to)
-{
+static void end_stretch(Stretch *stretch, double more, double step, Stretches *to) {
     stretch->minutes += more;
     stretch->step = step;
     if (stretch->is_sure) to->list[to->count++] = *stretch;
@@ -328,8 +305,7 @@ static void end_stretch(Stretch *stretch, double more, double step, Stretches *t
 }
 
 /* last: the step that was met before under this heading; NO_ID: none. */
-static void meet(const Steps *steps, int sun, int last, Stretch *stretch, Stretches *to)
-{
+static void meet(const Steps *steps, int sun, int last, Stretch *stretch, Stretches *to) {
     bool follows = steps->before[sun] != NO_ID, was_open = stretch->is_open;
     if (was_open && !(follows && fails(steps, sun))) {
         stretch->end = follows ? sun : NO_ID;
@@ -347,13 +323,12 @@ static void meet(const Steps *steps, int sun, int last, Stretch *stretch, Stretc
     stretch->is_sure |= steps->states[sun] == STEP_FAILS_SURELY;
 }
 
-static Stretches find_stretches(const Steps *steps, Arena *arena)
-{
+static Stretches find_stretches(const Steps *steps, Arena *arena) {
     Stretches out = {ARENA_NEW(arena, Stretch, steps->suns->count), 0};
-    Arena     scratch = *arena;
-    int       headings = heading_count(steps->suns);
-    int      *last = ARENA_NEW(&scratch, int, headings);
-    Stretch  *open = ARENA_NEW(&scratch, Stretch, headings);
+    Arena scratch = *arena;
+    int headings = heading_count(steps->suns);
+    int *last = ARENA_NEW(&scratch, int, headings);
+    Stretch *open = ARENA_NEW(&scratch, Stretch, headings);
     for (int h = 0; h < headings; h++) last[h] = NO_ID;
     for (int i = 0; i < steps->suns->count; i++) {
         int h = steps->suns->list[i].heading_id;
@@ -363,22 +338,18 @@ static Stretches find_stretches(const Steps *steps, Arena *arena)
     for (int h = 0; h < headings; h++) {
         if (!open[h].is_open) continue;
         open[h].end = NO_ID;
-        end_stretch(&open[h], half_step(steps, last[h]), steps->suns->list[last[h]].minutes,
-                    &out);
+        end_stretch(&open[h], half_step(steps, last[h]), steps->suns->list[last[h]].minutes, &out);
     }
     return out;
 }
 
-static double longest_of(const Stretches *stretches)
-{
+static double longest_of(const Stretches *stretches) {
     double longest = 0;
-    for (int i = 0; i < stretches->count; i++)
-        longest = fmax(longest, stretches->list[i].minutes);
+    for (int i = 0; i < stretches->count; i++) longest = fmax(longest, stretches->list[i].minutes);
     return longest;
 }
 
-static double sum_of(const Stretches *stretches)
-{
+static double sum_of(const Stretches *stretches) {
     double sum = 0;
     for (int i = 0; i < stretches->count; i++)
         sum += fmax(stretches->list[i].minutes, stretches->list[i].step);
@@ -387,28 +358,24 @@ static double sum_of(const Stretches *stretches)
 
 /* ---- to a minute ------------------------------------------------------------------------- */
 
-static void set_changes(const Steps *steps, const Edge *edges, int count)
-{
+static void set_changes(const Steps *steps, const Edge *edges, int count) {
     for (int i = 0; i < count; i++)
         steps->change[edges[i].after] = 0.5 * (edges[i].low + edges[i].high);
 }
 
 /* Errors of many edges, each even within its width, add up as their root. */
-static bool is_sum_close(const Steps *steps, double width, int count, Arena scratch)
-{
+static bool is_sum_close(const Steps *steps, double width, int count, Arena scratch) {
     Stretches stretches = find_stretches(steps, &scratch);
     if (CLOSE_PART * width > steps->suns->step_minutes) return false;
     return width * sqrt(count / 12.0) <= CLOSE_SHARE * sum_of(&stretches);
 }
 
 /* Those of stretches that may be the longest; how many. */
-static int keep_longest(const Steps *steps, Edge *edges, int count, double width,
-                        Arena scratch)
-{
+static int keep_longest(const Steps *steps, Edge *edges, int count, double width, Arena scratch) {
     Stretches stretches = find_stretches(steps, &scratch);
-    bool     *is_kept = ARENA_NEW(&scratch, bool, steps->suns->count);
-    double    least = longest_of(&stretches) - 2 * width;
-    int       kept = 0;
+    bool *is_kept = ARENA_NEW(&scratch, bool, steps->suns->count);
+    double least = longest_of(&stretches) - 2 * width;
+    int kept = 0;
     for (int i = 0; i < stretches.count; i++) {
         const Stretch *s = &stretches.list[i];
         if (s->minutes < least) continue;
@@ -420,11 +387,10 @@ static int keep_longest(const Steps *steps, Edge *edges, int count, double width
     return kept;
 }
 
-static void find_changes(const Steps *steps, const FailureArgs *args, Arena scratch)
-{
-    int    count;
+static void find_changes(const Steps *steps, const FailureArgs *args, Arena scratch) {
+    int count;
     double width = steps->suns->step_minutes;
-    Edge  *edges = edges_of(steps, &count, &scratch);
+    Edge *edges = edges_of(steps, &count, &scratch);
     count = keep_longest(steps, edges, count, INFINITY, scratch); /* of all that count */
     for (; count && width > CLOSE_MINUTES && !is_sum_close(steps, width, count, scratch);
          width /= 2) {
@@ -440,9 +406,8 @@ static void find_changes(const Steps *steps, const FailureArgs *args, Arena scra
 }
 
 Failures sweep_failures(const ReviewCondition *condition, const SweepSuns *suns,
-                        const unsigned char *states, const FailureArgs *args, Arena scratch)
-{
-    Steps  steps = steps_of(condition, suns, states, &scratch);
+                        const unsigned char *states, const FailureArgs *args, Arena scratch) {
+    Steps steps = steps_of(condition, suns, states, &scratch);
     double all = 0;
     if (args) find_changes(&steps, args, scratch);
     Stretches stretches = find_stretches(&steps, &scratch);

@@ -11,23 +11,23 @@
 
 typedef struct SweepSun {
     double azimuth_deg, elevation_deg; /* of the vehicle; apparent */
-    double compass_deg;  /* azimuth from north; of a sun sweep that of the vehicle */
+    double compass_deg;                /* azimuth from north; of a sun sweep that of the vehicle */
     double heading_deg;
-    double minutes;      /* that it stands for; sun sweep: 0 */
-    int    step;         /* of time: year; -1 */
-    int    heading_id;   /* year; 0 */
+    double minutes;       /* that it stands for; sun sweep: 0 */
+    int step;             /* of time: year; -1 */
+    int heading_id;       /* year; 0 */
     double later_minutes; /* than the middle of its step */
-    double light;        /* over that at 1 au, by the earth's distance; sun sweep: 1 */
+    double light;         /* over that at 1 au, by the earth's distance; sun sweep: 1 */
 } SweepSun;
 
 typedef struct SweepSuns {
     const SweepSun *list;
-    DistantSun     *distant; /* the same, for probes */
-    int             count;
-    bool            has_time; /* suns of one heading_id follow each other in time */
-    double          step_minutes; /* year */
-    ReviewRange     azimuth_deg, elevation_deg; /* sun sweep: azimuths of the first elevation,
-                                                   then of the next */
+    DistantSun *distant; /* the same, for probes */
+    int count;
+    bool has_time;                          /* suns of one heading_id follow each other in time */
+    double step_minutes;                    /* year */
+    ReviewRange azimuth_deg, elevation_deg; /* sun sweep: azimuths of the first elevation,
+                                               then of the next */
 } SweepSuns;
 
 /* The time of a step of a year, UTC; the condition's steps or others. */
@@ -74,7 +74,7 @@ typedef enum StepState { STEP_PASSES, STEP_FAILS, STEP_FAILS_SURELY } StepState;
 /* Fills states[suns->count] for suns between steps. */
 typedef struct FailureArgs {
     void (*states)(void *user, const SweepSuns *suns, unsigned char *states, Arena scratch);
-    void  *user;
+    void *user;
 } FailureArgs;
 
 typedef struct Failures {

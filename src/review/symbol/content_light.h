@@ -17,9 +17,9 @@
 
 /* Pixels x .. x + width - 1, y .. y + height - 1 of the content, row by row. */
 typedef struct ContentLight {
-    const Image *content; /* NULL: white */
-    int    content_width, content_height; /* 1 x 1 without content */
-    int    x, y, width, height;
+    const Image *content;              /* NULL: white */
+    int content_width, content_height; /* 1 x 1 without content */
+    int x, y, width, height;
     float *cd_m2;
 } ContentLight;
 
@@ -37,14 +37,14 @@ void content_codes(const Image *content, int x, int y, float rgb[3]);
 
 /* First and last pixel of each axis. */
 typedef struct ConnectedPart {
-    int  left, top, right, bottom;
+    int left, top, right, bottom;
     long pixels;
 } ConnectedPart;
 
 typedef struct ConnectedParts {
     ConnectedPart *part; /* in the order of their first pixels, row by row */
-    int            count;
-    int32_t       *part_of; /* of each pixel; -1: not in the set */
+    int count;
+    int32_t *part_of; /* of each pixel; -1: not in the set */
 } ConnectedParts;
 
 /* set: width * height, row by row, not 0 where a pixel is in it. At most 2^31 pixels. */

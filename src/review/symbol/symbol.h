@@ -23,31 +23,31 @@
 typedef enum SymbolClass { SYMBOL_BACKGROUND, SYMBOL_FOREGROUND, SYMBOL_EDGE } SymbolClass;
 
 typedef struct SymbolQuestion {
-    const Panel   *panel;
-    const Image   *content;  /* NULL: full white, in which there is no symbol */
-    const Image   *mask;     /* of the content's size; NULL: none */
-    double         uv[4];    /* left, top, right, bottom */
+    const Panel *panel;
+    const Image *content;    /* NULL: full white, in which there is no symbol */
+    const Image *mask;       /* of the content's size; NULL: none */
+    double uv[4];            /* left, top, right, bottom */
     ReviewPolarity polarity; /* AUTO: the smaller class is the foreground; with a mask, the
                                 mask's */
 } SymbolQuestion;
 
 typedef struct SymbolSplit {
     ContentLight light;
-    uint8_t *class_of;         /* SymbolClass of each pixel of `light`, row by row */
-    long     foreground_count, background_count, edge_count;
-    bool     is_light_on_dark; /* the foreground's mean is the brighter */
-    double   separability;     /* share of the variance that the two classes explain, 0..1:
-                                  below SYMBOL_SEPARABLE they are hardly two; NaN: by a mask */
-    double   threshold_cd_m2;  /* NaN: by a mask */
-    double   foreground_cd_m2, background_cd_m2; /* means of the classes, edges left out */
-    double   box[4];           /* of the foreground in uv; partly covered rows and columns
-                                  count by their share of light */
-    double   stroke_px;        /* median over the foreground's pixels of their shortest chord
-                                  (level, upright, both diagonals: on strokes between those up
-                                  to 8 % long); partly covered pixels by their share of light */
-    double   character_v;      /* height of a character in v: median of the connected parts
-                                  (over gaps of less than a third of a stroke) beside the
-                                  tallest, without those less than half as tall */
+    uint8_t *class_of; /* SymbolClass of each pixel of `light`, row by row */
+    long foreground_count, background_count, edge_count;
+    bool is_light_on_dark;  /* the foreground's mean is the brighter */
+    double separability;    /* share of the variance that the two classes explain, 0..1:
+                               below SYMBOL_SEPARABLE they are hardly two; NaN: by a mask */
+    double threshold_cd_m2; /* NaN: by a mask */
+    double foreground_cd_m2, background_cd_m2; /* means of the classes, edges left out */
+    double box[4];      /* of the foreground in uv; partly covered rows and columns
+                           count by their share of light */
+    double stroke_px;   /* median over the foreground's pixels of their shortest chord
+                           (level, upright, both diagonals: on strokes between those up
+                           to 8 % long); partly covered pixels by their share of light */
+    double character_v; /* height of a character in v: median of the connected parts
+                           (over gaps of less than a third of a stroke) beside the
+                           tallest, without those less than half as tall */
 } SymbolSplit;
 
 #define SYMBOL_SEPARABLE 0.8

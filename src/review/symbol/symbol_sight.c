@@ -18,24 +18,21 @@ typedef struct Arrow {
     double x, y, z;
 } Arrow;
 
-static Arrow arrow(Vec3 from, Vec3 to)
-{
+static Arrow arrow(Vec3 from, Vec3 to) {
     return (Arrow){(double)to.x - (double)from.x, (double)to.y - (double)from.y,
                    (double)to.z - (double)from.z};
 }
 
 /* By sine and cosine: small angles keep their digits. */
-static double angle_between(Arrow a, Arrow b)
-{
+static double angle_between(Arrow a, Arrow b) {
     double x = a.y * b.z - a.z * b.y, y = a.z * b.x - a.x * b.z, z = a.x * b.y - a.y * b.x;
     return atan2_d(sqrt(x * x + y * y + z * z), a.x * b.x + a.y * b.y + a.z * b.z);
 }
 
-double symbol_height_arcmin(const SymbolSurface *surface, const double box[4], Vec3 eye)
-{
+double symbol_height_arcmin(const SymbolSurface *surface, const double box[4], Vec3 eye) {
     double sum = 0;
     for (int k = 0; k < COLUMNS; k++) {
-        double      u = box[0] + (k + 0.5) / COLUMNS * (box[2] - box[0]);
+        double u = box[0] + (k + 0.5) / COLUMNS * (box[2] - box[0]);
         SymbolPoint top, bottom;
         if (!symbol_surface_at(surface, (double[2]){u, box[1]}, &top) ||
             !symbol_surface_at(surface, (double[2]){u, box[3]}, &bottom))
@@ -50,17 +47,15 @@ double symbol_height_arcmin(const SymbolSurface *surface, const double box[4], V
 typedef struct SightQuestion {
     const PathContext *context;
     const Wavelengths *wavelengths;
-    Vec3     direction; /* of the look */
+    Vec3 direction; /* of the look */
     Spectrum passed;
 } SightQuestion;
 
-static float luminous(const Wavelengths *wavelengths, const Spectrum *passed)
-{
+static float luminous(const Wavelengths *wavelengths, const Spectrum *passed) {
     return spectrum_sum(*passed * wavelengths->xyz[1]) / spectrum_sum(wavelengths->xyz[1]);
 }
 
-static bool passes(void *user, const Hit *hit)
-{
+static bool passes(void *user, const Hit *hit) {
     SightQuestion *question = user;
     const PathContext *context = question->context;
     question->passed *= surface_pass(context->scene, context->tables, hit, question->direction,
@@ -68,20 +63,17 @@ static bool passes(void *user, const Hit *hit)
     return luminous(question->wavelengths, &question->passed) >= HIDES_BELOW;
 }
 
-static bool faces(const SymbolPoint *point, Vec3 eye)
-{
+static bool faces(const SymbolPoint *point, Vec3 eye) {
     return vec3_dot(vec3_sub(point->position, eye), point->ng) < 0;
 }
 
 /* From the eye to just before the point: a bezel may lie closely over the display. */
-static Ray look_at(const Scene *scene, const SymbolPoint *point, Vec3 eye)
-{
+static Ray look_at(const Scene *scene, const SymbolPoint *point, Vec3 eye) {
     TrianglePoint at = triangle_point(scene, point->triangle, point->u, point->v);
     return ray_to(eye, &at, vec3_sub(eye, point->position));
 }
 
-static bool is_hidden(const Ray *look, SightQuestion *question)
-{
+static bool is_hidden(const Ray *look, SightQuestion *question) {
     question->direction = look->direction;
     return bvh_occluded(question->context->bvh, *look, passes, question);
 }
@@ -89,18 +81,16 @@ static bool is_hidden(const Ray *look, SightQuestion *question)
 /* The share of light that comes from the point to the eye; 0: it is hidden, or seen from
  * behind. */
 static float passed_from(const SymbolPoint *point, const PathContext *context,
-                         const Wavelengths *wavelengths, Vec3 eye)
-{
-    SightQuestion question = {.context = context, .wavelengths = wavelengths,
-                              .passed = spectrum_all(1)};
+                         const Wavelengths *wavelengths, Vec3 eye) {
+    SightQuestion question = {
+        .context = context, .wavelengths = wavelengths, .passed = spectrum_all(1)};
     Ray look = look_at(context->scene, point, eye);
     if (!faces(point, eye) || is_hidden(&look, &question)) return 0;
     return luminous(wavelengths, &question.passed);
 }
 
 SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathContext *context,
-                                   Vec3 eye, bool *is_visible)
-{
+                                   Vec3 eye, bool *is_visible) {
     double seen = 0, passed = 0;
     Wavelengths wavelengths;
     wavelengths_sample(0.5f, &wavelengths);
@@ -116,11 +106,10 @@ SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathConte
 }
 
 /* The first part that hides a look, which must be hidden. */
-static uint32_t hiding_part(Ray look, SightQuestion *question)
-{
+static uint32_t hiding_part(Ray look, SightQuestion *question) {
     const Scene *scene = question->context->scene;
-    uint32_t     part = 0;
-    Hit          hit;
+    uint32_t part = 0;
+    Hit hit;
     question->passed = spectrum_all(1);
     while (bvh_intersect(question->context->bvh, look, 0, &hit)) {
         part = scene->triangles[hit.triangle].part_id;
@@ -131,21 +120,19 @@ static uint32_t hiding_part(Ray look, SightQuestion *question)
 }
 
 SymbolHiding symbol_hiding(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
-                           Arena *arena)
-{
+                           Arena *arena) {
     const Scene *scene = context->scene;
     SymbolHiding hiding = {ARENA_NEW(arena, double, scene->part_count), 0};
-    Wavelengths  wavelengths;
+    Wavelengths wavelengths;
     wavelengths_sample(0.5f, &wavelengths);
     for (int i = 0; i < surface->point_count; i++) {
         const SymbolPoint *point = &surface->points[i];
-        double        share = (double)point->area_m2 / surface->area_m2;
-        SightQuestion question = {.context = context, .wavelengths = &wavelengths,
-                                  .passed = spectrum_all(1)};
+        double share = (double)point->area_m2 / surface->area_m2;
+        SightQuestion question = {
+            .context = context, .wavelengths = &wavelengths, .passed = spectrum_all(1)};
         Ray look = look_at(scene, point, eye);
         if (!faces(point, eye)) hiding.turned_away += share;
-        else if (is_hidden(&look, &question))
-            hiding.by_part[hiding_part(look, &question)] += share;
+        else if (is_hidden(&look, &question)) hiding.by_part[hiding_part(look, &question)] += share;
     }
     return hiding;
 }
@@ -153,8 +140,7 @@ SymbolHiding symbol_hiding(const SymbolSurface *surface, const PathContext *cont
 #define INSET 0.01 /* of a patch: the rim of a display may lie on its own corners */
 
 static bool sees_corners(const SymbolSurface *surface, const double box[4],
-                         const PathContext *context, Vec3 eye)
-{
+                         const PathContext *context, Vec3 eye) {
     Wavelengths wavelengths;
     wavelengths_sample(0.5f, &wavelengths);
     for (int k = 0; k < 4; k++) {
@@ -168,44 +154,40 @@ static bool sees_corners(const SymbolSurface *surface, const double box[4],
     return true;
 }
 
-SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point,
-                              const PathContext *context, Vec3 eye)
-{
+SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point, const PathContext *context,
+                              Vec3 eye) {
     double box[4];
     if (symbol_patch_box(surface, point, box) && sees_corners(surface, box, context, eye))
         return symbol_patch(surface, point);
     return (SymbolPatch){.middle = surface->points[point].position};
 }
 
-bool symbol_box_seen(const SymbolSurface *surface, const double uv[4],
-                     const PathContext *context, Vec3 eye, SymbolPatch *out)
-{
+bool symbol_box_seen(const SymbolSurface *surface, const double uv[4], const PathContext *context,
+                     Vec3 eye, SymbolPatch *out) {
     const double at[2] = {0.5 * (uv[0] + uv[2]), 0.5 * (uv[1] + uv[3])};
-    SymbolPoint  middle;
-    Wavelengths  wavelengths;
+    SymbolPoint middle;
+    Wavelengths wavelengths;
     wavelengths_sample(0.5f, &wavelengths);
     if (!symbol_surface_at(surface, at, &middle) ||
         !(passed_from(&middle, context, &wavelengths, eye) > 0))
         return false;
-    *out = sees_corners(surface, uv, context, eye)
-               ? symbol_patch_of(surface, uv, middle.position)
-               : (SymbolPatch){.middle = middle.position};
+    *out = sees_corners(surface, uv, context, eye) ? symbol_patch_of(surface, uv, middle.position)
+                                                   : (SymbolPatch){.middle = middle.position};
     return true;
 }
 
 static bool is_lit(const SymbolPoint *point, const PathContext *context,
-                   const Wavelengths *wavelengths, Vec3 towards)
-{
-    SightQuestion question = {.context = context, .wavelengths = wavelengths,
-                              .direction = towards, .passed = spectrum_all(1)};
+                   const Wavelengths *wavelengths, Vec3 towards) {
+    SightQuestion question = {.context = context,
+                              .wavelengths = wavelengths,
+                              .direction = towards,
+                              .passed = spectrum_all(1)};
     Ray ray = {symbol_point_start(context->scene, point), towards, 0, INFINITY};
-    return vec3_dot(towards, point->ng) > 0 &&
-           !bvh_occluded(context->bvh, ray, passes, &question);
+    return vec3_dot(towards, point->ng) > 0 && !bvh_occluded(context->bvh, ray, passes, &question);
 }
 
 double symbol_lit_share(const SymbolSurface *surface, const bool *is_visible,
-                        const PathContext *context, Vec3 towards)
-{
+                        const PathContext *context, Vec3 towards) {
     double lit = 0, visible = 0;
     Wavelengths wavelengths;
     wavelengths_sample(0.5f, &wavelengths);
@@ -222,14 +204,13 @@ double symbol_lit_share(const SymbolSurface *surface, const bool *is_visible,
 
 /* Adds the XYZ that the pixel sends to the eye; false: it turns its back. */
 static bool add_pixel(const SymbolSurface *surface, const ContentLight *light, size_t pixel,
-                      Vec3 eye, double sum[3])
-{
-    const Scene   *scene = surface->scene;
+                      Vec3 eye, double sum[3]) {
+    const Scene *scene = surface->scene;
     const Display *display = &scene->displays[surface->display_id];
-    int    x = light->x + (int)(pixel % (size_t)light->width);
-    int    y = light->y + (int)(pixel / (size_t)light->width);
+    int x = light->x + (int)(pixel % (size_t)light->width);
+    int y = light->y + (int)(pixel / (size_t)light->width);
     double uv[2] = {(x + 0.5) / light->content_width, (y + 0.5) / light->content_height};
-    float  codes[3], xyz[3];
+    float codes[3], xyz[3];
     SymbolPoint at;
     if (!symbol_surface_at(surface, uv, &at)) return false;
     Vec3 to_eye = vec3_normalize(vec3_sub(eye, at.position));
@@ -247,32 +228,29 @@ static bool add_pixel(const SymbolSurface *surface, const ContentLight *light, s
 /* Pixels of one class, in pieces, so that the sum is the same for any number of threads. */
 typedef struct ClassWork {
     const SymbolSurface *surface;
-    const ContentLight  *light;
-    Vec3      eye;
-    uint32_t  pixels[MOST_PIXELS];
-    long      count;
-    double    sum[EMISSION_PIECES][3];
-    long      counted[EMISSION_PIECES];
+    const ContentLight *light;
+    Vec3 eye;
+    uint32_t pixels[MOST_PIXELS];
+    long count;
+    double sum[EMISSION_PIECES][3];
+    long counted[EMISSION_PIECES];
 } ClassWork;
 
-static void add_piece(void *user, int piece, int worker)
-{
+static void add_piece(void *user, int piece, int worker) {
     (void)worker;
     ClassWork *work = user;
     long first = piece * work->count / EMISSION_PIECES;
     long end = (piece + 1) * work->count / EMISSION_PIECES;
     for (long i = first; i < end; i++)
-        work->counted[piece] += add_pixel(work->surface, work->light, work->pixels[i],
-                                          work->eye, work->sum[piece]);
+        work->counted[piece] +=
+            add_pixel(work->surface, work->light, work->pixels[i], work->eye, work->sum[piece]);
 }
 
-static void list_pixels(const SymbolSplit *split, SymbolClass which, ClassWork *work)
-{
+static void list_pixels(const SymbolSplit *split, SymbolClass which, ClassWork *work) {
     size_t all = (size_t)split->light.width * (size_t)split->light.height;
-    long   of_class = which == SYMBOL_FOREGROUND ? split->foreground_count
-                                                 : split->background_count;
-    long   wanted = of_class < MOST_PIXELS ? of_class : MOST_PIXELS;
-    long   met = 0;
+    long of_class = which == SYMBOL_FOREGROUND ? split->foreground_count : split->background_count;
+    long wanted = of_class < MOST_PIXELS ? of_class : MOST_PIXELS;
+    long met = 0;
     for (size_t i = 0; i < all; i++) {
         if (split->class_of[i] != which) continue;
         if (met++ != (2 * work->count + 1) * of_class / (2 * wanted)) continue;
@@ -280,10 +258,9 @@ static void list_pixels(const SymbolSplit *split, SymbolClass which, ClassWork *
     }
 }
 
-static void mean_of_class(const SymbolLook *look, SymbolClass which, double xyz[3])
-{
+static void mean_of_class(const SymbolLook *look, SymbolClass which, double xyz[3]) {
     ClassWork work = {.surface = look->surface, .light = &look->split->light, .eye = look->eye};
-    long      counted = 0;
+    long counted = 0;
     list_pixels(look->split, which, &work);
     parallel_for(look->threads, EMISSION_PIECES, add_piece, &work);
     for (int k = 0; k < 3; k++) xyz[k] = 0;
@@ -294,8 +271,7 @@ static void mean_of_class(const SymbolLook *look, SymbolClass which, double xyz[
     for (int k = 0; k < 3; k++) xyz[k] /= (double)counted;
 }
 
-SymbolEmission symbol_emission(const SymbolLook *look, double level)
-{
+SymbolEmission symbol_emission(const SymbolLook *look, double level) {
     SymbolEmission out;
     mean_of_class(look, SYMBOL_FOREGROUND, out.foreground_xyz);
     mean_of_class(look, SYMBOL_BACKGROUND, out.background_xyz);
@@ -309,14 +285,13 @@ SymbolEmission symbol_emission(const SymbolLook *look, double level)
 /* ---- behind glasses ---------------------------------------------------------------------- */
 
 static double polarised_at(const SymbolPoint *point, const PathContext *context, Vec3 eye,
-                           const PolarisedEye *polariser)
-{
+                           const PolarisedEye *polariser) {
     const Scene *scene = context->scene;
-    Ray          look = look_at(scene, point, eye);
-    Vec3         wo = vec3_neg(look.direction);
-    Wavelengths  wavelengths;
-    Polarised    light;
-    Hit          hit;
+    Ray look = look_at(scene, point, eye);
+    Vec3 wo = vec3_neg(look.direction);
+    Wavelengths wavelengths;
+    Polarised light;
+    Hit hit;
     wavelengths_sample(0.5f, &wavelengths);
     polarised_start(polariser, look.direction, &light);
     while (bvh_intersect(context->bvh, look, 0, &hit)) {
@@ -325,20 +300,18 @@ static double polarised_at(const SymbolPoint *point, const PathContext *context,
         polarised_pass(&light, &pane, wo);
         look = ray_behind(scene, look, &hit);
     }
-    TrianglePoint  at = triangle_point(scene, point->triangle, point->u, point->v);
+    TrianglePoint at = triangle_point(scene, point->triangle, point->u, point->v);
     PolarisedLight from;
-    float          degree;
-    bool           is_polarised =
-        triangle_polarisation(scene, point->triangle, &at, wo, &from.axis, &degree);
+    float degree;
+    bool is_polarised = triangle_polarisation(scene, point->triangle, &at, wo, &from.axis, &degree);
     if (is_polarised) from.degree = spectrum_all(degree);
     return (double)spectrum_mean(polarised_take(&light) *
                                  polarised_seen(&light, 0, wo, is_polarised ? &from : NULL));
 }
 
-double symbol_polarised_share(const SymbolSurface *surface, const PathContext *context,
-                              Vec3 eye, const PolarisedEye *polariser)
-{
-    double      sum = 0, area = 0;
+double symbol_polarised_share(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
+                              const PolarisedEye *polariser) {
+    double sum = 0, area = 0;
     Wavelengths wavelengths;
     wavelengths_sample(0.5f, &wavelengths);
     for (int i = 0; i < surface->point_count; i++) {
@@ -355,16 +328,15 @@ double symbol_polarised_share(const SymbolSurface *surface, const PathContext *c
 
 /* Adds a pixel's luminance as it is, and behind the glasses. */
 static void add_coloured(const SymbolLook *look, uint32_t pixel, const Curve *colour,
-                         double sum[2])
-{
-    const Scene        *scene = look->surface->scene;
+                         double sum[2]) {
+    const Scene *scene = look->surface->scene;
     const ContentLight *light = &look->split->light;
-    int    x = light->x + (int)(pixel % (uint32_t)light->width);
-    int    y = light->y + (int)(pixel / (uint32_t)light->width);
+    int x = light->x + (int)(pixel % (uint32_t)light->width);
+    int y = light->y + (int)(pixel / (uint32_t)light->width);
     double uv[2] = {(x + 0.5) / light->content_width, (y + 0.5) / light->content_height};
     SymbolPoint at;
     if (!symbol_surface_at(look->surface, uv, &at)) return;
-    Vec3          way = vec3_normalize(vec3_sub(look->eye, at.position));
+    Vec3 way = vec3_normalize(vec3_sub(look->eye, at.position));
     TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
     for (int i = 0; i < COLOUR_STRATA; i++) {
         Wavelengths w;
@@ -375,13 +347,11 @@ static void add_coloured(const SymbolLook *look, uint32_t pixel, const Curve *co
     }
 }
 
-double symbol_coloured_share(const SymbolLook *look, SymbolClass which, const Curve *colour)
-{
+double symbol_coloured_share(const SymbolLook *look, SymbolClass which, const Curve *colour) {
     ClassWork work = {.surface = look->surface, .light = &look->split->light, .eye = look->eye};
-    double    sum[2] = {0, 0};
+    double sum[2] = {0, 0};
     list_pixels(look->split, which, &work);
     long step = work.count / COLOUR_PIXELS + 1;
-    for (long i = 0; i < work.count; i += step)
-        add_coloured(look, work.pixels[i], colour, sum);
+    for (long i = 0; i < work.count; i += step) add_coloured(look, work.pixels[i], colour, sum);
     return sum[0] > 0 ? sum[1] / sum[0] : 1;
 }

@@ -30,7 +30,7 @@ SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathConte
  * lets too little through: with the visible share they add up to 1. */
 typedef struct SymbolHiding {
     double *by_part;    /* [scene->part_count], from the arena */
-    double  turned_away; /* shows its back, covered or not */
+    double turned_away; /* shows its back, covered or not */
 } SymbolHiding;
 
 SymbolHiding symbol_hiding(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
@@ -38,12 +38,12 @@ SymbolHiding symbol_hiding(const SymbolSurface *surface, const PathContext *cont
 
 /* A visible point's patch, when the eye sees its corners, too; else the point by itself: paths
  * to a patch that something covers in part would measure what covers it. */
-SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point,
-                              const PathContext *context, Vec3 eye);
+SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point, const PathContext *context,
+                              Vec3 eye);
 
 /* The same of any rectangle of it; false: its middle is hidden, or not shown. */
-bool symbol_box_seen(const SymbolSurface *surface, const double uv[4],
-                     const PathContext *context, Vec3 eye, SymbolPatch *out);
+bool symbol_box_seen(const SymbolSurface *surface, const double uv[4], const PathContext *context,
+                     Vec3 eye, SymbolPatch *out);
 
 /* The share, 0..1, of the surface with is_visible[point] to which light comes straight from
  * `towards` (unit, world), or through windows that pass a hundredth of it and more: towards the
@@ -60,15 +60,15 @@ typedef struct SymbolEmission {
 
 typedef struct SymbolLook {
     const SymbolSurface *surface;
-    const SymbolSplit   *split;
-    Vec3                 eye;
-    int                  threads;
+    const SymbolSplit *split;
+    Vec3 eye;
+    int threads;
 } SymbolLook;
 
 /* What a polariser before the eye lets through of the display's light, beside unpolarised light
  * by the same ways: mean over the points that are visible. */
-double symbol_polarised_share(const SymbolSurface *surface, const PathContext *context,
-                              Vec3 eye, const PolarisedEye *polariser);
+double symbol_polarised_share(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
+                              const PolarisedEye *polariser);
 
 /* The luminance of a class behind glasses of that colour, over the one that was measured: by
  * the spectra of the panel's primaries. 1: it emits nothing. */

@@ -12,13 +12,11 @@
 
 /* ---- triangles --------------------------------------------------------------------------- */
 
-static const TextureSlot *content_slot(const Scene *scene, int display_id)
-{
+static const TextureSlot *content_slot(const Scene *scene, int display_id) {
     return &scene->displays[display_id].content;
 }
 
-static double world_area(const Scene *scene, uint32_t triangle)
-{
+static double world_area(const Scene *scene, uint32_t triangle) {
     Vec3 a = scene_corner(scene, triangle, 0);
     Vec3 cross = vec3_cross(vec3_sub(scene_corner(scene, triangle, 1), a),
                             vec3_sub(scene_corner(scene, triangle, 2), a));
@@ -27,11 +25,10 @@ static double world_area(const Scene *scene, uint32_t triangle)
 
 /* False: all of its corners show points of one line. */
 static bool set_up(const Scene *scene, const TextureSlot *slot, uint32_t triangle,
-                   SymbolTriangle *out)
-{
-    Vec2   a = slot_corner_uv(scene, slot, triangle, 0);
-    Vec2   b = slot_corner_uv(scene, slot, triangle, 1);
-    Vec2   c = slot_corner_uv(scene, slot, triangle, 2);
+                   SymbolTriangle *out) {
+    Vec2 a = slot_corner_uv(scene, slot, triangle, 0);
+    Vec2 b = slot_corner_uv(scene, slot, triangle, 1);
+    Vec2 c = slot_corner_uv(scene, slot, triangle, 2);
     double b_u = (double)b.x - (double)a.x, b_v = (double)b.y - (double)a.y;
     double c_u = (double)c.x - (double)a.x, c_v = (double)c.y - (double)a.y;
     double det = b_u * c_v - b_v * c_u;
@@ -45,8 +42,7 @@ static bool set_up(const Scene *scene, const TextureSlot *slot, uint32_t triangl
 
 /* Do the boxes of rectangle and triangle meet? */
 static bool reaches(const Scene *scene, const TextureSlot *slot, uint32_t triangle,
-                    const double uv[4])
-{
+                    const double uv[4]) {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int k = 0; k < 3; k++) {
         Vec2 corner = slot_corner_uv(scene, slot, triangle, k);
@@ -59,12 +55,11 @@ static bool reaches(const Scene *scene, const TextureSlot *slot, uint32_t triang
            high[1] >= uv[1] - SEAM;
 }
 
-static void take_triangles(const SymbolPlace *place, Arena *arena, SymbolSurface *surface)
-{
-    const Scene       *scene = place->scene;
+static void take_triangles(const SymbolPlace *place, Arena *arena, SymbolSurface *surface) {
+    const Scene *scene = place->scene;
     const TextureSlot *slot = content_slot(scene, surface->display_id);
     uint32_t most = 0;
-    int      count = 0;
+    int count = 0;
     for (int i = 0; i < place->display->part_count; i++)
         most += scene->parts[place->display->part_ids[i]].triangle_count;
     SymbolTriangle *triangles = ARENA_NEW(arena, SymbolTriangle, most);
@@ -83,24 +78,22 @@ static void take_triangles(const SymbolPlace *place, Arena *arena, SymbolSurface
 
 /* The triangle that shows uv, and the weights of its vertices 1 and 2; NULL: none. */
 static const SymbolTriangle *triangle_of(const SymbolSurface *surface, const double uv[2],
-                                         double weight[2])
-{
+                                         double weight[2]) {
     for (int i = 0; i < surface->triangle_count; i++) {
         const SymbolTriangle *t = &surface->triangles[i];
         double du = uv[0] - t->corner[0], dv = uv[1] - t->corner[1];
-        for (int k = 0; k < 2; k++)
-            weight[k] = t->gradient[k][0] * du + t->gradient[k][1] * dv;
-        if (weight[0] >= -SEAM && weight[1] >= -SEAM && weight[0] + weight[1] <= 1 + SEAM)
-            return t;
+        for (int k = 0; k < 2; k++) weight[k] = t->gradient[k][0] * du + t->gradient[k][1] * dv;
+        if (weight[0] >= -SEAM && weight[1] >= -SEAM && weight[0] + weight[1] <= 1 + SEAM) return t;
     }
     return NULL;
 }
 
 static SymbolPoint point_on(const Scene *scene, const SymbolTriangle *t, const double uv[2],
-                            const double weight[2])
-{
-    SymbolPoint   out = {.triangle = t->triangle, .u = (float)weight[0], .v = (float)weight[1],
-                         .uv = {(float)uv[0], (float)uv[1]}};
+                            const double weight[2]) {
+    SymbolPoint out = {.triangle = t->triangle,
+                       .u = (float)weight[0],
+                       .v = (float)weight[1],
+                       .uv = {(float)uv[0], (float)uv[1]}};
     TrianglePoint point = triangle_point(scene, t->triangle, out.u, out.v);
     out.position = point.position;
     out.ng = point.ng;
@@ -108,31 +101,28 @@ static SymbolPoint point_on(const Scene *scene, const SymbolTriangle *t, const d
     return out;
 }
 
-bool symbol_surface_at(const SymbolSurface *surface, const double uv[2], SymbolPoint *out)
-{
+bool symbol_surface_at(const SymbolSurface *surface, const double uv[2], SymbolPoint *out) {
     double weight[2];
     const SymbolTriangle *t = triangle_of(surface, uv, weight);
     if (t) *out = point_on(surface->scene, t, uv, weight);
     return t != NULL;
 }
 
-Vec3 symbol_point_start(const Scene *scene, const SymbolPoint *point)
-{
+Vec3 symbol_point_start(const Scene *scene, const SymbolPoint *point) {
     TrianglePoint at = triangle_point(scene, point->triangle, point->u, point->v);
     return ray_start(&at, at.ng);
 }
 
-static bool no_surface(const double uv[2], Error *err)
-{
+static bool no_surface(const double uv[2], Error *err) {
     return error_set(err, ERROR_INPUT,
                      "the symbol lies outside its display, no part of which shows uv "
-                     "[%.4g, %.4g] of its content", uv[0], uv[1]);
+                     "[%.4g, %.4g] of its content",
+                     uv[0], uv[1]);
 }
 
 /* Hammersley: i + 1/2 over n, and the digits of i in base 2 behind the point, in the middle of
  * their interval. */
-static void place_of(const SymbolSurface *surface, int i, double uv[2])
-{
+static void place_of(const SymbolSurface *surface, int i, double uv[2]) {
     double n = surface->point_count;
     double s = (i + 0.5) / n;
     double t = reverse_bits((uint32_t)i) * 0x1p-32 + 0.5 / n;
@@ -141,8 +131,7 @@ static void place_of(const SymbolSurface *surface, int i, double uv[2])
     uv[1] = box[1] + s * (box[3] - box[1]);
 }
 
-static bool place_points(SymbolSurface *surface, Error *err)
-{
+static bool place_points(SymbolSurface *surface, Error *err) {
     const double *box = surface->uv;
     double share = (box[2] - box[0]) * (box[3] - box[1]) / surface->point_count;
     for (int i = 0; i < surface->point_count; i++) {
@@ -158,8 +147,7 @@ static bool place_points(SymbolSurface *surface, Error *err)
 }
 
 /* Every cell of a grid of 2^n cells has one of 2^n points in Hammersley's order. */
-bool symbol_patch_box(const SymbolSurface *surface, int point, double uv[4])
-{
+bool symbol_patch_box(const SymbolSurface *surface, int point, double uv[4]) {
     const double *box = surface->uv;
     int columns = 1, count = surface->point_count;
     if (count & (count - 1)) return false;
@@ -173,8 +161,7 @@ bool symbol_patch_box(const SymbolSurface *surface, int point, double uv[4])
     return true;
 }
 
-SymbolPatch symbol_patch_of(const SymbolSurface *surface, const double uv[4], Vec3 middle)
-{
+SymbolPatch symbol_patch_of(const SymbolSurface *surface, const double uv[4], Vec3 middle) {
     SymbolPoint first, along, down;
     if (!symbol_surface_at(surface, (double[2]){uv[0], uv[1]}, &first) ||
         !symbol_surface_at(surface, (double[2]){uv[2], uv[1]}, &along) ||
@@ -185,16 +172,14 @@ SymbolPatch symbol_patch_of(const SymbolSurface *surface, const double uv[4], Ve
                          vec3_sub(down.position, first.position)};
 }
 
-SymbolPatch symbol_patch(const SymbolSurface *surface, int point)
-{
+SymbolPatch symbol_patch(const SymbolSurface *surface, int point) {
     double uv[4];
-    Vec3   middle = surface->points[point].position;
+    Vec3 middle = surface->points[point].position;
     if (!symbol_patch_box(surface, point, uv)) return (SymbolPatch){.middle = middle};
     return symbol_patch_of(surface, uv, middle);
 }
 
-static bool corners_are_there(const SymbolSurface *surface, Error *err)
-{
+static bool corners_are_there(const SymbolSurface *surface, Error *err) {
     for (int k = 0; k < 4; k++) {
         double uv[2] = {surface->uv[k & 1 ? 2 : 0], surface->uv[k & 2 ? 3 : 1]}, weight[2];
         if (!triangle_of(surface, uv, weight)) return no_surface(uv, err);
@@ -202,9 +187,7 @@ static bool corners_are_there(const SymbolSurface *surface, Error *err)
     return true;
 }
 
-bool symbol_surface_build(const SymbolPlace *place, Arena *arena, SymbolSurface *out,
-                          Error *err)
-{
+bool symbol_surface_build(const SymbolPlace *place, Arena *arena, SymbolSurface *out, Error *err) {
     SymbolSurface surface = {.scene = place->scene,
                              .display_id = place->display->display_id,
                              .point_count = place->point_count};
@@ -217,8 +200,7 @@ bool symbol_surface_build(const SymbolPlace *place, Arena *arena, SymbolSurface 
 }
 
 bool symbol_surface_within(const SymbolSurface *of, const double uv[4], int point_count,
-                           Arena *arena, SymbolSurface *out, Error *err)
-{
+                           Arena *arena, SymbolSurface *out, Error *err) {
     SymbolSurface surface = *of;
     for (int k = 0; k < 4; k++) surface.uv[k] = uv[k];
     surface.point_count = point_count;

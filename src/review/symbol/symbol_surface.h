@@ -15,46 +15,45 @@
 /* Which rectangle of which display, and how many points are required of it. Of a display whose
  * material two nodes wear, ReviewDisplay holds the parts of one ("node:NAME"). */
 typedef struct SymbolPlace {
-    const Scene         *scene;
+    const Scene *scene;
     const ReviewDisplay *display;
-    double               uv[4];       /* left, top, right, bottom */
-    int                  point_count; /* at least 1; a power of two spreads best */
+    double uv[4];    /* left, top, right, bottom */
+    int point_count; /* at least 1; a power of two spreads best */
 } SymbolPlace;
 
 /* A point of the display's surface. */
 typedef struct SymbolPoint {
     uint32_t triangle;
-    float    u, v;       /* barycentric weights of its vertices 1 and 2 */
-    Vec3     position;
-    Vec3     ng, ns;     /* unit; ng: geometric, of the front */
-    Vec2     uv;         /* of the content */
-    float    area_m2;    /* of the display that it stands for */
+    float u, v; /* barycentric weights of its vertices 1 and 2 */
+    Vec3 position;
+    Vec3 ng, ns;   /* unit; ng: geometric, of the front */
+    Vec2 uv;       /* of the content */
+    float area_m2; /* of the display that it stands for */
 } SymbolPoint;
 
 /* A triangle that reaches into the rectangle: the weight of its vertex k is
  * gradient[k - 1] . (uv - corner), for k = 1 and 2. */
 typedef struct SymbolTriangle {
     uint32_t triangle;
-    double   corner[2], gradient[2][2];
-    double   area_m2;    /* for a uv area of 1 */
+    double corner[2], gradient[2][2];
+    double area_m2; /* for a uv area of 1 */
 } SymbolTriangle;
 
 typedef struct SymbolSurface {
-    const Scene          *scene;
-    int                   display_id;
-    double                uv[4];
+    const Scene *scene;
+    int display_id;
+    double uv[4];
     const SymbolTriangle *triangles;
-    int                   triangle_count;
-    SymbolPoint          *points; /* Hammersley's of the rectangle: the same each time. Of
-                                     2^n points every half, quarter ... has its share */
-    int                   point_count;
-    double                area_m2; /* sum of the points' */
+    int triangle_count;
+    SymbolPoint *points; /* Hammersley's of the rectangle: the same each time. Of
+                            2^n points every half, quarter ... has its share */
+    int point_count;
+    double area_m2; /* sum of the points' */
 } SymbolSurface;
 
 /* Fails, without naming the symbol, when the display shows some of the rectangle nowhere. Of
  * triangles that show the same uv the first in the file counts. */
-bool symbol_surface_build(const SymbolPlace *place, Arena *arena, SymbolSurface *out,
-                          Error *err);
+bool symbol_surface_build(const SymbolPlace *place, Arena *arena, SymbolSurface *out, Error *err);
 
 /* A rectangle within that of a surface, with points of its own. */
 bool symbol_surface_within(const SymbolSurface *of, const double uv[4], int point_count,

@@ -17,10 +17,10 @@
 #include "review/symbol/content_light.h"
 
 typedef struct TextProposal {
-    double uv[4];       /* left, top, right, bottom, with a margin of ground around */
-    bool   is_light_on_dark;
-    int    height_px;   /* of its tallest character */
-    int    characters;  /* or pieces of them, without dots */
+    double uv[4]; /* left, top, right, bottom, with a margin of ground around */
+    bool is_light_on_dark;
+    int height_px;  /* of its tallest character */
+    int characters; /* or pieces of them, without dots */
 } TextProposal;
 
 /* The `most` with the tallest characters, tallest first (of equal ones: the topmost, then the

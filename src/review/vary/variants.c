@@ -20,8 +20,7 @@
 
 /* The margin that a case would have if it reflected so much. */
 static double margin_with(const ReviewCase *of, double reflected, const Profile *profile,
-                          Arena scratch)
-{
+                          Arena scratch) {
     ReviewCase c = *of;
     c.luminance_cd_m2.reflected = reflected;
     judge_contrasts(&c, (MeanInterval){reflected, reflected});
@@ -31,25 +30,21 @@ static double margin_with(const ReviewCase *of, double reflected, const Profile 
 
 /* The jackknife's margin, without one batch; by all where batches are not known. */
 static double margin_without(const ReviewCase *of, int batch, const Profile *profile,
-                             Arena scratch)
-{
+                             Arena scratch) {
     double all = of->luminance_cd_m2.reflected;
-    double left = of->batches
-                      ? (CASE_BATCHES * all - of->batches[batch]) / (CASE_BATCHES - 1)
-                      : all;
+    double left =
+        of->batches ? (CASE_BATCHES * all - of->batches[batch]) / (CASE_BATCHES - 1) : all;
     return margin_with(of, left, profile, scratch);
 }
 
 /* Half the interval of a margin that an image in glass decides, whose batches are not kept:
  * with the panel's own error, so that a difference is known at least as well; 0: none does. */
-static double image_half(const ReviewCase *of)
-{
+static double image_half(const ReviewCase *of) {
     const LimitVerdict *limit = of->limit_id >= 0 ? &of->limits[of->limit_id] : NULL;
     return limit && limit->by_pane ? 0.5 * (limit->high - limit->low) / limit->value : 0;
 }
 
-static void set_difference(const Profile *profile, ReviewDifference *of, Arena scratch)
-{
+static void set_difference(const Profile *profile, ReviewDifference *of, Arena scratch) {
     double each[CASE_BATCHES], mean = 0, squares = 0;
     of->margin = of->after->margin - of->before->margin;
     for (int i = 0; i < CASE_BATCHES; i++) {
@@ -67,9 +62,10 @@ static void set_difference(const Profile *profile, ReviewDifference *of, Arena s
 
 /* The margin of one case less that of another. */
 static ReviewDifference review_difference(const Profile *profile, const ReviewCase *before,
-                                          const ReviewCase *after)
-{
-    ReviewDifference d = {.before = before, .after = after, .margin = (double)NAN,
+                                          const ReviewCase *after) {
+    ReviewDifference d = {.before = before,
+                          .after = after,
+                          .margin = (double)NAN,
                           .margin_range = {(double)NAN, (double)NAN}};
     if (!before || !after) return d;
     Arena scratch = arena_reserve(JUDGE_BYTES);
@@ -79,8 +75,7 @@ static ReviewDifference review_difference(const Profile *profile, const ReviewCa
 }
 
 /* The case or sweep's worst with the least margin of contrast; NULL: none has one. */
-static const ReviewCase *review_least_margin(const Review *review)
-{
+static const ReviewCase *review_least_margin(const Review *review) {
     const ReviewCase *least = NULL;
     for (int i = 0; i < review_case_count(review); i++) {
         const ReviewCase *c = review_case_at(review, i);
@@ -89,51 +84,45 @@ static const ReviewCase *review_least_margin(const Review *review)
     return least;
 }
 
-static ReviewDifference sweeps_of(ReviewDifference d, const Review *base, const Review *review)
-{
+static ReviewDifference sweeps_of(ReviewDifference d, const Review *base, const Review *review) {
     if (d.before) d.sweep_before = review_sweep_of(base, d.before);
     if (d.after) d.sweep_after = review_sweep_of(review, d.after);
     return d;
 }
 
 static void compare(const Profile *profile, const Review *base, ReviewVariantFound *found,
-                    Arena *arena)
-{
+                    Arena *arena) {
     const Review *review = found->review;
     found->difference_count = review_case_count(review);
     found->differences = ARENA_NEW(arena, ReviewDifference, found->difference_count);
     for (int i = 0; i < found->difference_count; i++) {
         const ReviewCase *after = review_case_at(review, i);
-        ReviewDifference  d =
-            review_difference(profile, review_case_like(base, after), after);
+        ReviewDifference d = review_difference(profile, review_case_like(base, after), after);
         found->differences[i] = sweeps_of(d, base, review);
     }
-    ReviewDifference worst = review_difference(profile, review_least_margin(base),
-                                               review_least_margin(review));
+    ReviewDifference worst =
+        review_difference(profile, review_least_margin(base), review_least_margin(review));
     found->worst = sweeps_of(worst, base, review);
 }
 
 /* ---- before all -------------------------------------------------------------------------- */
 
-static bool check_one(const ReviewRun *run, const ReviewVariant *variant, Error *err)
-{
-    Arena         scratch = arena_reserve(SCENE_BYTES);
-    Problems      problems = problems_start(&scratch); /* warnings are the review's own */
+static bool check_one(const ReviewRun *run, const ReviewVariant *variant, Error *err) {
+    Arena scratch = arena_reserve(SCENE_BYTES);
+    Problems problems = problems_start(&scratch); /* warnings are the review's own */
     ReviewRequest request = review_request_variant(run->request, variant, &scratch);
-    SetupOptions  options = {.request = &request, .means = run->means};
+    SetupOptions options = {.request = &request, .means = run->means};
     Scene *scene;
-    bool   ok = setup_scene(&options, &scratch, &problems, &scene, err);
+    bool ok = setup_scene(&options, &scratch, &problems, &scene, err);
     if (ok) {
-        ok = review_request_check(&request, scene, &problems) ||
-             problems_verdict(&problems, err);
+        ok = review_request_check(&request, scene, &problems) || problems_verdict(&problems, err);
         scene_close(scene);
     }
     arena_release(&scratch);
     return ok || error_prefix(err, "variant '%.100s'", variant->name);
 }
 
-bool review_variants_check(const ReviewRun *run, Error *err)
-{
+bool review_variants_check(const ReviewRun *run, Error *err) {
     const ReviewRequest *request = run->request;
     for (int i = 0; i < request->variant_count; i++)
         if (!check_one(run, &request->variants[i], err)) return false;
@@ -142,22 +131,22 @@ bool review_variants_check(const ReviewRun *run, Error *err)
 
 /* ---- all of them ------------------------------------------------------------------------- */
 
-bool review_variant_condition(const ReviewRun *run, const ReviewVariant *variant,
-                              int condition_id, Arena *arena, ReviewOutcome *out, Error *err)
-{
+bool review_variant_condition(const ReviewRun *run, const ReviewVariant *variant, int condition_id,
+                              Arena *arena, ReviewOutcome *out, Error *err) {
     ReviewRequest *request = ARENA_NEW(arena, ReviewRequest, 1);
-    ReviewRun      own = *run;
+    ReviewRun own = *run;
     *request = review_request_variant(run->request, variant, arena);
     own.request = request;
     return review_run_condition(&own, condition_id, arena, out, err) ||
            (err->code && error_prefix(err, "variant '%.100s'", variant->name));
 }
 
-void review_variant_compare(const ReviewRun *run, const ReviewVariant *variant,
-                            Review *base, Review *found, Arena *arena, ReviewVariantFound *out)
-{
-    *out = (ReviewVariantFound){.name = variant->name, .words = variant->words,
-                                .word_count = variant->word_count, .review = found};
+void review_variant_compare(const ReviewRun *run, const ReviewVariant *variant, Review *base,
+                            Review *found, Arena *arena, ReviewVariantFound *out) {
+    *out = (ReviewVariantFound){.name = variant->name,
+                                .words = variant->words,
+                                .word_count = variant->word_count,
+                                .review = found};
     found->is_strict = base->is_strict;
     review_decide(found);
     compare(run->profile, base, out, arena);

@@ -21,10 +21,10 @@
 bool review_variants_check(const ReviewRun *run, Error *err);
 
 /* The variant under one condition; run->base: the review under that. */
-bool review_variant_condition(const ReviewRun *run, const ReviewVariant *variant,
-                              int condition_id, Arena *arena, ReviewOutcome *out, Error *err);
+bool review_variant_condition(const ReviewRun *run, const ReviewVariant *variant, int condition_id,
+                              Arena *arena, ReviewOutcome *out, Error *err);
 
 /* A variant that was read under all conditions, held against the review, which gets its
  * files. */
-void review_variant_compare(const ReviewRun *run, const ReviewVariant *variant,
-                            Review *base, Review *found, Arena *arena, ReviewVariantFound *out);
+void review_variant_compare(const ReviewRun *run, const ReviewVariant *variant, Review *base,
+                            Review *found, Arena *arena, ReviewVariantFound *out);

@@ -7,24 +7,21 @@
 
 /* ---- nodes ------------------------------------------------------------------------------- */
 
-static Vec3 right_of(const SceneChange *change)
-{
+static Vec3 right_of(const SceneChange *change) {
     return vec3_normalize(vec3(-change->ahead[2], 0, change->ahead[0]));
 }
 
 /* In scene coordinates: the scene's origin is mirrored as well (mirror_scene_origin). */
-static Transform mirror_of(const SceneChange *change)
-{
+static Transform mirror_of(const SceneChange *change) {
     Vec3 right = right_of(change);
     return (Transform){vec3_along(vec3(1, 0, 0), right, -2 * right.x),
                        vec3_along(vec3(0, 1, 0), right, -2 * right.y),
                        vec3_along(vec3(0, 0, 1), right, -2 * right.z), vec3(0, 0, 0)};
 }
 
-void nodes_mirror(GltfFile *file)
-{
+void nodes_mirror(GltfFile *file) {
     const SceneOptions *options = file->load->options;
-    int                 count = tree_count(file->root, "nodes");
+    int count = tree_count(file->root, "nodes");
     for (int i = 0; i < options->change_count; i++) {
         if (options->changes[i].kind != CHANGE_MIRROR) continue;
         Transform mirror = mirror_of(&options->changes[i]);
@@ -36,12 +33,11 @@ void nodes_mirror(GltfFile *file)
     }
 }
 
-void mirror_scene_origin(Loader *load)
-{
+void mirror_scene_origin(Loader *load) {
     for (int i = 0; i < load->options->change_count; i++) {
         const SceneChange *change = &load->options->changes[i];
         if (change->kind != CHANGE_MIRROR) continue;
-        Vec3   r = right_of(change);
+        Vec3 r = right_of(change);
         double right[3] = {(double)r.x, (double)r.y, (double)r.z};
         double from = -(double)change->middle_m;
         for (int k = 0; k < 3; k++) from += right[k] * load->origin[k];
@@ -51,23 +47,19 @@ void mirror_scene_origin(Loader *load)
 
 /* ---- displays ---------------------------------------------------------------------------- */
 
-static bool is_mirrored(const SceneOptions *options)
-{
+static bool is_mirrored(const SceneOptions *options) {
     bool is = false;
-    for (int i = 0; i < options->change_count; i++)
-        is ^= options->changes[i].kind == CHANGE_MIRROR;
+    for (int i = 0; i < options->change_count; i++) is ^= options->changes[i].kind == CHANGE_MIRROR;
     return is;
 }
 
-static const Display *display_of(const Loader *load, const PartDraft *draft)
-{
+static const Display *display_of(const Loader *load, const PartDraft *draft) {
     const Material *m = list_item(&load->materials, draft->part.material_id);
     return m->display_id == NO_ID ? NULL : list_item(&load->displays, m->display_id);
 }
 
 /* Twice the middle of the range of U that the display shows on the draft's node. */
-static float shown_range(const Loader *load, const PartDraft *draft, const Display *display)
-{
+static float shown_range(const Loader *load, const PartDraft *draft, const Display *display) {
     float box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
     for (int i = 0; i < load->parts.count; i++) {
         const PartDraft *other = list_item(&load->parts, i);
@@ -78,12 +70,11 @@ static float shown_range(const Loader *load, const PartDraft *draft, const Displ
 }
 
 /* Of coordinates before the slot's transform, so that its U becomes `sum` less what it was. */
-static void turn_over(PartDraft *draft, const TextureSlot *slot, float sum)
-{
+static void turn_over(PartDraft *draft, const TextureSlot *slot, float sum) {
     const float *m = slot->uv_from_uv;
-    Part        *part = &draft->part;
-    Vec2        *uv = part->uv[slot->uv_set];
-    float        det = m[0] * m[4] - m[1] * m[3];
+    Part *part = &draft->part;
+    Vec2 *uv = part->uv[slot->uv_set];
+    float det = m[0] * m[4] - m[1] * m[3];
     for (uint32_t i = 0; uv && det != 0 && i < draft->vertex_count; i++) {
         float more = sum - 2 * (m[0] * uv[i].x + m[1] * uv[i].y + m[2]);
         uv[i].x += more * m[4] / det;
@@ -95,17 +86,16 @@ static void turn_over(PartDraft *draft, const TextureSlot *slot, float sum)
     }
 }
 
-void displays_mirror(Loader *load)
-{
+void displays_mirror(Loader *load) {
     if (!is_mirrored(load->options)) return;
     float *sum = ARENA_NEW(&load->scratch, float, load->parts.count);
     for (int i = 0; i < load->parts.count; i++) {
         const PartDraft *draft = list_item(&load->parts, i);
-        const Display   *display = display_of(load, draft);
+        const Display *display = display_of(load, draft);
         if (display) sum[i] = shown_range(load, draft, display);
     }
     for (int i = 0; i < load->parts.count; i++) {
-        PartDraft     *draft = list_item(&load->parts, i);
+        PartDraft *draft = list_item(&load->parts, i);
         const Display *display = display_of(load, draft);
         if (display) turn_over(draft, &display->content, sum[i]);
     }

@@ -5,16 +5,14 @@
 
 #include "scene/gltf/document.h"
 
-void check_fails(const DocumentCheck *check, const GltfValue *at, const char *format, ...)
-{
+void check_fails(const DocumentCheck *check, const GltfValue *at, const char *format, ...) {
     va_list args;
     va_start(args, format);
     file_report(check->file, check->severity, at, format, args);
     va_end(args);
 }
 
-void check_warns(const DocumentCheck *check, const GltfValue *at, const char *format, ...)
-{
+void check_warns(const DocumentCheck *check, const GltfValue *at, const char *format, ...) {
     va_list args;
     va_start(args, format);
     file_report(check->file, SEVERITY_WARNING, at, format, args);

@@ -23,37 +23,32 @@ static const ChannelPath PATHS[MOVES_COUNT] = {[MOVES_TRANSLATION] = {"VEC3", fa
                                                [MOVES_WEIGHTS] = {"SCALAR", true},
                                                [MOVES_VISIBLE] = {"SCALAR", false}};
 
-static const GltfValue *accessor_of(const GltfValue *sampler, const char *name)
-{
+static const GltfValue *accessor_of(const GltfValue *sampler, const char *name) {
     return tree_referred(tree_member(sampler, name), "accessors");
 }
 
-static void check_sampler(const DocumentCheck *check, const GltfValue *sampler)
-{
+static void check_sampler(const DocumentCheck *check, const GltfValue *sampler) {
     const GltfValue *input = accessor_of(sampler, "input");
     bool is_cubic = strcmp(tree_text(sampler, "interpolation", "LINEAR"), "CUBICSPLINE") == 0;
     if (input && (strcmp(tree_text(input, "type", ""), "SCALAR") != 0 ||
                   tree_int(input, "componentType", 0) != FLOAT_CODE))
-        check_fails(check, sampler,
-                    "the times are %s of component type %s, SCALAR of %s is required",
-                    tree_text(input, "type", "?"),
-                    component_name(tree_int(input, "componentType", 0)),
-                    component_name(FLOAT_CODE));
+        check_fails(
+            check, sampler, "the times are %s of component type %s, SCALAR of %s is required",
+            tree_text(input, "type", "?"), component_name(tree_int(input, "componentType", 0)),
+            component_name(FLOAT_CODE));
     if (input && is_cubic && tree_number(input, "count", 2) < 2)
         check_warns(check, sampler, "a cubic spline has %g key frame, at least 2 are required",
                     tree_number(input, "count", 2));
 }
 
-static int morph_targets(const GltfValue *node)
-{
+static int morph_targets(const GltfValue *node) {
     const GltfValue *mesh = tree_referred(tree_member(node, "mesh"), "meshes");
     return tree_count(tree_item(tree_member(mesh, "primitives"), 0), "targets");
 }
 
 /* KHR_animation_pointer allows every type of component, and requires bytes where something is
  * shown or not; glTF itself floats, or integers that are normalised. */
-static bool is_component(const GltfValue *output, AnimationPath path, bool is_pointed)
-{
+static bool is_component(const GltfValue *output, AnimationPath path, bool is_pointed) {
     int code = tree_int(output, "componentType", FLOAT_CODE);
     bool is_normalized = tree_boolean(output, "normalized", false);
     if (path == MOVES_VISIBLE) return code == BYTE_CODE && !is_normalized;
@@ -62,8 +57,7 @@ static bool is_component(const GltfValue *output, AnimationPath path, bool is_po
 
 /* values: how many a key frame has; 0: it matters not. */
 static void check_output(const DocumentCheck *check, const GltfValue *channel,
-                         const GltfValue *sampler, AnimationPath path, int values)
-{
+                         const GltfValue *sampler, AnimationPath path, int values) {
     const GltfValue *input = accessor_of(sampler, "input");
     const GltfValue *output = accessor_of(sampler, "output");
     const char *how = tree_text(sampler, "interpolation", "LINEAR");
@@ -71,15 +65,13 @@ static void check_output(const DocumentCheck *check, const GltfValue *channel,
     bool is_cubic = strcmp(how, "CUBICSPLINE") == 0;
     bool is_pointed = tree_extension(tree_member(channel, "target"), "KHR_animation_pointer");
     if (!input || !output) return;
-    if (strcmp(tree_text(output, "type", ""), type) != 0 ||
-        !is_component(output, path, is_pointed))
+    if (strcmp(tree_text(output, "type", ""), type) != 0 || !is_component(output, path, is_pointed))
         check_fails(check, channel,
                     "the values of a %s are %s of component type %s, %s is required", name,
                     tree_text(output, "type", "?"),
                     component_name(tree_int(output, "componentType", FLOAT_CODE)), type);
     if (path == MOVES_VISIBLE && strcmp(how, "STEP") != 0)
-        check_fails(check, channel, "the interpolation of visible is %.20s, STEP is required",
-                    how);
+        check_fails(check, channel, "the interpolation of visible is %.20s, STEP is required", how);
     double wanted = tree_number(input, "count", 0) * (is_cubic ? 3 : 1) * values;
     if (values && tree_number(output, "count", 0) != wanted)
         check_fails(check, channel, "%g values for %g key frames, %g are required",
@@ -87,8 +79,7 @@ static void check_output(const DocumentCheck *check, const GltfValue *channel,
 }
 
 /* Reports a channel that is not played; an error where the file requires that it is. */
-static void check_unplayed(const DocumentCheck *check, const GltfValue *channel)
-{
+static void check_unplayed(const DocumentCheck *check, const GltfValue *channel) {
     const GltfValue *target = tree_member(channel, "target");
     bool is_pointed = tree_extension(target, "KHR_animation_pointer");
     if (!check->file->load->options->state.has_time) return;
@@ -106,8 +97,7 @@ static void check_unplayed(const DocumentCheck *check, const GltfValue *channel)
 }
 
 static void check_channel(const DocumentCheck *check, const GltfValue *animation,
-                          const GltfValue *channel)
-{
+                          const GltfValue *channel) {
     AnimationTarget moved;
     const GltfValue *target = tree_member(channel, "target");
     const GltfValue *sampler =
@@ -126,20 +116,18 @@ static void check_channel(const DocumentCheck *check, const GltfValue *animation
     int targets = morph_targets(node);
     if (moved.path == MOVES_WEIGHTS && !targets)
         check_warns(check, target, "moves morph weights of a node without morph targets");
-    check_output(check, channel, sampler, moved.path,
-                 moved.path == MOVES_WEIGHTS ? targets : 1);
+    check_output(check, channel, sampler, moved.path, moved.path == MOVES_WEIGHTS ? targets : 1);
 }
 
 /* glTF 2.0, 3.11: a property of a node moves in one way at most. */
-static void check_targets(const DocumentCheck *check, const GltfValue *channels)
-{
+static void check_targets(const DocumentCheck *check, const GltfValue *channels) {
     const GltfValue *root = check->file->root;
     AnimationTarget own, other;
     for (int i = 1; channels && i < channels->count; i++) {
         if (!animation_target(root, &channels->items[i], &own)) continue;
         for (int k = 0; k < i; k++) {
-            if (!animation_target(root, &channels->items[k], &other) ||
-                other.node != own.node || other.path != own.path)
+            if (!animation_target(root, &channels->items[k], &other) || other.node != own.node ||
+                other.path != own.path)
                 continue;
             check_fails(check, tree_member(&channels->items[i], "target"),
                         "moves what channel %d moves", k);
@@ -148,8 +136,7 @@ static void check_targets(const DocumentCheck *check, const GltfValue *channels)
     }
 }
 
-void check_animation(const DocumentCheck *check, const GltfValue *animation)
-{
+void check_animation(const DocumentCheck *check, const GltfValue *animation) {
     for (const GltfValue *s = tree_items(animation, "samplers"); s; s = tree_next(s))
         check_sampler(check, s);
     for (const GltfValue *c = tree_items(animation, "channels"); c; c = tree_next(c))

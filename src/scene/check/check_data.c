@@ -12,8 +12,7 @@
 
 /* Reports the first number that is not finite. */
 static void check_finite(GltfFile *file, const GltfValue *value, const GltfAccessor *accessor,
-                         const float *numbers)
-{
+                         const float *numbers) {
     size_t total = accessor->count * (size_t)accessor->component_count;
     for (size_t i = 0; i < total; i++) {
         if (isfinite(numbers[i])) continue;
@@ -24,8 +23,7 @@ static void check_finite(GltfFile *file, const GltfValue *value, const GltfAcces
 }
 
 static void check_sparse_order(GltfFile *file, const GltfValue *value,
-                               const GltfAccessor *accessor)
-{
+                               const GltfAccessor *accessor) {
     const uint32_t *indices = accessor_sparse_indices(file, accessor);
     for (size_t i = 0; indices && i < accessor->sparse_count; i++) {
         if (indices[i] >= accessor->count) {
@@ -45,8 +43,7 @@ static void check_sparse_order(GltfFile *file, const GltfValue *value,
     }
 }
 
-static void check_one(GltfFile *file, int id)
-{
+static void check_one(GltfFile *file, int id) {
     const GltfValue *value = tree_element(file->root, "accessors", id);
     const GltfAccessor *accessor = accessor_get(file, id);
     if (!accessor->component_count) return; /* of a type that an extension adds */
@@ -58,13 +55,11 @@ static void check_one(GltfFile *file, int id)
 
 /* ---- indices --------------------------------------------------------------------------- */
 
-static int attribute(const GltfValue *primitive, const char *name)
-{
+static int attribute(const GltfValue *primitive, const char *name) {
     return tree_int(tree_member(primitive, "attributes"), name, NO_ID);
 }
 
-static void check_vertex_indices(GltfFile *file, const GltfValue *primitive)
-{
+static void check_vertex_indices(GltfFile *file, const GltfValue *primitive) {
     const GltfAccessor *indices = accessor_get(file, tree_int(primitive, "indices", NO_ID));
     const GltfAccessor *position = accessor_get(file, attribute(primitive, "POSITION"));
     if (!indices || !position) return;
@@ -91,9 +86,7 @@ static void check_vertex_indices(GltfFile *file, const GltfValue *primitive)
                    first, list[first], position->count, wrong);
 }
 
-static void check_joint_indices(GltfFile *file, const GltfValue *node,
-                                const GltfValue *primitive)
-{
+static void check_joint_indices(GltfFile *file, const GltfValue *node, const GltfValue *primitive) {
     const GltfValue *skin = tree_referred(tree_member(node, "skin"), "skins");
     uint32_t count = (uint32_t)tree_count(skin, "joints");
     for (int n = 0; n < 8 && count; n++) {
@@ -112,8 +105,7 @@ static void check_joint_indices(GltfFile *file, const GltfValue *node,
     }
 }
 
-static void check_primitives(GltfFile *file)
-{
+static void check_primitives(GltfFile *file) {
     for (const GltfValue *m = tree_items(file->root, "meshes"); m; m = tree_next(m)) {
         for (const GltfValue *p = tree_items(m, "primitives"); p; p = tree_next(p)) {
             Arena saved = file->load->scratch;
@@ -124,8 +116,7 @@ static void check_primitives(GltfFile *file)
     }
 }
 
-static void check_skinned_nodes(GltfFile *file)
-{
+static void check_skinned_nodes(GltfFile *file) {
     const GltfValue *node = tree_items(file->root, "nodes");
     for (; node; node = tree_next(node)) {
         const GltfValue *mesh = tree_referred(tree_member(node, "mesh"), "meshes");
@@ -141,20 +132,17 @@ static void check_skinned_nodes(GltfFile *file)
 /* ---- quaternions and times ---------------------------------------------------------- */
 
 /* Rounded to signed bytes it is off by at most sqrt(4) * 0.5/127. */
-static bool is_unit(const float q[4])
-{
+static bool is_unit(const float q[4]) {
     float square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
     return fabsf(sqrtf(square) - 1) <= 0.00788f;
 }
 
 /* Of a fault that leaves open where something stands, when animations are played. */
-static Severity if_played(const GltfFile *file)
-{
+static Severity if_played(const GltfFile *file) {
     return file->load->options->state.has_time ? SEVERITY_ERROR : SEVERITY_WARNING;
 }
 
-static void check_turns(GltfFile *file, const GltfValue *animation, const GltfValue *channel)
-{
+static void check_turns(GltfFile *file, const GltfValue *animation, const GltfValue *channel) {
     AnimationTarget moved;
     const GltfValue *sampler =
         tree_item(tree_member(animation, "samplers"), tree_int(channel, "sampler", NO_ID));
@@ -174,8 +162,7 @@ static void check_turns(GltfFile *file, const GltfValue *animation, const GltfVa
 }
 
 /* Key frames follow one another. */
-static void check_times(GltfFile *file, const GltfValue *sampler)
-{
+static void check_times(GltfFile *file, const GltfValue *sampler) {
     int id = tree_int(sampler, "input", NO_ID);
     const GltfAccessor *accessor = accessor_get(file, id);
     if (!accessor || accessor->component_count != 1) return;
@@ -183,14 +170,13 @@ static void check_times(GltfFile *file, const GltfValue *sampler)
     for (size_t i = 0; i < accessor->count; i++) {
         if (i == 0 || times[i] > times[i - 1]) continue;
         file_problem(file, if_played(file), sampler,
-                     "time %zu is %g after %g; times that rise are required", i,
-                     (double)times[i], (double)times[i - 1]);
+                     "time %zu is %g after %g; times that rise are required", i, (double)times[i],
+                     (double)times[i - 1]);
         return;
     }
 }
 
-static void check_animation_data(GltfFile *file, const GltfValue *animation)
-{
+static void check_animation_data(GltfFile *file, const GltfValue *animation) {
     Arena saved = file->load->scratch;
     for (const GltfValue *s = tree_items(animation, "samplers"); s; s = tree_next(s)) {
         check_times(file, s);
@@ -203,14 +189,12 @@ static void check_animation_data(GltfFile *file, const GltfValue *animation)
 }
 
 /* An instance whose rotation is no unit quaternion is an error: its place is not guessed. */
-static void check_instances(GltfFile *file, const GltfValue *node)
-{
+static void check_instances(GltfFile *file, const GltfValue *node) {
     const GltfValue *turns = tree_member(
         tree_member(tree_extension(node, INSTANCING_EXTENSION), "attributes"), "ROTATION");
     int id = tree_whole(turns, NO_ID);
     const GltfAccessor *accessor = accessor_get(file, id);
-    if (!accessor || accessor->component_count != 4 || !accessor_has_bytes(file, accessor))
-        return;
+    if (!accessor || accessor->component_count != 4 || !accessor_has_bytes(file, accessor)) return;
     const float *q = accessor_floats(file, id);
     for (size_t i = 0; i < accessor->count; i++, q += 4)
         if (!is_unit(q)) {
@@ -222,8 +206,7 @@ static void check_instances(GltfFile *file, const GltfValue *node)
         }
 }
 
-static void check_turns_and_times(GltfFile *file)
-{
+static void check_turns_and_times(GltfFile *file) {
     const GltfValue *root = file->root;
     Arena saved = file->load->scratch;
     for (const GltfValue *a = tree_items(root, "animations"); a; a = tree_next(a))
@@ -234,8 +217,7 @@ static void check_turns_and_times(GltfFile *file)
     }
 }
 
-static void check_accessors(GltfFile *file)
-{
+static void check_accessors(GltfFile *file) {
     double total = 0;
     for (int i = 0; i < file->data.accessor_count; i++)
         total += accessor_numbers(accessor_get(file, i));
@@ -249,8 +231,7 @@ static void check_accessors(GltfFile *file)
     load_progress_end(file->load);
 }
 
-void check_data(GltfFile *file)
-{
+void check_data(GltfFile *file) {
     check_accessors(file);
     load_progress_begin(file->load, "check", "meshes", tree_count(file->root, "meshes"));
     check_primitives(file);

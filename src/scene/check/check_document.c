@@ -8,8 +8,7 @@
 #include "base/count.h"
 
 /* "major.minor", digits only; false when the text is anything else. */
-static bool parse_version(const char *text, long *major, long *minor)
-{
+static bool parse_version(const char *text, long *major, long *minor) {
     char *end;
     if (text[0] < '0' || text[0] > '9') return false;
     *major = strtol(text, &end, 10);
@@ -19,8 +18,7 @@ static bool parse_version(const char *text, long *major, long *minor)
 }
 
 /* As a number that orders versions; -1: there is none that can be read. */
-static double version_of(const DocumentCheck *check, const GltfValue *value)
-{
+static double version_of(const DocumentCheck *check, const GltfValue *value) {
     long major, minor;
     if (!value || value->kind != GLTF_STRING) return -1;
     if (parse_version(value->text, &major, &minor)) return 1e6 * (double)major + (double)minor;
@@ -29,14 +27,12 @@ static double version_of(const DocumentCheck *check, const GltfValue *value)
 }
 
 /* Versions 2.x only add to 2.0 (glTF 2.0, 3.2): what they add is not seen. */
-void check_asset(const DocumentCheck *check, const GltfValue *asset)
-{
+void check_asset(const DocumentCheck *check, const GltfValue *asset) {
     const GltfValue *value = tree_member(asset, "version");
     const GltfValue *minimum = tree_member(asset, "minVersion");
     double version = version_of(check, value), least = version_of(check, minimum);
     bool is_other = version >= 0 && (version < 2e6 || version >= 3e6);
-    if (is_other)
-        check_fails(check, value, "is \"%.40s\", version 2.0 is read", value->text);
+    if (is_other) check_fails(check, value, "is \"%.40s\", version 2.0 is read", value->text);
     else if (version > 2e6)
         check_warns(check, value, "is \"%.40s\": read as 2.0, what is newer is not seen",
                     value->text);
@@ -49,23 +45,20 @@ void check_asset(const DocumentCheck *check, const GltfValue *asset)
 }
 
 /* Only the first of two variants with one name can be selected. */
-void check_variant_names(const DocumentCheck *check, const GltfValue *extension)
-{
+void check_variant_names(const DocumentCheck *check, const GltfValue *extension) {
     const GltfValue *variants = tree_member(extension, "variants");
     for (int i = 1; i < tree_count(extension, "variants"); i++) {
         const GltfValue *own = tree_member(tree_item(variants, i), "name");
         for (int k = 0; own && k < i; k++) {
             if (strcmp(tree_text(tree_item(variants, k), "name", ""), own->text) != 0) continue;
-            check_warns(check, own, "is \"%.80s\", as variant %d is called already",
-                        own->text, k);
+            check_warns(check, own, "is \"%.80s\", as variant %d is called already", own->text, k);
             break;
         }
     }
 }
 
 /* Whether another mapping before `mapping` names the variant. */
-static bool is_mapped_before(const GltfValue *mappings, int mapping, double variant)
-{
+static bool is_mapped_before(const GltfValue *mappings, int mapping, double variant) {
     for (int m = 0; m < mapping; m++) {
         const GltfValue *named = tree_items(&mappings->items[m], "variants");
         for (; named; named = tree_next(named))
@@ -74,8 +67,7 @@ static bool is_mapped_before(const GltfValue *mappings, int mapping, double vari
     return false;
 }
 
-void check_variants(const DocumentCheck *check, const GltfValue *extension)
-{
+void check_variants(const DocumentCheck *check, const GltfValue *extension) {
     const GltfValue *mappings = tree_member(extension, "mappings");
     for (int m = 1; m < tree_count(extension, "mappings"); m++) {
         const GltfValue *named = tree_items(tree_item(mappings, m), "variants");
@@ -87,8 +79,7 @@ void check_variants(const DocumentCheck *check, const GltfValue *extension)
 
 /* ---- pictures and light profiles ------------------------------------------------------- */
 
-void check_source(const DocumentCheck *check, const GltfValue *object)
-{
+void check_source(const DocumentCheck *check, const GltfValue *object) {
     const GltfValue *uri = tree_member(object, "uri");
     const GltfValue *view = tree_member(object, "bufferView");
     if ((uri != NULL) == (view != NULL))
@@ -98,23 +89,20 @@ void check_source(const DocumentCheck *check, const GltfValue *object)
 
 /* ---- cameras and lights ---------------------------------------------------------------- */
 
-static void check_depths(const DocumentCheck *check, const GltfValue *kind)
-{
+static void check_depths(const DocumentCheck *check, const GltfValue *kind) {
     const GltfValue *zfar = tree_member(kind, "zfar");
     double near = tree_number(kind, "znear", 0);
     if (zfar && zfar->number <= near)
         check_fails(check, zfar, "is %g, more than znear (%g) is required", zfar->number, near);
 }
 
-void check_camera(const DocumentCheck *check, const GltfValue *camera)
-{
+void check_camera(const DocumentCheck *check, const GltfValue *camera) {
     const char *type = tree_text(camera, "type", "");
     const GltfValue *eye = tree_member(camera, "perspective");
     const GltfValue *flat = tree_member(camera, "orthographic");
     if (eye && flat)
         check_fails(check, camera, "has \"perspective\" and \"orthographic\"; one is required");
-    if ((strcmp(type, "perspective") == 0 && !eye) ||
-        (strcmp(type, "orthographic") == 0 && !flat))
+    if ((strcmp(type, "perspective") == 0 && !eye) || (strcmp(type, "orthographic") == 0 && !flat))
         check_fails(check, camera, "\"%s\" is missing", type);
     check_depths(check, eye);
     check_depths(check, flat);
@@ -131,8 +119,7 @@ void check_camera(const DocumentCheck *check, const GltfValue *camera)
     }
 }
 
-void check_light(const DocumentCheck *check, const GltfValue *light)
-{
+void check_light(const DocumentCheck *check, const GltfValue *light) {
     const GltfValue *type = tree_member(light, "type"), *cone = tree_member(light, "spot");
     double inner = tree_number(cone, "innerConeAngle", 0);
     double outer = tree_number(cone, "outerConeAngle", 0.7853981633974483);
@@ -145,14 +132,13 @@ void check_light(const DocumentCheck *check, const GltfValue *light)
     if (type && strcmp(type->text, "spot") == 0 && !cone)
         check_fails(check, light, "\"spot\" is missing");
     if (tree_member(light, "range"))
-        check_warns(check, tree_member(light, "range"),
-                    "the range of \"%.80s\" (%g m) is not used: %s",
-                    tree_text(light, "name", "a lamp without a name"),
-                    tree_number(light, "range", 0),
-                    type && strcmp(type->text, "directional") == 0
-                        ? "a directional light has none"
-                        : "its light falls off with the square of the distance, without an "
-                          "end");
+        check_warns(
+            check, tree_member(light, "range"), "the range of \"%.80s\" (%g m) is not used: %s",
+            tree_text(light, "name", "a lamp without a name"), tree_number(light, "range", 0),
+            type && strcmp(type->text, "directional") == 0
+                ? "a directional light has none"
+                : "its light falls off with the square of the distance, without an "
+                  "end");
     if (cone && inner >= outer)
         check_fails(check, cone, "the inner cone angle %g is not below the outer one %g", inner,
                     outer);
@@ -161,8 +147,7 @@ void check_light(const DocumentCheck *check, const GltfValue *light)
 /* ---- ours ------------------------------------------------------------------------------ */
 
 /* 25 is meant as 25 %: a level above what was measured has to say so. */
-static void check_level(const DocumentCheck *check, const GltfValue *display)
-{
+static void check_level(const DocumentCheck *check, const GltfValue *display) {
     double most = tree_number(display, "max_level", 1);
     if (tree_number(display, "level", 1) > most)
         check_fails(check, tree_member(display, "level"),
@@ -171,8 +156,7 @@ static void check_level(const DocumentCheck *check, const GltfValue *display)
                     tree_number(display, "level", 1), most);
 }
 
-void check_display(const DocumentCheck *check, const GltfValue *display)
-{
+void check_display(const DocumentCheck *check, const GltfValue *display) {
     check_level(check, display);
     const SceneOptions *options = check->file->load->options;
     const GltfValue *material = display->parent ? display->parent->parent : NULL;
@@ -204,8 +188,7 @@ static const EnvironmentType ENVIRONMENT_TYPES[] = {
 };
 
 /* Of some type; any other key is reported as that. */
-static bool is_known(const char *word)
-{
+static bool is_known(const char *word) {
     bool found = false;
     for (int i = 0; i < COUNT_OF(ENVIRONMENT_TYPES) && !found; i++)
         found = strstr(ENVIRONMENT_TYPES[i].allowed, word) != NULL;
@@ -213,14 +196,12 @@ static bool is_known(const char *word)
 }
 
 static void check_members(const DocumentCheck *check, const GltfValue *environment,
-                          const EnvironmentType *type)
-{
+                          const EnvironmentType *type) {
     static const char COMMON[] = "|type|heading_deg|forward|sun|extensions|extras|name|";
     for (int i = 0; i < 2 && type->needed[i]; i++)
         if (!tree_member(environment, type->needed[i]))
-            check_fails(check, environment,
-                        "\"%s\" is missing in an environment of type \"%s\"", type->needed[i],
-                        type->name);
+            check_fails(check, environment, "\"%s\" is missing in an environment of type \"%s\"",
+                        type->needed[i], type->name);
     for (int i = 0; i < environment->count; i++) {
         char word[80];
         snprintf(word, sizeof word, "|%.70s|", environment->items[i].key);
@@ -232,17 +213,15 @@ static void check_members(const DocumentCheck *check, const GltfValue *environme
     }
     const GltfValue *relief = tree_member(environment, "cloud_relief_m");
     if (relief && strcmp(tree_text(environment, "ground", ""), "cloud") != 0)
-        check_warns(check, relief, "has no meaning unless \"ground\" is \"cloud\" and is "
+        check_warns(check, relief,
+                    "has no meaning unless \"ground\" is \"cloud\" and is "
                     "skipped");
 }
 
 /* ISO 8601 with minutes, and optional seconds, and the offset from UTC. */
-static bool is_moment(const char *text)
-{
-    int year, month, day, hour, minute, second = 0, used = 0, more = 0, off_hour, off_minute,
-                                        tail;
-    if (sscanf(text, "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) !=
-            5 ||
+static bool is_moment(const char *text) {
+    int year, month, day, hour, minute, second = 0, used = 0, more = 0, off_hour, off_minute, tail;
+    if (sscanf(text, "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) != 5 ||
         used != 16)
         return false;
     if (sscanf(text + used, ":%2d%n", &second, &more) == 1 && more == 3) used += more;
@@ -251,18 +230,16 @@ static bool is_moment(const char *text)
         return false;
     if (strcmp(text + used, "Z") == 0) return true;
     return (text[used] == '+' || text[used] == '-') &&
-           sscanf(text + used + 1, "%2d:%2d%n", &off_hour, &off_minute, &tail) == 2 &&
-           tail == 5 && text[used + 6] == '\0' && off_hour <= 14 && off_minute <= 59;
+           sscanf(text + used + 1, "%2d:%2d%n", &off_hour, &off_minute, &tail) == 2 && tail == 5 &&
+           text[used + 6] == '\0' && off_hour <= 14 && off_minute <= 59;
 }
 
-static void check_time_and_place(const DocumentCheck *check, const GltfValue *environment)
-{
+static void check_time_and_place(const DocumentCheck *check, const GltfValue *environment) {
     const GltfValue *when = tree_member(environment, "when");
     const GltfValue *where = tree_member(environment, "where");
     const GltfValue *latitude = tree_item(where, 0), *longitude = tree_item(where, 1);
     if (when && when->kind == GLTF_STRING && !is_moment(when->text))
-        check_fails(check, when,
-                    "is \"%.60s\", a time like \"2026-06-21T08:30+02:00\" is required",
+        check_fails(check, when, "is \"%.60s\", a time like \"2026-06-21T08:30+02:00\" is required",
                     when->text);
     if (latitude && !(fabs(latitude->number) <= 90))
         check_fails(check, latitude, "is %g, a latitude from -90 to 90 degrees is required",
@@ -272,8 +249,7 @@ static void check_time_and_place(const DocumentCheck *check, const GltfValue *en
                     longitude->number);
 }
 
-void check_environment(const DocumentCheck *check, const GltfValue *environment)
-{
+void check_environment(const DocumentCheck *check, const GltfValue *environment) {
     const char *type = tree_text(environment, "type", "");
     for (size_t i = 0; i < sizeof ENVIRONMENT_TYPES / sizeof *ENVIRONMENT_TYPES; i++)
         if (strcmp(ENVIRONMENT_TYPES[i].name, type) == 0)
@@ -284,8 +260,7 @@ void check_environment(const DocumentCheck *check, const GltfValue *environment)
         !tree_member(environment, "sun"))
         check_fails(check, environment,
                     "has no sun: \"when\" and \"where\", or \"sun\", are required");
-    if (tree_member(environment, "scale") &&
-        tree_member(environment, "horizontal_illuminance_lx"))
+    if (tree_member(environment, "scale") && tree_member(environment, "horizontal_illuminance_lx"))
         check_fails(check, environment,
                     "has \"scale\" and \"horizontal_illuminance_lx\"; one of "
                     "them is required");

@@ -24,16 +24,14 @@ static const Format FORMATS[] = {
     {"POSITION", "VEC3", FLOATS, FLOATS | BYTE | UBYTE | SHORT | USHORT, false},
     {"NORMAL", "VEC3", FLOATS, FLOATS | BYTE | SHORT, true},
     {"TANGENT", "VEC4", FLOATS, FLOATS | BYTE | SHORT, true},
-    {"TEXCOORD_", "VEC2", FLOATS | UBYTE | USHORT, FLOATS | BYTE | UBYTE | SHORT | USHORT,
-     false},
+    {"TEXCOORD_", "VEC2", FLOATS | UBYTE | USHORT, FLOATS | BYTE | UBYTE | SHORT | USHORT, false},
     {"COLOR_", "VEC3|VEC4", FLOATS | UBYTE | USHORT, FLOATS | UBYTE | USHORT, true},
     {"JOINTS_", "VEC4", UBYTE | USHORT, UBYTE | USHORT, false},
     {"WEIGHTS_", "VEC4", FLOATS | UBYTE | USHORT, FLOATS | UBYTE | USHORT, true},
 };
 
 /* The number behind the prefix; -1 when the name does not match. A whole name gives 0. */
-static int match(const Format *format, const char *name)
-{
+static int match(const Format *format, const char *name) {
     size_t length = strlen(format->prefix);
     if (strncmp(name, format->prefix, length) != 0) return -1;
     const char *rest = name + length;
@@ -43,23 +41,19 @@ static int match(const Format *format, const char *name)
     return atoi(rest);
 }
 
-static const Format *format_of(const char *name)
-{
+static const Format *format_of(const char *name) {
     for (size_t i = 0; i < sizeof FORMATS / sizeof *FORMATS; i++)
         if (match(&FORMATS[i], name) >= 0) return &FORMATS[i];
     return NULL;
 }
 
-static bool is_type(const char *types, const char *type)
-{
-    return strcmp(types, type) == 0 ||
-           (strcmp(types, "VEC3|VEC4") == 0 &&
-            (strcmp(type, "VEC3") == 0 || strcmp(type, "VEC4") == 0));
+static bool is_type(const char *types, const char *type) {
+    return strcmp(types, type) == 0 || (strcmp(types, "VEC3|VEC4") == 0 &&
+                                        (strcmp(type, "VEC3") == 0 || strcmp(type, "VEC4") == 0));
 }
 
 /* Displacements have no sign for a bitangent and may be signed integers throughout. */
-static void check_format(const DocumentCheck *check, const GltfValue *attribute, bool is_target)
-{
+static void check_format(const DocumentCheck *check, const GltfValue *attribute, bool is_target) {
     const Format *format = format_of(attribute->key);
     const GltfValue *accessor = tree_referred(attribute, "accessors");
     if (!accessor) return;
@@ -72,7 +66,7 @@ static void check_format(const DocumentCheck *check, const GltfValue *attribute,
                         attribute->key);
         return;
     }
-    bool     is_quantized = document_uses(check->file, "KHR_mesh_quantization");
+    bool is_quantized = document_uses(check->file, "KHR_mesh_quantization");
     unsigned allowed = is_quantized ? format->quantized : format->components;
     const char *types = is_target && format->types[3] == '4' ? "VEC3" : format->types;
     if (is_target) allowed |= BYTE | SHORT;
@@ -81,14 +75,12 @@ static void check_format(const DocumentCheck *check, const GltfValue *attribute,
                     "%s is %s of component type %s, which glTF does not allow "
                     "(%s is required)",
                     attribute->key, type, component_name(code), types);
-    else if (format->is_normalized && bit != FLOATS &&
-             !tree_boolean(accessor, "normalized", false))
+    else if (format->is_normalized && bit != FLOATS && !tree_boolean(accessor, "normalized", false))
         check_fails(check, attribute, "%s is made of integers that are not normalised",
                     attribute->key);
 }
 
-static void check_count(const DocumentCheck *check, const GltfValue *attribute, double wanted)
-{
+static void check_count(const DocumentCheck *check, const GltfValue *attribute, double wanted) {
     double count = tree_number(tree_referred(attribute, "accessors"), "count", wanted);
     if (wanted >= 0 && count != wanted)
         check_fails(check, attribute, "%s has %.0f elements, POSITION has %.0f", attribute->key,
@@ -96,8 +88,7 @@ static void check_count(const DocumentCheck *check, const GltfValue *attribute, 
 }
 
 /* JOINTS_1 without WEIGHTS_1 ... */
-static void check_joints(const DocumentCheck *check, const GltfValue *attributes)
-{
+static void check_joints(const DocumentCheck *check, const GltfValue *attributes) {
     int sets[2] = {0, 0};
     for (int i = 0; i < attributes->count; i++) {
         sets[0] += match(&FORMATS[5], attributes->items[i].key) >= 0;
@@ -107,8 +98,7 @@ static void check_joints(const DocumentCheck *check, const GltfValue *attributes
         check_warns(check, attributes, "%d sets of JOINTS and %d of WEIGHTS", sets[0], sets[1]);
 }
 
-static void check_indices(const DocumentCheck *check, const GltfValue *indices)
-{
+static void check_indices(const DocumentCheck *check, const GltfValue *indices) {
     const GltfValue *accessor = tree_referred(indices, "accessors");
     int code = tree_int(accessor, "componentType", 0);
     bool is_unsigned = code == 5121 || code == 5123 || code == 5125;
@@ -116,23 +106,21 @@ static void check_indices(const DocumentCheck *check, const GltfValue *indices)
     if (strcmp(tree_text(accessor, "type", ""), "SCALAR") != 0 || !is_unsigned)
         check_fails(check, indices,
                     "are %s of component type %s, SCALAR of %s, %s or %s is required",
-                    tree_text(accessor, "type", "?"), component_name(code),
-                    component_name(5121), component_name(5123), component_name(5125));
+                    tree_text(accessor, "type", "?"), component_name(code), component_name(5121),
+                    component_name(5123), component_name(5125));
     else if (tree_boolean(accessor, "normalized", false))
         check_fails(check, indices, "are normalised, which indices cannot be");
 }
 
 static void check_displacement(const DocumentCheck *check, const GltfValue *attribute,
-                               double count)
-{
+                               double count) {
     if (!tree_referred(attribute, "accessors"))
         check_fails(check, attribute, "an index into accessors is required");
     check_format(check, attribute, true);
     check_count(check, attribute, count);
 }
 
-static void check_targets(const DocumentCheck *check, const GltfValue *primitive, double count)
-{
+static void check_targets(const DocumentCheck *check, const GltfValue *primitive, double count) {
     const GltfValue *targets = tree_member(primitive, "targets");
     if (!targets) return;
     if (targets->kind != GLTF_ARRAY || !targets->count) {
@@ -145,13 +133,11 @@ static void check_targets(const DocumentCheck *check, const GltfValue *primitive
             check_fails(check, target, "an object of attributes is required");
             continue;
         }
-        for (int i = 0; i < target->count; i++)
-            check_displacement(check, &target->items[i], count);
+        for (int i = 0; i < target->count; i++) check_displacement(check, &target->items[i], count);
     }
 }
 
-static void check_mode(const DocumentCheck *check, const GltfValue *primitive, double vertices)
-{
+static void check_mode(const DocumentCheck *check, const GltfValue *primitive, double vertices) {
     static const int LEAST[] = {1, 2, 2, 2, 3, 3, 3};
     int mode = tree_int(primitive, "mode", 4);
     const GltfValue *accessor = tree_referred(tree_member(primitive, "indices"), "accessors");
@@ -159,13 +145,12 @@ static void check_mode(const DocumentCheck *check, const GltfValue *primitive, d
     if (mode < 0 || mode > 6 || count < 0) return;
     bool is_odd = (mode == 4 && fmod(count, 3) != 0) || (mode == 1 && fmod(count, 2) != 0);
     if (count < LEAST[mode] || is_odd)
-        check_warns(check, primitive, "%.0f corners do not make whole primitives of mode %d",
-                    count, mode);
+        check_warns(check, primitive, "%.0f corners do not make whole primitives of mode %d", count,
+                    mode);
 }
 
 /* Microsoft Flight Simulator's packing: a mesh's primitives share all vertices and indices. */
-static void check_slice(const DocumentCheck *check, const GltfValue *primitive)
-{
+static void check_slice(const DocumentCheck *check, const GltfValue *primitive) {
     const GltfValue *slice = tree_member(tree_member(primitive, "extras"), "ASOBO_primitive");
     const GltfValue *indices = tree_referred(tree_member(primitive, "indices"), "accessors");
     double corners = tree_number(indices, "count", 0);
@@ -178,14 +163,13 @@ static void check_slice(const DocumentCheck *check, const GltfValue *primitive)
                     "not the simulator's; take the model as it was before packing");
 }
 
-void check_primitive(const DocumentCheck *check, const GltfValue *primitive)
-{
+void check_primitive(const DocumentCheck *check, const GltfValue *primitive) {
     const GltfValue *attributes = tree_member(primitive, "attributes");
     const GltfValue *indices = tree_member(primitive, "indices");
     if (!attributes || attributes->kind != GLTF_OBJECT) return;
     if (attributes->count > MOST_ATTRIBUTES) {
-        check_fails(check, attributes, "has %d attributes, at most %d are read",
-                    attributes->count, MOST_ATTRIBUTES);
+        check_fails(check, attributes, "has %d attributes, at most %d are read", attributes->count,
+                    MOST_ATTRIBUTES);
         return;
     }
     const GltfValue *position = tree_member(attributes, "POSITION");

@@ -9,22 +9,20 @@
 /* ---- layers ----------------------------------------------------------------------------- */
 
 /* A number from 0 to 100, or the name of a file of rows nm,n,k. */
-static bool check_index_value(const DocumentCheck *check, const GltfValue *value)
-{
+static bool check_index_value(const DocumentCheck *check, const GltfValue *value) {
     if (!value || value->kind == GLTF_STRING) return true;
     if (value->kind != GLTF_NUMBER)
         check_fails(check, value, "is neither a number nor the name of a file of rows nm,n,k");
     else if (!(value->number >= 0 && value->number <= INDEX_MAX))
         check_fails(check, value,
                     "is %.9g, a number from 0 to %g or the name of a file of rows nm,n,k is "
-                    "required", value->number, INDEX_MAX);
-    else
-        return true;
+                    "required",
+                    value->number, INDEX_MAX);
+    else return true;
     return false;
 }
 
-void check_layer(const DocumentCheck *check, const GltfValue *layer)
-{
+void check_layer(const DocumentCheck *check, const GltfValue *layer) {
     const GltfValue *n = tree_member(layer, "n"), *k = tree_member(layer, "k");
     bool ok = check_index_value(check, n) && check_index_value(check, k);
     bool is_dark = (k && k->kind == GLTF_STRING) || tree_number(layer, "k", 0) > 0;
@@ -32,8 +30,7 @@ void check_layer(const DocumentCheck *check, const GltfValue *layer)
         check_fails(check, n, "is 0 and so is k: one of them above 0 is required");
 }
 
-void check_coating(const DocumentCheck *check, const GltfValue *coating)
-{
+void check_coating(const DocumentCheck *check, const GltfValue *coating) {
     const GltfValue *layers = tree_member(coating, "layers");
     const GltfValue *stack = tree_member(coating, "stack");
     if (!layers && !stack)
@@ -47,21 +44,18 @@ void check_coating(const DocumentCheck *check, const GltfValue *coating)
 
 /* ---- clear solids ----------------------------------------------------------------------- */
 
-static bool material_is_clear_solid(const GltfValue *material)
-{
+static bool material_is_clear_solid(const GltfValue *material) {
     const GltfValue *volume = tree_extension(material, "KHR_materials_volume");
     const GltfValue *clear = tree_extension(material, "KHR_materials_transmission");
     return tree_number(volume, "thicknessFactor", 0) > 0 &&
            tree_number(clear, "transmissionFactor", 0) > 0;
 }
 
-static void not_shown(const DocumentCheck *check, const GltfValue *value, const char *what)
-{
+static void not_shown(const DocumentCheck *check, const GltfValue *value, const char *what) {
     if (value) check_warns(check, value, ON_CLOSED_SOLID "%s", what);
 }
 
-static bool is_coloured(const GltfValue *color, double grey)
-{
+static bool is_coloured(const GltfValue *color, double grey) {
     bool differs = false;
     for (int i = 0; color && i < color->count; i++)
         differs |= fabs(color->items[i].number - grey) > 0;
@@ -69,8 +63,7 @@ static bool is_coloured(const GltfValue *color, double grey)
 }
 
 /* Layers of a surface that a solid's boundary does not have; the outer ones first. */
-static void check_layers(const DocumentCheck *check, const GltfValue *material)
-{
+static void check_layers(const DocumentCheck *check, const GltfValue *material) {
     const GltfValue *specular = tree_extension(material, "KHR_materials_specular");
     const GltfValue *color = tree_member(specular, "specularColorFactor");
     for (int i = material_layer_count - 1; i >= 0; i--) {
@@ -80,34 +73,35 @@ static void check_layers(const DocumentCheck *check, const GltfValue *material)
     }
     if (fabs(tree_number(specular, "specularFactor", 1) - 1) > 0 || is_coloured(color, 1))
         not_shown(check, specular, "which reflects as its index says");
-    not_shown(check, tree_member(specular, "specularTexture"),
-              "which reflects as its index says");
+    not_shown(check, tree_member(specular, "specularTexture"), "which reflects as its index says");
     not_shown(check, tree_member(specular, "specularColorTexture"),
               "which reflects as its index says");
 }
 
 /* Shares of a metal or of an opaque body. */
-static void check_shares(const DocumentCheck *check, const GltfValue *material)
-{
+static void check_shares(const DocumentCheck *check, const GltfValue *material) {
     const GltfValue *pbr = tree_member(material, "pbrMetallicRoughness");
     const GltfValue *clear = tree_extension(material, "KHR_materials_transmission");
     const GltfValue *metallic = tree_member(pbr, "metallicFactor");
     double metal = tree_number(pbr, "metallicFactor", 1);
     double through = tree_number(clear, "transmissionFactor", 0);
     if (metal > 0)
-        check_warns(check, metallic ? metallic : pbr ? pbr : material,
+        check_warns(check,
+                    metallic ? metallic
+                    : pbr    ? pbr
+                             : material,
                     "is %.9g of metal%s: KHR_materials_volume makes the material a closed "
-                    "solid, which is clear as a whole; metallicFactor 0 is required", metal,
-                    metallic ? "" : " (metallicFactor's default)");
+                    "solid, which is clear as a whole; metallicFactor 0 is required",
+                    metal, metallic ? "" : " (metallicFactor's default)");
     if (through < 1)
         check_warns(check, tree_member(clear, "transmissionFactor"),
                     "is %.9g: KHR_materials_volume makes the material a closed solid, which is "
-                    "clear as a whole; transmissionFactor 1 is required", through);
+                    "clear as a whole; transmissionFactor 1 is required",
+                    through);
     not_shown(check, tree_member(clear, "transmissionTexture"), "which is clear as a whole");
 }
 
-void check_clear_solid(const DocumentCheck *check, const GltfValue *material)
-{
+void check_clear_solid(const DocumentCheck *check, const GltfValue *material) {
     if (!material_is_clear_solid(material)) return;
     check_layers(check, material);
     check_shares(check, material);
@@ -116,8 +110,7 @@ void check_clear_solid(const DocumentCheck *check, const GltfValue *material)
 /* ---- materials with coatings ------------------------------------------------------------- */
 
 static void check_body(const DocumentCheck *check, const GltfValue *material,
-                       const GltfValue *coating, bool has_conductor)
-{
+                       const GltfValue *coating, bool has_conductor) {
     const GltfValue *pbr = tree_member(material, "pbrMetallicRoughness");
     const GltfValue *coat = tree_extension(material, "KHR_materials_clearcoat");
     double metallic = tree_number(pbr, "metallicFactor", 1);
@@ -132,8 +125,7 @@ static void check_body(const DocumentCheck *check, const GltfValue *material,
 }
 
 static void check_hidden(const DocumentCheck *check, const GltfValue *material,
-                         const MaterialLayer *layer)
-{
+                         const MaterialLayer *layer) {
     const GltfValue *own = tree_extension(material, layer->rule.name);
     if (!layer->hidden_by || !material_layer_shows(layer, own)) return;
     for (int i = 0; layer->hidden_by[i]; i++)
@@ -141,17 +133,16 @@ static void check_hidden(const DocumentCheck *check, const GltfValue *material,
             check_warns(check, own, "has no effect beside %s", layer->hidden_by[i]);
 }
 
-static void check_clear_coat(const DocumentCheck *check, const GltfValue *material)
-{
+static void check_clear_coat(const DocumentCheck *check, const GltfValue *material) {
     const GltfValue *coat = tree_extension(material, "KHR_materials_clearcoat");
     if (tree_number(coat, "clearcoatFactor", 0) > 0 &&
         tree_extension(material, "PARHELION_display"))
-        check_warns(check, coat, "has no effect beside PARHELION_display: the panel was "
-                                 "measured with all that lies on it");
+        check_warns(check, coat,
+                    "has no effect beside PARHELION_display: the panel was "
+                    "measured with all that lies on it");
 }
 
-void check_coated_material(const DocumentCheck *check, const GltfValue *material)
-{
+void check_coated_material(const DocumentCheck *check, const GltfValue *material) {
     const GltfValue *coating = tree_extension(material, "PARHELION_coating");
     const GltfValue *ior = tree_extension(material, "KHR_materials_ior");
     const GltfValue *conductor =
@@ -159,7 +150,8 @@ void check_coated_material(const DocumentCheck *check, const GltfValue *material
     const GltfValue *pbr = tree_member(material, "pbrMetallicRoughness");
     const GltfValue *measured =
         tree_member(tree_member(tree_extension(material, "OpenMaterial_material_parameters"),
-                                "physical_properties"), "refractive_index_uri");
+                                "physical_properties"),
+                    "refractive_index_uri");
     bool is_known = conductor || (measured && measured->text[0]);
     if (conductor && tree_number(pbr, "metallicFactor", 1) <= 0)
         check_warns(check, conductor, "has no effect: metallicFactor is 0");
@@ -172,8 +164,9 @@ void check_coated_material(const DocumentCheck *check, const GltfValue *material
     if (tree_extension(material, "PARHELION_glazing"))
         check_fails(check, coating, "stands beside PARHELION_glazing, one of them is required");
     if (ior && tree_number(ior, "ior", 1.5) == 0)
-        check_fails(check, coating, "lies on a body of infinite index (ior 0): a number of at "
-                                    "least 1 is required there");
+        check_fails(check, coating,
+                    "lies on a body of infinite index (ior 0): a number of at "
+                    "least 1 is required there");
     if (!tree_extension(material, "PARHELION_display"))
         check_body(check, material, coating, is_known);
 }
@@ -181,10 +174,8 @@ void check_coated_material(const DocumentCheck *check, const GltfValue *material
 /* ---- a measured index ------------------------------------------------------------------- */
 
 /* The file's name; NULL: none, or reported. */
-static const GltfValue *measured_in(const DocumentCheck *check, const GltfValue *material)
-{
-    const GltfValue *parameters =
-        tree_extension(material, "OpenMaterial_material_parameters");
+static const GltfValue *measured_in(const DocumentCheck *check, const GltfValue *material) {
+    const GltfValue *parameters = tree_extension(material, "OpenMaterial_material_parameters");
     const GltfValue *physical = tree_member(parameters, "physical_properties");
     const GltfValue *uri = tree_member(physical, "refractive_index_uri");
     if (physical && physical->kind != GLTF_OBJECT)
@@ -195,28 +186,28 @@ static const GltfValue *measured_in(const DocumentCheck *check, const GltfValue 
 }
 
 static void check_measured(const DocumentCheck *check, const GltfValue *material,
-                           const GltfValue *uri)
-{
+                           const GltfValue *uri) {
     const GltfValue *conductor =
         tree_member(tree_extension(material, "PARHELION_spectrum"), "conductor");
     if (conductor)
         check_warns(check, uri, "is not used: PARHELION_spectrum has \"conductor\" for it");
     if (tree_extension(material, "PARHELION_coating") && material_is_clear_solid(material))
-        check_fails(check, uri, "stands beside PARHELION_coating on a solid, one of them is "
-                                "required: coatings are worked out for one index");
+        check_fails(check, uri,
+                    "stands beside PARHELION_coating on a solid, one of them is "
+                    "required: coatings are worked out for one index");
 }
 
 /* ---- dispersion ------------------------------------------------------------------------- */
 
 static void check_dispersion(const DocumentCheck *check, const GltfValue *material,
-                             const GltfValue *dispersion, bool is_measured)
-{
+                             const GltfValue *dispersion, bool is_measured) {
     double strength = tree_number(dispersion, "dispersion", 0);
     double nd = tree_number(tree_extension(material, "KHR_materials_ior"), "ior", 1.5);
     if (!(strength > 0)) return;
     if (is_measured) {
-        check_warns(check, dispersion, "is not used: the index is measured "
-                                       "(OpenMaterial_material_parameters)");
+        check_warns(check, dispersion,
+                    "is not used: the index is measured "
+                    "(OpenMaterial_material_parameters)");
         return;
     }
     if (!material_is_clear_solid(material)) {
@@ -226,9 +217,10 @@ static void check_dispersion(const DocumentCheck *check, const GltfValue *materi
         return;
     }
     if (tree_extension(material, "PARHELION_coating"))
-        check_fails(check, dispersion, "stands beside PARHELION_coating on a solid, one of "
-                                       "them is required: coatings are worked out for one "
-                                       "index");
+        check_fails(check, dispersion,
+                    "stands beside PARHELION_coating on a solid, one of "
+                    "them is required: coatings are worked out for one "
+                    "index");
     double most = dispersion_index(nd, strength, CURVE_FIRST_NM);
     if (most > INDEX_MAX)
         check_fails(check, tree_member(dispersion, "dispersion"),
@@ -236,8 +228,7 @@ static void check_dispersion(const DocumentCheck *check, const GltfValue *materi
                     CURVE_FIRST_NM, most, INDEX_MAX);
 }
 
-void check_index(const DocumentCheck *check, const GltfValue *material)
-{
+void check_index(const DocumentCheck *check, const GltfValue *material) {
     const GltfValue *dispersion = tree_extension(material, "KHR_materials_dispersion");
     const GltfValue *uri = measured_in(check, material);
     if (uri) check_measured(check, material, uri);

@@ -6,7 +6,7 @@
 #include "base/mathd.h"
 #include "base/units.h"
 
-#define FRONT_COS 0.5f      /* of 60 degrees */
+#define FRONT_COS 0.5f     /* of 60 degrees */
 #define LOOK_COS 0.5       /* a camera looks at what is within 60 degrees of its axis */
 #define LOOK_MOST_M 5.0    /* and no farther off: others show the room */
 #define ACROSS_LEAST 0.05f /* sine between the view and what is up */
@@ -16,20 +16,18 @@
 
 typedef struct FrameSums {
     double area, width, height; /* width, height: area times metres a unit of u and v */
-    Vec3   centre, right, up, normal;
-    float  box[4]; /* u, then v: least and most */
+    Vec3 centre, right, up, normal;
+    float box[4]; /* u, then v: least and most */
 } FrameSums;
 
-static Vec2 coordinates(const TextureSlot *slot, Vec2 uv)
-{
+static Vec2 coordinates(const TextureSlot *slot, Vec2 uv) {
     const float *m = slot->uv_from_uv;
     return (Vec2){m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
 }
 
 /* dP/du and dP/dv from the edges e, f and their steps in u and v (Cramer's rule). v counts
  * downwards. */
-static void add_triangle(const Scene *scene, const TextureSlot *slot, uint32_t t, FrameSums *s)
-{
+static void add_triangle(const Scene *scene, const TextureSlot *slot, uint32_t t, FrameSums *s) {
     Vec3 p[3];
     Vec2 c[3];
     for (int k = 0; k < 3; k++) {
@@ -38,7 +36,7 @@ static void add_triangle(const Scene *scene, const TextureSlot *slot, uint32_t t
         s->box[0] = fminf(s->box[0], c[k].x), s->box[1] = fmaxf(s->box[1], c[k].x);
         s->box[2] = fminf(s->box[2], c[k].y), s->box[3] = fmaxf(s->box[3], c[k].y);
     }
-    Vec3  e = vec3_sub(p[1], p[0]), f = vec3_sub(p[2], p[0]), n = vec3_cross(e, f);
+    Vec3 e = vec3_sub(p[1], p[0]), f = vec3_sub(p[2], p[0]), n = vec3_cross(e, f);
     float eu = c[1].x - c[0].x, ev = c[1].y - c[0].y;
     float fu = c[2].x - c[0].x, fv = c[2].y - c[0].y;
     float det = eu * fv - fu * ev, area = 0.5f * vec3_length(n);
@@ -55,8 +53,7 @@ static void add_triangle(const Scene *scene, const TextureSlot *slot, uint32_t t
     s->normal = vec3_along(s->normal, n, 0.5f);
 }
 
-bool display_frame_of(const Scene *scene, const Part *part, DisplayFrame *out)
-{
+bool display_frame_of(const Scene *scene, const Part *part, DisplayFrame *out) {
     const TextureSlot *slot =
         &scene->displays[scene->materials[part->material_id].display_id].content;
     FrameSums s = {.box = {INFINITY, -INFINITY, INFINITY, -INFINITY}};
@@ -74,58 +71,50 @@ bool display_frame_of(const Scene *scene, const Part *part, DisplayFrame *out)
 
 /* ---- what cannot be meant ---------------------------------------------------------------- */
 
-bool display_side_is_plausible(double m)
-{
+bool display_side_is_plausible(double m) {
     return m >= DISPLAY_LEAST_M && m <= DISPLAY_MOST_M;
 }
 
-bool display_frame_turn(const DisplayFrame *frame, Vec3 eye, Vec3 up, double *degrees)
-{
-    Vec3  way = vec3_normalize(vec3_sub(frame->centre, eye)), across = vec3_cross(way, up);
+bool display_frame_turn(const DisplayFrame *frame, Vec3 eye, Vec3 up, double *degrees) {
+    Vec3 way = vec3_normalize(vec3_sub(frame->centre, eye)), across = vec3_cross(way, up);
     float length = vec3_length(across);
     if (-vec3_dot(way, frame->normal) < FRONT_COS || length < ACROSS_LEAST) return false;
     across = vec3_scale(across, 1 / length);
     Vec3 above = vec3_cross(across, way);
-    *degrees = degrees_from_radians(atan2_d(-(double)vec3_dot(frame->up, across),
-                                            (double)vec3_dot(frame->up, above)));
+    *degrees = degrees_from_radians(
+        atan2_d(-(double)vec3_dot(frame->up, across), (double)vec3_dot(frame->up, above)));
     return true;
 }
 
-const char *display_turn_words(double degrees)
-{
+const char *display_turn_words(double degrees) {
     if (fabs(degrees) > 180 - DISPLAY_TURN_MOST_DEG) return "upside down";
     return degrees > 0 ? "on its left side" : "on its right side";
 }
 
-static bool looks_at(const SceneCamera *camera, const DisplayFrame *frame)
-{
+static bool looks_at(const SceneCamera *camera, const DisplayFrame *frame) {
     const Transform *world = &camera->world_from_camera;
-    Vec3             way = vec3_sub(frame->centre, world->origin);
-    float            length = vec3_length(way);
+    Vec3 way = vec3_sub(frame->centre, world->origin);
+    float length = vec3_length(way);
     return camera->is_perspective && length < (float)LOOK_MOST_M &&
            -vec3_dot(world->z, way) > (float)LOOK_COS * length;
 }
 
-static bool camera_turn(const SceneCamera *camera, const DisplayFrame *frame, double *degrees)
-{
+static bool camera_turn(const SceneCamera *camera, const DisplayFrame *frame, double *degrees) {
     const Transform *world = &camera->world_from_camera;
-    return looks_at(camera, frame) &&
-           display_frame_turn(frame, world->origin, world->y, degrees);
+    return looks_at(camera, frame) && display_frame_turn(frame, world->origin, world->y, degrees);
 }
 
-static bool frame_of_part(const Scene *scene, int part, DisplayFrame *out)
-{
+static bool frame_of_part(const Scene *scene, int part, DisplayFrame *out) {
     return scene->materials[scene->parts[part].material_id].display_id != NO_ID &&
            display_frame_of(scene, &scene->parts[part], out);
 }
 
 /* Sees some display upright: an eye. Others show the car from outside. */
-static bool is_eye(const Scene *scene, const SceneCamera *camera)
-{
+static bool is_eye(const Scene *scene, const SceneCamera *camera) {
     bool found = false;
     for (int i = 0; i < scene->part_count && !found; i++) {
         DisplayFrame frame;
-        double       degrees;
+        double degrees;
         found = frame_of_part(scene, i, &frame) && camera_turn(camera, &frame, &degrees) &&
                 fabs(degrees) <= DISPLAY_TURN_MOST_DEG;
     }
@@ -134,16 +123,14 @@ static bool is_eye(const Scene *scene, const SceneCamera *camera)
 
 /* The camera that sees the picture least turned, an eye if there is one; NULL where none looks
  * at it. */
-static const SceneCamera *best_camera(const Scene *scene, const DisplayFrame *frame,
-                                      double *turn)
-{
+static const SceneCamera *best_camera(const Scene *scene, const DisplayFrame *frame, double *turn) {
     const SceneCamera *best = NULL;
-    bool               has_eyes = false;
+    bool has_eyes = false;
     for (int i = 0; i < scene->camera_count && !has_eyes; i++)
         has_eyes = is_eye(scene, &scene->cameras[i]);
     for (int i = 0; i < scene->camera_count; i++) {
         const SceneCamera *camera = &scene->cameras[i];
-        double             degrees;
+        double degrees;
         if ((has_eyes && !is_eye(scene, camera)) || !camera_turn(camera, frame, &degrees) ||
             (best && fabs(degrees) >= fabs(*turn)))
             continue;
@@ -154,11 +141,10 @@ static const SceneCamera *best_camera(const Scene *scene, const DisplayFrame *fr
 }
 
 static void doubt_size(const Scene *scene, const Part *part, const DisplayFrame *frame,
-                       Problems *problems)
-{
+                       Problems *problems) {
     const Display *display = &scene->displays[scene->materials[part->material_id].display_id];
-    if (display->any_size || (display_side_is_plausible(frame->width_m) &&
-                              display_side_is_plausible(frame->height_m)))
+    if (display->any_size ||
+        (display_side_is_plausible(frame->width_m) && display_side_is_plausible(frame->height_m)))
         return;
     problems_add(problems, SEVERITY_WARNING, scene->inputs[0], "",
                  "display \"%s\" on \"%s\" is %.3g m wide and %.3g m high, plausible are %g to "
@@ -169,9 +155,8 @@ static void doubt_size(const Scene *scene, const Part *part, const DisplayFrame 
 }
 
 static void doubt_turn(const Scene *scene, const Part *part, const DisplayFrame *frame,
-                       Problems *problems)
-{
-    double             turn;
+                       Problems *problems) {
+    double turn;
     const SceneCamera *camera = best_camera(scene, frame, &turn);
     if (!camera || fabs(turn) <= DISPLAY_TURN_MOST_DEG) return;
     problems_add(problems, SEVERITY_WARNING, scene->inputs[0], "",
@@ -182,8 +167,7 @@ static void doubt_turn(const Scene *scene, const Part *part, const DisplayFrame 
                  display_turn_words(turn), fabs(turn));
 }
 
-void displays_doubt(const Scene *scene, Problems *problems)
-{
+void displays_doubt(const Scene *scene, Problems *problems) {
     for (int i = 0; i < scene->part_count; i++) {
         DisplayFrame frame;
         if (!frame_of_part(scene, i, &frame)) continue;
@@ -194,8 +178,7 @@ void displays_doubt(const Scene *scene, Problems *problems)
 
 /* ---- where the vehicle points ------------------------------------------------------------ */
 
-bool forward_angle_deg(const double forward[3], const double way[3], double *degrees)
-{
+bool forward_angle_deg(const double forward[3], const double way[3], double *degrees) {
     double a = hypot_d(forward[0], forward[2]), b = hypot_d(way[0], way[2]);
     double length = hypot_d(b, way[1]);
     if (!(a > 0) || !(b > LEVEL_LEAST * length)) return false;
@@ -204,8 +187,7 @@ bool forward_angle_deg(const double forward[3], const double way[3], double *deg
     return true;
 }
 
-static bool looks_at_any(const Scene *scene, const SceneCamera *camera)
-{
+static bool looks_at_any(const Scene *scene, const SceneCamera *camera) {
     bool found = false;
     for (int i = 0; i < scene->part_count && !found; i++) {
         DisplayFrame frame;
@@ -215,26 +197,23 @@ static bool looks_at_any(const Scene *scene, const SceneCamera *camera)
 }
 
 /* North is -Z where nothing is said: then nothing is said of the vehicle either. */
-static bool says_forward(const Environment *e)
-{
+static bool says_forward(const Environment *e) {
     bool is_uniform = e->kind == ENVIRONMENT_NONE || e->kind == ENVIRONMENT_CONSTANT;
-    bool is_default = e->heading == 0 && e->forward.x == 0 && e->forward.y == 0 &&
-                      e->forward.z == -1;
+    bool is_default =
+        e->heading == 0 && e->forward.x == 0 && e->forward.y == 0 && e->forward.z == -1;
     return !is_default && (!is_uniform || e->has_sun);
 }
 
-void forward_doubt(const Scene *scene, Problems *problems)
-{
+void forward_doubt(const Scene *scene, Problems *problems) {
     const Environment *e = &scene->environment;
-    const double       forward[3] = {(double)e->forward.x, (double)e->forward.y,
-                                     (double)e->forward.z};
+    const double forward[3] = {(double)e->forward.x, (double)e->forward.y, (double)e->forward.z};
     const SceneCamera *nearest = NULL;
-    double             least = INFINITY;
+    double least = INFINITY;
     for (int i = 0; i < scene->camera_count && says_forward(e); i++) {
         const SceneCamera *camera = &scene->cameras[i];
-        const Vec3         z = camera->world_from_camera.z;
-        const double       way[3] = {-(double)z.x, -(double)z.y, -(double)z.z};
-        double             degrees;
+        const Vec3 z = camera->world_from_camera.z;
+        const double way[3] = {-(double)z.x, -(double)z.y, -(double)z.z};
+        double degrees;
         if (!looks_at_any(scene, camera) || !forward_angle_deg(forward, way, &degrees) ||
             degrees >= least)
             continue;

@@ -15,7 +15,7 @@
 
 /* Means over the area. right, up: of the picture, unit; normal: to the front. */
 typedef struct DisplayFrame {
-    Vec3   centre, right, up, normal;
+    Vec3 centre, right, up, normal;
     double width_m, height_m; /* along the surface, of what the coordinates span */
 } DisplayFrame;
 

@@ -13,16 +13,15 @@
  * there is of it. */
 typedef struct MaterialLayer {
     ExtensionRule rule;
-    size_t size, at;         /* of a layer with a struct of its own: its bytes, and where
-                                Material points to it; 0: its keys fill Material itself */
+    size_t size, at;              /* of a layer with a struct of its own: its bytes, and where
+                                     Material points to it; 0: its keys fill Material itself */
     const char *const *hidden_by; /* extensions beside which it has no effect; a NULL ends them;
                                      NULL: none */
-    const char *on_solid;    /* the warning where the material is a clear solid; NULL: none */
+    const char *on_solid;         /* the warning where the material is a clear solid; NULL: none */
 } MaterialLayer;
 
 /* Begins what is said of layers that a closed solid does not show. */
-#define ON_CLOSED_SOLID \
-    "has no effect: KHR_materials_volume makes the material a closed solid, "
+#define ON_CLOSED_SOLID "has no effect: KHR_materials_volume makes the material a closed solid, "
 
 /* In the order in which their textures take the two sets of coordinates, and in which what
  * hides them is reported. */

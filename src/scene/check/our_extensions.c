@@ -14,42 +14,37 @@
 #include "spectrum/thin_film.h"
 
 /* Nothing is kept of it. */
-static bool leave(const JsonView *view, const RecordRow *row, void *item, Error *err)
-{
+static bool leave(const JsonView *view, const RecordRow *row, void *item, Error *err) {
     (void)view, (void)row, (void)item, (void)err;
     return true;
 }
 
 #define MUST RECORD_REQUIRED
-#define ROW(key, kind, flag, words, ...)                                                       \
-    {key, kind, flag, .read = leave, .doc = words, __VA_ARGS__}
-#define NUMBER(key, flag, bottom, top, words)                                                  \
+#define ROW(key, kind, flag, words, ...) {key, kind, flag, .read = leave, .doc = words, __VA_ARGS__}
+#define NUMBER(key, flag, bottom, top, words) \
     ROW(key, RECORD_NUMBER, flag, words, RECORD_RANGE(bottom, top))
-#define WHOLE(key, bottom, top, words)                                                         \
-    ROW(key, RECORD_INTEGER, 0, words, RECORD_RANGE(bottom, top))
-#define NUMBERS(key, fewest, greatest, bottom, words)                                          \
-    ROW(key, RECORD_NUMBERS, 0, words, RECORD_RANGE(bottom, HUGE_VAL),                         \
+#define WHOLE(key, bottom, top, words) ROW(key, RECORD_INTEGER, 0, words, RECORD_RANGE(bottom, top))
+#define NUMBERS(key, fewest, greatest, bottom, words) \
+    ROW(key, RECORD_NUMBERS, 0, words, RECORD_RANGE(bottom, HUGE_VAL), \
         RECORD_COUNT(fewest, greatest))
 #define FLAG(key, words) ROW(key, RECORD_FLAG, 0, words, .of = NULL)
 #define TEXT(key, words) ROW(key, RECORD_TEXT, 0, words, .of = NULL)
 #define A_FILE(key, words) ROW(key, RECORD_FILE, 0, words, .of = NULL)
-#define CHOICE(key, flag, list, meaning)                                                       \
-    ROW(key, RECORD_CHOICE, flag, meaning, .words = list)
+#define CHOICE(key, flag, list, meaning) ROW(key, RECORD_CHOICE, flag, meaning, .words = list)
 #define EITHER(key, flag, list, words) ROW(key, RECORD_EITHER, flag, words, .forms = list)
 #define OBJECT(key, format, words) ROW(key, RECORD_OBJECT, 0, words, .of = &format)
-#define LIST(key, flag, fewest, greatest, format, words)                                       \
+#define LIST(key, flag, fewest, greatest, format, words) \
     ROW(key, RECORD_LIST, flag, words, .of = &format, RECORD_COUNT(fewest, greatest))
 /* Of every object of glTF. */
-#define COMMON                                                                                 \
-    ROW("extensions", RECORD_OWN, 0, NULL, .schema = "{'type': 'object'}"),                    \
-    ROW("extras", RECORD_OWN, 0, NULL, .schema = "{}"), {0}
+#define COMMON \
+    ROW("extensions", RECORD_OWN, 0, NULL, .schema = "{'type': 'object'}"), \
+        ROW("extras", RECORD_OWN, 0, NULL, .schema = "{}"), {0}
 
 /* ---- displays ---------------------------------------------------------------------------- */
 
 static const RecordRow TEXTURE_INFO[] = {
     ROW("index", RECORD_INTEGER, MUST, "Of the texture.", RECORD_RANGE(0, HUGE_VAL)),
-    WHOLE("texCoord", 0, HUGE_VAL, "Which TEXCOORD; 0 unless given."),
-    COMMON};
+    WHOLE("texCoord", 0, HUGE_VAL, "Which TEXCOORD; 0 unless given."), COMMON};
 static const RecordFormat texture_info = {"textureInfo", 1, TEXTURE_INFO, .doc = NULL};
 
 static const RecordRow DISPLAY[] = {
@@ -135,18 +130,19 @@ static const RecordRow ENVIRONMENT[] = {
     COMMON};
 
 /* What a type must have. */
-#define TYPE(name, rules)                                                                      \
+#define TYPE(name, rules) \
     "{'if': {'properties': {'type': {'const': '" name "'}}}, 'then': " rules "}"
 #define SUN_OR_TIME "'anyOf': [{'required': ['when', 'where']}, {'required': ['sun']}]"
 const RecordFormat environment_extension = {
     "PARHELION_environment", 1, ENVIRONMENT,
-    .rules = "{'not': {'required': ['scale', 'horizontal_illuminance_lx']}, 'allOf': ["
-             TYPE("constant", "{'required': ['luminance']}") ", "
-             TYPE("hdri", "{'required': ['uri']}") ", "
-             TYPE("cie", "{'required': ['sky', 'diffuse_horizontal_lx']}") ", "
-             TYPE("perez", "{'required': ['direct_normal_w_m2', 'diffuse_horizontal_w_m2'], "
-                           SUN_OR_TIME "}") ", "
-             TYPE("sky", "{" SUN_OR_TIME "}") "]}",
+    .rules = "{'not': {'required': ['scale', 'horizontal_illuminance_lx']}, 'allOf': [" TYPE("constant", "{'required': ['luminance']}") ", " TYPE(
+        "hdri",
+        "{'required': ['uri']}") ", " TYPE("cie",
+                                           "{'required': ['sky', 'diffuse_horizontal_lx']}") ", " TYPE("perez",
+                                                                                                       "{'required': ['direct_normal_w_m2', 'diffuse_horizontal_w_m2'], " SUN_OR_TIME
+                                                                                                       "}") ", " TYPE("sky",
+                                                                                                                      "{" SUN_OR_TIME
+                                                                                                                      "}") "]}",
     .doc = "The light from outside: a uniform, pictured, standard or modelled sky, and the "
            "sun."};
 
@@ -176,8 +172,7 @@ static const RecordRow INDEX_FORMS[] = {
 static const RecordRow THIN_LAYER[] = {
     EITHER("n", MUST, INDEX_FORMS, "Index of refraction."),
     EITHER("k", 0, INDEX_FORMS, "Absorption; without it that of n's file, or 0."),
-    NUMBER("thickness_nm", MUST, 0, 1e6, NULL),
-    COMMON};
+    NUMBER("thickness_nm", MUST, 0, 1e6, NULL), COMMON};
 static const RecordFormat thin_layer = {"layer", 1, THIN_LAYER, .doc = NULL};
 
 static const char *const FACES[] = {"both", "front", "back", NULL};
@@ -186,8 +181,9 @@ static const RecordRow COATING[] = {
     TEXT("stack", "A stack that the program carries (assets/coatings): bare, mgf2, "
                   "broadband_ar, ir_windscreen."),
     NUMBER("outside", 0, 1, 10, "Index of the medium in front; 1 unless given."),
-    CHOICE("faces", 0, FACES, "Of a thin sheet: which carry it, both unless given; the front "
-                              "is where its normals point."),
+    CHOICE("faces", 0, FACES,
+           "Of a thin sheet: which carry it, both unless given; the front "
+           "is where its normals point."),
     COMMON};
 const RecordFormat coating_extension = {
     "PARHELION_coating", 1, COATING,
@@ -220,8 +216,7 @@ static const RecordFormat layer = {
 
 static const RecordRow HAZE[] = {
     NUMBER("share", MUST, 0, 1, "Of the light that passes."),
-    NUMBER("width_deg", MUST, 0.1, 60,
-           "Half of it goes within this angle of the straight way."),
+    NUMBER("width_deg", MUST, 0.1, 60, "Half of it goes within this angle of the straight way."),
     COMMON};
 static const RecordFormat haze = {"haze", 1, HAZE, .doc = NULL};
 
@@ -235,11 +230,11 @@ static const RecordRow GLAZING[] = {
            "Thin layers on the face of the last of layers: the triangles' back."),
     COMMON};
 #define IN_AIR "{'properties': {'outside': {'const': 1}, 'faces': false}}"
-const RecordFormat glazing_extension = {
-    "PARHELION_glazing", 1, GLAZING,
-    .rules = "{'allOf': [{'properties': {'coating_outside': " IN_AIR ", 'coating_inside': "
-             IN_AIR "}}]}",
-    .doc = "A laminated pane on a mesh that is one sheet."};
+const RecordFormat glazing_extension = {"PARHELION_glazing", 1, GLAZING,
+                                        .rules =
+                                            "{'allOf': [{'properties': {'coating_outside': " IN_AIR
+                                            ", 'coating_inside': " IN_AIR "}}]}",
+                                        .doc = "A laminated pane on a mesh that is one sheet."};
 
 /* ---- for the check ----------------------------------------------------------------------- */
 
@@ -256,8 +251,7 @@ const Schema our_schemas[] = {
     {"haze", true, .format = &haze},
 };
 
-const Schema *our_schema(const RecordFormat *format)
-{
+const Schema *our_schema(const RecordFormat *format) {
     for (int i = 0; i < COUNT_OF(our_schemas); i++)
         if (our_schemas[i].format == format) return &our_schemas[i];
     return &SCHEMA_TEXTURE_INFO;

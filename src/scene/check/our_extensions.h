@@ -17,4 +17,4 @@ enum { OUR_DISPLAY, OUR_ENVIRONMENT, OUR_SPECTRUM, OUR_COATING, OUR_GLAZING };
 
 /* The same for the check of a document; and that of an object that rows describe. */
 extern const Schema our_schemas[];
-const Schema       *our_schema(const RecordFormat *format);
+const Schema *our_schema(const RecordFormat *format);

@@ -30,20 +30,20 @@ typedef enum RuleKind {
 
 enum {
     RULE_REQUIRED = 1,
-    RULE_ABOVE_MIN = 2, /* min itself is not allowed */
-    RULE_WARNS = 8,      /* this member and what is below it only warn */
-    RULE_FROM_MIN = 16,  /* min holds, there is no max */
-    RULE_CLOSED = 32,    /* no extension adds words to this list */
+    RULE_ABOVE_MIN = 2,      /* min itself is not allowed */
+    RULE_WARNS = 8,          /* this member and what is below it only warn */
+    RULE_FROM_MIN = 16,      /* min holds, there is no max */
+    RULE_CLOSED = 32,        /* no extension adds words to this list */
     RULE_WARNS_AT_REST = 64, /* RULE_WARNS, unless animations are played (--time) */
-    RULE_ANY_SIZE = 128 /* beyond floats, too: other numbers are held to them */
+    RULE_ANY_SIZE = 128      /* beyond floats, too: other numbers are held to them */
 };
 
 /* Where the loader keeps a value of a material's layer: bytes into the struct that the layer
  * fills (MaterialLayer), there a float, several (RULE_NUMBERS) or a TextureSlot. */
 typedef struct RuleField {
-    bool   is_kept;
+    bool is_kept;
     size_t at;
-    float  usual; /* of a number that is missing, or of each of several */
+    float usual; /* of a number that is missing, or of each of several */
 } RuleField;
 
 typedef struct Rule {
@@ -61,15 +61,25 @@ typedef struct Rule {
 
 typedef struct Schema {
     const char *name; /* "node": extensions and messages refer to it */
-    bool is_ours; /* PARHELION_*: an unknown member is an error, not a warning */
+    bool is_ours;     /* PARHELION_*: an unknown member is an error, not a warning */
     /* NULL: the table suffices. */
     void (*more)(const DocumentCheck *check, const GltfValue *value);
-    const Rule *rules; /* RULES(...): up to one without a name */
+    const Rule *rules;          /* RULES(...): up to one without a name */
     const RecordFormat *format; /* of ours: rows in place of rules */
 } Schema;
 
-#define NO_RULES .rules = (const Rule[]){{.name = NULL}}
-#define RULES(...) .rules = (const Rule[]){__VA_ARGS__, {.name = NULL}}
+#define NO_RULES \
+    .rules = (const Rule[]) { \
+        { \
+            .name = NULL \
+        } \
+    }
+#define RULES(...) \
+    .rules = (const Rule[]) { \
+        __VA_ARGS__, { \
+            .name = NULL \
+        } \
+    }
 
 #define RULE_MOST_BYTES 9007199254740992.0 /* 2^53: what a double counts exactly */
 

@@ -17,14 +17,12 @@
 
 #define MEMBERS_MAX 64 /* of one object that are compared with an unknown one */
 
-static bool is_component_type(const char *key)
-{
+static bool is_component_type(const char *key) {
     return key && strcmp(key, "componentType") == 0;
 }
 
 /* The value found, for "is ..., ... is required". */
-static const char *describe(const GltfValue *value, char *buffer, size_t size)
-{
+static const char *describe(const GltfValue *value, char *buffer, size_t size) {
     switch (value->kind) {
     case GLTF_NULL: return "null";
     case GLTF_BOOLEAN: return value->number != 0 ? "true" : "false";
@@ -41,8 +39,7 @@ static const char *describe(const GltfValue *value, char *buffer, size_t size)
     return "";
 }
 
-static void fails_as(const DocumentCheck *check, const GltfValue *value, const char *wanted)
-{
+static void fails_as(const DocumentCheck *check, const GltfValue *value, const char *wanted) {
     char found[128];
     check_fails(check, value, "is %s, %s is required", describe(value, found, sizeof found),
                 wanted);
@@ -50,28 +47,23 @@ static void fails_as(const DocumentCheck *check, const GltfValue *value, const c
 
 /* ---- single values --------------------------------------------------------------------- */
 
-static bool has_max(const Rule *rule)
-{
+static bool has_max(const Rule *rule) {
     return rule->max > rule->min;
 }
 
 /* A scene's numbers are kept as floats. */
-static bool is_too_large(const Rule *rule, double number)
-{
+static bool is_too_large(const Rule *rule, double number) {
     return fabs(number) > (double)FLT_MAX && !(rule->flags & RULE_ANY_SIZE);
 }
 
-static bool in_range(const Rule *rule, double number)
-{
+static bool in_range(const Rule *rule, double number) {
     if (is_too_large(rule, number)) return false;
     if (!has_max(rule) && !(rule->flags & RULE_FROM_MIN)) return true;
-    if (rule->flags & RULE_ABOVE_MIN ? !(number > rule->min) : !(number >= rule->min))
-        return false;
+    if (rule->flags & RULE_ABOVE_MIN ? !(number > rule->min) : !(number >= rule->min)) return false;
     return !has_max(rule) || number <= rule->max;
 }
 
-static void check_number(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
-{
+static void check_number(const DocumentCheck *check, const GltfValue *value, const Rule *rule) {
     bool is_integer = rule->kind == RULE_INTEGER;
     bool is_kind = is_integer ? tree_is_integer(value) : value->kind == GLTF_NUMBER;
     const char *noun = is_integer ? "an integer" : "a number";
@@ -82,8 +74,7 @@ static void check_number(const DocumentCheck *check, const GltfValue *value, con
     else if (rule->flags & RULE_FROM_MIN)
         snprintf(wanted, sizeof wanted, "%s %s %.16g", noun,
                  rule->flags & RULE_ABOVE_MIN ? "above" : "of at least", rule->min);
-    else if (!has_max(rule))
-        snprintf(wanted, sizeof wanted, "%s", noun);
+    else if (!has_max(rule)) snprintf(wanted, sizeof wanted, "%s", noun);
     else
         snprintf(wanted, sizeof wanted, "%s %s %.16g %s %.16g", noun,
                  rule->flags & RULE_ABOVE_MIN ? "above" : "from", rule->min,
@@ -92,8 +83,7 @@ static void check_number(const DocumentCheck *check, const GltfValue *value, con
 }
 
 /* Whether `text` is one of the words of "a|b|c", or of a list. */
-static bool is_among(const Rule *rule, const char *text)
-{
+static bool is_among(const Rule *rule, const char *text) {
     const char *words = rule->of ? rule->of : "";
     for (int i = 0; rule->words && rule->words[i]; i++)
         if (strcmp(rule->words[i], text) == 0) return true;
@@ -107,12 +97,10 @@ static bool is_among(const Rule *rule, const char *text)
 }
 
 /* "a|b|c"; component types by their names as well. */
-static void list_choices(const Rule *rule, char *out, size_t size)
-{
+static void list_choices(const Rule *rule, char *out, size_t size) {
     size_t used = (size_t)snprintf(out, size, "one of ");
     for (int i = 0; rule->words && rule->words[i]; i++)
-        used += (size_t)snprintf(out + used, size - used, "%s%s", i ? "|" : "",
-                                 rule->words[i]);
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i ? "|" : "", rule->words[i]);
     if (rule->words) return;
     if (!is_component_type(rule->name)) {
         snprintf(out + used, size - used, "%s", rule->of);
@@ -123,8 +111,7 @@ static void list_choices(const Rule *rule, char *out, size_t size)
                                  component_name(atoi(word)));
 }
 
-static void check_choice(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
-{
+static void check_choice(const DocumentCheck *check, const GltfValue *value, const Rule *rule) {
     char text[32], wanted[160];
     bool is_code = rule->kind == RULE_CODE;
     if (is_code && tree_is_integer(value)) {
@@ -140,8 +127,7 @@ static void check_choice(const DocumentCheck *check, const GltfValue *value, con
 }
 
 /* The list a rule refers to: "nodes", or "extensions/NAME/list" below the document. */
-static const GltfValue *referred_list(const GltfFile *file, const char *path)
-{
+static const GltfValue *referred_list(const GltfFile *file, const char *path) {
     const GltfValue *value = file->root;
     while (value && *path) {
         char name[64];
@@ -153,8 +139,7 @@ static const GltfValue *referred_list(const GltfFile *file, const char *path)
     return value && value->kind == GLTF_ARRAY ? value : NULL;
 }
 
-static void check_index(const DocumentCheck *check, const GltfValue *value, const char *of)
-{
+static void check_index(const DocumentCheck *check, const GltfValue *value, const char *of) {
     const GltfValue *list = referred_list(check->file, of);
     const char *slash = strrchr(of, '/'), *noun = slash ? slash + 1 : of;
     int count = list ? list->count : 0;
@@ -171,20 +156,17 @@ static void check_index(const DocumentCheck *check, const GltfValue *value, cons
 
 /* ---- arrays ---------------------------------------------------------------------------- */
 
-static bool check_array(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
-{
+static bool check_array(const DocumentCheck *check, const GltfValue *value, const Rule *rule) {
     char wanted[96];
     if (value->kind != GLTF_ARRAY) {
         fails_as(check, value, "an array");
         return false;
     }
-    bool is_short = value->count < rule->least,
-         is_long = rule->most && value->count > rule->most;
+    bool is_short = value->count < rule->least, is_long = rule->most && value->count > rule->most;
     if (is_short || is_long) {
         if (rule->least == rule->most)
             snprintf(wanted, sizeof wanted, "an array of %d", rule->least);
-        else
-            snprintf(wanted, sizeof wanted, "an array of %d to %d", rule->least, rule->most);
+        else snprintf(wanted, sizeof wanted, "an array of %d to %d", rule->least, rule->most);
         fails_as(check, value, wanted);
     }
     return true;
@@ -192,8 +174,7 @@ static bool check_array(const DocumentCheck *check, const GltfValue *value, cons
 
 static void check_value(const DocumentCheck *check, const GltfValue *value, const Rule *rule);
 
-static void check_items(const DocumentCheck *check, const GltfValue *array, const Rule *rule)
-{
+static void check_items(const DocumentCheck *check, const GltfValue *array, const Rule *rule) {
     static const RuleKind ITEM[] = {[RULE_INDICES] = RULE_INDEX,
                                     [RULE_NUMBERS] = RULE_NUMBER,
                                     [RULE_TEXTS] = RULE_TEXT,
@@ -204,8 +185,7 @@ static void check_items(const DocumentCheck *check, const GltfValue *array, cons
     for (int i = 0; i < array->count; i++) check_value(check, &array->items[i], &item);
 }
 
-static void check_map(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
-{
+static void check_map(const DocumentCheck *check, const GltfValue *value, const Rule *rule) {
     if (value->kind != GLTF_OBJECT) {
         fails_as(check, value, "an object");
         return;
@@ -213,8 +193,7 @@ static void check_map(const DocumentCheck *check, const GltfValue *value, const 
     for (int i = 0; i < value->count; i++) check_index(check, &value->items[i], rule->of);
 }
 
-static void check_value(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
-{
+static void check_value(const DocumentCheck *check, const GltfValue *value, const Rule *rule) {
     DocumentCheck inner = *check;
     bool is_at_rest = !check->file->load->options->state.has_time;
     if (rule->flags & RULE_WARNS || (rule->flags & RULE_WARNS_AT_REST && is_at_rest))
@@ -243,26 +222,23 @@ static void check_value(const DocumentCheck *check, const GltfValue *value, cons
 
 /* ---- objects --------------------------------------------------------------------------- */
 
-static int names_of(const Schema *schema, const char *names[MEMBERS_MAX])
-{
+static int names_of(const Schema *schema, const char *names[MEMBERS_MAX]) {
     int count = 0;
     for (const Rule *rule = schema->rules; rule->name && count < MEMBERS_MAX; rule++)
         names[count++] = rule->name;
     return count;
 }
 
-static const Rule *find_rule(const Schema *schema, const char *name)
-{
+static const Rule *find_rule(const Schema *schema, const char *name) {
     for (const Rule *rule = schema->rules; rule->name; rule++)
         if (strcmp(rule->name, name) == 0) return rule;
     return NULL;
 }
 
 static void check_unknown(const DocumentCheck *check, const GltfValue *member,
-                          const Schema *schema)
-{
+                          const Schema *schema) {
     const char *names[MEMBERS_MAX];
-    int         count = names_of(schema, names);
+    int count = names_of(schema, names);
     const char *near = nearest_key(member->key, names, count, 3);
     char hint[100] = "";
     if (schema->is_ours) {
@@ -277,13 +253,11 @@ static void check_unknown(const DocumentCheck *check, const GltfValue *member,
         return;
     }
     if (near) snprintf(hint, sizeof hint, "; is \"%s\" meant?", near);
-    check_warns(check, member, "is no member of glTF's %s and is skipped%s", schema->name,
-                    hint);
+    check_warns(check, member, "is no member of glTF's %s and is skipped%s", schema->name, hint);
 }
 
 static void check_extension(const DocumentCheck *check, const GltfValue *extension,
-                            const char *host)
-{
+                            const char *host) {
     bool is_known = false;
     DocumentCheck inner = *check;
     const ExtensionRule *rule = extension_rule(extension->key, host, &is_known);
@@ -292,18 +266,17 @@ static void check_extension(const DocumentCheck *check, const GltfValue *extensi
         return;
     }
     if (!rule && is_known)
-        check_warns(check, extension, "%s has no meaning on a %s and is skipped",
-                    extension->key, host);
+        check_warns(check, extension, "%s has no meaning on a %s and is skipped", extension->key,
+                    host);
     if (!extension_is_supported(extension->key)) inner.severity = SEVERITY_WARNING;
     if (rule && rule->schema) schema_check(&inner, extension, rule->schema);
 }
 
 /* Checks only those extras that are named as our extensions are; others may be there. */
-static void check_extras(const DocumentCheck *check, const GltfValue *extras, const char *host)
-{
+static void check_extras(const DocumentCheck *check, const GltfValue *extras, const char *host) {
     const GltfValue *extensions = tree_member(extras->parent, "extensions");
     for (int i = 0; extras->kind == GLTF_OBJECT && i < extras->count; i++) {
-        bool             is_known = false;
+        bool is_known = false;
         const GltfValue *member = &extras->items[i];
         if (!extras_is_ours(member)) continue;
         if (extension_rule(member->key, host, &is_known) == NULL)
@@ -313,14 +286,12 @@ static void check_extras(const DocumentCheck *check, const GltfValue *extras, co
                         host);
         else if (tree_member(extensions, member->key))
             check_fails(check, member, "stands in extras and in extensions; one is required");
-        else
-            check_extension(check, member, host);
+        else check_extension(check, member, host);
     }
 }
 
 static void check_common(const DocumentCheck *check, const GltfValue *member,
-                         const Schema *schema)
-{
+                         const Schema *schema) {
     if (strcmp(member->key, "extras") == 0) {
         check_extras(check, member, schema->name);
         return;
@@ -345,16 +316,19 @@ static void check_common(const DocumentCheck *check, const GltfValue *member,
 
 /* ---- rows as rules ---------------------------------------------------------------------- */
 
-static Rule rule_of(const RecordRow *row)
-{
+static Rule rule_of(const RecordRow *row) {
     static const RuleKind KINDS[] = {
-        [RECORD_NUMBER] = RULE_NUMBER, [RECORD_INTEGER] = RULE_INTEGER,
+        [RECORD_NUMBER] = RULE_NUMBER,   [RECORD_INTEGER] = RULE_INTEGER,
         [RECORD_NUMBERS] = RULE_NUMBERS, [RECORD_FLAG] = RULE_BOOLEAN,
-        [RECORD_TEXT] = RULE_TEXT, [RECORD_FILE] = RULE_TEXT, [RECORD_CHOICE] = RULE_CHOICE,
-        [RECORD_OBJECT] = RULE_OBJECT, [RECORD_LIST] = RULE_OBJECTS,
-        [RECORD_EITHER] = RULE_ANY};
-    Rule rule = {.name = row->key, .kind = KINDS[row->kind], .flags = RULE_CLOSED,
-                 .least = row->least, .most = row->most, .words = row->words,
+        [RECORD_TEXT] = RULE_TEXT,       [RECORD_FILE] = RULE_TEXT,
+        [RECORD_CHOICE] = RULE_CHOICE,   [RECORD_OBJECT] = RULE_OBJECT,
+        [RECORD_LIST] = RULE_OBJECTS,    [RECORD_EITHER] = RULE_ANY};
+    Rule rule = {.name = row->key,
+                 .kind = KINDS[row->kind],
+                 .flags = RULE_CLOSED,
+                 .least = row->least,
+                 .most = row->most,
+                 .words = row->words,
                  .schema = row->of ? our_schema(row->of) : NULL};
     if (row->flags & RECORD_REQUIRED) rule.flags |= RULE_REQUIRED;
     if (row->flags & RECORD_ABOVE) rule.flags |= RULE_ABOVE_MIN;
@@ -365,23 +339,20 @@ static Rule rule_of(const RecordRow *row)
 }
 
 /* But for what every object of glTF may have. */
-static Schema with_rules(const Schema *schema, Rule rules[MEMBERS_MAX])
-{
+static Schema with_rules(const Schema *schema, Rule rules[MEMBERS_MAX]) {
     Schema own = *schema;
-    int    count = 0;
+    int count = 0;
     if (!schema->format) return own;
     for (const RecordRow *row = schema->format->rows; row->key; row++)
-        if (row->kind != RECORD_OWN && count + 1 < MEMBERS_MAX)
-            rules[count++] = rule_of(row);
+        if (row->kind != RECORD_OWN && count + 1 < MEMBERS_MAX) rules[count++] = rule_of(row);
     rules[count].name = NULL;
     own.rules = rules;
     return own;
 }
 
-void schema_check(const DocumentCheck *check, const GltfValue *value, const Schema *described)
-{
-    Rule          rules[MEMBERS_MAX];
-    const Schema  own = with_rules(described, rules), *schema = &own;
+void schema_check(const DocumentCheck *check, const GltfValue *value, const Schema *described) {
+    Rule rules[MEMBERS_MAX];
+    const Schema own = with_rules(described, rules), *schema = &own;
     if (value->kind != GLTF_OBJECT) {
         fails_as(check, value, "an object");
         return;
@@ -393,12 +364,9 @@ void schema_check(const DocumentCheck *check, const GltfValue *value, const Sche
         const GltfValue *member = &value->items[i];
         const Rule *rule = find_rule(schema, member->key);
         if (rule && rule->needs && !tree_member(value, rule->needs))
-            check_warns(check, member, "stands there without \"%s\", which it needs",
-                        rule->needs);
-        if (rule)
-            check_value(check, member, rule);
-        else
-            check_common(check, member, schema);
+            check_warns(check, member, "stands there without \"%s\", which it needs", rule->needs);
+        if (rule) check_value(check, member, rule);
+        else check_common(check, member, schema);
     }
     if (schema->more) schema->more(check, value);
 }

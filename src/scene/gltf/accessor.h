@@ -25,7 +25,7 @@ size_t component_size(int component_type); /* 0: no such type */
 /* For messages: "FLOAT (5126)"; "unknown" where glTF and its extensions have no such type. */
 const char *component_name(int component_type);
 double accessor_numbers(const GltfAccessor *accessor); /* how many it has */
-bool accessor_is_float(const GltfAccessor *accessor); /* else its numbers are integers */
+bool accessor_is_float(const GltfAccessor *accessor);  /* else its numbers are integers */
 
 /* count x component_count numbers; normalised integers become [0,1] or [-1,1]. Matrices lose
  * their padding. */

@@ -8,12 +8,13 @@
 #define NODES "/nodes/"
 #define VISIBLE "extensions/KHR_node_visibility/visible"
 
-const char *const animation_path_names[MOVES_COUNT] = {
-    [MOVES_TRANSLATION] = "translation", [MOVES_ROTATION] = "rotation",
-    [MOVES_SCALE] = "scale", [MOVES_WEIGHTS] = "weights", [MOVES_VISIBLE] = "visible"};
+const char *const animation_path_names[MOVES_COUNT] = {[MOVES_TRANSLATION] = "translation",
+                                                       [MOVES_ROTATION] = "rotation",
+                                                       [MOVES_SCALE] = "scale",
+                                                       [MOVES_WEIGHTS] = "weights",
+                                                       [MOVES_VISIBLE] = "visible"};
 
-static bool find_path(const char *name, AnimationPath *out)
-{
+static bool find_path(const char *name, AnimationPath *out) {
     for (int i = 0; i < MOVES_VISIBLE; i++) {
         if (strcmp(animation_path_names[i], name) != 0) continue;
         *out = (AnimationPath)i;
@@ -23,20 +24,17 @@ static bool find_path(const char *name, AnimationPath *out)
 }
 
 /* The number at *text, which is moved behind it and the slash; -1: there is none. */
-static int take_index(const char **text)
-{
+static int take_index(const char **text) {
     char *end;
     size_t digits = strspn(*text, "0123456789");
-    if (!digits || digits > 9 || (digits > 1 && **text == '0') || (*text)[digits] != '/')
-        return -1;
+    if (!digits || digits > 9 || (digits > 1 && **text == '0') || (*text)[digits] != '/') return -1;
     long index = strtol(*text, &end, 10);
     *text = end + 1;
     return (int)index;
 }
 
 /* Only a node that has the extension can be shown and hidden. */
-static bool find_pointed(const GltfValue *root, const char *pointer, AnimationTarget *out)
-{
+static bool find_pointed(const GltfValue *root, const char *pointer, AnimationTarget *out) {
     if (strncmp(pointer, NODES, strlen(NODES)) != 0) return false;
     pointer += strlen(NODES);
     out->node = take_index(&pointer);
@@ -47,8 +45,7 @@ static bool find_pointed(const GltfValue *root, const char *pointer, AnimationTa
     return tree_extension(node, "KHR_node_visibility") != NULL;
 }
 
-bool animation_target(const GltfValue *root, const GltfValue *channel, AnimationTarget *out)
-{
+bool animation_target(const GltfValue *root, const GltfValue *channel, AnimationTarget *out) {
     const GltfValue *target = tree_member(channel, "target");
     const GltfValue *pointer = tree_extension(target, EXTENSION);
     if (pointer) return find_pointed(root, tree_text(pointer, "pointer", ""), out);
@@ -57,8 +54,7 @@ bool animation_target(const GltfValue *root, const GltfValue *channel, Animation
            find_path(tree_text(target, "path", ""), &out->path);
 }
 
-const char *animation_target_text(const GltfValue *channel)
-{
+const char *animation_target_text(const GltfValue *channel) {
     const GltfValue *target = tree_member(channel, "target");
     const char *path = tree_text(target, "path", "");
     return tree_text(tree_extension(target, EXTENSION), "pointer", path);

@@ -7,7 +7,7 @@
 #pragma once
 #include "scene/gltf/loader.h"
 
-#define MESHOPT_EXTENSION "EXT_meshopt_compression" /* packed views (gltf/buffer_view.h) */
+#define MESHOPT_EXTENSION "EXT_meshopt_compression"    /* packed views (gltf/buffer_view.h) */
 #define INSTANCING_EXTENSION "EXT_mesh_gpu_instancing" /* meshes in many places */
 #define NORMAL_CONVENTION_EXTENSION "ASOBO_normal_map_convention"
 #define DRACO_EXTENSION "KHR_draco_mesh_compression" /* packed meshes (gltf/packed_mesh.h) */
@@ -18,8 +18,8 @@ bool file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void file_warning(GltfFile *file, const GltfValue *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-void file_problem(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
-                  ...) __attribute__((format(printf, 4, 5)));
+void file_problem(GltfFile *file, Severity severity, const GltfValue *at, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 void file_report(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
                  va_list args) __attribute__((format(printf, 4, 0)));
 

@@ -7,9 +7,8 @@
 
 /* A text becomes what it holds, in its place: it keeps its name and its way up, so that a
  * fault inside is reported with the pointer that a reader of the file can follow. */
-static void unfold(GltfFile *file, GltfValue *text)
-{
-    Error            err;
+static void unfold(GltfFile *file, GltfValue *text) {
+    Error err;
     const GltfValue *held;
     if (!gltf_json_parse(text->text, strlen(text->text), &file->load->scratch, &held, &err)) {
         file_error(file, text, "is a text that is no JSON object: %s", err.text);
@@ -24,8 +23,7 @@ static void unfold(GltfFile *file, GltfValue *text)
 }
 
 /* The tree lies in the loader's scratch and is this program's own until it is checked. */
-static void unfold_all(GltfFile *file, const char *collection)
-{
+static void unfold_all(GltfFile *file, const char *collection) {
     for (const GltfValue *one = tree_items(file->root, collection); one; one = tree_next(one))
         for (const GltfValue *e = tree_items(one, "extras"); e; e = tree_next(e)) {
             if (!extras_is_ours(e)) continue;
@@ -34,13 +32,11 @@ static void unfold_all(GltfFile *file, const char *collection)
         }
 }
 
-void extras_unfold(GltfFile *file)
-{
+void extras_unfold(GltfFile *file) {
     unfold_all(file, "materials");
     unfold_all(file, "scenes");
 }
 
-bool extras_is_ours(const GltfValue *member)
-{
+bool extras_is_ours(const GltfValue *member) {
     return member->key && strncmp(member->key, TREE_OURS, strlen(TREE_OURS)) == 0;
 }

@@ -56,8 +56,7 @@ static const Known WHAT[] = {
     {"ASOBO_material_disable_motion_blur", "parts that are not blurred"},
     {"ASOBO_material_draw_order", "which part is drawn over which"},
     {"ASOBO_material_emissive", "how much it glows"},
-    {"ASOBO_material_environment_occluder",
-     "parts that only hide reflections, and are shown here"},
+    {"ASOBO_material_environment_occluder", "parts that only hide reflections, and are shown here"},
     {"ASOBO_material_fake_terrain", "ground that the simulator's terrain covers"},
     {"ASOBO_material_flip_back_face", "backs whose normals are turned"},
     {"ASOBO_material_foliage_mask", "leaves"},
@@ -103,16 +102,14 @@ static const Known WHAT[] = {
     {"VRM", "avatars"},
 };
 
-static const char *find(const Known *known, int count, const char *name)
-{
+static const char *find(const Known *known, int count, const char *name) {
     for (int i = 0; i < count; i++)
         if (strncmp(known[i].beginning, name, strlen(known[i].beginning)) == 0)
             return known[i].words;
     return NULL;
 }
 
-const char *foreign_extension_note(const char *name, char *buffer)
-{
+const char *foreign_extension_note(const char *name, char *buffer) {
     const char *maker = find(MAKERS, COUNT_OF(MAKERS), name);
     const char *what = find(WHAT, COUNT_OF(WHAT), name);
     if (!maker) return "";

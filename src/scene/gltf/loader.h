@@ -37,27 +37,27 @@ typedef struct Loader {
     Problems *problems;
     const SceneOptions *options;
     Environment environment;
-    ItemList parts;     /* PartDraft */
-    ItemList materials; /* Material */
+    ItemList parts;            /* PartDraft */
+    ItemList materials;        /* Material */
     ItemList material_uv_sets; /* int[2] a material: the TEXCOORD_n of Part.uv */
     ItemList textures, texture_words, displays, lights, cameras, curves;
-    ItemList display_places; /* DisplayPlace, one a display */
-    ItemList inputs;         /* const char * */
-    ItemList input_hashes;   /* uint64_t */
-    ItemList undecoded;      /* const char *, of the inputs */
-    ItemList extensions;     /* const char * */
-    ItemList node_names;     /* const char *, of nodes that are shown */
-    ItemList variants;       /* const char *, of all files */
-    ItemList animations;     /* SceneAnimation, of all files */
-    int *change_uses;        /* one a change: how often its name was found */
+    ItemList display_places;           /* DisplayPlace, one a display */
+    ItemList inputs;                   /* const char * */
+    ItemList input_hashes;             /* uint64_t */
+    ItemList undecoded;                /* const char *, of the inputs */
+    ItemList extensions;               /* const char * */
+    ItemList node_names;               /* const char *, of nodes that are shown */
+    ItemList variants;                 /* const char *, of all files */
+    ItemList animations;               /* SceneAnimation, of all files */
+    int *change_uses;                  /* one a change: how often its name was found */
     struct LuminaireDraft *luminaires; /* one a --light (load/luminaire.c) */
-    ProgressMode progress_mode; /* of load_progress_begin, which has the three below */
+    ProgressMode progress_mode;        /* of load_progress_begin, which has the three below */
     Progress progress;
     double progress_done;
     bool has_step;
     size_t vertex_total;
     int ignored_occlusion_count;
-    double origin[3];        /* Scene.origin; 0 until scene_origin_find */
+    double origin[3]; /* Scene.origin; 0 until scene_origin_find */
 } Loader;
 
 typedef struct GltfFile {
@@ -70,17 +70,17 @@ typedef struct GltfFile {
     FileBytes bin;      /* its BIN chunk; data NULL without one */
     FileBytes *buffers; /* data NULL: could not be had */
     GltfData data;
-    FileBytes *views; /* of each of data's, unpacked; data NULL: could not be had */
-    int variant_id;            /* of KHR_materials_variants, that is worn; NO_ID: none */
-    struct NodePose *poses;    /* one a node (load/pose.h); NULL: at rest */
-    int *parents;               /* one a node; NO_ID: a root */
-    NodePlace *places;          /* one a node; in the world until nodes_enter_scene */
-    Transform *world_from_node; /* the same in floats, from nodes_enter_scene on */
-    int *shown, shown_count;    /* the nodes that are shown, in order */
+    FileBytes *views;                /* of each of data's, unpacked; data NULL: could not be had */
+    int variant_id;                  /* of KHR_materials_variants, that is worn; NO_ID: none */
+    struct NodePose *poses;          /* one a node (load/pose.h); NULL: at rest */
+    int *parents;                    /* one a node; NO_ID: a root */
+    NodePlace *places;               /* one a node; in the world until nodes_enter_scene */
+    Transform *world_from_node;      /* the same in floats, from nodes_enter_scene on */
+    int *shown, shown_count;         /* the nodes that are shown, in order */
     struct NodeInstances *instances; /* one a node (load/nodes.h) */
-    struct LightProfile *profiles; /* of EXT_lights_ies, one a list item (load/profiles.c) */
-    int material_base, texture_base;     /* first id of this file's */
-    int default_material_id;             /* NO_ID until it is needed */
+    struct LightProfile *profiles;   /* of EXT_lights_ies, one a list item (load/profiles.c) */
+    int material_base, texture_base; /* first id of this file's */
+    int default_material_id;         /* NO_ID until it is needed */
     int skipped_count, degenerate_count; /* primitives; triangles */
 } GltfFile;
 

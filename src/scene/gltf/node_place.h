@@ -16,29 +16,25 @@ typedef struct NodePlace {
     double axis[3][3], origin[3];
 } NodePlace;
 
-static inline void node_place_vector(const NodePlace *place, const double v[3], double out[3])
-{
+static inline void node_place_vector(const NodePlace *place, const double v[3], double out[3]) {
     for (int i = 0; i < 3; i++)
         out[i] = place->axis[0][i] * v[0] + place->axis[1][i] * v[1] + place->axis[2][i] * v[2];
 }
 
-static inline void node_place_point(const NodePlace *place, const double p[3], double out[3])
-{
+static inline void node_place_point(const NodePlace *place, const double p[3], double out[3]) {
     node_place_vector(place, p, out);
     for (int i = 0; i < 3; i++) out[i] += place->origin[i];
 }
 
 /* First b, then a. */
-static inline NodePlace node_place_compose(const NodePlace *a, const NodePlace *b)
-{
+static inline NodePlace node_place_compose(const NodePlace *a, const NodePlace *b) {
     NodePlace out;
     for (int i = 0; i < 3; i++) node_place_vector(a, b->axis[i], out.axis[i]);
     node_place_point(a, b->origin, out.origin);
     return out;
 }
 
-static inline NodePlace node_place_of(const Transform *t)
-{
+static inline NodePlace node_place_of(const Transform *t) {
     return (NodePlace){{{(double)t->x.x, (double)t->x.y, (double)t->x.z},
                         {(double)t->y.x, (double)t->y.y, (double)t->y.z},
                         {(double)t->z.x, (double)t->z.y, (double)t->z.z}},
@@ -48,11 +44,10 @@ static inline NodePlace node_place_of(const Transform *t)
 /* The place of what lies at `own` in the node's frame; world: the node's place, whose axes it
  * has. */
 static inline Transform node_place_within(const NodePlace *place, const Transform *world,
-                                          const Transform *own)
-{
-    Transform    out = transform_compose(world, own);
+                                          const Transform *own) {
+    Transform out = transform_compose(world, own);
     const double at[3] = {(double)own->origin.x, (double)own->origin.y, (double)own->origin.z};
-    double       origin[3];
+    double origin[3];
     node_place_point(place, at, origin);
     out.origin = vec3_from_doubles(origin);
     return out;

@@ -7,8 +7,7 @@
 
 /* New item i is the old one from[i]; NULL stays NULL. */
 static void *gather(const void *items, size_t size, const uint32_t *from, uint32_t count,
-                    Arena *scratch)
-{
+                    Arena *scratch) {
     if (!items) return NULL;
     char *out = arena_alloc(scratch, size, 16, count);
     for (uint32_t i = 0; i < count; i++)
@@ -17,8 +16,7 @@ static void *gather(const void *items, size_t size, const uint32_t *from, uint32
 }
 
 static void gather_vertices(PartDraft *draft, const uint32_t *from, uint32_t count,
-                            Arena *scratch)
-{
+                            Arena *scratch) {
     Part *part = &draft->part;
     draft->positions = gather(draft->positions, sizeof(Vec3), from, count, scratch);
     part->normals = gather(part->normals, sizeof(Vec3), from, count, scratch);
@@ -31,8 +29,7 @@ static void gather_vertices(PartDraft *draft, const uint32_t *from, uint32_t cou
 
 /* ---- flat normals (glTF 2.0, 3.7.2.1) --------------------------------------------------- */
 
-void draft_flat_normals(PartDraft *draft, Arena *scratch)
-{
+void draft_flat_normals(PartDraft *draft, Arena *scratch) {
     uint32_t count = 3 * draft->triangle_count;
     gather_vertices(draft, draft->indices, count, scratch);
     for (uint32_t i = 0; i < count; i++) draft->indices[i] = i;
@@ -48,8 +45,7 @@ void draft_flat_normals(PartDraft *draft, Arena *scratch)
 
 /* ---- tangents: along growing u, averaged over the triangles that meet ------------------ */
 
-void draft_any_tangents(PartDraft *draft, Arena *scratch)
-{
+void draft_any_tangents(PartDraft *draft, Arena *scratch) {
     draft->part.tangents = ARENA_NEW(scratch, Tangent, draft->vertex_count);
     for (uint32_t i = 0; i < draft->vertex_count; i++) {
         Vec3 n = draft->part.normals[i];
@@ -64,14 +60,12 @@ typedef struct WeldKey {
     Vec2 uv;
 } WeldKey;
 
-static WeldKey weld_key(const PartDraft *draft, uint32_t vertex, int uv_set)
-{
+static WeldKey weld_key(const PartDraft *draft, uint32_t vertex, int uv_set) {
     return (WeldKey){draft->positions[vertex], draft->part.normals[vertex],
                      draft->part.uv[uv_set][vertex]};
 }
 
-static uint32_t hash_key(const WeldKey *key)
-{
+static uint32_t hash_key(const WeldKey *key) {
     uint32_t words[8], hash = 2166136261u; /* FNV-1a over words, then mixed */
     memcpy(words, key, sizeof words);
     for (int i = 0; i < 8; i++) hash = (hash ^ words[i]) * 16777619u, hash ^= hash >> 15;
@@ -79,8 +73,7 @@ static uint32_t hash_key(const WeldKey *key)
 }
 
 /* weld[i] is the first vertex that equals vertex i. */
-static uint32_t *weld_vertices(const PartDraft *draft, int uv_set, Arena *scratch)
-{
+static uint32_t *weld_vertices(const PartDraft *draft, int uv_set, Arena *scratch) {
     uint32_t *weld = ARENA_NEW(scratch, uint32_t, draft->vertex_count);
     size_t size = 16;
     while (size < 2 * (size_t)draft->vertex_count) size *= 2;
@@ -98,14 +91,12 @@ static uint32_t *weld_vertices(const PartDraft *draft, int uv_set, Arena *scratc
     return weld;
 }
 
-static Vec2 slot_coordinates(const TextureSlot *slot, Vec2 uv)
-{
+static Vec2 slot_coordinates(const TextureSlot *slot, Vec2 uv) {
     const float *m = slot->uv_from_uv;
     return (Vec2){m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
 }
 
-void draft_slot_box(const PartDraft *draft, const TextureSlot *slot, float box[4])
-{
+void draft_slot_box(const PartDraft *draft, const TextureSlot *slot, float box[4]) {
     const Vec2 *uv = draft->part.uv[slot->uv_set];
     for (uint32_t i = 0; uv && i < 3 * draft->triangle_count; i++) {
         Vec2 at = slot_coordinates(slot, uv[draft->indices[i]]);
@@ -117,15 +108,14 @@ void draft_slot_box(const PartDraft *draft, const TextureSlot *slot, float box[4
 /* P = P0 + u dP/du + v dP/dv on the triangle; right x up = -dP/du x dP/dv since v runs down,
  * so the determinant of the coordinates is negative where the picture is not mirrored. */
 int draft_triangle_tangent(const PartDraft *draft, uint32_t triangle, const TextureSlot *slot,
-                           Vec3 *tangent)
-{
+                           Vec3 *tangent) {
     const uint32_t *index = draft->indices + 3 * (size_t)triangle;
-    const Vec3     *p = draft->positions;
-    const Vec2     *uv = draft->part.uv[slot->uv_set];
+    const Vec3 *p = draft->positions;
+    const Vec2 *uv = draft->part.uv[slot->uv_set];
     if (!uv) return 0;
-    Vec2  a = slot_coordinates(slot, uv[index[0]]), b = slot_coordinates(slot, uv[index[1]]),
-          c = slot_coordinates(slot, uv[index[2]]);
-    Vec3  e = vec3_sub(p[index[1]], p[index[0]]), f = vec3_sub(p[index[2]], p[index[0]]);
+    Vec2 a = slot_coordinates(slot, uv[index[0]]), b = slot_coordinates(slot, uv[index[1]]),
+         c = slot_coordinates(slot, uv[index[2]]);
+    Vec3 e = vec3_sub(p[index[1]], p[index[0]]), f = vec3_sub(p[index[2]], p[index[0]]);
     float eu = b.x - a.x, ev = b.y - a.y, fu = c.x - a.x, fv = c.y - a.y;
     float det = eu * fv - fu * ev;
     if (!(fabsf(det) > 0)) return 0;
@@ -135,8 +125,7 @@ int draft_triangle_tangent(const PartDraft *draft, uint32_t triangle, const Text
 }
 
 /* The angle at a corner, the weight that does not depend on how a face is cut. */
-static float corner_angle(const Vec3 *positions, const uint32_t index[3], int corner)
-{
+static float corner_angle(const Vec3 *positions, const uint32_t index[3], int corner) {
     Vec3 p = positions[index[corner]];
     Vec3 a = vec3_normalize(vec3_sub(positions[index[(corner + 1) % 3]], p));
     Vec3 b = vec3_normalize(vec3_sub(positions[index[(corner + 2) % 3]], p));
@@ -145,8 +134,7 @@ static float corner_angle(const Vec3 *positions, const uint32_t index[3], int co
 
 /* sums[2 w + side - 1]: of welded vertex w, apart for either side. sides: one a triangle. */
 static void sum_tangents(const PartDraft *draft, const TextureSlot *slot, const uint32_t *weld,
-                         Vec3 *sums, unsigned char *sides)
-{
+                         Vec3 *sums, unsigned char *sides) {
     for (uint32_t t = 0; t < draft->triangle_count; t++) {
         const uint32_t *index = draft->indices + 3 * (size_t)t;
         Vec3 tangent = {0};
@@ -162,22 +150,19 @@ static void sum_tangents(const PartDraft *draft, const TextureSlot *slot, const 
     }
 }
 
-static Tangent tangent_from_sum(Vec3 n, Vec3 sum, int side)
-{
+static Tangent tangent_from_sum(Vec3 n, Vec3 sum, int side) {
     Vec3 t = vec3_along(sum, n, -vec3_dot(n, sum));
     if (!(vec3_dot(t, t) > 1e-12f)) t = frame_from_z(n).x;
     return (Tangent){vec3_normalize(t), side == 2 ? -1.0f : 1.0f};
 }
 
 /* A vertex where the picture is mirrored on one side only becomes two vertices. */
-void draft_tangents(PartDraft *draft, const TextureSlot *slot, Arena *scratch)
-{
+void draft_tangents(PartDraft *draft, const TextureSlot *slot, Arena *scratch) {
     uint32_t count = draft->vertex_count, corners = 3 * draft->triangle_count, used = 0;
     uint32_t *weld = weld_vertices(draft, slot->uv_set, scratch);
     Vec3 *sums = ARENA_NEW(scratch, Vec3, 2 * (size_t)count);
     unsigned char *sides = ARENA_NEW(scratch, unsigned char, draft->triangle_count);
-    uint32_t *place[2] = {ARENA_NEW(scratch, uint32_t, count),
-                          ARENA_NEW(scratch, uint32_t, count)};
+    uint32_t *place[2] = {ARENA_NEW(scratch, uint32_t, count), ARENA_NEW(scratch, uint32_t, count)};
     uint32_t *from = ARENA_NEW(scratch, uint32_t, corners);
     Tangent *tangents = ARENA_NEW(scratch, Tangent, corners);
     sum_tangents(draft, slot, weld, sums, sides);
@@ -198,14 +183,12 @@ void draft_tangents(PartDraft *draft, const TextureSlot *slot, Arena *scratch)
 
 /* ---- what is kept ----------------------------------------------------------------------- */
 
-static void *copy(const void *items, size_t size, uint32_t count, Arena *arena)
-{
+static void *copy(const void *items, size_t size, uint32_t count, Arena *arena) {
     return items ? memcpy(arena_alloc(arena, size, 16, count), items, size * count) : NULL;
 }
 
-void draft_keep(PartDraft *draft, Arena *arena, Arena begun, Arena *scratch)
-{
-    Part    *part = &draft->part;
+void draft_keep(PartDraft *draft, Arena *arena, Arena begun, Arena *scratch) {
+    Part *part = &draft->part;
     uint32_t count = draft->vertex_count;
     part->normals = copy(part->normals, sizeof(Vec3), count, arena);
     part->tangents = copy(part->tangents, sizeof(Tangent), count, arena);
@@ -214,7 +197,7 @@ void draft_keep(PartDraft *draft, Arena *arena, Arena begun, Arena *scratch)
         part->uv[s] = copy(part->uv[s], sizeof(Vec2), count, arena);
     size_t places = sizeof(Vec3) * count;
     size_t lists = 3 * sizeof(uint32_t) * (size_t)draft->triangle_count;
-    char  *both = arena_alloc(scratch, 1, 16, places + lists);
+    char *both = arena_alloc(scratch, 1, 16, places + lists);
     memcpy(both, draft->positions, places);
     memcpy(both + places, draft->indices, lists);
     *scratch = begun;

@@ -8,15 +8,13 @@
 #define EXTENSION "KHR_materials_variants"
 
 /* The first of several with one name is meant: the check warns of them. */
-static bool is_repeated(const GltfValue *variants, int index, const char *name)
-{
+static bool is_repeated(const GltfValue *variants, int index, const char *name) {
     for (int i = 0; i < index; i++)
         if (strcmp(tree_text(&variants->items[i], "name", ""), name) == 0) return true;
     return false;
 }
 
-void variant_choose(GltfFile *file)
-{
+void variant_choose(GltfFile *file) {
     Loader *load = file->load;
     const SceneState *state = &load->options->state;
     const GltfValue *variants = tree_member(tree_extension(file->root, EXTENSION), "variants");
@@ -37,15 +35,13 @@ void variant_choose(GltfFile *file)
     }
 }
 
-static bool names_variant(const GltfValue *mapping, int variant)
-{
+static bool names_variant(const GltfValue *mapping, int variant) {
     for (const GltfValue *v = tree_items(mapping, "variants"); v; v = tree_next(v))
         if (tree_whole(v, NO_ID) == variant) return true;
     return false;
 }
 
-int variant_material(const GltfFile *file, const GltfValue *primitive)
-{
+int variant_material(const GltfFile *file, const GltfValue *primitive) {
     const GltfValue *mappings = tree_member(tree_extension(primitive, EXTENSION), "mappings");
     for (int i = 0; file->variant_id != NO_ID && mappings && i < mappings->count; i++)
         if (names_variant(&mappings->items[i], file->variant_id))

@@ -14,6 +14,6 @@ typedef struct CoatingText {
 
 /* In the order of their names. */
 extern const CoatingText coating_stack_table[]; /* JSON: {"source", "layers"} */
-extern const int         coating_stack_count;
+extern const int coating_stack_count;
 extern const CoatingText coating_index_table[]; /* rows nm,n,k, named by those layers */
-extern const int         coating_index_count;
+extern const int coating_index_count;

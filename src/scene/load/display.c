@@ -17,8 +17,7 @@
 #include "scene/load/wearer.h"
 #include "text/nearest_word.h"
 
-static int add_display(Loader *load, Display display, const char *file, const char *pointer)
-{
+static int add_display(Loader *load, Display display, const char *file, const char *pointer) {
     Material *material = list_item(&load->materials, display.material_id);
     *(Display *)list_add(&load->displays, &load->scratch) = display;
     *(DisplayPlace *)list_add(&load->display_places, &load->scratch) =
@@ -26,8 +25,7 @@ static int add_display(Loader *load, Display display, const char *file, const ch
     return material->display_id = load->displays.count - 1;
 }
 
-void display_build(GltfFile *file, const GltfValue *extension, int material_id)
-{
+void display_build(GltfFile *file, const GltfValue *extension, int material_id) {
     Loader *load = file->load;
     const char *path = "";
     char pointer[256];
@@ -48,8 +46,7 @@ void display_build(GltfFile *file, const GltfValue *extension, int material_id)
 /* ---- the command line's overrides ------------------------------------------------------ */
 
 static bool option_error(Loader *load, const char *option, const char *format, const char *a,
-                         const char *b)
-{
+                         const char *b) {
     char message[1024];
     snprintf(message, sizeof message, format, a, b);
     problems_add(load->problems, SEVERITY_ERROR, option, "", "%s", message);
@@ -58,9 +55,8 @@ static bool option_error(Loader *load, const char *option, const char *format, c
 
 /* The names that would be right: displays, then, where any material serves, the others. */
 static const char *advice(Loader *load, const char *name, bool with_others, char *buffer,
-                          int size)
-{
-    int          count = 0;
+                          int size) {
+    int count = 0;
     const char **names = ARENA_NEW(&load->scratch, const char *, load->materials.count);
     for (int pass = 0; pass < 1 + with_others; pass++) {
         for (int i = 0; i < load->materials.count; i++) {
@@ -72,25 +68,23 @@ static const char *advice(Loader *load, const char *name, bool with_others, char
 }
 
 /* Reports that no material, or none that is a display, has this name. */
-static void report_unknown(Loader *load, const char *option, const char *name, bool is_panel)
-{
+static void report_unknown(Loader *load, const char *option, const char *name, bool is_panel) {
     char names[600];
-    option_error(load, option, is_panel ? "no material is named \"%.200s\" — %s"
-                                        : "no display is named \"%.200s\" — %s; --panel makes "
-                                          "a material one",
+    option_error(load, option,
+                 is_panel ? "no material is named \"%.200s\" — %s"
+                          : "no display is named \"%.200s\" — %s; --panel makes "
+                            "a material one",
                  name, advice(load, name, is_panel, names, (int)sizeof names));
 }
 
-static void report_not_display(Loader *load, const char *option, const char *name)
-{
+static void report_not_display(Loader *load, const char *option, const char *name) {
     char names[600];
-    option_error(load, option, "material \"%.200s\" is no display; --panel makes it one — %s",
-                 name, advice(load, "", false, names, (int)sizeof names));
+    option_error(load, option, "material \"%.200s\" is no display; --panel makes it one — %s", name,
+                 advice(load, "", false, names, (int)sizeof names));
 }
 
 /* A material that was no display becomes one: it shows what it emitted. */
-static int make_display(Loader *load, int material_id)
-{
+static int make_display(Loader *load, int material_id) {
     Material *m = list_item(&load->materials, material_id);
     if (m->display_id != NO_ID) return m->display_id;
     return add_display(load,
@@ -102,19 +96,15 @@ static int make_display(Loader *load, int material_id)
                        "--panel", "");
 }
 
-typedef void ApplyOverride(Loader *load, int display_id, const char *option,
-                           const char *value);
+typedef void ApplyOverride(Loader *load, int display_id, const char *option, const char *value);
 
-static void set_panel(Loader *load, int display_id, const char *option, const char *value)
-{
+static void set_panel(Loader *load, int display_id, const char *option, const char *value) {
     Display *display = list_item(&load->displays, display_id);
     display->panel_path = load_keep(load, value);
-    *(DisplayPlace *)list_item(&load->display_places, display_id) =
-        (DisplayPlace){option, ""};
+    *(DisplayPlace *)list_item(&load->display_places, display_id) = (DisplayPlace){option, ""};
 }
 
-static void set_content(Loader *load, int display_id, const char *option, const char *value)
-{
+static void set_content(Loader *load, int display_id, const char *option, const char *value) {
     Error err;
     DecodedImage decoded;
     Display *display = list_item(&load->displays, display_id);
@@ -133,8 +123,7 @@ static void set_content(Loader *load, int display_id, const char *option, const 
 
 /* Percent. Below 1 a share may be meant, above 100 what was measured is left: both are said
  * with the unit behind them. */
-static void set_level(Loader *load, int display_id, const char *option, const char *value)
-{
+static void set_level(Loader *load, int display_id, const char *option, const char *value) {
     char *end;
     double percent = strtod(value, &end);
     bool has_unit = strcmp(end, "%") == 0;
@@ -162,8 +151,7 @@ static void set_level(Loader *load, int display_id, const char *option, const ch
 }
 
 /* "*" means every display; later entries speak last, so that one may differ. */
-static bool is_meant(const Material *material, const char *name)
-{
+static bool is_meant(const Material *material, const char *name) {
     if (strcmp(name, "*") == 0) return material->display_id != NO_ID;
     return strcmp(material->name, name) == 0;
 }
@@ -176,18 +164,14 @@ typedef struct Overrides {
     ApplyOverride *set;
 } Overrides;
 
-static void apply_to(Loader *load, const Overrides *overrides, int material_id,
-                     const char *value)
-{
+static void apply_to(Loader *load, const Overrides *overrides, int material_id, const char *value) {
     const Material *material = list_item(&load->materials, material_id);
     if (overrides->set != set_panel && material->display_id == NO_ID)
         report_not_display(load, overrides->option, material->name);
-    else
-        overrides->set(load, make_display(load, material_id), overrides->option, value);
+    else overrides->set(load, make_display(load, material_id), overrides->option, value);
 }
 
-static void apply_by_name(Loader *load, const Overrides *overrides, const SceneOverride *one)
-{
+static void apply_by_name(Loader *load, const Overrides *overrides, const SceneOverride *one) {
     bool is_found = false;
     int count = load->materials.count;
     for (int m = 0; m < count; m++) {
@@ -202,16 +186,14 @@ static void apply_by_name(Loader *load, const Overrides *overrides, const SceneO
         report_unknown(load, overrides->option, one->material, overrides->set == set_panel);
 }
 
-static bool is_material(const Loader *load, const char *name)
-{
+static bool is_material(const Loader *load, const char *name) {
     for (int m = 0; m < load->materials.count; m++)
         if (is_meant(list_item(&load->materials, m), name)) return true;
     return false;
 }
 
 /* A material whose own name begins with "node:" is still found by it. */
-static void apply(Loader *load, Overrides overrides)
-{
+static void apply(Loader *load, Overrides overrides) {
     const char *option = overrides.option;
     for (int i = 0; i < overrides.count; i++) {
         const SceneOverride *one = &overrides.list[i];
@@ -225,8 +207,7 @@ static void apply(Loader *load, Overrides overrides)
     }
 }
 
-void displays_override(Loader *load)
-{
+void displays_override(Loader *load) {
     const SceneOptions *o = load->options;
     apply(load, (Overrides){"--panel", o->panels, o->panel_count, set_panel});
     apply(load, (Overrides){"--content", o->contents, o->content_count, set_content});
@@ -236,8 +217,7 @@ void displays_override(Loader *load)
 /* ---- what is tried out ------------------------------------------------------------------- */
 
 /* Of all displays of the material; returns how many there are. */
-static int set_finish(Loader *load, const char *material, const DisplayFinish *finish)
-{
+static int set_finish(Loader *load, const char *material, const DisplayFinish *finish) {
     int count = 0;
     for (int i = 0; i < load->displays.count; i++) {
         Display *display = list_item(&load->displays, i);
@@ -248,11 +228,10 @@ static int set_finish(Loader *load, const char *material, const DisplayFinish *f
     return count;
 }
 
-void displays_change(Loader *load)
-{
+void displays_change(Loader *load) {
     for (int i = 0; i < load->options->change_count; i++) {
         const SceneChange *change = &load->options->changes[i];
-        const char        *name = change->name;
+        const char *name = change->name;
         if (change->kind != CHANGE_FINISH) continue;
         if (wearer_is_named(name) && !is_material(load, name)) {
             int id = wearer_material(load, change->place, name);
@@ -265,8 +244,7 @@ void displays_change(Loader *load)
 
 /* ---- what is checked when all files are read ------------------------------------------- */
 
-static const Panel *find_panel(const Loader *load, int before, const Display *like)
-{
+static const Panel *find_panel(const Loader *load, int before, const Display *like) {
     for (int i = 0; i < before; i++) {
         const Display *display = list_item(&load->displays, i);
         if (!strcmp(display->panel_path, like->panel_path)) return display->panel;
@@ -274,8 +252,7 @@ static const Panel *find_panel(const Loader *load, int before, const Display *li
     return NULL;
 }
 
-static void open_panel(Loader *load, int id)
-{
+static void open_panel(Loader *load, int id) {
     Error err;
     Panel *panel;
     FileBytes bytes;
@@ -285,8 +262,7 @@ static void open_panel(Loader *load, int id)
     if (display->panel) return;
     ARENA_NEW(load->arena, uint64_t, 0); /* the next bytes are aligned as a panel needs it */
     if (load_read(load, display->panel_path, load->arena, &bytes, &err) &&
-        panel_open_memory(bytes.data, bytes.size, display->panel_path, load->arena, &panel,
-                          &err))
+        panel_open_memory(bytes.data, bytes.size, display->panel_path, load->arena, &panel, &err))
         display->panel = panel;
     if (display->panel) return;
     problems_add(load->problems, SEVERITY_ERROR, place->file, place->pointer,
@@ -294,8 +270,7 @@ static void open_panel(Loader *load, int id)
 }
 
 /* A panel shows the codes that it gets, whatever a viewer would make of them. */
-static void warn_of_words(Loader *load, const Display *display, const DisplayPlace *place)
-{
+static void warn_of_words(Loader *load, const Display *display, const DisplayPlace *place) {
     const char *words =
         *(const char **)list_item(&load->texture_words, display->content.texture_id);
     if (words && words[0])
@@ -305,20 +280,17 @@ static void warn_of_words(Loader *load, const Display *display, const DisplayPla
                      display->name, words);
 }
 
-static void check_content(Loader *load, int id)
-{
+static void check_content(Loader *load, int id) {
     const Display *display = list_item(&load->displays, id);
     const DisplayPlace *place = list_item(&load->display_places, id);
     if (display->content.texture_id == NO_ID)
         problems_add(load->problems, SEVERITY_WARNING, place->file, place->pointer,
                      "display \"%s\" has no content: it shows full white", display->name);
-    else
-        warn_of_words(load, display, place);
+    else warn_of_words(load, display, place);
 }
 
 /* The content's coordinates fix the panel's right and up, so they must not be mirrored. */
-static void check_coordinates(Loader *load, const PartDraft *draft)
-{
+static void check_coordinates(Loader *load, const PartDraft *draft) {
     const Material *material = list_item(&load->materials, draft->part.material_id);
     if (material->display_id == NO_ID) return;
     const Display *display = list_item(&load->displays, material->display_id);
@@ -342,10 +314,9 @@ static void check_coordinates(Loader *load, const PartDraft *draft)
 
 /* The active area of a panel that is not the same everywhere is what the content's coordinates
  * cover on all that wears the display. */
-static void find_place(Loader *load, int id)
-{
+static void find_place(Loader *load, int id) {
     Display *display = list_item(&load->displays, id);
-    float    box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+    float box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
     if (!display->panel) return;
     if (!panel_varies(display->panel) && !panel_zones(display->panel)) return;
     for (int i = 0; i < load->parts.count; i++) {
@@ -355,7 +326,7 @@ static void find_place(Loader *load, int id)
     }
     for (int k = 0; k < 2; k++) {
         float low = box[2 * k], size = box[2 * k + 1] - low;
-        bool  is_area = size > 0 && size < INFINITY; /* else an error is reported elsewhere */
+        bool is_area = size > 0 && size < INFINITY; /* else an error is reported elsewhere */
         display->place_from_uv[2 * k] = is_area ? 1 / size : 0;
         display->place_from_uv[2 * k + 1] = is_area ? -low / size : 0.5f;
     }
@@ -366,44 +337,39 @@ static void find_place(Loader *load, int id)
 /* The content of a display, by places of its active area. */
 typedef struct ContentPicture {
     const Texture *texture;
-    const float   *place_from_uv;
+    const float *place_from_uv;
 } ContentPicture;
 
-static void picture_codes(const void *user, const float place[2], float codes[3])
-{
+static void picture_codes(const void *user, const float place[2], float codes[3]) {
     const ContentPicture *picture = user;
     const float *m = picture->place_from_uv;
     codes[0] = codes[1] = codes[2] = 255;
     texture_codes(picture->texture, (place[0] - m[1]) / m[0], (place[1] - m[3]) / m[2], codes);
 }
 
-static int shown_pixels(int pixels, float place_from_uv)
-{
+static int shown_pixels(int pixels, float place_from_uv) {
     return (int)clampf(roundf((float)pixels / fabsf(place_from_uv)), 1, 16384);
 }
 
 /* What the content makes of the zones, once and for all frames of the scene. Without content
  * all is white: they are full. */
-static void dim_backlight(Loader *load, int id)
-{
-    Display            *display = list_item(&load->displays, id);
+static void dim_backlight(Loader *load, int id) {
+    Display *display = list_item(&load->displays, id);
     const DimmingZones *zones = display->panel ? panel_zones(display->panel) : NULL;
-    const float        *m = display->place_from_uv;
+    const float *m = display->place_from_uv;
     if (!zones || display->content.texture_id == NO_ID || !(m[0] * m[2] != 0)) return;
     const Texture *texture = list_item(&load->textures, display->content.texture_id);
     ContentPicture content = {texture, m};
-    ShownPicture   picture = {shown_pixels(texture->image.width, m[0]),
-                              shown_pixels(texture->image.height, m[2]), picture_codes,
-                              &content};
-    LevelShares    levels;
+    ShownPicture picture = {shown_pixels(texture->image.width, m[0]),
+                            shown_pixels(texture->image.height, m[2]), picture_codes, &content};
+    LevelShares levels;
     double *drive = ARENA_NEW(load->arena, double, zones->count[0] * zones->count[1]);
     panel_level_shares(display->panel, &levels);
     backlight_drives(zones, &levels, &picture, drive);
     display->backlight = backlight_make(zones, &levels, drive, load->arena);
 }
 
-void displays_finish(Loader *load)
-{
+void displays_finish(Loader *load) {
     for (int i = 0; i < load->displays.count; i++) {
         open_panel(load, i);
         check_content(load, i);
@@ -412,6 +378,5 @@ void displays_finish(Loader *load)
         find_place(load, i);
         dim_backlight(load, i);
     }
-    for (int i = 0; i < load->parts.count; i++)
-        check_coordinates(load, list_item(&load->parts, i));
+    for (int i = 0; i < load->parts.count; i++) check_coordinates(load, list_item(&load->parts, i));
 }

@@ -10,13 +10,11 @@
 #include "scene/load/image.h"
 #include "spectrum/photometry.h"
 
-static float radians(const GltfValue *object, const char *name)
-{
+static float radians(const GltfValue *object, const char *name) {
     return (float)radians_from_degrees(tree_number(object, name, 0));
 }
 
-static EnvironmentKind kind_from_text(const char *type)
-{
+static EnvironmentKind kind_from_text(const char *type) {
     static const char *const NAMES[] = {"none", "constant", "hdri", "cie", "perez", "sky"};
     for (int i = 1; i <= ENVIRONMENT_SKY; i++)
         if (strcmp(type, NAMES[i]) == 0) return (EnvironmentKind)i;
@@ -24,8 +22,7 @@ static EnvironmentKind kind_from_text(const char *type)
 }
 
 /* A colour gives the hue only: its luminance is taken off. */
-static void read_color(GltfFile *file, const GltfValue *extension, float out[3])
-{
+static void read_color(GltfFile *file, const GltfValue *extension, float out[3]) {
     float color[3] = {1, 1, 1};
     tree_floats(extension, "color", 3, color);
     float luminance = luminance_from_rgb(color);
@@ -38,8 +35,7 @@ static void read_color(GltfFile *file, const GltfValue *extension, float out[3])
     for (int i = 0; i < 3; i++) out[i] = color[i] / luminance;
 }
 
-static void read_sun(const GltfValue *sun, Environment *out)
-{
+static void read_sun(const GltfValue *sun, Environment *out) {
     out->sun_angular_radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
     if (!sun) return;
     out->has_sun = true;
@@ -50,8 +46,7 @@ static void read_sun(const GltfValue *sun, Environment *out)
         out->sun_angular_radius = radians(sun, "angular_radius_deg");
 }
 
-static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *out)
-{
+static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *out) {
     Error err;
     const char *path;
     const GltfValue *uri = tree_member(extension, "uri");
@@ -68,8 +63,7 @@ static void read_hdri(GltfFile *file, const GltfValue *extension, Environment *o
         file_error(file, uri, "%s: %s%s%s", path, err.path, err.path[0] ? ": " : "", err.text);
 }
 
-static void read_time_and_place(const GltfValue *extension, DaylightInput *out)
-{
+static void read_time_and_place(const GltfValue *extension, DaylightInput *out) {
     Error err;
     double place[3] = {0, 0, 0};
     const GltfValue *where = tree_member(extension, "where");
@@ -83,17 +77,16 @@ static void read_time_and_place(const GltfValue *extension, DaylightInput *out)
     out->where = (SkyPlace){place[0], place[1], place[2]};
 }
 
-static FloorKind floor_from_text(const char *text)
-{
-    return strcmp(text, "cloud") == 0 ? FLOOR_CLOUD : strcmp(text, "sea") == 0 ? FLOOR_SEA
-                                                                               : FLOOR_LAND;
+static FloorKind floor_from_text(const char *text) {
+    return strcmp(text, "cloud") == 0 ? FLOOR_CLOUD
+           : strcmp(text, "sea") == 0 ? FLOOR_SEA
+                                      : FLOOR_LAND;
 }
 
-static DaylightInput read_daylight(const GltfValue *extension, EnvironmentKind kind)
-{
+static DaylightInput read_daylight(const GltfValue *extension, EnvironmentKind kind) {
     DaylightInput out = daylight_input_default(kind == ENVIRONMENT_CIE     ? DAYLIGHT_CIE
                                                : kind == ENVIRONMENT_PEREZ ? DAYLIGHT_PEREZ
-                                                                         : DAYLIGHT_CLEAR);
+                                                                           : DAYLIGHT_CLEAR);
     out.cie_type = (int)tree_number(extension, "sky", out.cie_type);
     out.diffuse_lux = tree_number(extension, "diffuse_horizontal_lx", out.diffuse_lux);
     out.direct_w_m2 = tree_number(extension, "direct_normal_w_m2", 0);
@@ -112,8 +105,7 @@ static DaylightInput read_daylight(const GltfValue *extension, EnvironmentKind k
     return out;
 }
 
-void environment_build(GltfFile *file, const GltfValue *extension)
-{
+void environment_build(GltfFile *file, const GltfValue *extension) {
     Vec3 forward = vec3(0, 0, -1);
     float numbers[3];
     Environment out = {.kind = kind_from_text(tree_text(extension, "type", "")),
@@ -129,10 +121,8 @@ void environment_build(GltfFile *file, const GltfValue *extension)
     read_sun(tree_member(extension, "sun"), &out);
     if (tree_floats(extension, "forward", 3, numbers))
         forward = vec3(numbers[0], numbers[1], numbers[2]);
-    if (vec3_length(forward) > 0)
-        forward = vec3_normalize(forward);
-    else
-        file_error(file, tree_member(extension, "forward"), "the vector is zero");
+    if (vec3_length(forward) > 0) forward = vec3_normalize(forward);
+    else file_error(file, tree_member(extension, "forward"), "the vector is zero");
     out.forward = forward;
     out.heading = radians(extension, "heading_deg");
     file->load->environment = out;
@@ -140,8 +130,7 @@ void environment_build(GltfFile *file, const GltfValue *extension)
 
 /* ---- in another file than a scene's ----------------------------------------------------- */
 
-static void check(GltfFile *file, const GltfValue *value)
-{
+static void check(GltfFile *file, const GltfValue *value) {
     bool is_known;
     const DocumentCheck check = {file, SEVERITY_ERROR};
     schema_check(&check, value,
@@ -149,23 +138,19 @@ static void check(GltfFile *file, const GltfValue *value)
 }
 
 /* Where a problem is in the file about the text. */
-static const char *place_of(const EnvironmentText *text, const Problem *problem, Arena *arena)
-{
+static const char *place_of(const EnvironmentText *text, const Problem *problem, Arena *arena) {
     if (strcmp(problem->file, text->file)) return problem->path;
     return arena_format(arena, "%s%s", text->place, problem->path);
 }
 
-static void pass_warnings(const EnvironmentText *text, const Problems *from, Problems *to)
-{
+static void pass_warnings(const EnvironmentText *text, const Problems *from, Problems *to) {
     for (int i = 0; i < from->count; i++)
         if (from->list[i].severity == SEVERITY_WARNING)
             problems_add(to, SEVERITY_WARNING, from->list[i].file,
-                         place_of(text, &from->list[i], from->arena), "%s",
-                         from->list[i].message);
+                         place_of(text, &from->list[i], from->arena), "%s", from->list[i].message);
 }
 
-static bool first_error(const EnvironmentText *text, const Problems *problems, Error *err)
-{
+static bool first_error(const EnvironmentText *text, const Problems *problems, Error *err) {
     const Problem *first = problems->list;
     while (first->severity != SEVERITY_ERROR) first++;
     return error_at(err, ERROR_INPUT, first->file, place_of(text, first, problems->arena), "%s",
@@ -173,8 +158,7 @@ static bool first_error(const EnvironmentText *text, const Problems *problems, E
 }
 
 bool environment_text_read(const EnvironmentText *text, Arena *arena, Problems *problems,
-                           EnvironmentFound *out, Error *err)
-{
+                           EnvironmentFound *out, Error *err) {
     const GltfValue *value;
     if (!gltf_json_parse(text->text, strlen(text->text), arena, &value, err))
         return error_in_file(err, text->file);

@@ -18,8 +18,8 @@ typedef struct EnvironmentText {
 
 typedef struct EnvironmentFound {
     Environment environment;
-    const char *picture;      /* the file of an HDRI; NULL: none */
-    uint64_t    picture_hash; /* XXH3 64 */
+    const char *picture;   /* the file of an HDRI; NULL: none */
+    uint64_t picture_hash; /* XXH3 64 */
 } EnvironmentFound;
 
 /* What it keeps lies in the arena; one at a time. Fails with the file, the JSON pointer, what

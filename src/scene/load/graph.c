@@ -15,8 +15,7 @@
 
 /* ---- cameras and lights ---------------------------------------------------------------- */
 
-static void add_camera(GltfFile *file, const GltfValue *node, const Transform *world)
-{
+static void add_camera(GltfFile *file, const GltfValue *node, const Transform *world) {
     const GltfValue *camera = tree_referred(tree_member(node, "camera"), "cameras");
     const GltfValue *eye = tree_member(camera, "perspective");
     const GltfValue *flat = tree_member(camera, "orthographic");
@@ -34,12 +33,11 @@ static void add_camera(GltfFile *file, const GltfValue *node, const Transform *w
                       .world_from_camera = nodes_camera_place(file, node, world)};
 }
 
-static void add_light(GltfFile *file, const GltfValue *node, const Transform *world)
-{
+static void add_light(GltfFile *file, const GltfValue *node, const Transform *world) {
     const GltfValue *lights =
         tree_member(tree_extension(file->root, "KHR_lights_punctual"), "lights");
-    const GltfValue *light = tree_item(
-        lights, tree_int(tree_extension(node, "KHR_lights_punctual"), "light", NO_ID));
+    const GltfValue *light =
+        tree_item(lights, tree_int(tree_extension(node, "KHR_lights_punctual"), "light", NO_ID));
     const char *type = tree_text(light, "type", ""), *name = tree_text(node, "name", "");
     bool is_spot = strcmp(type, "spot") == 0, is_beam = strcmp(type, "directional") == 0;
     if (!light || (!is_spot && !is_beam && strcmp(type, "point") != 0)) return;
@@ -57,12 +55,11 @@ static void add_light(GltfFile *file, const GltfValue *node, const Transform *wo
         .cos_outer = cos_of(is_spot ? tree_float(cone, "outerConeAngle", PI_F / 4) : PI_F)};
     for (int i = 0; i < 3; i++) out->intensity[i] = color[i] * intensity;
     bool is_named = tree_text(light, "name", "")[0];
-    out->name = is_named || !name[0] ? load_name(file->load, light, "light")
-                                     : load_keep(file->load, name);
+    out->name =
+        is_named || !name[0] ? load_name(file->load, light, "light") : load_keep(file->load, name);
 }
 
-static void claim_near(GltfFile *file, const GltfValue *node, const char *what, Vec3 p)
-{
+static void claim_near(GltfFile *file, const GltfValue *node, const char *what, Vec3 p) {
     double at[3];
     if (!load_is_within_reach(file->load, p, at))
         file_error(file, node,
@@ -72,17 +69,15 @@ static void claim_near(GltfFile *file, const GltfValue *node, const char *what, 
 }
 
 /* The light that was added last; of a directional one glTF ignores the place. */
-static bool last_has_place(const Loader *load)
-{
+static bool last_has_place(const Loader *load) {
     const PunctualLight *light = list_item(&load->lights, load->lights.count - 1);
     return light->kind != LIGHT_DIRECTIONAL;
 }
 
 /* Adds cameras and lights; the places of meshes are checked vertex by vertex. */
-static void add_sights(GltfFile *file, const GltfValue *node, const Transform *world)
-{
+static void add_sights(GltfFile *file, const GltfValue *node, const Transform *world) {
     const Loader *load = file->load;
-    int           cameras = load->cameras.count, lights = load->lights.count;
+    int cameras = load->cameras.count, lights = load->lights.count;
     add_camera(file, node, world);
     if (!luminaire_place(file, node, world)) add_light(file, node, world);
     if (load->cameras.count > cameras) claim_near(file, node, "camera", world->origin);
@@ -92,8 +87,7 @@ static void add_sights(GltfFile *file, const GltfValue *node, const Transform *w
 
 /* ---- all of it ------------------------------------------------------------------------- */
 
-static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *world)
-{
+static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *world) {
     const GltfValue *mesh = tree_referred(tree_member(node, "mesh"), "meshes");
     const GltfValue *primitives = tree_member(mesh, "primitives");
     if (!primitives) return;
@@ -101,32 +95,28 @@ static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *wor
     for (int k = 0; k < instances->count; k++) {
         Transform at = *world;
         if (instances->node_from_mesh)
-            at = node_place_within(&file->places[node->index], world,
-                                   &instances->node_from_mesh[k]);
+            at =
+                node_place_within(&file->places[node->index], world, &instances->node_from_mesh[k]);
         for (int i = 0; i < primitives->count; i++)
             primitive_build(file, node, &at, mesh, &primitives->items[i]);
     }
 }
 
 /* For options that look up a node by its name. */
-static void note_name(GltfFile *file, const GltfValue *node)
-{
-    Loader     *load = file->load;
+static void note_name(GltfFile *file, const GltfValue *node) {
+    Loader *load = file->load;
     const char *name = tree_text(node, "name", "");
     if (name[0] && (load->options->light_count || load->options->change_count))
         load_note(load, &load->node_names, name);
 }
 
-static void build_environment(GltfFile *file)
-{
-    const GltfValue *scene =
-        tree_element(file->root, "scenes", tree_int(file->root, "scene", 0));
+static void build_environment(GltfFile *file) {
+    const GltfValue *scene = tree_element(file->root, "scenes", tree_int(file->root, "scene", 0));
     const GltfValue *extension = tree_extension(scene, "PARHELION_environment");
     if (extension) environment_build(file, extension);
 }
 
-static void warn_of_skipped(GltfFile *file)
-{
+static void warn_of_skipped(GltfFile *file) {
     int animations = tree_count(file->root, "animations");
     if (animations && !file->load->options->state.has_time)
         file_warning(file, tree_member(file->root, "animations"),
@@ -137,13 +127,11 @@ static void warn_of_skipped(GltfFile *file)
                      "%d primitive%s of points or lines skipped: only triangles are shown",
                      file->skipped_count, file->skipped_count == 1 ? "" : "s");
     if (file->degenerate_count)
-        file_warning(file, tree_member(file->root, "meshes"),
-                     "%d triangle%s without area dropped", file->degenerate_count,
-                     file->degenerate_count == 1 ? "" : "s");
+        file_warning(file, tree_member(file->root, "meshes"), "%d triangle%s without area dropped",
+                     file->degenerate_count, file->degenerate_count == 1 ? "" : "s");
 }
 
-void graph_build(GltfFile *file)
-{
+void graph_build(GltfFile *file) {
     const GltfValue *nodes = tree_member(file->root, "nodes");
     build_environment(file);
     if (nodes) {

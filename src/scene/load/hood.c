@@ -16,16 +16,15 @@
 
 /* The display's box in axes of its own: right and up of who faces it, and its normal. */
 typedef struct Face {
-    Vec3  right, up, normal;
-    float low[3], high[3]; /* along those axes */
-    float facing;          /* of its area, what faces along the normal */
+    Vec3 right, up, normal;
+    float low[3], high[3];  /* along those axes */
+    float facing;           /* of its area, what faces along the normal */
     const PartDraft *draft; /* one of its parts */
 } Face;
 
 /* ---- the display's surface --------------------------------------------------------------- */
 
-static bool is_of(const Loader *load, const PartDraft *draft, const char *name)
-{
+static bool is_of(const Loader *load, const PartDraft *draft, const char *name) {
     const Material *m = list_item(&load->materials, draft->part.material_id);
     if (m->display_id == NO_ID) return false;
     if (!strncmp(name, WEARER_NODE, strlen(WEARER_NODE)))
@@ -34,12 +33,11 @@ static bool is_of(const Loader *load, const PartDraft *draft, const char *name)
 }
 
 /* The sum of normals by area, and the area: both twice. */
-static Vec3 normal_area(const PartDraft *draft, float *area)
-{
+static Vec3 normal_area(const PartDraft *draft, float *area) {
     Vec3 sum = vec3(0, 0, 0);
     for (uint32_t t = 0; t < draft->triangle_count; t++) {
         const uint32_t *at = &draft->indices[3 * t];
-        const Vec3     *p = draft->positions;
+        const Vec3 *p = draft->positions;
         Vec3 n = vec3_cross(vec3_sub(p[at[1]], p[at[0]]), vec3_sub(p[at[2]], p[at[0]]));
         sum = vec3_add(sum, n);
         *area += vec3_length(n);
@@ -47,8 +45,7 @@ static Vec3 normal_area(const PartDraft *draft, float *area)
     return sum;
 }
 
-static void add_points(Face *face, const PartDraft *draft)
-{
+static void add_points(Face *face, const PartDraft *draft) {
     for (uint32_t i = 0; i < draft->vertex_count; i++) {
         Vec3 p = draft->positions[i];
         const float along[3] = {vec3_dot(p, face->right), vec3_dot(p, face->up),
@@ -61,12 +58,10 @@ static void add_points(Face *face, const PartDraft *draft)
 }
 
 /* False: no display has the name. */
-static bool find_face(const Loader *load, const char *name, Face *out)
-{
-    Vec3  sum = vec3(0, 0, 0);
+static bool find_face(const Loader *load, const char *name, Face *out) {
+    Vec3 sum = vec3(0, 0, 0);
     float area = 0;
-    *out = (Face){.low = {INFINITY, INFINITY, INFINITY},
-                  .high = {-INFINITY, -INFINITY, -INFINITY}};
+    *out = (Face){.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
     for (int i = 0; i < load->parts.count; i++) {
         const PartDraft *draft = list_item(&load->parts, i);
         if (!is_of(load, draft, name)) continue;
@@ -92,13 +87,15 @@ static const uint32_t SIDES[36] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 
                                    1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
 
 /* Corners in the face's axes. */
-static void add_prism(Loader *load, const Face *face, int material_id, const float at[8][3])
-{
-    PartDraft draft = {.part = face->draft->part, .vertex_count = 8, .triangle_count = 12,
-                       .file = face->draft->file, .primitive = face->draft->primitive,
+static void add_prism(Loader *load, const Face *face, int material_id, const float at[8][3]) {
+    PartDraft draft = {.part = face->draft->part,
+                       .vertex_count = 8,
+                       .triangle_count = 12,
+                       .file = face->draft->file,
+                       .primitive = face->draft->primitive,
                        .node = face->draft->node};
-    draft.part = (Part){.name = "hood", .node_name = "hood", .mesh_name = "hood",
-                        .material_id = material_id};
+    draft.part = (Part){
+        .name = "hood", .node_name = "hood", .mesh_name = "hood", .material_id = material_id};
     draft.positions = ARENA_NEW(&load->scratch, Vec3, 8);
     draft.indices = ARENA_NEW(&load->scratch, uint32_t, 36);
     memcpy(draft.indices, SIDES, sizeof SIDES);
@@ -110,8 +107,7 @@ static void add_prism(Loader *load, const Face *face, int material_id, const flo
     *(PartDraft *)list_add(&load->parts, &load->scratch) = draft;
 }
 
-static void add_plate(Loader *load, const Face *face, int material_id, float depth)
-{
+static void add_plate(Loader *load, const Face *face, int material_id, float depth) {
     float l = face->low[0] - GAP_M - THICK_M, r = face->high[0] + GAP_M + THICK_M;
     float b = face->high[1] + GAP_M, t = b + THICK_M;
     float n = face->low[2], f = face->high[2] + depth;
@@ -121,8 +117,7 @@ static void add_plate(Loader *load, const Face *face, int material_id, float dep
 }
 
 /* side: -1 left, 1 right. */
-static void add_cheek(Loader *load, const Face *face, int material_id, float depth, int side)
-{
+static void add_cheek(Loader *load, const Face *face, int material_id, float depth, int side) {
     float l = side < 0 ? face->low[0] - GAP_M - THICK_M : face->high[0] + GAP_M;
     float r = l + THICK_M, b = face->low[1], t = face->high[1] + GAP_M;
     float n = face->low[2], f = face->high[2] + depth, at_foot = face->high[2] + THICK_M;
@@ -131,8 +126,7 @@ static void add_cheek(Loader *load, const Face *face, int material_id, float dep
     add_prism(load, face, material_id, at);
 }
 
-static void build_hood(Loader *load, const SceneChange *change, const Face *face)
-{
+static void build_hood(Loader *load, const SceneChange *change, const Face *face) {
     const char *fault = !(face->facing > FACING)
                             ? "faces nowhere: it is a closed body, required: a surface that a "
                               "hood could stand over"
@@ -151,8 +145,7 @@ static void build_hood(Loader *load, const SceneChange *change, const Face *face
     add_cheek(load, face, id, change->depth_m, 1);
 }
 
-void hoods_build(Loader *load)
-{
+void hoods_build(Loader *load) {
     for (int i = 0; i < load->options->change_count; i++) {
         const SceneChange *change = &load->options->changes[i];
         Face face;

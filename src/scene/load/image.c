@@ -11,23 +11,20 @@
 
 /* ---- which images do the materials show? ----------------------------------------------- */
 
-int texture_source(const GltfValue *texture)
-{
+int texture_source(const GltfValue *texture) {
     const GltfValue *webp = tree_extension(texture, "EXT_texture_webp");
     return tree_int(webp, "source", tree_int(texture, "source", NO_ID));
 }
 
 /* Marks the textures that any textureInfo below `value` names. */
-static void mark_textures(const GltfValue *value, bool *is_used, int count)
-{
+static void mark_textures(const GltfValue *value, bool *is_used, int count) {
     int index = value->kind == GLTF_OBJECT ? tree_int(value, "index", NO_ID) : NO_ID;
     if (index >= 0 && index < count) is_used[index] = true;
     for (int i = 0; i < value->count; i++) mark_textures(&value->items[i], is_used, count);
 }
 
 /* Textures of the materials that some primitive wears: no other one is ever looked at. */
-static void mark_shown(const GltfFile *file, bool *is_used, int count, Arena scratch)
-{
+static void mark_shown(const GltfFile *file, bool *is_used, int count, Arena scratch) {
     const GltfValue *materials = tree_member(file->root, "materials");
     bool *is_marked = ARENA_NEW(&scratch, bool, tree_count(file->root, "materials"));
     for (const GltfValue *m = tree_items(file->root, "meshes"); m; m = tree_next(m))
@@ -42,12 +39,11 @@ static void mark_shown(const GltfFile *file, bool *is_used, int count, Arena scr
 
 /* How an image is used. */
 typedef struct ImageUse {
-    bool is_shown;  /* by a material that something wears */
-    bool is_webp;   /* by EXT_texture_webp */
+    bool is_shown; /* by a material that something wears */
+    bool is_webp;  /* by EXT_texture_webp */
 } ImageUse;
 
-static ImageUse *image_uses(GltfFile *file, const GltfValue *textures, int image_count)
-{
+static ImageUse *image_uses(GltfFile *file, const GltfValue *textures, int image_count) {
     Arena *scratch = &file->load->scratch;
     int count = textures ? textures->count : 0;
     bool *is_shown = ARENA_NEW(scratch, bool, count);
@@ -65,8 +61,7 @@ static ImageUse *image_uses(GltfFile *file, const GltfValue *textures, int image
 
 /* ---- bytes ----------------------------------------------------------------------------- */
 
-static const char *sniffed_type(FileBytes bytes)
-{
+static const char *sniffed_type(FileBytes bytes) {
     static const unsigned char PNG[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
     if (bytes.size >= 8 && memcmp(bytes.data, PNG, 8) == 0) return "image/png";
     if (bytes.size >= 3 && memcmp(bytes.data, "\xFF\xD8\xFF", 3) == 0) return "image/jpeg";
@@ -79,8 +74,7 @@ static const char *sniffed_type(FileBytes bytes)
 
 /* Compares the type of the bytes with the declared one. Only PNG and JPEG are core glTF. */
 static void check_type(GltfFile *file, const GltfValue *image, const char *declared,
-                       FileBytes bytes, bool is_webp)
-{
+                       FileBytes bytes, bool is_webp) {
     const char *found = sniffed_type(bytes);
     if (declared[0] && found[0] && strcasecmp(declared, found) != 0)
         file_warning(file, image, "the bytes are %s, the file says %.60s", found, declared);
@@ -93,9 +87,8 @@ static void check_type(GltfFile *file, const GltfValue *image, const char *decla
 }
 
 /* The encoded bytes, a name for messages and the media type that is declared. */
-static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes,
-                        const char **name, const char **declared, bool is_used)
-{
+static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes, const char **name,
+                        const char **declared, bool is_used) {
     Severity severity = is_used ? SEVERITY_ERROR : SEVERITY_WARNING;
     Error err;
     Arena *scratch = &file->load->scratch;
@@ -106,8 +99,8 @@ static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes
     *declared = tree_text(image, "mimeType", "");
     if (!uri) {
         int view = tree_int(image, "bufferView", NO_ID);
-        *bytes = view >= 0 && view < file->data.view_count ? document_view(file, view)
-                                                           : (FileBytes){0};
+        *bytes =
+            view >= 0 && view < file->data.view_count ? document_view(file, view) : (FileBytes){0};
         if (!bytes->data && is_used) file_error(file, image, "its bytes are missing");
         return bytes->data != NULL;
     }
@@ -122,16 +115,14 @@ static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes
 }
 
 /* What a file of codes says that they mean, and which way up; "" when that is usual. */
-static const char *words_of(FileBytes bytes, const Image *image, Arena *scratch)
-{
+static const char *words_of(FileBytes bytes, const Image *image, Arena *scratch) {
     PictureTags tags = picture_tags_read(bytes.data, bytes.size, scratch);
     if (image->format == IMAGE_RGBA32F) return "linear light";
     return picture_tags_text(&tags, scratch);
 }
 
 static void load_one_image(GltfFile *file, const GltfValue *image, ImageUse use,
-                           DecodedImage *out)
-{
+                           DecodedImage *out) {
     Error err;
     FileBytes bytes;
     const char *name, *declared;
@@ -144,28 +135,23 @@ static void load_one_image(GltfFile *file, const GltfValue *image, ImageUse use,
     }
     out->image = (Image){0};
     load_note(file->load, &file->load->undecoded, name);
-    if (is_used)
-        file_error(file, image, "cannot be decoded: %s", err.text);
-    else
-        file_warning(file, image, "cannot be decoded (no material shows it): %s", err.text);
+    if (is_used) file_error(file, image, "cannot be decoded: %s", err.text);
+    else file_warning(file, image, "cannot be decoded (no material shows it): %s", err.text);
 }
 
 /* ---- textures -------------------------------------------------------------------------- */
 
-static TextureWrap wrap_from_gl(int code)
-{
+static TextureWrap wrap_from_gl(int code) {
     return code == 33071 ? WRAP_CLAMP : code == 33648 ? WRAP_MIRROR : WRAP_REPEAT;
 }
 
-int texture_add(Loader *load, Texture texture, const char *words)
-{
+int texture_add(Loader *load, Texture texture, const char *words) {
     *(Texture *)list_add(&load->textures, &load->scratch) = texture;
     *(const char **)list_add(&load->texture_words, &load->scratch) = words;
     return load->textures.count - 1;
 }
 
-void images_load(GltfFile *file)
-{
+void images_load(GltfFile *file) {
     static const DecodedImage none = {.words = ""};
     const GltfValue *images = tree_member(file->root, "images");
     const GltfValue *textures = tree_member(file->root, "textures");
@@ -185,16 +171,16 @@ void images_load(GltfFile *file)
         int source = texture_source(texture);
         bool is_there = source >= 0 && source < image_count;
         const DecodedImage *from = is_there ? &decoded[source] : &none;
-        texture_add(file->load, (Texture){
-            .image = from->image,
-            .wrap_u = wrap_from_gl(tree_int(sampler, "wrapS", 10497)),
-            .wrap_v = wrap_from_gl(tree_int(sampler, "wrapT", 10497)),
-            .nearest = tree_int(sampler, "magFilter", 9729) == 9728}, from->words);
+        texture_add(file->load,
+                    (Texture){.image = from->image,
+                              .wrap_u = wrap_from_gl(tree_int(sampler, "wrapS", 10497)),
+                              .wrap_v = wrap_from_gl(tree_int(sampler, "wrapT", 10497)),
+                              .nearest = tree_int(sampler, "magFilter", 9729) == 9728},
+                    from->words);
     }
 }
 
-bool load_image(Loader *load, const char *path, DecodedImage *out, Error *err)
-{
+bool load_image(Loader *load, const char *path, DecodedImage *out, Error *err) {
     FileBytes bytes;
     if (!load_read(load, path, &load->scratch, &bytes, err)) return false;
     if (!image_read_memory(bytes.data, bytes.size, path, load->arena, &out->image, err))
@@ -203,8 +189,7 @@ bool load_image(Loader *load, const char *path, DecodedImage *out, Error *err)
     return true;
 }
 
-bool load_light_picture(Loader *load, const char *path, LightPicture *out, Error *err)
-{
+bool load_light_picture(Loader *load, const char *path, LightPicture *out, Error *err) {
     FileBytes bytes;
     return load_read(load, path, &load->scratch, &bytes, err) &&
            light_picture_read(bytes, path, load->arena, load->problems, out, err);

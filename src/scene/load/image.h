@@ -12,7 +12,7 @@ void images_load(GltfFile *file);
 int texture_source(const GltfValue *texture);
 
 typedef struct DecodedImage {
-    Image       image;
+    Image image;
     const char *words; /* what its file states of its codes that is not applied, "" or NULL:
                           nothing (image/light/picture_tags.h) */
 } DecodedImage;

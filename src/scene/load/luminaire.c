@@ -10,18 +10,16 @@
 #include "spectrum/illuminant.h"
 
 struct LuminaireDraft {
-    bool         is_readable, is_found;
+    bool is_readable, is_found;
     LightProfile profile;
 };
 
-static const char *node_of(const SceneOverride *one)
-{
+static const char *node_of(const SceneOverride *one) {
     bool has_prefix = !strncmp(one->material, WEARER_NODE, strlen(WEARER_NODE));
     return one->material + (has_prefix ? strlen(WEARER_NODE) : 0);
 }
 
-void luminaires_start(Loader *load)
-{
+void luminaires_start(Loader *load) {
     const SceneOptions *o = load->options;
     load->luminaires = ARENA_NEW(&load->scratch, struct LuminaireDraft, o->light_count + 1);
     for (int i = 0; i < o->light_count; i++) {
@@ -38,19 +36,16 @@ void luminaires_start(Loader *load)
 }
 
 /* Down is the scene's -Y. */
-static void set_tilt(PunctualLight *light, const LuminaireTilt *tilt)
-{
-    Vec3   down = vec3_neg(vec3(light->axis_x.y, light->axis_y.y, light->axis_z.y));
+static void set_tilt(PunctualLight *light, const LuminaireTilt *tilt) {
+    Vec3 down = vec3_neg(vec3(light->axis_x.y, light->axis_y.y, light->axis_z.y));
     double angle_deg;
-    light->tilt_factor =
-        (float)luminaire_tilt_factor(tilt, light->web->type, down, &angle_deg);
+    light->tilt_factor = (float)luminaire_tilt_factor(tilt, light->web->type, down, &angle_deg);
     light->tilt_deg = (float)angle_deg;
     light->has_tilt = tilt->geometry != 0;
 }
 
 static PunctualLight *add_lamp(Loader *load, const char *name, const LightProfile *profile,
-                               const Transform *world)
-{
+                               const Transform *world) {
     PunctualLight *out = list_add(&load->lights, &load->scratch);
     *out = (PunctualLight){.kind = LIGHT_LUMINAIRE,
                            .name = name,
@@ -74,8 +69,7 @@ static PunctualLight *add_lamp(Loader *load, const char *name, const LightProfil
     return out;
 }
 
-static void warn_of_both(GltfFile *file, const GltfValue *node)
-{
+static void warn_of_both(GltfFile *file, const GltfValue *node) {
     const GltfValue *other = tree_extension(node, "KHR_lights_punctual");
     if (other)
         file_warning(file, other,
@@ -83,8 +77,7 @@ static void warn_of_both(GltfFile *file, const GltfValue *node)
                      "this light is not shown");
 }
 
-static bool place_profile(GltfFile *file, const GltfValue *node, const Transform *world)
-{
+static bool place_profile(GltfFile *file, const GltfValue *node, const Transform *world) {
     Loader *load = file->load;
     const GltfValue *extension = tree_extension(node, "EXT_lights_ies");
     const LightProfile *profile = profile_at(file, tree_int(extension, "light", NO_ID));
@@ -100,8 +93,7 @@ static bool place_profile(GltfFile *file, const GltfValue *node, const Transform
 }
 
 /* By --light; the last of several speaks. */
-static bool place_by_name(GltfFile *file, const GltfValue *node, const Transform *world)
-{
+static bool place_by_name(GltfFile *file, const GltfValue *node, const Transform *world) {
     Loader *load = file->load;
     const SceneOptions *o = load->options;
     const char *text = tree_text(node, "name", "");
@@ -118,15 +110,13 @@ static bool place_by_name(GltfFile *file, const GltfValue *node, const Transform
     return false;
 }
 
-bool luminaire_place(GltfFile *file, const GltfValue *node, const Transform *world)
-{
+bool luminaire_place(GltfFile *file, const GltfValue *node, const Transform *world) {
     return place_by_name(file, node, world) || place_profile(file, node, world);
 }
 
 /* ---- behind the last file ---------------------------------------------------------------- */
 
-static void report_unknown(Loader *load, const char *name)
-{
+static void report_unknown(Loader *load, const char *name) {
     char names[WEARER_NAMES_MAX] = "";
     for (int i = 0; i < load->node_names.count; i++)
         wearer_list_name(names, *(const char **)list_item(&load->node_names, i));
@@ -136,21 +126,17 @@ static void report_unknown(Loader *load, const char *name)
 }
 
 /* A number, with or without the unit behind it. */
-static bool read_number(const char *text, const char *unit, double low, double high,
-                        double *out)
-{
+static bool read_number(const char *text, const char *unit, double low, double high, double *out) {
     char *end;
     *out = strtod(text, &end);
     return end != text && (!*end || !strcmp(end, unit)) && *out >= low && *out <= high;
 }
 
-static void set_level(PunctualLight *light, double percent)
-{
+static void set_level(PunctualLight *light, double percent) {
     light->level = (float)(percent / 100);
 }
 
-static void set_cct(PunctualLight *light, double kelvin)
-{
+static void set_cct(PunctualLight *light, double kelvin) {
     light->cct_k = (float)kelvin;
     light->cct_text = NULL;
 }
@@ -161,17 +147,16 @@ typedef struct LampOption {
     void (*set)(PunctualLight *light, double value);
 } LampOption;
 
-static const LampOption LEVEL = {"--light-level", "%", "no percentage; a number from 0 up", 0,
-                                 1e6, set_level};
-static const LampOption CCT = {"--light-cct", "K",
-                               "no colour temperature; a number from 1000 to 25000 kelvin",
-                               CCT_LEAST_K, CCT_MOST_K, set_cct};
+static const LampOption LEVEL = {"--light-level", "%", "no percentage; a number from 0 up", 0, 1e6,
+                                 set_level};
+static const LampOption CCT = {
+    "--light-cct", "K",        "no colour temperature; a number from 1000 to 25000 kelvin",
+    CCT_LEAST_K,   CCT_MOST_K, set_cct};
 
-static void apply(Loader *load, const LampOption *option, const SceneOverride *one)
-{
-    char   names[WEARER_NAMES_MAX] = "";
+static void apply(Loader *load, const LampOption *option, const SceneOverride *one) {
+    char names[WEARER_NAMES_MAX] = "";
     double value;
-    bool   is_found = false;
+    bool is_found = false;
     if (!read_number(one->value, option->unit, option->low, option->high, &value)) {
         problems_add(load->problems, SEVERITY_ERROR, option->name, "",
                      "\"%.100s\" is %s is required", one->value, option->wanted);
@@ -180,7 +165,8 @@ static void apply(Loader *load, const LampOption *option, const SceneOverride *o
     if (option == &LEVEL && value > 0 && value < 1 && !strchr(one->value, '%'))
         problems_add(load->problems, SEVERITY_WARNING, option->name, "",
                      "\"%.40s\" is %g percent: write \"%.40s%%\" if it is meant, or \"%g\" for "
-                     "a level of %g", one->value, value, one->value, 100 * value, value);
+                     "a level of %g",
+                     one->value, value, one->value, 100 * value, value);
     for (int i = 0; i < load->lights.count; i++) {
         PunctualLight *light = list_item(&load->lights, i);
         if (light->kind != LIGHT_LUMINAIRE) continue;
@@ -195,19 +181,17 @@ static void apply(Loader *load, const LampOption *option, const SceneOverride *o
                      node_of(one), names[0] ? names : "none");
 }
 
-static void finish_lamp(Loader *load, PunctualLight *light)
-{
+static void finish_lamp(Loader *load, PunctualLight *light) {
     for (int c = 0; c < 3; c++)
-        light->intensity[c] = light->web->largest_cd * light->level * light->tilt_factor *
-                              light->color[c];
+        light->intensity[c] =
+            light->web->largest_cd * light->level * light->tilt_factor * light->color[c];
     if (!(light->cct_k > 0)) return;
     Curve *white = ARENA_NEW(load->arena, Curve, 1);
     cct_curve((double)light->cct_k, white);
     light->white = white;
 }
 
-void luminaires_finish(Loader *load)
-{
+void luminaires_finish(Loader *load) {
     const SceneOptions *o = load->options;
     for (int i = 0; i < o->light_count; i++)
         if (!load->luminaires[i].is_found) report_unknown(load, node_of(&o->lights[i]));

@@ -15,16 +15,14 @@
 #include "scene/load/texture_slot.h"
 #include "spectrum/photometry.h"
 
-static bool any_positive(const float rgb[3])
-{
+static bool any_positive(const float rgb[3]) {
     return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0;
 }
 
 /* ---- layers ---------------------------------------------------------------------------- */
 
 /* The keys that an extension has not, or all where it is NULL, have their defaults. */
-static void read_keys(GltfFile *file, const GltfValue *extension, const Rule *key, void *out)
-{
+static void read_keys(GltfFile *file, const GltfValue *extension, const Rule *key, void *out) {
     for (; key->name; key++) {
         void *at = (char *)out + key->field.at;
         if (!key->field.is_kept) continue;
@@ -40,11 +38,10 @@ static void read_keys(GltfFile *file, const GltfValue *extension, const Rule *ke
 }
 
 /* value NULL: glTF's default material; then no file is needed. */
-static void read_layers(GltfFile *file, const GltfValue *value, Material *m)
-{
+static void read_layers(GltfFile *file, const GltfValue *value, Material *m) {
     for (int i = 0; i < material_layer_count; i++) {
         const MaterialLayer *layer = &material_layers[i];
-        const GltfValue     *own = tree_extension(value, layer->rule.name);
+        const GltfValue *own = tree_extension(value, layer->rule.name);
         if (layer->size && !material_layer_shows(layer, own)) continue;
         if (layer->size) {
             void *made = arena_alloc(file->load->arena, layer->size, _Alignof(max_align_t), 1);
@@ -56,31 +53,29 @@ static void read_layers(GltfFile *file, const GltfValue *value, Material *m)
 
 /* ---- core ------------------------------------------------------------------------------ */
 
-static Material default_material(const char *name)
-{
+static Material default_material(const char *name) {
     TextureSlot none = texture_slot_none();
-    Material    m = {.name = name,
-                     .base_color = {1, 1, 1, 1},
-                     .metallic = 1,
-                     .roughness = 1,
-                     .base_color_texture = none,
-                     .metallic_roughness_texture = none,
-                     .normal_texture = none,
-                     .emissive_texture = none,
-                     .normal_scale = {1, 1},
-                     .clearcoat_normal_scale = {1, 1},
-                     .alpha_cutoff = 0.5f,
-                     .display_id = NO_ID,
-                     .base_color_curve_id = NO_ID,
-                     .specular_curve_id = NO_ID,
-                     .transmission_curve_id = NO_ID,
-                     .emission_curve_id = NO_ID};
+    Material m = {.name = name,
+                  .base_color = {1, 1, 1, 1},
+                  .metallic = 1,
+                  .roughness = 1,
+                  .base_color_texture = none,
+                  .metallic_roughness_texture = none,
+                  .normal_texture = none,
+                  .emissive_texture = none,
+                  .normal_scale = {1, 1},
+                  .clearcoat_normal_scale = {1, 1},
+                  .alpha_cutoff = 0.5f,
+                  .display_id = NO_ID,
+                  .base_color_curve_id = NO_ID,
+                  .specular_curve_id = NO_ID,
+                  .transmission_curve_id = NO_ID,
+                  .emission_curve_id = NO_ID};
     read_layers(NULL, NULL, &m);
     return m;
 }
 
-static AlphaMode alpha_mode(const char *text)
-{
+static AlphaMode alpha_mode(const char *text) {
     return strcmp(text, "MASK") == 0    ? ALPHA_MASK
            : strcmp(text, "BLEND") == 0 ? ALPHA_BLEND
                                         : ALPHA_OPAQUE;
@@ -88,19 +83,17 @@ static AlphaMode alpha_mode(const char *text)
 
 /* glTF's normal maps are green where they lean up; those of DirectX where they lean down, which
  * Microsoft Flight Simulator's extension says of all of a file. */
-static Vec2 normal_scale(const GltfFile *file, const GltfValue *info)
-{
+static Vec2 normal_scale(const GltfFile *file, const GltfValue *info) {
     const GltfValue *asset = tree_member(file->root, "asset");
     const GltfValue *of_asset = tree_extension(asset, NORMAL_CONVENTION_EXTENSION);
     const GltfValue *told =
         of_asset ? of_asset : tree_extension(file->root, NORMAL_CONVENTION_EXTENSION);
-    bool  is_down = strcmp(tree_text(told, "tangent_space_convention", ""), "DirectX") == 0;
+    bool is_down = strcmp(tree_text(told, "tangent_space_convention", ""), "DirectX") == 0;
     float scale = tree_float(info, "scale", 1);
     return (Vec2){scale, is_down ? -scale : scale};
 }
 
-static void read_core(GltfFile *file, const GltfValue *value, Material *m)
-{
+static void read_core(GltfFile *file, const GltfValue *value, Material *m) {
     const GltfValue *pbr = tree_member(value, "pbrMetallicRoughness");
     const GltfValue *normal = tree_member(value, "normalTexture");
     tree_floats(pbr, "baseColorFactor", 4, m->base_color);
@@ -121,12 +114,11 @@ static void read_core(GltfFile *file, const GltfValue *value, Material *m)
 
 /* ---- extensions ------------------------------------------------------------------------ */
 
-static void read_extensions(GltfFile *file, const GltfValue *value, Material *m)
-{
+static void read_extensions(GltfFile *file, const GltfValue *value, Material *m) {
     const GltfValue *coat = tree_extension(value, "KHR_materials_clearcoat");
     const GltfValue *volume = tree_extension(value, "KHR_materials_volume");
-    float strength = tree_float(tree_extension(value, "KHR_materials_emissive_strength"),
-                                "emissiveStrength", 1);
+    float strength =
+        tree_float(tree_extension(value, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
     for (int i = 0; i < 3; i++) m->emissive_cd_m2[i] *= strength;
     m->unlit = tree_extension(value, "KHR_materials_unlit") != NULL;
     m->is_solid = tree_float(volume, "thicknessFactor", 0) > 0;
@@ -137,18 +129,16 @@ static void read_extensions(GltfFile *file, const GltfValue *value, Material *m)
     m->brushing->sine = sin_of(m->brushing->turn);
 }
 
-static int read_curve(GltfFile *file, const GltfValue *uri, CurveRange range)
-{
+static int read_curve(GltfFile *file, const GltfValue *uri, CurveRange range) {
     Loader *load = file->load;
-    Curve   curve;
+    Curve curve;
     if (!uri || !curve_file_read(file, uri, range, &curve)) return NO_ID;
     *(Curve *)list_add(&load->curves, &load->scratch) = curve;
     return load->curves.count - 1;
 }
 
 /* An emission spectrum gives the colour; emissiveFactor and its strength give the amount. */
-static void make_unit_luminance(GltfFile *file, const GltfValue *at, int curve_id)
-{
+static void make_unit_luminance(GltfFile *file, const GltfValue *at, int curve_id) {
     Curve *curve = list_item(&file->load->curves, curve_id);
     double luminance = luminance_cd_m2(curve->value, CURVE_COUNT, CURVE_FIRST_NM, 1);
     if (!(luminance > 0)) {
@@ -159,10 +149,8 @@ static void make_unit_luminance(GltfFile *file, const GltfValue *at, int curve_i
         curve->value[i] = (float)((double)curve->value[i] / luminance);
 }
 
-static void read_spectra(GltfFile *file, const GltfValue *spectrum, Material *m)
-{
-    m->base_color_curve_id =
-        read_curve(file, tree_member(spectrum, "baseColor"), CURVE_SHARES);
+static void read_spectra(GltfFile *file, const GltfValue *spectrum, Material *m) {
+    m->base_color_curve_id = read_curve(file, tree_member(spectrum, "baseColor"), CURVE_SHARES);
     m->transmission_curve_id =
         read_curve(file, tree_member(spectrum, "transmission"), CURVE_SHARES);
     m->specular_curve_id = read_curve(file, tree_member(spectrum, "specular"), CURVE_AMOUNTS);
@@ -174,31 +162,27 @@ static void read_spectra(GltfFile *file, const GltfValue *spectrum, Material *m)
 
 /* ---- all of them ----------------------------------------------------------------------- */
 
-void material_derive_flags(Material *m)
-{
+void material_derive_flags(Material *m) {
     m->is_emitter = any_positive(m->emissive_cd_m2) || m->display_id != NO_ID ||
                     (m->unlit && any_positive(m->base_color));
     bool is_pane = m->transmission > 0 && !m->is_solid && m->display_id == NO_ID;
     m->lets_light_through = m->alpha_mode != ALPHA_OPAQUE || is_pane;
 }
 
-static int add_material(Loader *load, Material material, const int sets[SCENE_UV_SETS])
-{
+static int add_material(Loader *load, Material material, const int sets[SCENE_UV_SETS]) {
     *(Material *)list_add(&load->materials, &load->scratch) = material;
     memcpy(list_add(&load->material_uv_sets, &load->scratch), sets, 2 * sizeof *sets);
     return load->materials.count - 1;
 }
 
 /* The mark that `equip` leaves; who measured the material since has left it behind. */
-static const char *guess_of(GltfFile *file, const GltfValue *value, const Material *m)
-{
+static const char *guess_of(GltfFile *file, const GltfValue *value, const Material *m) {
     const char *usual = tree_text(tree_member(value, "extras"), "equipped as", "");
     bool is_measured = m->base_color_curve_id != NO_ID || m->glazing || m->conductor;
     return usual[0] && !is_measured ? load_keep(file->load, usual) : NULL;
 }
 
-static void build_material(GltfFile *file, const GltfValue *value)
-{
+static void build_material(GltfFile *file, const GltfValue *value) {
     Loader *load = file->load;
     Material m = default_material(load_name(load, value, "material"));
     int id = load->materials.count, sets[SCENE_UV_SETS];
@@ -219,24 +203,21 @@ static void build_material(GltfFile *file, const GltfValue *value)
     memcpy(list_item(&load->material_uv_sets, id), sets, sizeof sets);
 }
 
-void materials_build(GltfFile *file)
-{
+void materials_build(GltfFile *file) {
     file->material_base = file->load->materials.count;
     file->default_material_id = NO_ID;
     for (const GltfValue *m = tree_items(file->root, "materials"); m; m = tree_next(m))
         build_material(file, m);
 }
 
-int material_default(GltfFile *file)
-{
+int material_default(GltfFile *file) {
     if (file->default_material_id == NO_ID)
         file->default_material_id =
             add_material(file->load, default_material("default"), (int[SCENE_UV_SETS]){0, 1});
     return file->default_material_id;
 }
 
-int material_add_matt(Loader *load, const char *name, float reflectance)
-{
+int material_add_matt(Loader *load, const char *name, float reflectance) {
     Material m = default_material(load_keep(load, name));
     for (int i = 0; i < 3; i++) m.base_color[i] = reflectance;
     m.metallic = 0;

@@ -10,16 +10,13 @@
 #include "base/vec.h"
 
 /* Column by column; the last row is (0, 0, 0, 1). */
-static inline Transform transform_from_matrix(const float m[16])
-{
+static inline Transform transform_from_matrix(const float m[16]) {
     return (Transform){vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6]), vec3(m[8], m[9], m[10]),
                        vec3(m[12], m[13], m[14])};
 }
 
 /* T R S; q = (x, y, z, w) is a unit quaternion to within rounding: it is normalised here. */
-static inline Transform transform_from_trs(const float t[3], const float q[4],
-                                           const float s[3])
-{
+static inline Transform transform_from_trs(const float t[3], const float q[4], const float s[3]) {
     float n = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     float k = n > 0 ? 1 / n : 0;
     float x = q[0] * k, y = q[1] * k, z = q[2] * k, w = n > 0 ? q[3] * k : 1.0f;

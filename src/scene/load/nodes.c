@@ -12,8 +12,7 @@
 /* ---- places ---------------------------------------------------------------------------- */
 
 /* pose: the values of animations; NULL: at rest. */
-static Transform parent_from_node(const GltfValue *node, const NodePose *pose)
-{
+static Transform parent_from_node(const GltfValue *node, const NodePose *pose) {
     float matrix[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
     if (tree_floats(node, "matrix", 16, matrix)) return transform_from_matrix(matrix);
     tree_floats(node, "translation", 3, t);
@@ -26,29 +25,24 @@ static Transform parent_from_node(const GltfValue *node, const NodePose *pose)
     return transform_from_trs(t, q, s);
 }
 
-static void set_from(double *out, const float *from, int count)
-{
+static void set_from(double *out, const float *from, int count) {
     for (int i = 0; from && i < count; i++) out[i] = (double)from[i];
 }
 
 /* T R S, as transform_from_trs. */
-static NodePlace place_from_trs(const double t[3], const double q[4], const double s[3])
-{
+static NodePlace place_from_trs(const double t[3], const double q[4], const double s[3]) {
     double n = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     double k = n > 0 ? 1 / n : 0;
     double x = q[0] * k, y = q[1] * k, z = q[2] * k, w = n > 0 ? q[3] * k : 1;
     return (NodePlace){
-        {{s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + w * z),
-          s[0] * 2 * (x * z - w * y)},
-         {s[1] * 2 * (x * y - w * z), s[1] * (1 - 2 * (x * x + z * z)),
-          s[1] * 2 * (y * z + w * x)},
+        {{s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + w * z), s[0] * 2 * (x * z - w * y)},
+         {s[1] * 2 * (x * y - w * z), s[1] * (1 - 2 * (x * x + z * z)), s[1] * 2 * (y * z + w * x)},
          {s[2] * 2 * (x * z + w * y), s[2] * 2 * (y * z - w * x),
           s[2] * (1 - 2 * (x * x + y * y))}},
         {t[0], t[1], t[2]}};
 }
 
-static NodePlace place_in_parent(const GltfValue *node, const NodePose *pose)
-{
+static NodePlace place_in_parent(const GltfValue *node, const NodePose *pose) {
     double m[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
     if (tree_numbers(node, "matrix", 16, m))
         return (NodePlace){{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}},
@@ -67,13 +61,12 @@ static NodePlace place_in_parent(const GltfValue *node, const NodePose *pose)
 /* ---- cameras --------------------------------------------------------------------------- */
 
 /* The turn in a matrix: of the mirrors that it may hold the one that leaves the smallest. */
-static Transform unscaled_matrix(const Transform *m)
-{
+static Transform unscaled_matrix(const Transform *m) {
     Transform turn = {vec3_normalize(m->x), vec3_normalize(m->y), vec3_normalize(m->z),
                       vec3(0, 0, 0)};
     Vec3 *column[3] = {&turn.x, &turn.y, &turn.z};
     float own[3] = {turn.x.x, turn.y.y, turn.z.z}, trace = own[0] + own[1] + own[2];
-    int   least = own[1] < own[0] ? 1 : 0;
+    int least = own[1] < own[0] ? 1 : 0;
     if (!(transform_determinant(m) < 0)) return turn;
     if (own[2] < own[least]) least = 2;
     bool is_all = -trace > trace - 2 * own[least];
@@ -84,33 +77,28 @@ static Transform unscaled_matrix(const Transform *m)
 
 /* The node in its parent, and what is left of it without a scale. */
 static void camera_step(const GltfFile *file, const GltfValue *node, Transform *place,
-                        Transform *unscaled)
-{
+                        Transform *unscaled) {
     static const float one[3] = {1, 1, 1};
     NodePose pose = file->poses ? file->poses[node->index] : (NodePose){0};
     *place = parent_from_node(node, &pose);
     pose.scale = one;
-    *unscaled = tree_member(node, "matrix") ? unscaled_matrix(place)
-                                            : parent_from_node(node, &pose);
+    *unscaled =
+        tree_member(node, "matrix") ? unscaled_matrix(place) : parent_from_node(node, &pose);
 }
 
 /* The column's direction; against `turn`, where a scale below 0 has turned it, the other one.
  * False: a shear has bent it away from there, or a scale of 0 has left none. */
-static bool unscale_axis(Vec3 turn, Vec3 own, Vec3 now, Vec3 *out)
-{
+static bool unscale_axis(Vec3 turn, Vec3 own, Vec3 now, Vec3 *out) {
     float along = vec3_dot(vec3_normalize(own), turn);
     *out = vec3_normalize(along < 0 ? vec3_neg(now) : now);
     return fabsf(along) > 0.9999f;
 }
 
-static bool is_moved(Vec3 own, Vec3 now)
-{
+static bool is_moved(Vec3 own, Vec3 now) {
     return vec3_length(vec3_sub(own, now)) > 1e-4f * vec3_length(own);
 }
 
-Transform nodes_camera_place(const GltfFile *file, const GltfValue *node,
-                             const Transform *world)
-{
+Transform nodes_camera_place(const GltfFile *file, const GltfValue *node, const Transform *world) {
     const GltfValue *nodes = node->parent;
     Transform own, turn, place, step, out = *world;
     camera_step(file, node, &own, &turn);
@@ -144,15 +132,13 @@ typedef struct NodeOrder {
 } NodeOrder;
 
 /* KHR_node_visibility: the node and everything below it. */
-static bool is_hidden(const NodeOrder *order, const GltfValue *node)
-{
+static bool is_hidden(const NodeOrder *order, const GltfValue *node) {
     const NodePose *pose = order->poses ? &order->poses[node->index] : NULL;
     if (pose && pose->visible) return pose->visible[0] == 0;
     return !tree_boolean(tree_extension(node, "KHR_node_visibility"), "visible", true);
 }
 
-static NodeOrder order_start(GltfFile *file, int node_count)
-{
+static NodeOrder order_start(GltfFile *file, int node_count) {
     Arena *scratch = &file->load->scratch;
     return (NodeOrder){file->poses,
                        ARENA_NEW(scratch, int, node_count),
@@ -163,8 +149,7 @@ static NodeOrder order_start(GltfFile *file, int node_count)
                        false};
 }
 
-static void order_below(NodeOrder *order, const GltfValue *nodes, int root)
-{
+static void order_below(NodeOrder *order, const GltfValue *nodes, int root) {
     int depth = 0;
     if (root < 0 || root >= order->capacity || order->is_seen[root]) return;
     order->stack[depth++] = root;
@@ -183,8 +168,7 @@ static void order_below(NodeOrder *order, const GltfValue *nodes, int root)
     }
 }
 
-static void find_parents(GltfFile *file, const GltfValue *nodes)
-{
+static void find_parents(GltfFile *file, const GltfValue *nodes) {
     int *parent = file->parents = ARENA_NEW(&file->load->scratch, int, nodes->count);
     for (int i = 0; i < nodes->count; i++) parent[i] = NO_ID;
     for (int i = 0; i < nodes->count; i++) {
@@ -194,10 +178,9 @@ static void find_parents(GltfFile *file, const GltfValue *nodes)
     }
 }
 
-static void place_node(GltfFile *file, const GltfValue *nodes, int node)
-{
+static void place_node(GltfFile *file, const GltfValue *nodes, int node) {
     const NodePose *pose = file->poses ? &file->poses[node] : NULL;
-    int        parent = file->parents[node];
+    int parent = file->parents[node];
     Transform *world = file->world_from_node;
     NodePlace *places = file->places;
     world[node] = parent_from_node(&nodes->items[node], pose);
@@ -207,8 +190,7 @@ static void place_node(GltfFile *file, const GltfValue *nodes, int node)
     places[node] = node_place_compose(&places[parent], &places[node]);
 }
 
-static void place_all(GltfFile *file, const GltfValue *nodes)
-{
+static void place_all(GltfFile *file, const GltfValue *nodes) {
     NodeOrder order = order_start(file, nodes->count);
     file->world_from_node = ARENA_NEW(&file->load->scratch, Transform, nodes->count);
     file->places = ARENA_NEW(&file->load->scratch, NodePlace, nodes->count);
@@ -218,12 +200,10 @@ static void place_all(GltfFile *file, const GltfValue *nodes)
 }
 
 /* The nodes of the scene to show: the file's default, else its first, else every root. */
-static void find_shown(GltfFile *file, const GltfValue *nodes)
-{
+static void find_shown(GltfFile *file, const GltfValue *nodes) {
     NodeOrder order = order_start(file, nodes->count);
     order.skips_hidden = true;
-    const GltfValue *scene =
-        tree_element(file->root, "scenes", tree_int(file->root, "scene", 0));
+    const GltfValue *scene = tree_element(file->root, "scenes", tree_int(file->root, "scene", 0));
     if (!scene) {
         file_warning(file, NULL, "the file has no scene; all its nodes are shown");
         for (int i = 0; i < nodes->count; i++)
@@ -239,8 +219,7 @@ static void find_shown(GltfFile *file, const GltfValue *nodes)
 
 /* One of the attributes, or NULL: the default for all. */
 static bool read_attribute(GltfFile *file, const GltfValue *attributes, const char *name,
-                           const float **out, int *count)
-{
+                           const float **out, int *count) {
     const GltfValue *at = tree_member(attributes, name);
     int id = tree_whole(at, NO_ID);
     const GltfAccessor *accessor = accessor_get(file, id);
@@ -252,8 +231,7 @@ static bool read_attribute(GltfFile *file, const GltfValue *attributes, const ch
     return true;
 }
 
-static NodeInstances instances_of(GltfFile *file, const GltfValue *node)
-{
+static NodeInstances instances_of(GltfFile *file, const GltfValue *node) {
     static const float ORIGIN[3] = {0, 0, 0}, UPRIGHT[4] = {0, 0, 0, 1}, SAME[3] = {1, 1, 1};
     Arena *scratch = &file->load->scratch;
     NodeInstances out = {NULL, 1};
@@ -268,14 +246,13 @@ static NodeInstances instances_of(GltfFile *file, const GltfValue *node)
         return (NodeInstances){NULL, 0};
     out.node_from_mesh = ARENA_NEW(scratch, Transform, out.count);
     for (int i = 0; i < out.count; i++)
-        out.node_from_mesh[i] = transform_from_trs(moves ? moves + 3 * i : ORIGIN,
-                                                   turns ? turns + 4 * i : UPRIGHT,
-                                                   scales ? scales + 3 * i : SAME);
+        out.node_from_mesh[i] =
+            transform_from_trs(moves ? moves + 3 * i : ORIGIN, turns ? turns + 4 * i : UPRIGHT,
+                               scales ? scales + 3 * i : SAME);
     return out;
 }
 
-static void find_instances(GltfFile *file, const GltfValue *nodes)
-{
+static void find_instances(GltfFile *file, const GltfValue *nodes) {
     file->instances = ARENA_NEW(&file->load->scratch, NodeInstances, nodes->count);
     for (int i = 0; i < file->shown_count; i++) {
         int node = file->shown[i];
@@ -286,8 +263,7 @@ static void find_instances(GltfFile *file, const GltfValue *nodes)
 
 /* ---- all of it ------------------------------------------------------------------------- */
 
-void nodes_place(GltfFile *file)
-{
+void nodes_place(GltfFile *file) {
     const GltfValue *nodes = tree_member(file->root, "nodes");
     if (!nodes) return;
     find_parents(file, nodes);
@@ -296,8 +272,7 @@ void nodes_place(GltfFile *file)
     find_instances(file, nodes);
 }
 
-void nodes_enter_scene(GltfFile *file)
-{
+void nodes_enter_scene(GltfFile *file) {
     int count = tree_count(file->root, "nodes");
     for (int i = 0; i < count; i++) {
         double *at = file->places[i].origin;
@@ -306,8 +281,7 @@ void nodes_enter_scene(GltfFile *file)
     }
 }
 
-NodePlace nodes_instance_place(const GltfFile *file, int node, int instance)
-{
+NodePlace nodes_instance_place(const GltfFile *file, int node, int instance) {
     const Transform *own = file->instances[node].node_from_mesh;
     if (!own) return file->places[node];
     NodePlace place = node_place_of(&own[instance]);

@@ -11,7 +11,7 @@
 /* Where a node's mesh stands, in its frame: once, or as EXT_mesh_gpu_instancing has it. */
 typedef struct NodeInstances {
     Transform *node_from_mesh; /* NULL: it stands where the node does, */
-    int        count;          /* 1; 0: bytes are missing, which is reported */
+    int count;                 /* 1; 0: bytes are missing, which is reported */
 } NodeInstances;
 
 /* Sets the file's parents, its places in the world, posed by its animations, what is shown of
@@ -24,8 +24,7 @@ void nodes_enter_scene(GltfFile *file);
 
 /* The place of a camera's node, unit axes: the scaling of it and of its parents is ignored
  * (glTF 2.0, 3.10.2). world: where the node stands, after changes of the scene. */
-Transform nodes_camera_place(const GltfFile *file, const GltfValue *node,
-                             const Transform *world);
+Transform nodes_camera_place(const GltfFile *file, const GltfValue *node, const Transform *world);
 
 /* The place of an instance in the frame that the nodes' are in. */
 NodePlace nodes_instance_place(const GltfFile *file, int node, int instance);

@@ -15,11 +15,11 @@
 
 /* The values that animations give a node; NULL: the node's own. */
 typedef struct NodePose {
-    const float *translation; /* 3, m */
-    const float *rotation;    /* 4: x, y, z, w; a unit quaternion to within rounding */
-    const float *scale;       /* 3 */
-    const float *weights;     /* one a morph target of its mesh */
-    const float *visible;     /* 1: not 0 where the node and what is below it is shown */
+    const float *translation;   /* 3, m */
+    const float *rotation;      /* 4: x, y, z, w; a unit quaternion to within rounding */
+    const float *scale;         /* 3 */
+    const float *weights;       /* one a morph target of its mesh */
+    const float *visible;       /* 1: not 0 where the node and what is below it is shown */
     const GltfValue *movers[5]; /* the channel of each of these; NULL: none */
 } NodePose;
 

@@ -15,12 +15,10 @@
 /* ---- morph targets: base + sum of weight * displacement -------------------------------- */
 
 /* An animation's, else the node's, else the mesh's; NULL: none, all are 0. */
-static const float *morph_weights(GltfFile *file, const GltfValue *node, const GltfValue *mesh)
-{
+static const float *morph_weights(GltfFile *file, const GltfValue *node, const GltfValue *mesh) {
     const GltfValue *own = tree_member(node, "weights");
     const GltfValue *list = own ? own : tree_member(mesh, "weights");
-    if (file->poses && file->poses[node->index].weights)
-        return file->poses[node->index].weights;
+    if (file->poses && file->poses[node->index].weights) return file->poses[node->index].weights;
     if (!list) return NULL;
     float *weights = ARENA_NEW(&file->load->scratch, float, list->count);
     for (int i = 0; i < list->count; i++) weights[i] = (float)list->items[i].number;
@@ -29,8 +27,7 @@ static const float *morph_weights(GltfFile *file, const GltfValue *node, const G
 
 /* Adds one attribute's displacements; a tangent's have three components, its sign stays. */
 static void morph(GltfFile *file, const GltfValue *primitive, const float *weights,
-                  const char *name, float *values, int components)
-{
+                  const char *name, float *values, int components) {
     const GltfValue *targets = tree_member(primitive, "targets");
     for (int t = 0; weights && targets && t < targets->count; t++) {
         float w = weights[t];
@@ -47,30 +44,24 @@ static void morph(GltfFile *file, const GltfValue *primitive, const float *weigh
 }
 
 static float *attribute(GltfFile *file, const GltfValue *primitive, const float *weights,
-                        const char *name)
-{
+                        const char *name) {
     int accessor = tree_int(tree_member(primitive, "attributes"), name, NO_ID);
     if (accessor < 0) return NULL;
     float *values = accessor_floats(file, accessor);
-    morph(file, primitive, weights, name, values,
-          accessor_get(file, accessor)->component_count);
+    morph(file, primitive, weights, name, values, accessor_get(file, accessor)->component_count);
     return values;
 }
 
-static bool has_normal_map(const Material *material)
-{
+static bool has_normal_map(const Material *material) {
     return material->normal_texture.texture_id != NO_ID ||
            material->clearcoat_normal_texture.texture_id != NO_ID;
 }
 
-static bool wants_tangents(const Material *material)
-{
+static bool wants_tangents(const Material *material) {
     return has_normal_map(material) || material->brushing;
 }
 
-static VertexColor *read_colors(GltfFile *file, const GltfValue *primitive,
-                                const float *weights)
-{
+static VertexColor *read_colors(GltfFile *file, const GltfValue *primitive, const float *weights) {
     int accessor = tree_int(tree_member(primitive, "attributes"), "COLOR_0", NO_ID);
     const float *values = attribute(file, primitive, weights, "COLOR_0");
     if (!values) return NULL;
@@ -78,7 +69,7 @@ static VertexColor *read_colors(GltfFile *file, const GltfValue *primitive,
     VertexColor *out = ARENA_NEW(&file->load->scratch, VertexColor, a->count);
     for (size_t i = 0; i < a->count; i++)
         for (int c = 0; c < 4; c++) {
-            bool  is_there = c < a->component_count;
+            bool is_there = c < a->component_count;
             float value = is_there ? values[i * (size_t)a->component_count + (size_t)c] : 1;
             value = value < 0 ? 0.0f : value > 1 ? 1.0f : value;
             out[i].linear[c] = (uint16_t)(value * 65535.0f + 0.5f);
@@ -88,10 +79,9 @@ static VertexColor *read_colors(GltfFile *file, const GltfValue *primitive,
 
 /* Decoded and morphed, still in the mesh's own frame; what nobody will need stays away. */
 static void read_attributes(GltfFile *file, const GltfValue *primitive, const float *weights,
-                            const bool uses_set[SCENE_UV_SETS], PartDraft *draft)
-{
+                            const bool uses_set[SCENE_UV_SETS], PartDraft *draft) {
     Loader *load = file->load;
-    Part   *part = &draft->part;
+    Part *part = &draft->part;
     const int *sets = list_item(&load->material_uv_sets, part->material_id);
     draft->positions = (Vec3 *)attribute(file, primitive, weights, "POSITION");
     part->normals = (Vec3 *)attribute(file, primitive, weights, "NORMAL");
@@ -116,8 +106,7 @@ typedef struct Skin {
     float *weights[8];
 } Skin;
 
-static Transform *bind_transforms(GltfFile *file, const GltfValue *skin, int joint_count)
-{
+static Transform *bind_transforms(GltfFile *file, const GltfValue *skin, int joint_count) {
     const GltfValue *joints = tree_member(skin, "joints");
     int accessor = tree_int(skin, "inverseBindMatrices", NO_ID);
     float *inverse = accessor >= 0 ? accessor_floats(file, accessor) : NULL;
@@ -132,8 +121,7 @@ static Transform *bind_transforms(GltfFile *file, const GltfValue *skin, int joi
     return out;
 }
 
-static Skin read_skin(GltfFile *file, const GltfValue *node, const GltfValue *primitive)
-{
+static Skin read_skin(GltfFile *file, const GltfValue *node, const GltfValue *primitive) {
     Skin skin = {0};
     const GltfValue *names = tree_member(primitive, "attributes");
     const GltfValue *value = tree_referred(tree_member(node, "skin"), "skins");
@@ -154,14 +142,12 @@ static Skin read_skin(GltfFile *file, const GltfValue *node, const GltfValue *pr
     return skin;
 }
 
-static Transform weighted_sum(Transform a, const Transform *b, float w)
-{
-    return (Transform){vec3_along(a.x, b->x, w), vec3_along(a.y, b->y, w),
-                       vec3_along(a.z, b->z, w), vec3_along(a.origin, b->origin, w)};
+static Transform weighted_sum(Transform a, const Transform *b, float w) {
+    return (Transform){vec3_along(a.x, b->x, w), vec3_along(a.y, b->y, w), vec3_along(a.z, b->z, w),
+                       vec3_along(a.origin, b->origin, w)};
 }
 
-static Transform skin_transform(const Skin *skin, size_t vertex)
-{
+static Transform skin_transform(const Skin *skin, size_t vertex) {
     Transform sum = {0};
     float total = 0;
     for (int n = 0; n < skin->set_count; n++)
@@ -179,14 +165,12 @@ static Transform skin_transform(const Skin *skin, size_t vertex)
 
 /* ---- vertices -------------------------------------------------------------------------- */
 
-static void place_vertex(PartDraft *draft, size_t i, const Transform *world)
-{
+static void place_vertex(PartDraft *draft, size_t i, const Transform *world) {
     Part *part = &draft->part;
     draft->positions[i] = transform_point(world, draft->positions[i]);
-    if (part->normals)
-        part->normals[i] = vec3_normalize(transform_normal(world, part->normals[i]));
+    if (part->normals) part->normals[i] = vec3_normalize(transform_normal(world, part->normals[i]));
     if (part->tangents) {
-        float    mirrored = transform_determinant(world) < 0 ? -1.0f : 1.0f;
+        float mirrored = transform_determinant(world) < 0 ? -1.0f : 1.0f;
         Tangent *t = &part->tangents[i];
         t->along = vec3_normalize(transform_vector(world, t->along));
         t->side = t->side < 0 ? -mirrored : mirrored;
@@ -194,8 +178,7 @@ static void place_vertex(PartDraft *draft, size_t i, const Transform *world)
 }
 
 /* Returns whether the vertices came out mirrored. */
-static bool place_vertices(PartDraft *draft, const Skin *skin, const Transform *world)
-{
+static bool place_vertices(PartDraft *draft, const Skin *skin, const Transform *world) {
     bool is_mirrored = transform_determinant(world) < 0;
     for (size_t i = 0; i < draft->vertex_count; i++) {
         Transform own = *world;
@@ -211,8 +194,7 @@ static bool place_vertices(PartDraft *draft, const Skin *skin, const Transform *
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 
 /* The corners' places in the list of indices (glTF 2.0, 3.7.2.1). */
-static void corners(int mode, uint32_t triangle, uint32_t out[3])
-{
+static void corners(int mode, uint32_t triangle, uint32_t out[3]) {
     uint32_t i = triangle;
     switch (mode) {
     case MODE_STRIP:
@@ -234,8 +216,7 @@ static void corners(int mode, uint32_t triangle, uint32_t out[3])
 }
 
 /* Twice the area, squared, is above nothing: relative to the edges, so that tiny parts stay. */
-static bool has_area(Vec3 a, Vec3 b, Vec3 c)
-{
+static bool has_area(Vec3 a, Vec3 b, Vec3 c) {
     const double e[3] = {(double)b.x - (double)a.x, (double)b.y - (double)a.y,
                          (double)b.z - (double)a.z};
     const double f[3] = {(double)c.x - (double)a.x, (double)c.y - (double)a.y,
@@ -248,16 +229,13 @@ static bool has_area(Vec3 a, Vec3 b, Vec3 c)
 }
 
 /* Packed corners are those of triangles, in any mode. */
-static int mode_of(const GltfValue *primitive)
-{
-    return tree_extension(primitive, DRACO_EXTENSION)
-               ? MODE_TRIANGLES
-               : tree_int(primitive, "mode", MODE_TRIANGLES);
+static int mode_of(const GltfValue *primitive) {
+    return tree_extension(primitive, DRACO_EXTENSION) ? MODE_TRIANGLES
+                                                      : tree_int(primitive, "mode", MODE_TRIANGLES);
 }
 
 static void list_triangles(GltfFile *file, const GltfValue *primitive, bool is_mirrored,
-                           PartDraft *draft)
-{
+                           PartDraft *draft) {
     int mode = mode_of(primitive);
     int accessor = tree_int(primitive, "indices", NO_ID);
     size_t count = accessor >= 0 ? accessor_get(file, accessor)->count : draft->vertex_count;
@@ -275,22 +253,18 @@ static void list_triangles(GltfFile *file, const GltfValue *primitive, bool is_m
         if (out[0] < draft->vertex_count && out[1] < draft->vertex_count &&
             out[2] < draft->vertex_count && has_area(p[out[0]], p[out[1]], p[out[2]]))
             draft->triangle_count++;
-        else
-            file->degenerate_count++;
+        else file->degenerate_count++;
     }
 }
 
 /* ---- a part ---------------------------------------------------------------------------- */
 
-static const char *part_name(Loader *load, const GltfValue *node, const GltfValue *mesh)
-{
+static const char *part_name(Loader *load, const GltfValue *node, const GltfValue *mesh) {
     const char *own = tree_text(node, "name", ""), *name = tree_text(mesh, "name", "");
     return !own[0] && name[0] ? load_keep(load, name) : load_name(load, node, "node");
 }
 
-static bool stands_near(GltfFile *file, const GltfValue *primitive,
-                                const PartDraft *draft)
-{
+static bool stands_near(GltfFile *file, const GltfValue *primitive, const PartDraft *draft) {
     for (uint32_t i = 0; i < draft->vertex_count; i++) {
         double at[3];
         if (load_is_within_reach(file->load, draft->positions[i], at)) continue;
@@ -302,28 +276,23 @@ static bool stands_near(GltfFile *file, const GltfValue *primitive,
     return true;
 }
 
-static void finish_shading(PartDraft *draft, const Material *material, Arena *scratch)
-{
+static void finish_shading(PartDraft *draft, const Material *material, Arena *scratch) {
     const TextureSlot *slot = &material->normal_texture;
     if (!wants_tangents(material) || draft->part.tangents) return;
     if (slot->texture_id == NO_ID) slot = &material->clearcoat_normal_texture;
     if (slot->texture_id == NO_ID) slot = &material->brushing->texture;
     if (!draft->part.normals) draft_flat_normals(draft, scratch);
-    if (draft->part.uv[slot->uv_set])
-        draft_tangents(draft, slot, scratch);
-    else if (has_normal_map(material))
-        draft_any_tangents(draft, scratch);
+    if (draft->part.uv[slot->uv_set]) draft_tangents(draft, slot, scratch);
+    else if (has_normal_map(material)) draft_any_tangents(draft, scratch);
 }
 
 /* A buffer may lack its bytes (no uri, or one that points elsewhere), but not when something
  * of it is shown. */
-static bool has_bytes(GltfFile *file, const GltfValue *primitive, const GltfValue *at)
-{
+static bool has_bytes(GltfFile *file, const GltfValue *primitive, const GltfValue *at) {
     return !at || accessor_claim_bytes(file, tree_whole(at, NO_ID), primitive, at->key);
 }
 
-static bool has_all_bytes(GltfFile *file, const GltfValue *primitive)
-{
+static bool has_all_bytes(GltfFile *file, const GltfValue *primitive) {
     if (!has_bytes(file, primitive, tree_member(primitive, "indices"))) return false;
     for (const GltfValue *a = tree_items(primitive, "attributes"); a; a = tree_next(a))
         if (!has_bytes(file, primitive, a)) return false;
@@ -333,19 +302,16 @@ static bool has_all_bytes(GltfFile *file, const GltfValue *primitive)
     return true;
 }
 
-static bool fits(GltfFile *file, const GltfValue *primitive, size_t count)
-{
+static bool fits(GltfFile *file, const GltfValue *primitive, size_t count) {
     Loader *load = file->load;
     load->vertex_total += count;
     return load->vertex_total <= LOAD_MAX_ELEMENTS ||
-           file_error(file, primitive, "the scene has more than %zu vertices",
-                      LOAD_MAX_ELEMENTS);
+           file_error(file, primitive, "the scene has more than %zu vertices", LOAD_MAX_ELEMENTS);
 }
 
 /* Everything that it needs in between lies in scratch. False: there is nothing to show. */
 static bool build_draft(GltfFile *file, const GltfValue *node, const Transform *world,
-                        const GltfValue *mesh, PartDraft *draft)
-{
+                        const GltfValue *mesh, PartDraft *draft) {
     Loader *load = file->load;
     const GltfValue *primitive = draft->primitive;
     const Material *material = list_item(&load->materials, draft->part.material_id);
@@ -362,8 +328,7 @@ static bool build_draft(GltfFile *file, const GltfValue *node, const Transform *
 }
 
 void primitive_build(GltfFile *file, const GltfValue *node, const Transform *world,
-                     const GltfValue *mesh, const GltfValue *primitive)
-{
+                     const GltfValue *mesh, const GltfValue *primitive) {
     Loader *load = file->load;
     int mode = mode_of(primitive);
     int material = variant_material(file, primitive);
@@ -376,15 +341,14 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
         return;
     int material_id = material >= 0 ? file->material_base + material : material_default(file);
     Arena begun = load->scratch;
-    PartDraft draft = {
-        .part = {.name = part_name(load, node, mesh),
-                 .node_name = load_keep(load, tree_text(node, "name", "")),
-                 .mesh_name = load_keep(load, tree_text(mesh, "name", "")),
-                 .material_id = material_id},
-        .vertex_count = (uint32_t)position->count,
-        .file = file,
-        .primitive = primitive,
-        .node = node};
+    PartDraft draft = {.part = {.name = part_name(load, node, mesh),
+                                .node_name = load_keep(load, tree_text(node, "name", "")),
+                                .mesh_name = load_keep(load, tree_text(mesh, "name", "")),
+                                .material_id = material_id},
+                       .vertex_count = (uint32_t)position->count,
+                       .file = file,
+                       .primitive = primitive,
+                       .node = node};
     if (build_draft(file, node, world, mesh, &draft)) {
         draft_keep(&draft, load->arena, begun, &load->scratch);
         *(PartDraft *)list_add(&load->parts, &load->scratch) = draft;

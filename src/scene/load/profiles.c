@@ -12,13 +12,11 @@
 #define EXTENSION "EXT_lights_ies"
 #define MEDIA_TYPE "application/x-ies-lm-63"
 
-static const GltfValue *profile_list(const GltfFile *file)
-{
+static const GltfValue *profile_list(const GltfFile *file) {
     return tree_member(tree_extension(file->root, EXTENSION), "lights");
 }
 
-static bool is_shown(const GltfFile *file, int index)
-{
+static bool is_shown(const GltfFile *file, int index) {
     for (const GltfValue *node = tree_items(file->root, "nodes"); node; node = tree_next(node))
         if (tree_int(tree_extension(node, EXTENSION), "light", NO_ID) == index) return true;
     return false;
@@ -26,8 +24,7 @@ static bool is_shown(const GltfFile *file, int index)
 
 /* Why the factors of TILT=FILE cannot be had; NULL: they were read. */
 static const char *read_tilt_file(Loader *load, const LightProfile *profile, bool has_folder,
-                                  Luminaire *luminaire, Error *err)
-{
+                                  Luminaire *luminaire, Error *err) {
     FileBytes bytes;
     ImportSet notes = import_set(&load->scratch);
     const char *name = luminaire->tilt.file;
@@ -44,10 +41,9 @@ static const char *read_tilt_file(Loader *load, const LightProfile *profile, boo
 }
 
 static bool read_tilt(Loader *load, const LightProfile *profile, bool has_folder,
-                      Luminaire *luminaire, Error *err)
-{
+                      Luminaire *luminaire, Error *err) {
     const char *name = luminaire->tilt.file;
-    Error       fault = {0};
+    Error fault = {0};
     if (!name) return true;
     const char *why = read_tilt_file(load, profile, has_folder, luminaire, &fault);
     if (why)
@@ -58,8 +54,7 @@ static bool read_tilt(Loader *load, const LightProfile *profile, bool has_folder
     return false;
 }
 
-bool profile_read(Loader *load, FileBytes bytes, bool has_folder, LightProfile *out, Error *err)
-{
+bool profile_read(Loader *load, FileBytes bytes, bool has_folder, LightProfile *out, Error *err) {
     Luminaire luminaire;
     ImportSet notes = import_set(&load->scratch);
     IntensityWeb *web = ARENA_NEW(load->arena, IntensityWeb, 1);
@@ -79,21 +74,20 @@ bool profile_read(Loader *load, FileBytes bytes, bool has_folder, LightProfile *
 
 /* ---- bytes ------------------------------------------------------------------------------- */
 
-static bool data_bytes(GltfFile *file, const GltfValue *uri, FileBytes *bytes)
-{
+static bool data_bytes(GltfFile *file, const GltfValue *uri, FileBytes *bytes) {
     Error err;
     const char *type;
     if (!data_uri_decode(uri->text, &file->load->scratch, bytes, &type, &err))
         return file_error(file, uri, "%s", err.text);
     if (strcmp(type, MEDIA_TYPE) != 0)
-        file_warning(file, uri, "the media type is \"%.60s\"; " MEDIA_TYPE " is "
-                                                                           "required", type);
+        file_warning(file, uri,
+                     "the media type is \"%.60s\"; " MEDIA_TYPE " is "
+                     "required",
+                     type);
     return true;
 }
 
-static bool file_bytes(GltfFile *file, const GltfValue *uri, FileBytes *bytes,
-                       const char **name)
-{
+static bool file_bytes(GltfFile *file, const GltfValue *uri, FileBytes *bytes, const char **name) {
     Error err;
     Severity severity = is_shown(file, uri->parent->index) ? SEVERITY_ERROR : SEVERITY_WARNING;
     if (document_is_elsewhere(file, uri, severity)) return false;
@@ -101,15 +95,15 @@ static bool file_bytes(GltfFile *file, const GltfValue *uri, FileBytes *bytes,
     if (luminaire_is_eulumdat(*name))
         return file_error(file, uri,
                           "%s is EULUMDAT, " EXTENSION " has IES LM-63 (.ies) only: give it "
-                          "with --light NODE=FILE.ldt", *name);
+                          "with --light NODE=FILE.ldt",
+                          *name);
     return load_read(file->load, *name, &file->load->scratch, bytes, &err) ||
            file_error(file, uri, "%s: %s", *name, err.text);
 }
 
 /* *name: of a file its path; of bytes inside the scene where they are. */
 static bool profile_bytes(GltfFile *file, const GltfValue *profile, FileBytes *bytes,
-                          const char **name)
-{
+                          const char **name) {
     char pointer[80];
     const GltfValue *uri = tree_member(profile, "uri");
     tree_pointer(profile, pointer, sizeof pointer);
@@ -117,24 +111,21 @@ static bool profile_bytes(GltfFile *file, const GltfValue *profile, FileBytes *b
     if (uri && uri_is_data(uri->text)) return data_bytes(file, uri, bytes);
     if (uri) return file_bytes(file, uri, bytes, name);
     int view = tree_int(profile, "bufferView", NO_ID);
-    *bytes = view >= 0 && view < file->data.view_count ? document_view(file, view)
-                                                       : (FileBytes){0};
+    *bytes = view >= 0 && view < file->data.view_count ? document_view(file, view) : (FileBytes){0};
     return bytes->data || file_error(file, profile, "its bytes are missing");
 }
 
 /* ---- all of them ------------------------------------------------------------------------- */
 
 static void report_fault(GltfFile *file, const GltfValue *profile, const char *name,
-                         const Error *err)
-{
+                         const Error *err) {
     const GltfValue *uri = tree_member(profile, "uri");
     bool is_file = uri && !uri_is_data(uri->text);
-    file_error(file, uri ? uri : profile, "%s%s%s%s%s", is_file ? name : "",
-               is_file ? ": " : "", err->path, err->path[0] ? ": " : "", err->text);
+    file_error(file, uri ? uri : profile, "%s%s%s%s%s", is_file ? name : "", is_file ? ": " : "",
+               err->path, err->path[0] ? ": " : "", err->text);
 }
 
-static void load_profile(GltfFile *file, const GltfValue *value, LightProfile *out)
-{
+static void load_profile(GltfFile *file, const GltfValue *value, LightProfile *out) {
     Error err = {0};
     FileBytes bytes;
     Loader *load = file->load;
@@ -146,15 +137,13 @@ static void load_profile(GltfFile *file, const GltfValue *value, LightProfile *o
         report_fault(file, value, out->file, &err);
 }
 
-void profiles_load(GltfFile *file)
-{
+void profiles_load(GltfFile *file) {
     const GltfValue *list = profile_list(file);
     int count = list ? list->count : 0;
     file->profiles = ARENA_NEW(&file->load->scratch, LightProfile, count + 1);
     for (int i = 0; i < count; i++) load_profile(file, &list->items[i], &file->profiles[i]);
 }
 
-const LightProfile *profile_at(const GltfFile *file, int index)
-{
+const LightProfile *profile_at(const GltfFile *file, int index) {
     return tree_item(profile_list(file), index) ? &file->profiles[index] : NULL;
 }

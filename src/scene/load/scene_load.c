@@ -39,12 +39,10 @@
 
 /* Exporters mark whole models so; testing such surfaces at every ray costs time for nothing. */
 
-static bool has_full_alpha(const Image *image)
-{
+static bool has_full_alpha(const Image *image) {
     size_t count = (size_t)image->width * (size_t)image->height;
     for (size_t i = 3; i < 4 * count; i += 4) {
-        if (image->format == IMAGE_RGBA8 && ((const uint8_t *)image->pixels)[i] < 255)
-            return false;
+        if (image->format == IMAGE_RGBA8 && ((const uint8_t *)image->pixels)[i] < 255) return false;
         if (image->format == IMAGE_RGBA16 && ((const uint16_t *)image->pixels)[i] < 65535)
             return false;
         if (image->format == IMAGE_RGBA32F && !(((const float *)image->pixels)[i] >= 1))
@@ -53,8 +51,7 @@ static bool has_full_alpha(const Image *image)
     return true;
 }
 
-static bool has_opaque_colors(const Loader *load, int material_id)
-{
+static bool has_opaque_colors(const Loader *load, int material_id) {
     for (int i = 0; i < load->parts.count; i++) {
         const PartDraft *draft = list_item(&load->parts, i);
         const VertexColor *colors = draft->part.colors;
@@ -65,8 +62,7 @@ static bool has_opaque_colors(const Loader *load, int material_id)
     return true;
 }
 
-static void find_opaque_materials(Loader *load)
-{
+static void find_opaque_materials(Loader *load) {
     for (int i = 0; i < load->materials.count; i++) {
         Material *m = list_item(&load->materials, i);
         int texture = m->base_color_texture.texture_id;
@@ -82,14 +78,12 @@ static void find_opaque_materials(Loader *load)
 
 /* ---- from drafts to arrays ------------------------------------------------------------- */
 
-static bool lets_through(const Loader *load, const PartDraft *draft)
-{
+static bool lets_through(const Loader *load, const PartDraft *draft) {
     const Material *material = list_item(&load->materials, draft->part.material_id);
     return material->lets_light_through;
 }
 
-static void append_part(Scene *scene, const PartDraft *draft)
-{
+static void append_part(Scene *scene, const PartDraft *draft) {
     Part *part = &scene->parts[scene->part_count];
     *part = draft->part;
     part->first_triangle = scene->triangle_count;
@@ -101,15 +95,13 @@ static void append_part(Scene *scene, const PartDraft *draft)
         Triangle *triangle = &scene->triangles[scene->triangle_count++];
         triangle->part_id = (uint32_t)scene->part_count;
         for (int c = 0; c < 3; c++)
-            triangle->vertex[c] =
-                scene->vertex_count + draft->indices[3 * (size_t)t + (size_t)c];
+            triangle->vertex[c] = scene->vertex_count + draft->indices[3 * (size_t)t + (size_t)c];
     }
     scene->vertex_count += draft->vertex_count;
     scene->part_count++;
 }
 
-static void join_parts(const Loader *load, Scene *scene)
-{
+static void join_parts(const Loader *load, Scene *scene) {
     size_t vertices = 0, triangles = 0;
     for (int i = 0; i < load->parts.count; i++) {
         const PartDraft *draft = list_item(&load->parts, i);
@@ -128,14 +120,11 @@ static void join_parts(const Loader *load, Scene *scene)
     }
 }
 
-static void measure_edge(Scene *scene, Vec3 from, Vec3 to)
-{
-    scene->longest_edge_m =
-        fmaxf(scene->longest_edge_m, vec3_length(vec3_sub(to, from)));
+static void measure_edge(Scene *scene, Vec3 from, Vec3 to) {
+    scene->longest_edge_m = fmaxf(scene->longest_edge_m, vec3_length(vec3_sub(to, from)));
 }
 
-static void measure_bounds(Scene *scene)
-{
+static void measure_bounds(Scene *scene) {
     Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
     for (uint32_t t = 0; t < scene->triangle_count; t++)
         for (int c = 0; c < 3; c++) {
@@ -152,10 +141,9 @@ static void measure_bounds(Scene *scene)
  * and areas are no floats at last: light is lost. */
 #define LEAST_SIZE_M 1e-6f
 
-static void warn_if_odd(const Scene *scene, Loader *load)
-{
+static void warn_if_odd(const Scene *scene, Loader *load) {
     if (!scene->triangle_count) return;
-    Vec3  low = scene->bounds_min, high = scene->bounds_max;
+    Vec3 low = scene->bounds_min, high = scene->bounds_max;
     float size = vec3_length(vec3_sub(high, low));
     if (size < LEAST_SIZE_M)
         problems_add(load->problems, SEVERITY_WARNING, scene->inputs[0], "",
@@ -165,21 +153,18 @@ static void warn_if_odd(const Scene *scene, Loader *load)
 }
 
 /* A texture that no material shows may have no picture; nobody looks, but it is valid. */
-static void fill_gaps(Scene *scene)
-{
+static void fill_gaps(Scene *scene) {
     static const unsigned char WHITE[4] = {255, 255, 255, 255};
     for (int i = 0; i < scene->texture_count; i++)
         if (scene->textures[i].image.width == 0)
             scene->textures[i].image = (Image){1, 1, IMAGE_RGBA8, WHITE};
 }
 
-static int compare_text(const void *a, const void *b)
-{
+static int compare_text(const void *a, const void *b) {
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-static void sort_extensions(Scene *scene)
-{
+static void sort_extensions(Scene *scene) {
     int kept = 0;
     const char **list = scene->extensions;
     if (scene->extension_count)
@@ -189,8 +174,7 @@ static void sort_extensions(Scene *scene)
     scene->extension_count = kept;
 }
 
-static Scene *assemble(Loader *load)
-{
+static Scene *assemble(Loader *load) {
     Arena *arena = load->arena;
     Scene *scene = ARENA_NEW(arena, Scene, 1);
     *scene = (Scene){.materials = list_copy(&load->materials, arena),
@@ -230,14 +214,12 @@ static Scene *assemble(Loader *load)
 
 /* ---- reading --------------------------------------------------------------------------- */
 
-static void note_extensions(GltfFile *file)
-{
+static void note_extensions(GltfFile *file) {
     for (const GltfValue *e = tree_items(file->root, "extensionsUsed"); e; e = tree_next(e))
         load_note(file->load, &file->load->extensions, e->text);
 }
 
-static void check_structure(GltfFile *file)
-{
+static void check_structure(GltfFile *file) {
     const DocumentCheck check = {file, SEVERITY_ERROR};
     schema_check(&check, file->root, &SCHEMA_ROOT);
     check_extensions(&check, file->root);
@@ -245,8 +227,7 @@ static void check_structure(GltfFile *file)
     document_load_buffers(file);
 }
 
-static bool read_data(GltfFile *file)
-{
+static bool read_data(GltfFile *file) {
     Error err;
     return gltf_json_data(file->root, &file->load->scratch, &file->data, &err) ||
            file_error(file, NULL, "%s", err.text);
@@ -254,8 +235,7 @@ static bool read_data(GltfFile *file)
 
 /* One file: read, check, and, when nothing is wrong, load what it refers to and place its
  * nodes. NULL: something is wrong. */
-static GltfFile *load_file(Loader *load, const char *path)
-{
+static GltfFile *load_file(Loader *load, const char *path) {
     const Problems *problems = load->problems;
     int before = problems->error_count;
     GltfFile *file = ARENA_NEW(&load->scratch, GltfFile, 1);
@@ -280,9 +260,8 @@ static GltfFile *load_file(Loader *load, const char *path)
     return file;
 }
 
-static void load_files(Loader *load)
-{
-    int        count = 0;
+static void load_files(Loader *load) {
+    int count = 0;
     GltfFile **files = ARENA_NEW(&load->scratch, GltfFile *, load->options->path_count);
     for (int i = 0; i < load->options->path_count; i++) {
         GltfFile *file = load_file(load, load->options->paths[i]);
@@ -292,8 +271,7 @@ static void load_files(Loader *load)
     for (int i = 0; i < count; i++) graph_build(files[i]);
 }
 
-static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *problems)
-{
+static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *problems) {
     return (Loader){.arena = arena,
                     .scratch = arena_reserve(LOAD_SCRATCH_BYTES),
                     .problems = problems,
@@ -325,8 +303,7 @@ static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *
 
 /* The names that a change can refer to: nodes that are shown, materials, or those of
  * displays. */
-static const char **names_for(Loader *load, SceneChangeKind kind, int *count)
-{
+static const char **names_for(Loader *load, SceneChangeKind kind, int *count) {
     if (kind == CHANGE_NODES) {
         *count = load->node_names.count;
         return load->node_names.items;
@@ -341,15 +318,15 @@ static const char **names_for(Loader *load, SceneChangeKind kind, int *count)
 }
 
 /* The names that changes request and no file has. */
-static void report_unused_changes(Loader *load)
-{
-    static const char *const WHAT[] = {
-        [CHANGE_NODES] = "node", [CHANGE_MATERIAL] = "material", [CHANGE_HOOD] = "display",
-        [CHANGE_FINISH] = "display"};
+static void report_unused_changes(Loader *load) {
+    static const char *const WHAT[] = {[CHANGE_NODES] = "node",
+                                       [CHANGE_MATERIAL] = "material",
+                                       [CHANGE_HOOD] = "display",
+                                       [CHANGE_FINISH] = "display"};
     for (int i = 0; i < load->options->change_count; i++) {
         const SceneChange *change = &load->options->changes[i];
         char advice[600];
-        int  count;
+        int count;
         if (change->kind == CHANGE_NODES && load->change_uses[i] > 1)
             problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
                          "nodes of %d files are named \"%.100s\", required: one",
@@ -358,14 +335,12 @@ static void report_unused_changes(Loader *load)
         const char **names = names_for(load, change->kind, &count);
         problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
                      "no %s is named \"%.100s\" — %s", WHAT[change->kind], change->name,
-                     nearest_word_advice(change->name, names, count, advice,
-                                         (int)sizeof advice));
+                     nearest_word_advice(change->name, names, count, advice, (int)sizeof advice));
     }
 }
 
 Scene *scene_survey(const SceneOptions *options, ProgressMode progress, Arena *arena,
-                    Problems *problems)
-{
+                    Problems *problems) {
     Loader load = loader_start(options, arena, problems);
     load.progress_mode = progress;
     load.change_uses = ARENA_NEW(&load.scratch, int, options->change_count);
@@ -389,14 +364,12 @@ Scene *scene_survey(const SceneOptions *options, ProgressMode progress, Arena *a
 }
 
 bool scene_load(const SceneOptions *options, Arena *arena, Problems *problems, Scene **out,
-                Error *err)
-{
+                Error *err) {
     return scene_load_shown(options, PROGRESS_NONE, arena, problems, out, err);
 }
 
 bool scene_load_shown(const SceneOptions *options, ProgressMode progress, Arena *arena,
-                      Problems *problems, Scene **out, Error *err)
-{
+                      Problems *problems, Scene **out, Error *err) {
     Scene *scene = scene_survey(options, progress, arena, problems);
     if (problems_verdict(problems, err)) {
         *out = scene;
@@ -406,8 +379,7 @@ bool scene_load_shown(const SceneOptions *options, ProgressMode progress, Arena 
     return false;
 }
 
-void scene_close(Scene *scene)
-{
+void scene_close(Scene *scene) {
     for (int i = 0; scene && i < scene->display_count; i++) {
         const Display *displays = scene->displays;
         bool is_first = true; /* displays of one file share its panel */

@@ -22,9 +22,8 @@ typedef struct PartBox {
 /* ---- boxes ------------------------------------------------------------------------------- */
 
 /* The least and the greatest of a primitive's positions; false: it has none. */
-static bool bounds_of(GltfFile *file, const GltfValue *primitive, double low[3], double high[3])
-{
-    int   id = tree_int(tree_member(primitive, "attributes"), "POSITION", NO_ID);
+static bool bounds_of(GltfFile *file, const GltfValue *primitive, double low[3], double high[3]) {
+    int id = tree_int(tree_member(primitive, "attributes"), "POSITION", NO_ID);
     Arena begun = file->load->scratch;
     const GltfAccessor *accessor = accessor_get(file, id);
     if (!accessor || !accessor->count || !accessor_has_bytes(file, accessor)) return false;
@@ -38,13 +37,12 @@ static bool bounds_of(GltfFile *file, const GltfValue *primitive, double low[3],
     return true;
 }
 
-static PartBox box_at(const NodePlace *place, const double low[3], const double high[3])
-{
-    double  middle[3], squares = 0, moved[3];
+static PartBox box_at(const NodePlace *place, const double low[3], const double high[3]) {
+    double middle[3], squares = 0, moved[3];
     PartBox box;
     for (int k = 0; k < 3; k++) {
         const double *axis = place->axis[k];
-        double        half = 0.5 * (high[k] - low[k]);
+        double half = 0.5 * (high[k] - low[k]);
         middle[k] = 0.5 * (low[k] + high[k]);
         squares += half * half * (axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
     }
@@ -56,11 +54,10 @@ static PartBox box_at(const NodePlace *place, const double low[3], const double 
 }
 
 /* A skinned mesh is taken where its first joint puts it. */
-static NodePlace place_of_skin(GltfFile *file, const GltfValue *skin)
-{
+static NodePlace place_of_skin(GltfFile *file, const GltfValue *skin) {
     const GltfValue *joints = tree_member(skin, "joints");
-    int       inverse = tree_int(skin, "inverseBindMatrices", NO_ID);
-    Arena     begun = file->load->scratch;
+    int inverse = tree_int(skin, "inverseBindMatrices", NO_ID);
+    Arena begun = file->load->scratch;
     NodePlace place = file->places[tree_whole(tree_item(joints, 0), 0)];
     if (inverse >= 0) {
         Transform bind = transform_from_matrix(accessor_floats(file, inverse));
@@ -72,22 +69,20 @@ static NodePlace place_of_skin(GltfFile *file, const GltfValue *skin)
 }
 
 static void add_boxes(GltfFile *file, const GltfValue *node, const GltfValue *primitive,
-                      ItemList *boxes)
-{
+                      ItemList *boxes) {
     const GltfValue *skin = tree_referred(tree_member(node, "skin"), "skins");
     double low[3], high[3];
     if (!bounds_of(file, primitive, low, high)) return;
     for (int i = 0; i < file->instances[node->index].count; i++) {
-        NodePlace place = skin ? place_of_skin(file, skin)
-                               : nodes_instance_place(file, node->index, i);
+        NodePlace place =
+            skin ? place_of_skin(file, skin) : nodes_instance_place(file, node->index, i);
         *(PartBox *)list_add(boxes, &file->load->scratch) = box_at(&place, low, high);
     }
 }
 
-static ItemList boxes_of(GltfFile *file)
-{
+static ItemList boxes_of(GltfFile *file) {
     const GltfValue *nodes = tree_member(file->root, "nodes");
-    ItemList         boxes = list_of(sizeof(PartBox));
+    ItemList boxes = list_of(sizeof(PartBox));
     for (int i = 0; i < file->shown_count; i++) {
         const GltfValue *node = &nodes->items[file->shown[i]];
         const GltfValue *mesh = tree_referred(tree_member(node, "mesh"), "meshes");
@@ -99,15 +94,13 @@ static ItemList boxes_of(GltfFile *file)
 
 /* ---- medians ----------------------------------------------------------------------------- */
 
-static int compare_numbers(const void *a, const void *b)
-{
+static int compare_numbers(const void *a, const void *b) {
     double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
 /* Of the number at this offset of all boxes. */
-static double median(const ItemList *boxes, size_t offset, Arena scratch)
-{
+static double median(const ItemList *boxes, size_t offset, Arena scratch) {
     double *values = ARENA_NEW(&scratch, double, boxes->count);
     for (int i = 0; i < boxes->count; i++)
         values[i] = *(const double *)((const char *)list_item(boxes, i) + offset);
@@ -117,8 +110,7 @@ static double median(const ItemList *boxes, size_t offset, Arena scratch)
 
 /* ---- the origin -------------------------------------------------------------------------- */
 
-static void warn_of_far_vertices(Loader *load, const GltfFile *file, double away, double half)
-{
+static void warn_of_far_vertices(Loader *load, const GltfFile *file, double away, double half) {
     if (!(away > FAR_IN_SIZES * half)) return;
     problems_add(load->problems, SEVERITY_WARNING, file->path, "",
                  "half of the meshes have their vertices %.3g m or more from the origin of "
@@ -128,8 +120,7 @@ static void warn_of_far_vertices(Loader *load, const GltfFile *file, double away
                  away, away * 0x1p-23);
 }
 
-static void set_origin(Loader *load, const double middle[3], double half)
-{
+static void set_origin(Loader *load, const double middle[3], double half) {
     double step = 1, squares = 0;
     for (int k = 0; k < 3; k++) squares += middle[k] * middle[k];
     double away = sqrt(squares);
@@ -138,11 +129,10 @@ static void set_origin(Loader *load, const double middle[3], double half)
     for (int k = 0; k < 3; k++) load->origin[k] = step * floor(middle[k] / step + 0.5);
 }
 
-void scene_origin_find(Loader *load, GltfFile *const *files, int count)
-{
-    Arena    begun = load->scratch;
+void scene_origin_find(Loader *load, GltfFile *const *files, int count) {
+    Arena begun = load->scratch;
     ItemList boxes = {0};
-    int      first = -1;
+    int first = -1;
     while (!boxes.count && ++first < count) boxes = boxes_of(files[first]);
     if (boxes.count) {
         const size_t at = offsetof(PartBox, middle);

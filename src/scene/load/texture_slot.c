@@ -9,15 +9,13 @@
 #include "scene/gltf/document.h"
 #include "scene/load/image.h"
 
-TextureSlot texture_slot_none(void)
-{
+TextureSlot texture_slot_none(void) {
     return (TextureSlot){.texture_id = NO_ID, .uv_from_uv = {1, 0, 0, 0, 1, 0}};
 }
 
 /* KHR_texture_transform: uv' = T R S uv, where R is a turn by -rotation in the (u, v) plane as
  * the extension writes it: u' = sx cos u + sy sin v + ox, v' = -sx sin u + sy cos v + oy. */
-static void apply_transform(const GltfValue *transform, TextureSlot *slot)
-{
+static void apply_transform(const GltfValue *transform, TextureSlot *slot) {
     float offset[2] = {0, 0}, scale[2] = {1, 1};
     float turn = tree_float(transform, "rotation", 0);
     float c = cos_of(turn), s = sin_of(turn);
@@ -29,8 +27,7 @@ static void apply_transform(const GltfValue *transform, TextureSlot *slot)
     slot->uv_set = tree_int(transform, "texCoord", slot->uv_set);
 }
 
-TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
-{
+TextureSlot texture_slot(GltfFile *file, const GltfValue *info) {
     TextureSlot slot = texture_slot_none();
     int index = tree_int(info, "index", NO_ID);
     if (index < 0) return slot;
@@ -56,8 +53,7 @@ TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
 #define MATERIAL_SLOTS_MAX 64 /* far more than there are */
 
 /* Slots of the keys of a layer, from number `count` on; how many there are then. */
-static int slots_of_layer(const Rule *key, void *layer, TextureSlot **slots, int count)
-{
+static int slots_of_layer(const Rule *key, void *layer, TextureSlot **slots, int count) {
     for (; key->name; key++)
         if (key->field.is_kept && key->kind == RULE_OBJECT && count < MATERIAL_SLOTS_MAX)
             slots[count++] = (void *)((char *)layer + key->field.at);
@@ -65,8 +61,7 @@ static int slots_of_layer(const Rule *key, void *layer, TextureSlot **slots, int
 }
 
 /* All slots that a material has but a display's content; how many. */
-static int slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS_MAX])
-{
+static int slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS_MAX]) {
     TextureSlot *core[] = {&m->base_color_texture, &m->metallic_roughness_texture,
                            &m->normal_texture, &m->emissive_texture};
     int count = COUNT_OF(core);
@@ -80,8 +75,7 @@ static int slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS_MAX])
 }
 
 /* Puts a set among the two; false when both are taken by others. */
-static bool claim_set(int sets[SCENE_UV_SETS], int set)
-{
+static bool claim_set(int sets[SCENE_UV_SETS], int set) {
     for (int i = 0; i < SCENE_UV_SETS; i++) {
         if (sets[i] == NO_ID) sets[i] = set;
         if (sets[i] == set) return true;
@@ -91,8 +85,7 @@ static bool claim_set(int sets[SCENE_UV_SETS], int set)
 
 /* Part.uv has two places: the smallest set that is used first, or set 0 where it fits, so
  * that uv[0] is what every viewer would show. */
-static void order_sets(int sets[SCENE_UV_SETS])
-{
+static void order_sets(int sets[SCENE_UV_SETS]) {
     if (sets[1] == NO_ID && sets[0] > 0) sets[1] = 0;
     if (sets[0] == NO_ID) sets[0] = 0;
     if (sets[1] != NO_ID && sets[1] < sets[0]) {
@@ -104,10 +97,9 @@ static void order_sets(int sets[SCENE_UV_SETS])
 }
 
 void texture_slots_place(GltfFile *file, const GltfValue *value, Material *material,
-                         TextureSlot *content, int sets[SCENE_UV_SETS])
-{
+                         TextureSlot *content, int sets[SCENE_UV_SETS]) {
     TextureSlot *slots[MATERIAL_SLOTS_MAX + 1];
-    int          count = slots_of(material, slots);
+    int count = slots_of(material, slots);
     if (content) slots[count++] = content;
     sets[0] = sets[1] = NO_ID;
     for (int i = 0; i < count; i++) {
@@ -125,11 +117,10 @@ void texture_slots_place(GltfFile *file, const GltfValue *value, Material *mater
 }
 
 void texture_slots_used(const Loader *load, const Material *material,
-                        bool uses_set[SCENE_UV_SETS])
-{
+                        bool uses_set[SCENE_UV_SETS]) {
     Material copy = *material;
     TextureSlot *slots[MATERIAL_SLOTS_MAX];
-    int          count = slots_of(&copy, slots);
+    int count = slots_of(&copy, slots);
     uses_set[0] = true;
     uses_set[1] = false;
     for (int i = 0; i < count; i++) uses_set[1] |= slots[i]->uv_set == 1;

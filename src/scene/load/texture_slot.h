@@ -20,5 +20,4 @@ void texture_slots_place(GltfFile *file, const GltfValue *value, Material *mater
 
 /* Which of Part.uv a placed material uses: the first always, since frames show it
  * (the uv layer), the second where a slot has it. */
-void texture_slots_used(const Loader *load, const Material *material,
-                        bool uses_set[SCENE_UV_SETS]);
+void texture_slots_used(const Loader *load, const Material *material, bool uses_set[SCENE_UV_SETS]);

@@ -10,31 +10,26 @@
 #define MESH "mesh:"
 enum { PREFIX = 5 };
 
-bool wearer_is_named(const char *word)
-{
+bool wearer_is_named(const char *word) {
     return strncmp(word, WEARER_NODE, PREFIX) == 0 || strncmp(word, MESH, PREFIX) == 0;
 }
 
-static const char *name_of(const PartDraft *draft, const char *word)
-{
+static const char *name_of(const PartDraft *draft, const char *word) {
     bool by_node = strncmp(word, WEARER_NODE, PREFIX) == 0;
     return by_node ? draft->part.node_name : draft->part.mesh_name;
 }
 
-static bool is_meant(const PartDraft *draft, const char *word)
-{
+static bool is_meant(const PartDraft *draft, const char *word) {
     return strcmp(name_of(draft, word), word + PREFIX) == 0;
 }
 
-static const PartDraft *part_at(const Loader *load, int index)
-{
+static const PartDraft *part_at(const Loader *load, int index) {
     return list_item(&load->parts, index);
 }
 
 /* ---- lists of names, for messages ------------------------------------------------------- */
 
-void wearer_list_name(char names[WEARER_NAMES_MAX], const char *name)
-{
+void wearer_list_name(char names[WEARER_NAMES_MAX], const char *name) {
     char quoted[80];
     size_t length = strlen(names);
     snprintf(quoted, sizeof quoted, "\"%.70s\"", name);
@@ -42,33 +37,28 @@ void wearer_list_name(char names[WEARER_NAMES_MAX], const char *name)
     snprintf(names + length, WEARER_NAMES_MAX - length, "%s%s", length ? ", " : "", quoted);
 }
 
-static void add_name(char names[WEARER_NAMES_MAX], const char *name)
-{
+static void add_name(char names[WEARER_NAMES_MAX], const char *name) {
     if (name[0]) wearer_list_name(names, name);
 }
 
-static int unknown(Loader *load, const char *option, const char *word)
-{
+static int unknown(Loader *load, const char *option, const char *word) {
     char names[WEARER_NAMES_MAX] = "";
-    for (int i = 0; i < load->parts.count; i++)
-        add_name(names, name_of(part_at(load, i), word));
+    for (int i = 0; i < load->parts.count; i++) add_name(names, name_of(part_at(load, i), word));
     problems_add(load->problems, SEVERITY_ERROR, option, "",
-                 "no %.4s with triangles is named \"%.100s\"; there are %s", word,
-                 word + PREFIX, names[0] ? names : "none with names");
+                 "no %.4s with triangles is named \"%.100s\"; there are %s", word, word + PREFIX,
+                 names[0] ? names : "none with names");
     return NO_ID;
 }
 
 /* ---- which material --------------------------------------------------------------------- */
 
-static bool may_be_screen(const Loader *load, int material_id)
-{
+static bool may_be_screen(const Loader *load, int material_id) {
     const Material *material = list_item(&load->materials, material_id);
     return material->display_id != NO_ID || material->emissive_texture.texture_id != NO_ID;
 }
 
 /* The one material of the parts that are meant, or the one of them that may be a screen. */
-static int choose_material(Loader *load, const char *option, const char *word)
-{
+static int choose_material(Loader *load, const char *option, const char *word) {
     char names[WEARER_NAMES_MAX] = "";
     int first = NO_ID, screen = NO_ID, count = 0, screens = 0;
     for (int i = 0; i < load->parts.count; i++) {
@@ -93,8 +83,7 @@ static int choose_material(Loader *load, const char *option, const char *word)
 /* Whether the parts that are meant (word NULL: that wear the material) hang on one node, and
  * the names of their meshes (of their nodes). */
 static bool hang_on_one_node(const Loader *load, const char *word, int material_id,
-                             char names[WEARER_NAMES_MAX])
-{
+                             char names[WEARER_NAMES_MAX]) {
     const PartDraft *first = NULL;
     bool is_one = true;
     for (int i = 0; i < load->parts.count; i++) {
@@ -108,8 +97,7 @@ static bool hang_on_one_node(const Loader *load, const char *word, int material_
 }
 
 /* Nodes of one name cannot be distinguished by it. */
-static bool is_one_node(Loader *load, const char *option, const char *word)
-{
+static bool is_one_node(Loader *load, const char *option, const char *word) {
     char names[WEARER_NAMES_MAX] = "";
     if (strncmp(word, WEARER_NODE, PREFIX) != 0) return true;
     bool is_one = hang_on_one_node(load, word, NO_ID, names);
@@ -123,17 +111,14 @@ static bool is_one_node(Loader *load, const char *option, const char *word)
 
 /* ---- a material of its own -------------------------------------------------------------- */
 
-static bool is_shared(const Loader *load, int material_id, const char *word)
-{
+static bool is_shared(const Loader *load, int material_id, const char *word) {
     for (int i = 0; i < load->parts.count; i++)
-        if (part_at(load, i)->part.material_id == material_id &&
-            !is_meant(part_at(load, i), word))
+        if (part_at(load, i)->part.material_id == material_id && !is_meant(part_at(load, i), word))
             return true;
     return false;
 }
 
-static const char *free_name(Loader *load, const char *word)
-{
+static const char *free_name(Loader *load, const char *word) {
     const char *name = word + PREFIX;
     for (int i = 0; i < load->materials.count; i++) {
         const Material *material = list_item(&load->materials, i);
@@ -142,8 +127,7 @@ static const char *free_name(Loader *load, const char *word)
     return load_keep(load, name);
 }
 
-static void copy_display(Loader *load, Material *material, int material_id)
-{
+static void copy_display(Loader *load, Material *material, int material_id) {
     const int old = material->display_id;
     if (old == NO_ID) return;
     Display display = *(const Display *)list_item(&load->displays, old);
@@ -155,8 +139,7 @@ static void copy_display(Loader *load, Material *material, int material_id)
     material->display_id = load->displays.count - 1;
 }
 
-static int copy_material(Loader *load, int material_id, const char *word)
-{
+static int copy_material(Loader *load, int material_id, const char *word) {
     int copy = load->materials.count, sets[SCENE_UV_SETS];
     Material material = *(const Material *)list_item(&load->materials, material_id);
     memcpy(sets, list_item(&load->material_uv_sets, material_id), sizeof sets);
@@ -172,16 +155,14 @@ static int copy_material(Loader *load, int material_id, const char *word)
     return copy;
 }
 
-int wearer_material(Loader *load, const char *option, const char *word)
-{
+int wearer_material(Loader *load, const char *option, const char *word) {
     if (!is_one_node(load, option, word)) return NO_ID;
     int id = choose_material(load, option, word);
     if (id == NO_ID || !is_shared(load, id, word)) return id;
     return copy_material(load, id, word);
 }
 
-void wearer_warn_of_sharing(Loader *load, const char *option, int material_id)
-{
+void wearer_warn_of_sharing(Loader *load, const char *option, int material_id) {
     char names[WEARER_NAMES_MAX] = "";
     const Material *material = list_item(&load->materials, material_id);
     if (!hang_on_one_node(load, NULL, material_id, names))

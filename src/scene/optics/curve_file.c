@@ -9,11 +9,10 @@ typedef struct CurveText {
     const char *path, *text;
 } CurveText;
 
-static bool read_text(GltfFile *file, const GltfValue *uri, CurveText *out)
-{
-    Error     err;
+static bool read_text(GltfFile *file, const GltfValue *uri, CurveText *out) {
+    Error err;
     FileBytes bytes;
-    Loader   *load = file->load;
+    Loader *load = file->load;
     if (!document_resolve(file, uri, &out->path)) return false;
     return (load_read(load, out->path, &load->scratch, &bytes, &err) &&
             file_text(out->path, &bytes, &out->text, &err)) ||
@@ -21,18 +20,16 @@ static bool read_text(GltfFile *file, const GltfValue *uri, CurveText *out)
 }
 
 static void warn_of_beyond(GltfFile *file, const GltfValue *uri, const CurveText *from,
-                           double beyond)
-{
+                           double beyond) {
     if (beyond > 0)
         file_warning(file, uri, CURVE_BEYOND_WARNING, from->path, 100 * beyond,
                      CURVE_WHOLE_FIRST_NM, CURVE_WHOLE_LAST_NM);
 }
 
-bool curve_file_read(GltfFile *file, const GltfValue *uri, CurveRange range, Curve *out)
-{
-    Error     err;
+bool curve_file_read(GltfFile *file, const GltfValue *uri, CurveRange range, Curve *out) {
+    Error err;
     CurveText from;
-    double    beyond;
+    double beyond;
     if (!read_text(file, uri, &from)) return false;
     if (!curve_parse(from.text, from.path, range, out, &beyond, &err))
         return file_error_within(file, uri, &err);
@@ -40,11 +37,10 @@ bool curve_file_read(GltfFile *file, const GltfValue *uri, CurveRange range, Cur
     return true;
 }
 
-const OpticalConstants *curve_file_index(GltfFile *file, const GltfValue *uri)
-{
-    Error     err;
+const OpticalConstants *curve_file_index(GltfFile *file, const GltfValue *uri) {
+    Error err;
     CurveText from;
-    double    beyond;
+    double beyond;
     if (!uri || !read_text(file, uri, &from)) return NULL;
     OpticalConstants *out = ARENA_NEW(file->load->arena, OpticalConstants, 1);
     if (!curve_parse_index(from.text, from.path, &out->n, &out->k, &beyond, &err)) {

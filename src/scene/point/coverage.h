@@ -4,8 +4,7 @@
 #include "scene/point/texture_slot.h"
 
 /* COLOR_0 at the point, linear; false: the part has none. */
-bool vertex_color(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
-                  float rgba[4]);
+bool vertex_color(const Scene *scene, uint32_t triangle, const TrianglePoint *point, float rgba[4]);
 
 /* Vertex colour times base colour texture at the point, straight alpha in [3]; linear, the
  * material's factor left out. */

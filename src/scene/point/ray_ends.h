@@ -38,12 +38,12 @@
 
 /* A point of a triangle, interpolated. */
 typedef struct TrianglePoint {
-    Vec3  position;
-    Vec3  ng;    /* unit, the front's side (counter-clockwise vertices) */
-    Vec3  ns;    /* unit, interpolated vertex normal; ng where that vanishes */
-    Vec2  uv[SCENE_UV_SETS];
-    float u, v;  /* barycentric weights of vertices 1 and 2 */
-    Vec3  inside;   /* m: where rays start and end: a little off the edges */
+    Vec3 position;
+    Vec3 ng; /* unit, the front's side (counter-clockwise vertices) */
+    Vec3 ns; /* unit, interpolated vertex normal; ng where that vanishes */
+    Vec2 uv[SCENE_UV_SETS];
+    float u, v;     /* barycentric weights of vertices 1 and 2 */
+    Vec3 inside;    /* m: where rays start and end: a little off the edges */
     float rounding; /* m, along ng: of the point and of its plane, seen from nearby; */
     float slant;    /* and what each metre adds from where it is seen */
 } TrianglePoint;
@@ -58,41 +58,33 @@ Vec3 triangle_position(const Scene *scene, uint32_t triangle, float u, float v);
 #define RAY_INSET_SHARE 0x1p-14f
 
 /* How far rays start off the point's triangle, m. Sheets within it are at the same place. */
-static inline float ray_step(const TrianglePoint *point)
-{
+static inline float ray_step(const TrianglePoint *point) {
     return RAY_STEP * point->rounding;
 }
 
 /* How far from the edges of its triangle, whose longest one is given, m. */
-static inline float ray_inset(const TrianglePoint *point, float longest)
-{
+static inline float ray_inset(const TrianglePoint *point, float longest) {
     return RAY_INSET * ray_step(point) + RAY_INSET_SHARE * fminf(longest, 1);
 }
 
 /* Where a ray starts that leaves the point to the side of `towards`. */
-static inline Vec3 ray_start(const TrianglePoint *point, Vec3 towards)
-{
+static inline Vec3 ray_start(const TrianglePoint *point, Vec3 towards) {
     float step = ray_step(point);
-    return vec3_along(point->inside, point->ng,
-                      vec3_dot(point->ng, towards) < 0 ? -step : step);
+    return vec3_along(point->inside, point->ng, vec3_dot(point->ng, towards) < 0 ? -step : step);
 }
 
 /* From a start to just before the point, which it meets on the side of `side`. */
-static inline Ray ray_to(Vec3 from, const TrianglePoint *point, Vec3 side)
-{
+static inline Ray ray_to(Vec3 from, const TrianglePoint *point, Vec3 side) {
     float reach = vec3_length(vec3_sub(point->inside, from));
     float step = RAY_STEP * (point->rounding + point->slant * reach);
-    Vec3  end = vec3_along(point->inside, point->ng,
-                           vec3_dot(point->ng, side) < 0 ? -step : step);
-    Vec3  way = vec3_sub(end, from);
+    Vec3 end = vec3_along(point->inside, point->ng, vec3_dot(point->ng, side) < 0 ? -step : step);
+    Vec3 way = vec3_sub(end, from);
     float length = vec3_length(way);
     return (Ray){from, vec3_normalize(way), 0, length};
 }
 
 /* What is left of a ray behind the triangle that it met. */
-static inline Ray ray_behind(const Scene *scene, Ray ray, const Hit *hit)
-{
+static inline Ray ray_behind(const Scene *scene, Ray ray, const Hit *hit) {
     TrianglePoint point = triangle_point(scene, hit->triangle, hit->u, hit->v);
-    return (Ray){ray_start(&point, ray.direction), ray.direction, 0,
-                 fmaxf(ray.t_max - hit->t, 0)};
+    return (Ray){ray_start(&point, ray.direction), ray.direction, 0, fmaxf(ray.t_max - hit->t, 0)};
 }

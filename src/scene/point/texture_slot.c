@@ -2,28 +2,24 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "scene/point/texture_slot.h"
 
-static Vec2 slot_from_uv(const TextureSlot *slot, Vec2 uv)
-{
+static Vec2 slot_from_uv(const TextureSlot *slot, Vec2 uv) {
     const float *m = slot->uv_from_uv;
     return (Vec2){m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
 }
 
-Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point)
-{
+Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point) {
     return slot_from_uv(slot, point->uv[slot->uv_set]);
 }
 
-Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triangle, int corner)
-{
+Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triangle, int corner) {
     return slot_from_uv(slot, scene_corner_uv(scene, triangle, corner, slot->uv_set));
 }
 
-bool point_tangent(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
-                   Vec3 *along, Vec3 *across)
-{
+bool point_tangent(const Scene *scene, uint32_t triangle, const TrianglePoint *point, Vec3 *along,
+                   Vec3 *across) {
     const Tangent *tangents = scene_part(scene, triangle)->tangents;
     const float weight[3] = {1 - point->u - point->v, point->u, point->v};
-    Vec3  n = point->ns;
+    Vec3 n = point->ns;
     float side = 0;
     if (!tangents) return false;
     *along = vec3(0, 0, 0);
@@ -38,10 +34,9 @@ bool point_tangent(const Scene *scene, uint32_t triangle, const TrianglePoint *p
 }
 
 Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, Vec2 scale, uint32_t triangle,
-                   const TrianglePoint *point)
-{
+                   const TrianglePoint *point) {
     float texel[4];
-    Vec3  n = point->ns, along, across;
+    Vec3 n = point->ns, along, across;
     if (slot->texture_id == NO_ID || !point_tangent(scene, triangle, point, &along, &across))
         return n;
     Vec2 uv = slot_uv(slot, point);
@@ -53,8 +48,7 @@ Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, Vec2 scale, uint
 }
 
 Vec3 coat_normal(const Scene *scene, const Material *material, uint32_t triangle,
-                 const TrianglePoint *point)
-{
+                 const TrianglePoint *point) {
     return mapped_normal(scene, &material->clearcoat_normal_texture,
                          material->clearcoat_normal_scale, triangle, point);
 }

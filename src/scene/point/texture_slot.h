@@ -12,8 +12,8 @@ Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point);
 Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triangle, int corner);
 
 /* The vertices' tangent, made perpendicular to ns, and bitangent; false: none. */
-bool point_tangent(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
-                   Vec3 *along, Vec3 *across);
+bool point_tangent(const Scene *scene, uint32_t triangle, const TrianglePoint *point, Vec3 *along,
+                   Vec3 *across);
 
 /* ns as the slot's texture bends it, times `scale` along the surface; ns without a texture. */
 Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, Vec2 scale, uint32_t triangle,

@@ -17,11 +17,10 @@ const float AIR_NM[SPECTRUM_LANES] = {360, 380, 400, 420, 445, 470, 500, 530,
 
 /* SPECTRL2's ozone absorption, (atm cm)^-1, at AIR_NM. */
 static const double ozone_absorption[SPECTRUM_LANES] = {
-    0, 0, 0, 0, 0.0015, 0.009, 0.03, 0.063, 0.1025, 0.1191, 0.105, 0.0696, 0.0382, 0.0161,
-    0.0065, 0};
+    0,      0,      0,     0,      0.0015, 0.009,  0.03,   0.063,
+    0.1025, 0.1191, 0.105, 0.0696, 0.0382, 0.0161, 0.0065, 0};
 
-AirOptics air_optics(const Air *air)
-{
+AirOptics air_optics(const Air *air) {
     AirOptics o = {{spectrum_all(0)}, {spectrum_all(0)}, 0, AIR_TOP_M};
     double layer = fmin(STRATOSPHERIC_DEPTH, air->aerosol_depth);
     o.aerosol_low = air->aerosol_depth > 0 ? 1 - layer / air->aerosol_depth : 0;
@@ -41,8 +40,7 @@ AirOptics air_optics(const Air *air)
 
 /* Pressure over sea-level pressure by the layers of ISO 2533; the column above an altitude is
  * proportional to it (gravity taken as constant). */
-static double pressure_share(double altitude_m)
-{
+static double pressure_share(double altitude_m) {
     static const struct {
         double base_m, kelvin, lapse;
         double share; /* at the base: the product of those of the layers below, to the bit */
@@ -58,21 +56,18 @@ static double pressure_share(double altitude_m)
     int i = 0;
     while (i < 7 && altitude_m > layers[i + 1].base_m) i++;
     double rise = altitude_m - layers[i].base_m, t = layers[i].kelvin;
-    return layers[i].share *
-           (layers[i].lapse == 0 ? exp_d(-g_over_r * rise / t)
-                                 : pow_d(1 + layers[i].lapse * rise / t,
-                                         -g_over_r / layers[i].lapse));
+    return layers[i].share * (layers[i].lapse == 0 ? exp_d(-g_over_r * rise / t)
+                                                   : pow_d(1 + layers[i].lapse * rise / t,
+                                                           -g_over_r / layers[i].lapse));
 }
 
-static double tent_above(double altitude_m)
-{
+static double tent_above(double altitude_m) {
     double x = fmax(-1, fmin(1, (altitude_m - 25000) / 15000));
     return x < 0 ? 1 - 0.5 * (1 + x) * (1 + x) : 0.5 * (1 - x) * (1 - x);
 }
 
 /* Share of a part's column that lies above an altitude. */
-static double share_above(const AirOptics *optics, AirPart part, double altitude_m)
-{
+static double share_above(const AirOptics *optics, AirPart part, double altitude_m) {
     if (altitude_m >= optics->top_m) return 0;
     switch (part) {
     case AIR_MOLECULES: {
@@ -88,28 +83,24 @@ static double share_above(const AirOptics *optics, AirPart part, double altitude
     }
 }
 
-double air_density(const AirOptics *optics, AirPart part, double altitude_m)
-{
+double air_density(const AirOptics *optics, AirPart part, double altitude_m) {
     double h = 5; /* central difference, m */
-    return (share_above(optics, part, altitude_m - h) -
-            share_above(optics, part, altitude_m + h)) / (2 * h);
+    return (share_above(optics, part, altitude_m - h) - share_above(optics, part, altitude_m + h)) /
+           (2 * h);
 }
 
-void air_vertical(const AirOptics *optics, double from_m, double to_m, double column[AIR_PARTS])
-{
+void air_vertical(const AirOptics *optics, double from_m, double to_m, double column[AIR_PARTS]) {
     for (int p = 0; p < AIR_PARTS; p++)
-        column[p] =
-            share_above(optics, (AirPart)p, from_m) - share_above(optics, (AirPart)p, to_m);
+        column[p] = share_above(optics, (AirPart)p, from_m) - share_above(optics, (AirPart)p, to_m);
 }
 
-AirShells air_shells(const AirOptics *optics, double from_m)
-{
+AirShells air_shells(const AirOptics *optics, double from_m) {
     AirShells shells = {.from_m = from_m};
-    double    low = from_m, above[AIR_PARTS];
+    double low = from_m, above[AIR_PARTS];
     for (int p = 0; p < AIR_PARTS; p++) above[p] = share_above(optics, (AirPart)p, low);
     for (int i = 1; low < optics->top_m; i++) {
         AirShell *shell = &shells.shell[shells.count++];
-        double    high = fmin(optics->top_m, from_m + 2.0 * i * i * i + 40.0 * i);
+        double high = fmin(optics->top_m, from_m + 2.0 * i * i * i + 40.0 * i);
         shell->low_m = low;
         shell->high_m = high;
         for (int p = 0; p < AIR_PARTS; p++) {
@@ -124,21 +115,19 @@ AirShells air_shells(const AirOptics *optics, double from_m)
 
 /* The vertical column of each shell, times its slant, ds/dz = r / sqrt(r^2 - p^2) with the
  * perigee p, averaged over the shell exactly. */
-static void add_shells(const AirShells *shells, double perigee, double column[AIR_PARTS])
-{
+static void add_shells(const AirShells *shells, double perigee, double column[AIR_PARTS]) {
     for (int i = 0; i < shells->count; i++) {
         const AirShell *shell = &shells->shell[i];
         double a = AIR_EARTH_M + shell->low_m, b = AIR_EARTH_M + shell->high_m;
-        double path = sqrt(fmax(0, b * b - perigee * perigee)) -
-                      sqrt(fmax(0, a * a - perigee * perigee));
+        double path =
+            sqrt(fmax(0, b * b - perigee * perigee)) - sqrt(fmax(0, a * a - perigee * perigee));
         for (int p = 0; p < AIR_PARTS; p++)
             column[p] += shell->column[p] * path / (shell->high_m - shell->low_m);
     }
 }
 
-bool air_column_over(const AirOptics *optics, const AirShells *over, double cosine,
-                     double floor_m, double column[AIR_PARTS])
-{
+bool air_column_over(const AirOptics *optics, const AirShells *over, double cosine, double floor_m,
+                     double column[AIR_PARTS]) {
     double r = AIR_EARTH_M + over->from_m, perigee = r * sqrt(fmax(0, 1 - cosine * cosine));
     for (int p = 0; p < AIR_PARTS; p++) column[p] = 0;
     if (cosine >= 0) {
@@ -146,7 +135,7 @@ bool air_column_over(const AirOptics *optics, const AirShells *over, double cosi
         return true;
     }
     if (perigee < AIR_EARTH_M + floor_m) return false;
-    double    below[AIR_PARTS] = {0, 0, 0};
+    double below[AIR_PARTS] = {0, 0, 0};
     AirShells whole = air_shells(optics, perigee - AIR_EARTH_M);
     add_shells(&whole, perigee, column);
     add_shells(over, perigee, below); /* from here up on the far side */
@@ -155,21 +144,18 @@ bool air_column_over(const AirOptics *optics, const AirShells *over, double cosi
 }
 
 bool air_column(const AirOptics *optics, double altitude_m, double cosine, double floor_m,
-                double column[AIR_PARTS])
-{
+                double column[AIR_PARTS]) {
     AirShells over = air_shells(optics, altitude_m);
     return air_column_over(optics, &over, cosine, floor_m, column);
 }
 
 /* ---- scattering ------------------------------------------------------------------------- */
 
-float air_phase_molecules(float cosine)
-{
+float air_phase_molecules(float cosine) {
     return 3 / (16 * PI_F) * (1 + cosine * cosine);
 }
 
-float air_phase_aerosol(float cosine)
-{
+float air_phase_aerosol(float cosine) {
     float g = AIR_ASYMMETRY, d = 1 + g * g - 2 * g * cosine;
     return (1 - g * g) / (4 * PI_F * d * safe_sqrtf(d));
 }

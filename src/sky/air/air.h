@@ -18,8 +18,8 @@
 #include "sky/air/spectrl2.h"
 #include "spectrum/spectrum.h"
 
-#define AIR_TOP_M 70000.0           /* where a daylit sky may end */
-#define AIR_HIGHEST_TOP_M 120000.0  /* seen while the sun is far below the horizon */
+#define AIR_TOP_M 70000.0          /* where a daylit sky may end */
+#define AIR_HIGHEST_TOP_M 120000.0 /* seen while the sun is far below the horizon */
 #define AIR_EARTH_M 6371000.0
 #define AIR_ASYMMETRY 0.65f
 
@@ -28,10 +28,10 @@ extern const float AIR_NM[SPECTRUM_LANES];
 typedef enum AirPart { AIR_MOLECULES, AIR_AEROSOL, AIR_OZONE, AIR_PARTS } AirPart;
 
 typedef struct AirOptics {
-    Spectrum depth[AIR_PARTS];     /* vertical optical depth from sea level */
+    Spectrum depth[AIR_PARTS];      /* vertical optical depth from sea level */
     Spectrum scattering[AIR_PARTS]; /* of that, by scattering */
-    double   aerosol_low;          /* share of the aerosol that lies in the boundary layer */
-    double   top_m;                /* there is no air above */
+    double aerosol_low;             /* share of the aerosol that lies in the boundary layer */
+    double top_m;                   /* there is no air above */
 } AirOptics;
 
 /* air->pressure_mbar: at sea level. The top is AIR_TOP_M; a caller may set another, at most
@@ -42,8 +42,7 @@ AirOptics air_optics(const Air *air);
 double air_density(const AirOptics *optics, AirPart part, double altitude_m);
 
 /* Columns of all parts between two altitudes, straight up. */
-void air_vertical(const AirOptics *optics, double from_m, double to_m,
-                  double column[AIR_PARTS]);
+void air_vertical(const AirOptics *optics, double from_m, double to_m, double column[AIR_PARTS]);
 
 /* Columns from an altitude to space along a ray whose angle to the zenith has this cosine; no
  * refraction. False: the ray meets the sphere of altitude floor_m. */
@@ -59,16 +58,16 @@ typedef struct AirShell {
 } AirShell;
 
 typedef struct AirShells {
-    double   from_m;
-    int      count;
+    double from_m;
+    int count;
     AirShell shell[AIR_SHELLS_MAX];
 } AirShells;
 
 AirShells air_shells(const AirOptics *optics, double from_m);
 
 /* air_column for rays from where `over` begins. */
-bool air_column_over(const AirOptics *optics, const AirShells *over, double cosine,
-                     double floor_m, double column[AIR_PARTS]);
+bool air_column_over(const AirOptics *optics, const AirShells *over, double cosine, double floor_m,
+                     double column[AIR_PARTS]);
 
 /* Phase functions, sr^-1, of the angle's cosine. */
 float air_phase_molecules(float cosine);

@@ -16,20 +16,17 @@
 /* ---- building ---------------------------------------------------------------------------- */
 
 /* Cosine of the floor's edge as seen from an altitude. */
-static double edge_cosine(double altitude_m, double floor_m)
-{
+static double edge_cosine(double altitude_m, double floor_m) {
     double ratio = (AIR_EARTH_M + floor_m) / (AIR_EARTH_M + fmax(altitude_m, floor_m));
     return -sqrt(fmax(0, 1 - ratio * ratio));
 }
 
-static double table_height(const BeamTable *b, int i)
-{
+static double table_height(const BeamTable *b, int i) {
     double share = i / (COLUMN_HEIGHTS - 1.0);
     return b->floor_m + (b->optics.top_m - b->floor_m) * share * share;
 }
 
-static void fill_columns(void *context, int item, int worker)
-{
+static void fill_columns(void *context, int item, int worker) {
     const BeamTable *b = context;
     double height = table_height(b, item), edge = edge_cosine(height, b->floor_m);
     AirShells over = air_shells(&b->optics, height);
@@ -43,8 +40,7 @@ static void fill_columns(void *context, int item, int worker)
     }
 }
 
-static void fill_density(BeamTable *b)
-{
+static void fill_density(BeamTable *b) {
     for (int i = 0; i < DENSITY_NODES; i++) {
         double share = i / (DENSITY_NODES - 1.0), z = b->optics.top_m * share * share;
         for (int p = 0; p < AIR_PARTS; p++)
@@ -53,11 +49,10 @@ static void fill_density(BeamTable *b)
 }
 
 void beam_table_build(const AirOptics *optics, double floor_m, int threads, Arena *arena,
-                      BeamTable *out)
-{
+                      BeamTable *out) {
     *out = (BeamTable){.optics = *optics, .floor_m = floor_m};
-    out->column = ARENA_NEW(arena, float, COLUMN_HEIGHTS * COLUMN_COSINES * AIR_PARTS);
-    out->density = ARENA_NEW(arena, float, DENSITY_NODES * AIR_PARTS);
+    out->column = ARENA_NEW(arena, float, COLUMN_HEIGHTS *COLUMN_COSINES *AIR_PARTS);
+    out->density = ARENA_NEW(arena, float, DENSITY_NODES *AIR_PARTS);
     fill_density(out);
     parallel_for(threads, COLUMN_HEIGHTS, fill_columns, out);
 }
@@ -66,7 +61,7 @@ void beam_table_build(const AirOptics *optics, double floor_m, int threads, Aren
 
 typedef struct BentBuild {
     BeamTable *table;
-    BentAir    air;
+    BentAir air;
 } BentBuild;
 
 /* Rays from one height, even steps of the root from the floor's edge to the zenith. */
@@ -75,30 +70,27 @@ typedef struct BentFan {
     double column[COLUMN_COSINES][AIR_PARTS];
 } BentFan;
 
-static void follow_fan(const BentBuild *build, double height, BentFan *fan)
-{
+static void follow_fan(const BentBuild *build, double height, BentFan *fan) {
     double edge = bent_ray_edge_cosine(&build->air, height, build->table->floor_m);
     for (int j = 0; j < COLUMN_COSINES; j++) {
         double share = j / (COLUMN_COSINES - 1.0);
         double cosine = fmin(1, edge + (1 - edge) * share * share);
         fan->angle[j] = acos_d(cosine);
-        fan->turned[j] = fan->angle[j] + bent_ray_column(&build->air, height, cosine,
-                                                         fan->column[j]);
+        fan->turned[j] =
+            fan->angle[j] + bent_ray_column(&build->air, height, cosine, fan->column[j]);
     }
 }
 
 /* Optical depth that thins light as bending does between two neighbouring rays. */
-static double spreading(const BentFan *fan, int j)
-{
+static double spreading(const BentFan *fan, int j) {
     return log_d((fan->turned[j + 1] - fan->turned[j]) / (fan->angle[j + 1] - fan->angle[j]));
 }
 
 /* The fan at even steps of the true angle's cosine. */
-static void fill_bent(void *context, int item, int worker)
-{
+static void fill_bent(void *context, int item, int worker) {
     const BentBuild *build = context;
     BeamTable *b = build->table;
-    BentFan    fan;
+    BentFan fan;
     (void)worker;
     follow_fan(build, table_height(b, item), &fan);
     double edge = cos_d(fan.turned[0]);
@@ -108,7 +100,7 @@ static void fill_bent(void *context, int item, int worker)
         double angle = acos_d(fmin(1, edge + (1 - edge) * share * share));
         while (k < COLUMN_COSINES - 2 && fan.turned[k + 1] > angle) k++;
         double t = (angle - fan.turned[k]) / (fan.turned[k + 1] - fan.turned[k]);
-        int    at = item * COLUMN_COSINES + j;
+        int at = item * COLUMN_COSINES + j;
         t = fmax(0, fmin(1, t));
         for (int p = 0; p < AIR_PARTS; p++)
             b->column[at * AIR_PARTS + p] =
@@ -118,23 +110,21 @@ static void fill_bent(void *context, int item, int worker)
 }
 
 void beam_table_build_bent(const AirOptics *optics, double floor_m, int threads, Arena *arena,
-                           BeamTable *out)
-{
+                           BeamTable *out) {
     *out = (BeamTable){.optics = *optics, .floor_m = floor_m};
-    out->column = ARENA_NEW(arena, float, COLUMN_HEIGHTS * COLUMN_COSINES * AIR_PARTS);
-    out->density = ARENA_NEW(arena, float, DENSITY_NODES * AIR_PARTS);
-    out->thinned = ARENA_NEW(arena, float, COLUMN_HEIGHTS * COLUMN_COSINES);
+    out->column = ARENA_NEW(arena, float, COLUMN_HEIGHTS *COLUMN_COSINES *AIR_PARTS);
+    out->density = ARENA_NEW(arena, float, DENSITY_NODES *AIR_PARTS);
+    out->thinned = ARENA_NEW(arena, float, COLUMN_HEIGHTS *COLUMN_COSINES);
     out->edge = ARENA_NEW(arena, float, COLUMN_HEIGHTS);
     fill_density(out);
-    Arena     scratch = *arena;
+    Arena scratch = *arena;
     BentBuild build = {out, bent_air_build(&out->optics, &scratch)};
     parallel_for(threads, COLUMN_HEIGHTS, fill_bent, &build);
 }
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-BeamHeight beam_table_height(const BeamTable *b, double altitude)
-{
+BeamHeight beam_table_height(const BeamTable *b, double altitude) {
     double y = sqrt(fmax(0, altitude - b->floor_m) / (b->optics.top_m - b->floor_m)) *
                (COLUMN_HEIGHTS - 1);
     BeamHeight at = {.row = (int)fmin(y, COLUMN_HEIGHTS - 1.001)};
@@ -145,17 +135,16 @@ BeamHeight beam_table_height(const BeamTable *b, double altitude)
 }
 
 void beam_table_passing(const BeamTable *b, const BeamHeight *height, double cosine,
-                        Spectrum *out)
-{
+                        Spectrum *out) {
     double edge = height->edge;
     double x = sqrt(fmax(0, fmin(1, (cosine - edge) / (1 - edge)))) * (COLUMN_COSINES - 1);
-    int    j = (int)fmin(x, COLUMN_COSINES - 1.001), at = height->row * COLUMN_COSINES + j;
-    float  t = height->share, u = (float)(x - j);
+    int j = (int)fmin(x, COLUMN_COSINES - 1.001), at = height->row * COLUMN_COSINES + j;
+    float t = height->share, u = (float)(x - j);
     const float *low = b->column + at * AIR_PARTS, *high = low + COLUMN_COSINES * AIR_PARTS;
     Spectrum depth = spectrum_all(0);
     for (int p = 0; p < AIR_PARTS; p++) {
-        float column = lerpf(lerpf(low[p], low[p + AIR_PARTS], u),
-                             lerpf(high[p], high[p + AIR_PARTS], u), t);
+        float column =
+            lerpf(lerpf(low[p], low[p + AIR_PARTS], u), lerpf(high[p], high[p + AIR_PARTS], u), t);
         depth += b->optics.depth[p] * spectrum_all(column);
     }
     if (b->thinned) {
@@ -167,16 +156,14 @@ void beam_table_passing(const BeamTable *b, const BeamHeight *height, double cos
 
 /* The share of the disc over the edge, taken as a bar. Angles differ by more than their
  * cosines: clear of the edge, where nearly all suns stand, these will do. */
-static double disc_seen(double edge, double cosine)
-{
+static double disc_seen(double edge, double cosine) {
     if (cosine - edge > SUN_RADIUS) return 1;
     if (cosine - edge < -SUN_RADIUS) return 0;
     double over = acos_d(edge) - acos_d(fmax(-1, fmin(1, cosine)));
     return fmax(0, fmin(1, 0.5 + over / (2 * SUN_RADIUS)));
 }
 
-void beam_table_sun(const BeamTable *b, const BeamHeight *at, double cosine, Spectrum *out)
-{
+void beam_table_sun(const BeamTable *b, const BeamHeight *at, double cosine, Spectrum *out) {
     double seen = disc_seen(at->edge, cosine);
     *out = spectrum_all(0);
     if (seen <= 0) return;
@@ -184,11 +171,10 @@ void beam_table_sun(const BeamTable *b, const BeamHeight *at, double cosine, Spe
     *out *= spectrum_all((float)seen);
 }
 
-void beam_table_density(const BeamTable *b, double altitude, float density[AIR_PARTS])
-{
+void beam_table_density(const BeamTable *b, double altitude, float density[AIR_PARTS]) {
     double x = sqrt(fmax(0, altitude) / b->optics.top_m) * (DENSITY_NODES - 1);
-    int    i = (int)fmin(x, DENSITY_NODES - 1.001);
+    int i = (int)fmin(x, DENSITY_NODES - 1.001);
     for (int p = 0; p < AIR_PARTS; p++)
-        density[p] = lerpf(b->density[i * AIR_PARTS + p],
-                           b->density[(i + 1) * AIR_PARTS + p], (float)(x - i));
+        density[p] = lerpf(b->density[i * AIR_PARTS + p], b->density[(i + 1) * AIR_PARTS + p],
+                           (float)(x - i));
 }

@@ -34,16 +34,15 @@ void beam_table_build_bent(const AirOptics *optics, double floor_m, int threads,
 
 /* A height in the tables, for many suns. */
 typedef struct BeamHeight {
-    int    row;
-    float  share; /* of the way to the next row */
-    double edge;  /* cosine of the true angle at which the sun stands at the floor's edge */
+    int row;
+    float share; /* of the way to the next row */
+    double edge; /* cosine of the true angle at which the sun stands at the floor's edge */
 } BeamHeight;
 
 BeamHeight beam_table_height(const BeamTable *table, double altitude_m);
 
 /* Transmittance from space to a point; below the floor's edge the edge's own. */
-void beam_table_passing(const BeamTable *table, const BeamHeight *at, double cosine,
-                        Spectrum *out);
+void beam_table_passing(const BeamTable *table, const BeamHeight *at, double cosine, Spectrum *out);
 
 /* The same of the sun's beam: its disc sets behind the floor's edge. */
 void beam_table_sun(const BeamTable *table, const BeamHeight *at, double cosine, Spectrum *out);

@@ -15,9 +15,9 @@
 
 typedef struct BentAir {
     const AirOptics *optics;
-    int     count;             /* of nodes, evenly from sea level to the top */
-    double *above[AIR_PARTS];  /* share of the column over a node */
-    double *radius;            /* n r */
+    int count;                /* of nodes, evenly from sea level to the top */
+    double *above[AIR_PARTS]; /* share of the column over a node */
+    double *radius;           /* n r */
 } BentAir;
 
 BentAir bent_air_build(const AirOptics *optics, Arena *arena);

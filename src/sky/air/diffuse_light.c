@@ -26,14 +26,14 @@ typedef struct PhaseModes {
 typedef struct Crossing {
     Spectrum pass;      /* the share of what came in */
     Spectrum near, far; /* weights of the source where light comes in, and leaves */
-    float    path;      /* m */
+    float path;         /* m */
 } Crossing;
 
 typedef struct Solver {
     const DiffuseInput *input;
     DiffuseLight *light;
-    PhaseModes   *phase;
-    double       *direction; /* DIRECTIONS cosines: up, then down */
+    PhaseModes *phase;
+    double *direction;       /* DIRECTIONS cosines: up, then down */
     Spectrum *scattering[2]; /* per level: m^-1 */
     Spectrum *beam;          /* per level: the sun's transmittance */
     Spectrum *layer_depth;   /* per layer, vertical */
@@ -43,13 +43,11 @@ typedef struct Solver {
     Spectrum *order_source;  /* [level][direction][mode] */
 } Solver;
 
-static size_t slot(int level, int direction, int mode)
-{
+static size_t slot(int level, int direction, int mode) {
     return ((size_t)level * DIRECTIONS + (size_t)direction) * DIFFUSE_MODES + (size_t)mode;
 }
 
-static void fill_phase(Solver *s)
-{
+static void fill_phase(Solver *s) {
     double at[DIRECTIONS][MOMENTS], sun[MOMENTS], outwards[DIFFUSE_COSINES][MOMENTS];
     for (int m = 0; m < DIFFUSE_MODES; m++) {
         for (int i = 0; i < DIRECTIONS; i++) phase_legendre(m, s->direction[i], at[i]);
@@ -70,27 +68,24 @@ static void fill_phase(Solver *s)
     }
 }
 
-double diffuse_level_m(const DiffuseLight *light, int level)
-{
-    return light->floor_m + (light->top_m - light->floor_m) *
-                            pow_d(level / (light->level_count - 1.0), 2.2);
+double diffuse_level_m(const DiffuseLight *light, int level) {
+    return light->floor_m +
+           (light->top_m - light->floor_m) * pow_d(level / (light->level_count - 1.0), 2.2);
 }
 
-static void fill_levels(Solver *s)
-{
+static void fill_levels(Solver *s) {
     const AirOptics *o = s->input->optics;
-    DiffuseLight    *light = s->light;
+    DiffuseLight *light = s->light;
     double column[AIR_PARTS];
     for (int k = 0; k < DIFFUSE_LEVELS; k++) {
         double z = diffuse_level_m(light, k);
         light->level_m[k] = z;
         for (int p = 0; p < 2; p++)
-            s->scattering[p][k] = o->scattering[p] *
-                                  spectrum_all((float)air_density(o, (AirPart)p, z));
+            s->scattering[p][k] =
+                o->scattering[p] * spectrum_all((float)air_density(o, (AirPart)p, z));
         Spectrum depth = spectrum_all(0);
-        bool     lit = air_column(o, z, s->input->sun_cosine, light->floor_m, column);
-        for (int p = 0; p < AIR_PARTS; p++)
-            depth += o->depth[p] * spectrum_all((float)column[p]);
+        bool lit = air_column(o, z, s->input->sun_cosine, light->floor_m, column);
+        for (int p = 0; p < AIR_PARTS; p++) depth += o->depth[p] * spectrum_all((float)column[p]);
         s->beam[k] = lit ? spectrum_exp(-depth) : spectrum_all(0);
         if (!k) continue;
         air_vertical(o, light->level_m[k - 1], z, column);
@@ -101,8 +96,7 @@ static void fill_levels(Solver *s)
 }
 
 /* The first order: the sun's beam scattered once. Direction cosines are those of travel. */
-static void scatter_beam(Solver *s)
-{
+static void scatter_beam(Solver *s) {
     for (int k = 0; k < DIFFUSE_LEVELS; k++)
         for (int i = 0; i < DIRECTIONS; i++)
             for (int m = 0; m < DIFFUSE_MODES; m++) {
@@ -120,14 +114,13 @@ typedef float Quad __attribute__((vector_size(16)));
 
 /* Light of a level and a mode in all directions, and what both scatterers do to it. */
 typedef struct Scattering {
-    Quad        from[DIRECTIONS][QUADS];
-    Spectrum    share[2]; /* m^-1 */
-    int         first;    /* molecules have three modes: beyond, the aerosol is the first */
+    Quad from[DIRECTIONS][QUADS];
+    Spectrum share[2]; /* m^-1 */
+    int first;         /* molecules have three modes: beyond, the aerosol is the first */
 } Scattering;
 
 static void start_scattering(const Solver *s, const Spectrum *from, int level, int mode,
-                             Scattering *out)
-{
+                             Scattering *out) {
     for (int j = 0; j < DIRECTIONS; j++)
         memcpy(out->from[j], &from[slot(level, j, mode)], sizeof out->from[j]);
     for (int p = 0; p < 2; p++) out->share[p] = s->scattering[p][level];
@@ -135,8 +128,7 @@ static void start_scattering(const Solver *s, const Spectrum *from, int level, i
 }
 
 /* Into one direction, whose phases towards all others are given. */
-static void scattered(const Scattering *s, const float *const phase[2], Spectrum *out)
-{
+static void scattered(const Scattering *s, const float *const phase[2], Spectrum *out) {
     Spectrum sum[2] = {spectrum_all(0), spectrum_all(0)};
     for (int p = s->first; p < 2; p++) {
         Quad part[QUADS] = {{0}};
@@ -148,29 +140,26 @@ static void scattered(const Scattering *s, const float *const phase[2], Spectrum
 }
 
 /* The next order's source from this order's radiance. */
-static void scatter_again(Solver *s)
-{
+static void scatter_again(Solver *s) {
     for (int k = 0; k < DIFFUSE_LEVELS; k++)
         for (int m = 0; m < DIFFUSE_MODES; m++) {
             Scattering all;
             start_scattering(s, s->radiance, k, m, &all);
             for (int i = 0; i < DIRECTIONS; i++) {
-                const float *phase[2] = {s->phase->between[0][m][i],
-                                         s->phase->between[1][m][i]};
+                const float *phase[2] = {s->phase->between[0][m][i], s->phase->between[1][m][i]};
                 scattered(&all, phase, &s->order_source[slot(k, i, m)]);
             }
         }
 }
 
 /* The source lies between those of a layer's two ends, linear in optical depth. */
-static void fill_crossings(Solver *s)
-{
+static void fill_crossings(Solver *s) {
     const double *level_m = s->light->level_m;
     for (int k = 0; k + 1 < DIFFUSE_LEVELS; k++)
         for (int i = 0; i < SIDE; i++) {
             Crossing *c = &s->crossing[k * SIDE + i];
-            float     cosine = (float)phase_cosine[i];
-            Spectrum  depth = s->layer_depth[k] * spectrum_all(1 / cosine);
+            float cosine = (float)phase_cosine[i];
+            Spectrum depth = s->layer_depth[k] * spectrum_all(1 / cosine);
             c->path = (float)(level_m[k + 1] - level_m[k]) / cosine;
             for (int lane = 0; lane < SPECTRUM_LANES; lane++) {
                 float t = depth[lane], e = exp_f(-t);
@@ -185,19 +174,17 @@ static void fill_crossings(Solver *s)
 }
 
 /* Radiance of all modes at the far level of a layer from that at the near one. */
-static void cross_layer(Solver *s, const Crossing *c, int direction, int near, int far)
-{
+static void cross_layer(Solver *s, const Crossing *c, int direction, int near, int far) {
     const Spectrum *in = s->radiance + slot(near, direction, 0);
     const Spectrum *source[2] = {s->order_source + slot(near, direction, 0),
                                  s->order_source + slot(far, direction, 0)};
     Spectrum *out = s->radiance + slot(far, direction, 0);
     for (int m = 0; m < DIFFUSE_MODES; m++)
-        out[m] = in[m] * c->pass + (source[1][m] * c->far + source[0][m] * c->near) *
-                                       spectrum_all(c->path);
+        out[m] = in[m] * c->pass +
+                 (source[1][m] * c->far + source[0][m] * c->near) * spectrum_all(c->path);
 }
 
-static void reflect_on_floor(Solver *s, bool with_beam)
-{
+static void reflect_on_floor(Solver *s, bool with_beam) {
     Spectrum down = spectrum_all(0);
     for (int j = 0; j < SIDE; j++)
         down += s->radiance[slot(0, SIDE + j, 0)] *
@@ -211,8 +198,7 @@ static void reflect_on_floor(Solver *s, bool with_beam)
 }
 
 /* One order's radiance from its source, downwards and, from the floor, upwards. */
-static void transport(Solver *s, bool with_beam)
-{
+static void transport(Solver *s, bool with_beam) {
     int top = DIFFUSE_LEVELS - 1;
     for (int i = 0; i < SIDE; i++)
         for (int m = 0; m < DIFFUSE_MODES; m++)
@@ -222,21 +208,17 @@ static void transport(Solver *s, bool with_beam)
             cross_layer(s, &s->crossing[k * SIDE + i], SIDE + i, k + 1, k);
     reflect_on_floor(s, with_beam);
     for (int k = 0; k < top; k++)
-        for (int i = 0; i < SIDE; i++)
-            cross_layer(s, &s->crossing[k * SIDE + i], i, k, k + 1);
+        for (int i = 0; i < SIDE; i++) cross_layer(s, &s->crossing[k * SIDE + i], i, k, k + 1);
 }
 
-static void leave_at_top(Solver *s)
-{
+static void leave_at_top(Solver *s) {
     for (int i = 0; i < SIDE; i++)
         s->light->top_exitance += s->total[slot(DIFFUSE_LEVELS - 1, i, 0)] *
-                                  spectrum_all((float)(2 * PI * phase_weight[i] *
-                                                       phase_cosine[i]));
+                                  spectrum_all((float)(2 * PI * phase_weight[i] * phase_cosine[i]));
 }
 
 /* Adds an order to the total; returns its greatest share of it. */
-static float add_order(Solver *s)
-{
+static float add_order(Solver *s) {
     float most = 0;
     for (size_t i = 0; i < slot(DIFFUSE_LEVELS, 0, 0); i++) {
         s->total[i] += s->radiance[i];
@@ -249,39 +231,39 @@ static float add_order(Solver *s)
 }
 
 /* The source of all orders together in the output directions. */
-static void fill_source(Solver *s)
-{
+static void fill_source(Solver *s) {
     for (int k = 0; k < DIFFUSE_LEVELS; k++)
         for (int m = 0; m < DIFFUSE_MODES; m++) {
-            Spectrum  *level = s->light->source + (size_t)(k * DIFFUSE_COSINES * DIFFUSE_MODES);
+            Spectrum *level = s->light->source + (size_t)(k * DIFFUSE_COSINES * DIFFUSE_MODES);
             Scattering all;
             start_scattering(s, s->total, k, m, &all);
             for (int i = 0; i < DIFFUSE_COSINES; i++) {
-                const float *phase[2] = {s->phase->outwards[0][m][i],
-                                         s->phase->outwards[1][m][i]};
+                const float *phase[2] = {s->phase->outwards[0][m][i], s->phase->outwards[1][m][i]};
                 scattered(&all, phase, &level[i * DIFFUSE_MODES + m]);
             }
         }
 }
 
-static Spectrum *spectra(Arena *arena, size_t count)
-{
+static Spectrum *spectra(Arena *arena, size_t count) {
     Spectrum *out = arena_alloc(arena, sizeof *out, 64, count);
     for (size_t i = 0; i < count; i++) out[i] = spectrum_all(0);
     return out;
 }
 
-void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *out)
-{
+void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *out) {
     double direction[DIRECTIONS];
     size_t slots = slot(DIFFUSE_LEVELS, 0, 0);
     *out = (DiffuseLight){.floor_m = input->floor_m,
-                          .top_m = input->optics->top_m, .level_count = DIFFUSE_LEVELS,
-                          .ground_direct = spectrum_all(0), .ground_diffuse = spectrum_all(0),
+                          .top_m = input->optics->top_m,
+                          .level_count = DIFFUSE_LEVELS,
+                          .ground_direct = spectrum_all(0),
+                          .ground_diffuse = spectrum_all(0),
                           .top_exitance = spectrum_all(0)};
     out->source = spectra(arena, (size_t)DIFFUSE_LEVELS * DIFFUSE_COSINES * DIFFUSE_MODES);
-    Arena  scratch = *arena;
-    Solver s = {.input = input, .light = out, .direction = direction,
+    Arena scratch = *arena;
+    Solver s = {.input = input,
+                .light = out,
+                .direction = direction,
                 .phase = ARENA_NEW(&scratch, PhaseModes, 1)};
     for (int i = 0; i < SIDE; i++) {
         direction[i] = phase_cosine[i];
@@ -311,25 +293,22 @@ void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-DiffusePlace diffuse_light_place(const DiffuseLight *light, double altitude_m, float cosine)
-{
+DiffusePlace diffuse_light_place(const DiffuseLight *light, double altitude_m, float cosine) {
     double share = fmax(0, (altitude_m - light->floor_m) / (light->top_m - light->floor_m));
-    double at = fmin(pow_d(share, 1 / 2.2) * (light->level_count - 1),
-                     light->level_count - 1.0001);
-    int    k = (int)at;
-    float  t = (float)((altitude_m - light->level_m[k]) /
-                       (light->level_m[k + 1] - light->level_m[k]));
+    double at = fmin(pow_d(share, 1 / 2.2) * (light->level_count - 1), light->level_count - 1.0001);
+    int k = (int)at;
+    float t =
+        (float)((altitude_m - light->level_m[k]) / (light->level_m[k + 1] - light->level_m[k]));
     float c = clampf((cosine + 1) * 0.5f * (DIFFUSE_COSINES - 1), 0, DIFFUSE_COSINES - 1.0001f);
-    int    i = (int)c;
-    float  u = c - (float)i;
+    int i = (int)c;
+    float u = c - (float)i;
     return (DiffusePlace){k, i, {(1 - t) * (1 - u), (1 - t) * u, t * (1 - u), t * u}};
 }
 
 void diffuse_light_modes(const DiffuseLight *light, const DiffusePlace *at,
-                         Spectrum mode[DIFFUSE_MODES])
-{
-    const Spectrum *low = light->source + ((size_t)at->level * DIFFUSE_COSINES +
-                                           (size_t)at->cosine) * DIFFUSE_MODES;
+                         Spectrum mode[DIFFUSE_MODES]) {
+    const Spectrum *low =
+        light->source + ((size_t)at->level * DIFFUSE_COSINES + (size_t)at->cosine) * DIFFUSE_MODES;
     const Spectrum *high = low + DIFFUSE_COSINES * DIFFUSE_MODES;
     for (int m = 0; m < DIFFUSE_MODES; m++)
         mode[m] = low[m] * spectrum_all(at->weight[0]) +
@@ -338,10 +317,8 @@ void diffuse_light_modes(const DiffuseLight *light, const DiffusePlace *at,
                   high[m + DIFFUSE_MODES] * spectrum_all(at->weight[3]);
 }
 
-void diffuse_light_source(const Spectrum mode[DIFFUSE_MODES], float azimuth_cosine,
-                          Spectrum *out)
-{
-    float    before = azimuth_cosine, now = 1;
+void diffuse_light_source(const Spectrum mode[DIFFUSE_MODES], float azimuth_cosine, Spectrum *out) {
+    float before = azimuth_cosine, now = 1;
     Spectrum sum = spectrum_all(0);
     for (int m = 0; m < DIFFUSE_MODES; m++) {
         sum += mode[m] * spectrum_all(now);

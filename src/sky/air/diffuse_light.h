@@ -20,9 +20,9 @@
 #define DIFFUSE_COSINES 17 /* of directions, evenly from -1 to 1 */
 
 typedef struct DiffuseLight {
-    double floor_m;   /* where the ground or the cloud deck is */
+    double floor_m; /* where the ground or the cloud deck is */
     double top_m;
-    int    level_count;
+    int level_count;
     double level_m[DIFFUSE_LEVELS]; /* rising from the floor to the top, as diffuse_level_m */
     /* Scattered into a direction at a level, m^-1 sr^-1, from light that was scattered or
      * reflected before: [level][cosine][mode]; sum over modes of source cos(mode * azimuth),
@@ -30,15 +30,15 @@ typedef struct DiffuseLight {
     Spectrum *source;
     float rise; /* logarithm of the next sun angle's light over this one's, where that is how
                  * light lies between the two; 0: it lies on a straight line */
-    Spectrum  ground_direct, ground_diffuse; /* irradiance on the floor */
-    Spectrum  top_exitance; /* what leaves for space */
+    Spectrum ground_direct, ground_diffuse; /* irradiance on the floor */
+    Spectrum top_exitance;                  /* what leaves for space */
 } DiffuseLight;
 
 typedef struct DiffuseInput {
     const AirOptics *optics;
     double floor_m, floor_albedo;
     double sun_cosine; /* of its angle to the zenith */
-    int    orders;     /* of scattering, at most; 0: until a thousandth is left */
+    int orders;        /* of scattering, at most; 0: until a thousandth is left */
 } DiffuseInput;
 
 void diffuse_light_build(const DiffuseInput *input, Arena *arena, DiffuseLight *out);
@@ -48,7 +48,7 @@ double diffuse_level_m(const DiffuseLight *light, int level);
 
 /* A place in the tables, the same in all lights of the same levels. */
 typedef struct DiffusePlace {
-    int   level, cosine;
+    int level, cosine;
     float weight[4]; /* of both cosines at the level, and at the next */
 } DiffusePlace;
 
@@ -61,5 +61,4 @@ void diffuse_light_modes(const DiffuseLight *light, const DiffusePlace *at,
 
 /* Its sum for the cosine of the travel's azimuth from the beam's (1: light for an eye that
  * looks towards the sun). By pointer, because every build of the hot sources calls this one. */
-void diffuse_light_source(const Spectrum mode[DIFFUSE_MODES], float azimuth_cosine,
-                          Spectrum *out);
+void diffuse_light_source(const Spectrum mode[DIFFUSE_MODES], float azimuth_cosine, Spectrum *out);

@@ -11,8 +11,7 @@ const double phase_weight[PHASE_SIDE] = {
     0.05061426814518813, 0.11119051722668724, 0.15685332293894364, 0.18134189168918099,
     0.18134189168918099, 0.15685332293894364, 0.11119051722668724, 0.05061426814518813};
 
-void phase_legendre(int m, double x, double value[PHASE_MOMENTS])
-{
+void phase_legendre(int m, double x, double value[PHASE_MOMENTS]) {
     double sine = sqrt(fmax(0, 1 - x * x)), start = 1;
     for (int k = 1; k <= m; k++) start *= -sine * sqrt((2 * k - 1) / (2.0 * k));
     for (int l = 0; l < PHASE_MOMENTS; l++) value[l] = 0;
@@ -20,19 +19,18 @@ void phase_legendre(int m, double x, double value[PHASE_MOMENTS])
     value[m] = start;
     if (m + 1 < PHASE_MOMENTS) value[m + 1] = x * sqrt(2 * m + 1.0) * start;
     for (int l = m + 2; l < PHASE_MOMENTS; l++)
-        value[l] = ((2 * l - 1) * x * value[l - 1] -
-                    sqrt((l - 1.0) * (l - 1) - m * m) * value[l - 2]) /
-                   sqrt((double)l * l - m * m);
+        value[l] =
+            ((2 * l - 1) * x * value[l - 1] - sqrt((l - 1.0) * (l - 1) - m * m) * value[l - 2]) /
+            sqrt((double)l * l - m * m);
 }
 
-float phase_series_mode(AirPart part, const double a[PHASE_MOMENTS],
-                        const double b[PHASE_MOMENTS], int m)
-{
+float phase_series_mode(AirPart part, const double a[PHASE_MOMENTS], const double b[PHASE_MOMENTS],
+                        int m) {
     double sum = 0, moment = 1;
     for (int l = 0; l < PHASE_MOMENTS; l++) {
         double of_molecules = l == 0 ? 1 : l == 2 ? 0.1 : 0;
-        if (l >= m) sum += (2 * l + 1) * (part == AIR_MOLECULES ? of_molecules : moment) *
-                           a[l] * b[l];
+        if (l >= m)
+            sum += (2 * l + 1) * (part == AIR_MOLECULES ? of_molecules : moment) * a[l] * b[l];
         moment *= (double)AIR_ASYMMETRY;
     }
     return (float)sum;

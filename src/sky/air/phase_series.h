@@ -19,5 +19,5 @@ void phase_legendre(int m, double x, double value[PHASE_MOMENTS]);
 
 /* Mode m of the phase function (sr^-1 times 4 pi) between two cosines, from both's functions:
  * the whole is the sum over m of (m ? 2 : 1) mode cos(m azimuth). */
-float phase_series_mode(AirPart part, const double a[PHASE_MOMENTS],
-                        const double b[PHASE_MOMENTS], int m);
+float phase_series_mode(AirPart part, const double a[PHASE_MOMENTS], const double b[PHASE_MOMENTS],
+                        int m);

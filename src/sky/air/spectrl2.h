@@ -15,7 +15,7 @@
 /* The air above a place, and the ground's albedo. */
 typedef struct Air {
     double pressure_mbar;
-    double water_cm;      /* precipitable */
+    double water_cm; /* precipitable */
     double ozone_atm_cm;
     double aerosol_depth; /* optical depth at 500 nm */
     double aerosol_power; /* Angstrom's exponent, 1.14 rural */

@@ -10,15 +10,15 @@
 #include "sky/air/phase_series.h"
 
 #define DIRECTIONS (2 * PHASE_SIDE)
-#define AZIMUTHS 6       /* half a turn's, where a ray is followed */
-#define TRAVEL_MODES 3   /* of azimuth, that reach other places */
-#define STEPS 32         /* of a ray */
+#define AZIMUTHS 6     /* half a turn's, where a ray is followed */
+#define TRAVEL_MODES 3 /* of azimuth, that reach other places */
+#define STEPS 32       /* of a ray */
 #define ORDERS_MAX 24
 #define ORDER_SHARE 0.03f /* of all light: orders beyond are summed as a series */
 
 /* Where the sun stands at a place, in the tables of the sources. */
 typedef struct SunPlace {
-    int   angle;   /* the one below */
+    int angle;     /* the one below */
     float share;   /* of the way to the next */
     float azimuth; /* cosine of the ray's azimuth from the sun's */
 } SunPlace;
@@ -26,60 +26,56 @@ typedef struct SunPlace {
 typedef struct Sphere {
     const SphereInput *input;
     const DiffuseLight *shape;    /* whose levels all share */
-    double   direction[DIRECTIONS]; /* cosines of travel: up, then down */
-    float    phase[2][DIFFUSE_MODES][DIFFUSE_COSINES][DIRECTIONS];
+    double direction[DIRECTIONS]; /* cosines of travel: up, then down */
+    float phase[2][DIFFUSE_MODES][DIFFUSE_COSINES][DIRECTIONS];
     Spectrum scattering[2][SPHERE_LEVELS]; /* m^-1 */
-    float    beam_phase[2][DIRECTIONS][SPHERE_ANGLES_MAX][AZIMUTHS];
+    float beam_phase[2][DIRECTIONS][SPHERE_ANGLES_MAX][AZIMUTHS];
     Spectrum ground[SPHERE_ANGLES_MAX]; /* the last order's irradiance on the floor */
     Spectrum share[SPHERE_ANGLES_MAX];  /* of that in the order before */
-    float    rise[SPHERE_ANGLES_MAX];   /* of the last order's source towards the next angle */
-    float    fall[SPHERE_ANGLES_MAX];   /* exp(-rise) */
-    double   sun[SPHERE_ANGLES_MAX][AZIMUTHS][2]; /* direction at a ray's start, x and z */
-    float    wave[DIFFUSE_MODES][AZIMUTHS];       /* cosines of the modes, at the azimuths */
+    float rise[SPHERE_ANGLES_MAX];      /* of the last order's source towards the next angle */
+    float fall[SPHERE_ANGLES_MAX];      /* exp(-rise) */
+    double sun[SPHERE_ANGLES_MAX][AZIMUTHS][2]; /* direction at a ray's start, x and z */
+    float wave[DIFFUSE_MODES][AZIMUTHS];        /* cosines of the modes, at the azimuths */
     SunPlace *place;    /* [level][direction][step, then its end][angle][azimuth] */
     Spectrum *radiance; /* [level][direction][angle][mode]: one order */
     Spectrum *source;   /* [level][cosine][angle][mode]: what it scatters, m^-1 sr^-1 */
     Spectrum *total;    /* the same of all orders */
-    bool     from_beam; /* this order is the first: lit by the sun itself */
+    bool from_beam;     /* this order is the first: lit by the sun itself */
 } Sphere;
 
 /* A straight ray from a node, and where it is. Its plane is that of x and z. */
 typedef struct NodeRay {
     double radius, sine, cosine, length;
-    bool   meets_floor;
+    bool meets_floor;
 } NodeRay;
 
 typedef struct RayPoint {
-    double up[2];             /* the local zenith's x and z */
-    double altitude, cosine;  /* of the ray to the local zenith */
+    double up[2];            /* the local zenith's x and z */
+    double altitude, cosine; /* of the ray to the local zenith */
 } RayPoint;
 
-static size_t node(int level, int direction, int angle)
-{
-    return (((size_t)level * DIRECTIONS + (size_t)direction) * SPHERE_ANGLES_MAX +
-            (size_t)angle) * DIFFUSE_MODES;
+static size_t node(int level, int direction, int angle) {
+    return (((size_t)level * DIRECTIONS + (size_t)direction) * SPHERE_ANGLES_MAX + (size_t)angle) *
+           DIFFUSE_MODES;
 }
 
-static size_t source_node(int level, int cosine, int angle)
-{
+static size_t source_node(int level, int cosine, int angle) {
     return (((size_t)level * DIFFUSE_COSINES + (size_t)cosine) * SPHERE_ANGLES_MAX +
-            (size_t)angle) * DIFFUSE_MODES;
+            (size_t)angle) *
+           DIFFUSE_MODES;
 }
 
 /* The places of a ray's step; STEPS is its end. */
-static SunPlace *step_places(const Sphere *s, int level, int direction, int step)
-{
+static SunPlace *step_places(const Sphere *s, int level, int direction, int step) {
     size_t row = ((size_t)level * DIRECTIONS + (size_t)direction) * (STEPS + 1) + (size_t)step;
     return s->place + row * (size_t)s->input->count * AZIMUTHS;
 }
 
-static double sun_angle(const Sphere *s, int angle)
-{
+static double sun_angle(const Sphere *s, int angle) {
     return s->input->first_zenith + angle * s->input->step;
 }
 
-void sphere_light_weights(float t, float rise, float weight[2])
-{
+void sphere_light_weights(float t, float rise, float weight[2]) {
     weight[0] = 1 - t;
     weight[1] = t;
     if (rise == 0) return;
@@ -89,28 +85,24 @@ void sphere_light_weights(float t, float rise, float weight[2])
 
 /* ---- a ray ------------------------------------------------------------------------------- */
 
-static NodeRay ray_from(const Sphere *s, int level, int direction)
-{
+static NodeRay ray_from(const Sphere *s, int level, int direction) {
     double cosine = -s->direction[direction]; /* looking against the travel */
     double r = AIR_EARTH_M + s->shape->level_m[level], b = r * cosine;
     double floor = AIR_EARTH_M + s->shape->floor_m, top = AIR_EARTH_M + s->shape->top_m;
     double under = b * b - r * r + floor * floor;
     NodeRay ray = {r, sqrt(1 - cosine * cosine), cosine, 0, b < 0 && under > 0};
-    ray.length = ray.meets_floor ? fmax(0, -b - sqrt(under))
-                                 : -b + sqrt(fmax(0, b * b - r * r + top * top));
+    ray.length =
+        ray.meets_floor ? fmax(0, -b - sqrt(under)) : -b + sqrt(fmax(0, b * b - r * r + top * top));
     return ray;
 }
 
-static RayPoint point_at(const NodeRay *ray, double distance)
-{
+static RayPoint point_at(const NodeRay *ray, double distance) {
     double x = distance * ray->sine, z = ray->radius + distance * ray->cosine;
     double r = sqrt(x * x + z * z);
-    return (RayPoint){{x / r, z / r}, r - AIR_EARTH_M,
-                      (ray->sine * x + ray->cosine * z) / r};
+    return (RayPoint){{x / r, z / r}, r - AIR_EARTH_M, (ray->sine * x + ray->cosine * z) / r};
 }
 
-static void fill_suns(Sphere *s)
-{
+static void fill_suns(Sphere *s) {
     for (int a = 0; a < s->input->count; a++)
         for (int j = 0; j < AZIMUTHS; j++) {
             double zenith = sun_angle(s, a);
@@ -119,8 +111,7 @@ static void fill_suns(Sphere *s)
         }
 }
 
-static void fill_waves(Sphere *s)
-{
+static void fill_waves(Sphere *s) {
     for (int m = 0; m < DIFFUSE_MODES; m++)
         for (int j = 0; j < AZIMUTHS; j++)
             s->wave[m][j] = (float)cos_d(m * PI * (j + 0.5) / AZIMUTHS);
@@ -128,9 +119,8 @@ static void fill_waves(Sphere *s)
 
 /* Where a sun stands at a point of the ray; gives the cosine of its angle to the zenith. The
  * same for all orders. */
-static double find_sun(const Sphere *s, const NodeRay *ray, const RayPoint *at,
-                       const double sun[2], SunPlace *out)
-{
+static double find_sun(const Sphere *s, const NodeRay *ray, const RayPoint *at, const double sun[2],
+                       SunPlace *out) {
     double c = at->up[0] * sun[0] + at->up[1] * sun[1];
     double across = ray->sine * sun[0] + ray->cosine * sun[1] - at->cosine * c;
     double norm = sqrt(fmax(0, 1 - at->cosine * at->cosine) * fmax(0, 1 - c * c));
@@ -146,8 +136,8 @@ static double find_sun(const Sphere *s, const NodeRay *ray, const RayPoint *at,
 
 typedef struct Gather {
     const Sphere *sphere;
-    NodeRay  ray;
-    int      level, direction;
+    NodeRay ray;
+    int level, direction;
     Spectrum radiance[SPHERE_ANGLES_MAX][AZIMUTHS];
     Spectrum source[SPHERE_ANGLES_MAX][TRAVEL_MODES]; /* at the step's place, per sun angle */
 } Gather;
@@ -155,44 +145,40 @@ typedef struct Gather {
 /* The beam scattered once; seen: mean transmittance times the step's length. It is the first
  * order: the suns' places are found for those to come. */
 static void add_beam(Gather *g, const RayPoint *at, const float density[AIR_PARTS],
-                     const Spectrum *seen, SunPlace *place)
-{
-    const Sphere    *s = g->sphere;
+                     const Spectrum *seen, SunPlace *place) {
+    const Sphere *s = g->sphere;
     const AirOptics *o = &s->input->beam->optics;
     BeamHeight height = beam_table_height(s->input->beam, at->altitude);
-    Spectrum   part[2], beam;
-    for (int p = 0; p < 2; p++)
-        part[p] = *seen * o->scattering[p] * spectrum_all(density[p]);
+    Spectrum part[2], beam;
+    for (int p = 0; p < 2; p++) part[p] = *seen * o->scattering[p] * spectrum_all(density[p]);
     for (int a = 0; a < s->input->count; a++)
         for (int j = 0; j < AZIMUTHS; j++) {
             double cosine = find_sun(s, &g->ray, at, s->sun[a][j], place++);
             beam_table_sun(s->input->beam, &height, cosine, &beam);
             for (int p = 0; p < 2; p++)
-                g->radiance[a][j] += part[p] * beam *
-                                     spectrum_all(s->beam_phase[p][g->direction][a][j]);
+                g->radiance[a][j] +=
+                    part[p] * beam * spectrum_all(s->beam_phase[p][g->direction][a][j]);
         }
 }
 
 /* The sources around the step's altitude and direction, for every sun angle. */
-static void read_sources(Gather *g, const RayPoint *at, const Spectrum *seen)
-{
+static void read_sources(Gather *g, const RayPoint *at, const Spectrum *seen) {
     const Sphere *s = g->sphere;
     const double *level_m = s->shape->level_m;
-    int   k = 0, last = SPHERE_LEVELS - 2;
+    int k = 0, last = SPHERE_LEVELS - 2;
     while (k < last && level_m[k + 1] < at->altitude) k++;
     float t = (float)((at->altitude - level_m[k]) / (level_m[k + 1] - level_m[k]));
     float c = clampf((float)(1 - at->cosine) * 0.5f * (DIFFUSE_COSINES - 1), 0,
                      DIFFUSE_COSINES - 1.0001f);
-    int   i = (int)c;
+    int i = (int)c;
     float u = c - (float)i;
     Spectrum weight[4] = {*seen * spectrum_all((1 - t) * (1 - u)),
-                          *seen * spectrum_all((1 - t) * u),
-                          *seen * spectrum_all(t * (1 - u)), *seen * spectrum_all(t * u)};
+                          *seen * spectrum_all((1 - t) * u), *seen * spectrum_all(t * (1 - u)),
+                          *seen * spectrum_all(t * u)};
     for (int a = 0; a < s->input->count; a++) {
-        const Spectrum *from[4] = {s->source + source_node(k, i, a),
-                                   s->source + source_node(k, i + 1, a),
-                                   s->source + source_node(k + 1, i, a),
-                                   s->source + source_node(k + 1, i + 1, a)};
+        const Spectrum *from[4] = {
+            s->source + source_node(k, i, a), s->source + source_node(k, i + 1, a),
+            s->source + source_node(k + 1, i, a), s->source + source_node(k + 1, i + 1, a)};
         for (int m = 0; m < TRAVEL_MODES; m++)
             g->source[a][m] = weight[0] * from[0][m] + weight[1] * from[1][m] +
                               weight[2] * from[2][m] + weight[3] * from[3][m];
@@ -200,24 +186,21 @@ static void read_sources(Gather *g, const RayPoint *at, const Spectrum *seen)
 }
 
 /* As sphere_light_weights. */
-static void place_weights(const Sphere *s, const SunPlace *place, float weight[2])
-{
+static void place_weights(const Sphere *s, const SunPlace *place, float weight[2]) {
     float growth = exp_f(s->rise[place->angle] * place->share);
     weight[0] = (1 - place->share) * growth;
     weight[1] = place->share * growth * s->fall[place->angle];
 }
 
 /* All azimuths' weights first: exponentials that wait for nothing overlap. */
-static void add_source(Gather *g, const RayPoint *at, const Spectrum *seen,
-                       const SunPlace *place)
-{
+static void add_source(Gather *g, const RayPoint *at, const Spectrum *seen, const SunPlace *place) {
     const Sphere *s = g->sphere;
     read_sources(g, at, seen);
     for (int a = 0; a < s->input->count; a++, place += AZIMUTHS) {
         float weight[AZIMUTHS][2];
         for (int j = 0; j < AZIMUTHS; j++) place_weights(s, &place[j], weight[j]);
         for (int j = 0; j < AZIMUTHS; j++) {
-            int   angle = place[j].angle;
+            int angle = place[j].angle;
             float cosine = place[j].azimuth;
             const Spectrum *low = g->source[angle], *high = g->source[angle + 1];
             float mode[TRAVEL_MODES] = {1, cosine, 2 * cosine * cosine - 1};
@@ -229,12 +212,11 @@ static void add_source(Gather *g, const RayPoint *at, const Spectrum *seen,
 }
 
 /* The floor at the ray's end, lit by the sun's beam: the first order. */
-static void add_lit_floor(Gather *g, const Spectrum *share, SunPlace *place)
-{
+static void add_lit_floor(Gather *g, const Spectrum *share, SunPlace *place) {
     const Sphere *s = g->sphere;
-    RayPoint   at = point_at(&g->ray, g->ray.length);
+    RayPoint at = point_at(&g->ray, g->ray.length);
     BeamHeight height = beam_table_height(s->input->beam, at.altitude);
-    Spectrum   light;
+    Spectrum light;
     for (int a = 0; a < s->input->count; a++)
         for (int j = 0; j < AZIMUTHS; j++) {
             double cosine = find_sun(s, &g->ray, &at, s->sun[a][j], place++);
@@ -244,30 +226,27 @@ static void add_lit_floor(Gather *g, const Spectrum *share, SunPlace *place)
 }
 
 /* Lit by the last order's light. */
-static void add_floor(Gather *g, const Spectrum *share, const SunPlace *place)
-{
+static void add_floor(Gather *g, const Spectrum *share, const SunPlace *place) {
     const Sphere *s = g->sphere;
     for (int a = 0; a < s->input->count; a++)
         for (int j = 0; j < AZIMUTHS; j++, place++) {
             float weight[2];
             place_weights(s, place, weight);
             g->radiance[a][j] += *share * (s->ground[place->angle] * spectrum_all(weight[0]) +
-                                           s->ground[place->angle + 1] *
-                                               spectrum_all(weight[1]));
+                                           s->ground[place->angle + 1] * spectrum_all(weight[1]));
         }
 }
 
 /* ---- an order ---------------------------------------------------------------------------- */
 
-static void march(Gather *g)
-{
+static void march(Gather *g) {
     const Sphere *s = g->sphere;
     Spectrum passing = spectrum_all(1);
-    double   from = 0;
+    double from = 0;
     for (int i = 0; i < STEPS; i++) {
-        double   share = (i + 1.0) / STEPS, to = g->ray.length * share * share;
+        double share = (i + 1.0) / STEPS, to = g->ray.length * share * share;
         RayPoint at = point_at(&g->ray, 0.5 * (from + to));
-        float    density[AIR_PARTS], step = (float)(to - from);
+        float density[AIR_PARTS], step = (float)(to - from);
         Spectrum depth = spectrum_all(0), seen;
         beam_table_density(s->input->beam, at.altitude, density);
         for (int p = 0; p < AIR_PARTS; p++)
@@ -283,19 +262,18 @@ static void march(Gather *g)
         from = to;
     }
     if (!g->ray.meets_floor) return;
-    Spectrum  given = passing * spectrum_all((float)(s->input->floor_albedo / PI));
+    Spectrum given = passing * spectrum_all((float)(s->input->floor_albedo / PI));
     SunPlace *end = step_places(s, g->level, g->direction, STEPS);
     if (s->from_beam) add_lit_floor(g, &given, end);
     else add_floor(g, &given, end);
 }
 
 /* Radiance at one node in one direction, for every sun angle, as a series in the azimuth. */
-static void fill_radiance(void *context, int item, int worker)
-{
+static void fill_radiance(void *context, int item, int worker) {
     Sphere *s = context;
-    int     level = item / DIRECTIONS, direction = item % DIRECTIONS;
-    Gather  g = {.sphere = s, .ray = ray_from(s, level, direction), .level = level,
-                  .direction = direction};
+    int level = item / DIRECTIONS, direction = item % DIRECTIONS;
+    Gather g = {
+        .sphere = s, .ray = ray_from(s, level, direction), .level = level, .direction = direction};
     (void)worker;
     for (int a = 0; a < s->input->count; a++)
         for (int j = 0; j < AZIMUTHS; j++) g.radiance[a][j] = spectrum_all(0);
@@ -311,8 +289,7 @@ static void fill_radiance(void *context, int item, int worker)
 }
 
 /* A level's source from an order's radiance; adds it to the total. */
-static void fill_source(void *context, int level, int worker)
-{
+static void fill_source(void *context, int level, int worker) {
     Sphere *s = context;
     (void)worker;
     for (int i = 0; i < DIFFUSE_COSINES; i++)
@@ -324,8 +301,9 @@ static void fill_source(void *context, int level, int worker)
                         sum[p] += spectrum_all(s->phase[p][m][i][j] *
                                                (float)phase_weight[j % PHASE_SIDE]) *
                                   s->radiance[node(level, j, a) + (size_t)m];
-                Spectrum both = (s->scattering[0][level] * sum[0] +
-                                 s->scattering[1][level] * sum[1]) * spectrum_all(0.5f);
+                Spectrum both =
+                    (s->scattering[0][level] * sum[0] + s->scattering[1][level] * sum[1]) *
+                    spectrum_all(0.5f);
                 size_t at = source_node(level, i, a) + (size_t)m;
                 s->source[at] = both;
                 s->total[at] += both;
@@ -333,8 +311,7 @@ static void fill_source(void *context, int level, int worker)
 }
 
 /* The floor's light of an order. */
-static void light_floor(Sphere *s, DiffuseLight *out)
-{
+static void light_floor(Sphere *s, DiffuseLight *out) {
     for (int a = 0; a < s->input->count; a++) {
         Spectrum down = spectrum_all(0);
         for (int j = 0; j < PHASE_SIDE; j++)
@@ -348,8 +325,7 @@ static void light_floor(Sphere *s, DiffuseLight *out)
 
 /* How a source grows from each sun angle to the next: of the green light that all air over the
  * floor scatters upwards. */
-static void fill_rise(Sphere *s, const Spectrum *source)
-{
+static void fill_rise(Sphere *s, const Spectrum *source) {
     double light[SPHERE_ANGLES_MAX];
     for (int a = 0; a < s->input->count; a++) {
         light[a] = 1e-30;
@@ -365,8 +341,7 @@ static void fill_rise(Sphere *s, const Spectrum *source)
 
 /* ---- all orders -------------------------------------------------------------------------- */
 
-static void fill_phase(Sphere *s)
-{
+static void fill_phase(Sphere *s) {
     double at[DIRECTIONS][PHASE_MOMENTS], outwards[DIFFUSE_COSINES][PHASE_MOMENTS];
     for (int m = 0; m < DIFFUSE_MODES; m++) {
         for (int i = 0; i < DIRECTIONS; i++) phase_legendre(m, s->direction[i], at[i]);
@@ -381,47 +356,42 @@ static void fill_phase(Sphere *s)
 
 /* Phase functions at the angle between a node's ray and the sun, which is constant along a
  * straight ray. */
-static void fill_beam_phase(Sphere *s)
-{
+static void fill_beam_phase(Sphere *s) {
     for (int i = 0; i < DIRECTIONS; i++)
         for (int a = 0; a < s->input->count; a++)
             for (int j = 0; j < AZIMUTHS; j++) {
                 double view = -s->direction[i], zenith = sun_angle(s, a);
-                double cosine = view * cos_d(zenith) +
-                                sqrt(1 - view * view) * sin_d(zenith) *
-                                cos_d(PI * (j + 0.5) / AZIMUTHS);
+                double cosine = view * cos_d(zenith) + sqrt(1 - view * view) * sin_d(zenith) *
+                                                           cos_d(PI * (j + 0.5) / AZIMUTHS);
                 s->beam_phase[0][i][a][j] = air_phase_molecules((float)cosine);
                 s->beam_phase[1][i][a][j] = air_phase_aerosol((float)cosine);
             }
 }
 
-static Spectrum *spectra(Arena *arena, size_t count)
-{
+static Spectrum *spectra(Arena *arena, size_t count) {
     Spectrum *out = arena_alloc(arena, sizeof *out, 64, count);
     for (size_t i = 0; i < count; i++) out[i] = spectrum_all(0);
     return out;
 }
 
-static void start_lights(const SphereInput *in, Arena *arena, DiffuseLight *out)
-{
+static void start_lights(const SphereInput *in, Arena *arena, DiffuseLight *out) {
     const AirOptics *o = &in->beam->optics;
     BeamHeight floor = beam_table_height(in->beam, in->beam->floor_m);
     for (int a = 0; a < in->count; a++) {
         double cosine = cos_d(in->first_zenith + a * in->step);
         out[a] = (DiffuseLight){.floor_m = in->beam->floor_m,
-                                .top_m = o->top_m, .level_count = SPHERE_LEVELS,
+                                .top_m = o->top_m,
+                                .level_count = SPHERE_LEVELS,
                                 .ground_diffuse = spectrum_all(0),
                                 .top_exitance = spectrum_all(0)};
         for (int k = 0; k < SPHERE_LEVELS; k++) out[a].level_m[k] = diffuse_level_m(out, k);
         beam_table_sun(in->beam, &floor, cosine, &out[a].ground_direct);
         out[a].ground_direct *= spectrum_all((float)fmax(0, cosine));
-        out[a].source = spectra(arena, (size_t)SPHERE_LEVELS * DIFFUSE_COSINES *
-                                       DIFFUSE_MODES);
+        out[a].source = spectra(arena, (size_t)SPHERE_LEVELS * DIFFUSE_COSINES * DIFFUSE_MODES);
     }
 }
 
-static void start_sphere(Sphere *s, Arena *scratch)
-{
+static void start_sphere(Sphere *s, Arena *scratch) {
     const AirOptics *o = &s->input->beam->optics;
     for (int i = 0; i < PHASE_SIDE; i++) {
         s->direction[i] = phase_cosine[i];
@@ -435,30 +405,28 @@ static void start_sphere(Sphere *s, Arena *scratch)
     s->radiance = spectra(scratch, node(SPHERE_LEVELS, 0, 0));
     s->source = spectra(scratch, source_node(SPHERE_LEVELS, 0, 0));
     s->total = spectra(scratch, source_node(SPHERE_LEVELS, 0, 0));
-    s->place = ARENA_NEW(scratch, SunPlace, (size_t)SPHERE_LEVELS * DIRECTIONS * (STEPS + 1) *
-                                            (size_t)s->input->count * AZIMUTHS);
+    s->place = ARENA_NEW(scratch, SunPlace,
+                         (size_t)SPHERE_LEVELS * DIRECTIONS * (STEPS + 1) *
+                             (size_t)s->input->count * AZIMUTHS);
     fill_phase(s);
     fill_suns(s);
     fill_waves(s);
     fill_beam_phase(s);
 }
 
-static void give_sources(const Sphere *s, DiffuseLight *out)
-{
+static void give_sources(const Sphere *s, DiffuseLight *out) {
     for (int a = 0; a < s->input->count; a++) {
         out[a].rise = s->rise[a];
         for (int k = 0; k < SPHERE_LEVELS; k++)
             for (int i = 0; i < DIFFUSE_COSINES; i++)
                 for (int m = 0; m < DIFFUSE_MODES; m++)
                     out[a].source[((size_t)k * DIFFUSE_COSINES + (size_t)i) * DIFFUSE_MODES +
-                                  (size_t)m] =
-                        s->total[source_node(k, i, a) + (size_t)m];
+                                  (size_t)m] = s->total[source_node(k, i, a) + (size_t)m];
     }
 }
 
 /* The greatest share that an order still has of the floor's light. */
-static float order_share(const Sphere *s, const DiffuseLight *out)
-{
+static float order_share(const Sphere *s, const DiffuseLight *out) {
     float most = 0;
     for (int a = 0; a < s->input->count; a++) {
         Spectrum whole = spectrum_max(out[a].ground_diffuse, spectrum_all(1e-30f));
@@ -468,8 +436,7 @@ static float order_share(const Sphere *s, const DiffuseLight *out)
 }
 
 /* All orders to come, as a geometric series: high orders differ by a factor only. */
-static void add_tail(Sphere *s, DiffuseLight *out)
-{
+static void add_tail(Sphere *s, DiffuseLight *out) {
     for (int a = 0; a < s->input->count; a++) {
         Spectrum share = spectrum_clamp(s->share[a], 0, 0.9f);
         Spectrum tail = share / (spectrum_all(1) - share);
@@ -483,10 +450,9 @@ static void add_tail(Sphere *s, DiffuseLight *out)
     }
 }
 
-int sphere_light_build(const SphereInput *input, Arena *arena, DiffuseLight *out)
-{
+int sphere_light_build(const SphereInput *input, Arena *arena, DiffuseLight *out) {
     start_lights(input, arena, out);
-    Arena   scratch = *arena;
+    Arena scratch = *arena;
     Sphere *s = arena_alloc(&scratch, sizeof *s, 64, 1);
     s->input = input;
     s->shape = out;

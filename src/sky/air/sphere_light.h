@@ -25,9 +25,9 @@ typedef struct SphereInput {
     const BeamTable *beam;
     double floor_albedo;
     double first_zenith, step; /* of the local sun angles, radians */
-    int    count;              /* of them, at most SPHERE_ANGLES_MAX */
-    int    orders;             /* of scattering, at most; 0: all, the last as a series */
-    int    threads;
+    int count;                 /* of them, at most SPHERE_ANGLES_MAX */
+    int orders;                /* of scattering, at most; 0: all, the last as a series */
+    int threads;
 } SphereInput;
 
 #define SPHERE_ANGLES_MAX 24

@@ -14,34 +14,31 @@ enum { NO_SOURCE = -1 };
 
 /* The pixels of the display window; one that is not seen has no solid angle. */
 typedef struct Pixels {
-    FrameView    view;
-    int          width, height;
-    const float *y;        /* cd m^-2 */
+    FrameView view;
+    int width, height;
+    const float *y;                 /* cd m^-2 */
     const float *halves, *variance; /* |half the halves' difference|, square; NULL: none */
-    double      *sr, *projected_sr;
-    int32_t     *source;   /* its place in the list; NO_SOURCE */
-    bool        *is_core;  /* of that source */
-    double      *share;    /* of y, its source's; the rest is background */
+    double *sr, *projected_sr;
+    int32_t *source; /* its place in the list; NO_SOURCE */
+    bool *is_core;   /* of that source */
+    double *share;   /* of y, its source's; the rest is background */
 } Pixels;
 
-static size_t count_of(const Pixels *pixels)
-{
+static size_t count_of(const Pixels *pixels) {
     return (size_t)pixels->width * (size_t)pixels->height;
 }
 
 /* ---- what the frame has ------------------------------------------------------------------ */
 
-static const float *find_plane(const FrameImage *frame, const char *layer, Arena *arena)
-{
+static const float *find_plane(const FrameImage *frame, const char *layer, Arena *arena) {
     LayerView view;
-    Error     unused;
+    Error unused;
     const float *rgb[3];
     if (!frame_rgb(frame, layer, rgb)) return NULL;
     return layer_view_find(frame, layer, arena, &view, &unused) ? view.planes[0] : NULL;
 }
 
-static bool find_pixels(const FrameImage *frame, Arena *arena, Pixels *out, Error *err)
-{
+static bool find_pixels(const FrameImage *frame, Arena *arena, Pixels *out, Error *err) {
     LayerView light;
     if (!frame_view_find(frame, &out->view, err)) return false;
     if (!out->view.is_perspective)
@@ -60,16 +57,14 @@ static bool find_pixels(const FrameImage *frame, Arena *arena, Pixels *out, Erro
     return true;
 }
 
-static ViewPixel pixel_at(const Pixels *pixels, size_t i)
-{
+static ViewPixel pixel_at(const Pixels *pixels, size_t i) {
     return frame_view_pixel(&pixels->view, (int)(i % (size_t)pixels->width),
                             (int)(i / (size_t)pixels->width));
 }
 
-static void find_solid_angles(const Pixels *pixels, FrameGlare *out)
-{
+static void find_solid_angles(const Pixels *pixels, FrameGlare *out) {
     for (size_t i = 0; i < count_of(pixels); i++) {
-        int       x = (int)(i % (size_t)pixels->width), y = (int)(i / (size_t)pixels->width);
+        int x = (int)(i % (size_t)pixels->width), y = (int)(i / (size_t)pixels->width);
         if (!isfinite(pixels->y[i]) || !frame_view_sees(&pixels->view, x, y)) continue;
         ViewPixel p = frame_view_pixel(&pixels->view, x, y);
         pixels->sr[i] = p.sr;
@@ -80,15 +75,13 @@ static void find_solid_angles(const Pixels *pixels, FrameGlare *out)
 }
 
 /* A layer of too few samples has none. */
-static bool is_known(const Pixels *pixels, const float *plane)
-{
+static bool is_known(const Pixels *pixels, const float *plane) {
     for (size_t i = 0; plane && i < count_of(pixels); i++)
         if (pixels->projected_sr[i] > 0 && isfinite(plane[i])) return true;
     return false;
 }
 
-static double task_luminance(const Pixels *pixels, double task_deg)
-{
+static double task_luminance(const Pixels *pixels, double task_deg) {
     double cosine = cos_d(radians_from_degrees(task_deg) / 2), sum = 0, sr = 0;
     for (size_t i = 0; i < count_of(pixels); i++) {
         if (!(pixels->sr[i] > 0) || pixel_at(pixels, i).direction[2] < cosine) continue;
@@ -104,16 +97,15 @@ typedef enum PixelClass { CLASS_BACKGROUND, CLASS_SOURCE, CLASS_PEAK } PixelClas
 
 /* What an area is gathered by. */
 typedef struct Area {
-    const Pixels        *pixels;
+    const Pixels *pixels;
     const GlareSettings *settings;
-    double    threshold;
-    size_t   *list; /* of the area in hand */
-    size_t    count;
+    double threshold;
+    size_t *list; /* of the area in hand */
+    size_t count;
     PixelClass class;
 } Area;
 
-static PixelClass class_of(const Area *area, size_t i)
-{
+static PixelClass class_of(const Area *area, size_t i) {
     double y = (double)area->pixels->y[i];
     if (!(area->pixels->projected_sr[i] > 0) || !(y > area->threshold)) return CLASS_BACKGROUND;
     return y > area->settings->peak_cd_m2 ? CLASS_PEAK : CLASS_SOURCE;
@@ -121,19 +113,16 @@ static PixelClass class_of(const Area *area, size_t i)
 
 /* May an area grow over the pixel? One of peaks over half their luminance, so that noise does
  * not cut what is about as bright as they have to be. */
-static bool grows_over(const Area *area, size_t i, PixelClass class)
-{
+static bool grows_over(const Area *area, size_t i, PixelClass class) {
     PixelClass own = class_of(area, i);
     if (class == CLASS_SOURCE) return own == CLASS_SOURCE;
-    return own != CLASS_BACKGROUND &&
-           (double)area->pixels->y[i] > 0.5 * area->settings->peak_cd_m2;
+    return own != CLASS_BACKGROUND && (double)area->pixels->y[i] > 0.5 * area->settings->peak_cd_m2;
 }
 
 /* Takes pixel x, y into the area in hand, if areas of that class grow over it; false: not. */
-static bool take(Area *area, int x, int y, PixelClass class, int32_t id)
-{
+static bool take(Area *area, int x, int y, PixelClass class, int32_t id) {
     const Pixels *p = area->pixels;
-    size_t        i = (size_t)y * (size_t)p->width + (size_t)x;
+    size_t i = (size_t)y * (size_t)p->width + (size_t)x;
     if (x < 0 || y < 0 || x >= p->width || y >= p->height || !grows_over(area, i, class))
         return false;
     if (p->source[i] != NO_SOURCE) return true;
@@ -143,10 +132,9 @@ static bool take(Area *area, int x, int y, PixelClass class, int32_t id)
 }
 
 /* All neighbours of the list's pixel k, with itself; how many of them the area grows over. */
-static int take_around(Area *area, size_t k, PixelClass class, int32_t id)
-{
+static int take_around(Area *area, size_t k, PixelClass class, int32_t id) {
     size_t width = (size_t)area->pixels->width;
-    int    x = (int)(area->list[k] % width), y = (int)(area->list[k] / width), found = 0;
+    int x = (int)(area->list[k] % width), y = (int)(area->list[k] / width), found = 0;
     for (int dy = -1; dy <= 1; dy++)
         for (int dx = -1; dx <= 1; dx++) found += take(area, x + dx, y + dy, class, id);
     return found;
@@ -154,8 +142,7 @@ static int take_around(Area *area, size_t k, PixelClass class, int32_t id)
 
 /* The list grows while it is gone through. A peak's edge is below the peaks' luminance: what is
  * a source and touches a peak belongs to it. */
-static void gather(Area *area, size_t first, int32_t id)
-{
+static void gather(Area *area, size_t first, int32_t id) {
     const Pixels *p = area->pixels;
     p->source[first] = id;
     area->list[0] = first;
@@ -172,10 +159,9 @@ static void gather(Area *area, size_t first, int32_t id)
 /* One half of the samples where the other is above the threshold, and the other way round:
  * selected by noise of its own, the mean is without bias. Few pixels may be above by both
  * halves' chance: their noise decides. */
-static bool is_above(const Area *area)
-{
+static bool is_above(const Area *area) {
     const Pixels *p = area->pixels;
-    double        sum = 0, sr = 0, noise = 0, all = 0;
+    double sum = 0, sr = 0, noise = 0, all = 0;
     for (size_t k = 0; k < area->count; k++) {
         size_t i = area->list[k];
         double half = p->halves && isfinite(p->halves[i]) ? (double)p->halves[i] : 0;
@@ -190,16 +176,14 @@ static bool is_above(const Area *area)
 }
 
 /* Azimuth and elevation from the line of sight. */
-static void set_place(const double direction[3], FrameSource *out)
-{
+static void set_place(const double direction[3], FrameSource *out) {
     double flat = hypot_d(direction[0], direction[2]);
     out->right_deg = degrees_from_radians(atan2_d(direction[0], direction[2]));
     out->up_deg = degrees_from_radians(atan2_d(direction[1], flat));
 }
 
 /* Of its core, as much of space as gives its light. */
-static void set_luminance(const GlareSum *sum, FrameSource *out)
-{
+static void set_luminance(const GlareSum *sum, FrameSource *out) {
     double squares = out->squares, l;
     out->has_core = out->core_sr > 0;
     l = out->has_core ? out->core_cd_sr_m2 / out->core_sr : squares / sum->cd_sr_m2;
@@ -209,16 +193,15 @@ static void set_luminance(const GlareSum *sum, FrameSource *out)
     out->source.solid_angle_sr = sum->cd_sr_m2 / l;
 }
 
-static FrameSource source_of(const Area *area)
-{
+static FrameSource source_of(const Area *area) {
     const Pixels *p = area->pixels;
-    GlareSum      sum = {0};
-    FrameSource   out = {.pixels = (long)area->count};
-    double        middle[3] = {0, 0, 0}, light = 0;
+    GlareSum sum = {0};
+    FrameSource out = {.pixels = (long)area->count};
+    double middle[3] = {0, 0, 0}, light = 0;
     for (size_t k = 0; k < area->count; k++) {
-        size_t    i = area->list[k];
+        size_t i = area->list[k];
         ViewPixel seen = pixel_at(p, i);
-        double    y = (double)p->y[i], weight = y * p->sr[i], *d = seen.direction;
+        double y = (double)p->y[i], weight = y * p->sr[i], *d = seen.direction;
         glare_sum_add(&sum, y, p->sr[i], d[0], d[1], d[2]);
         out.lx += y * p->projected_sr[i];
         out.x += weight * ((double)(i % (size_t)p->width) + 0.5);
@@ -238,8 +221,7 @@ static FrameSource source_of(const Area *area)
 
 #define REFUTED INT32_MAX /* background in the end, but not to be met again */
 
-static void find_of_class(Area *area, Arena *arena, int *room, FrameGlare *out)
-{
+static void find_of_class(Area *area, Arena *arena, int *room, FrameGlare *out) {
     const Pixels *p = area->pixels;
     for (size_t i = 0; i < count_of(p); i++) {
         if (p->source[i] != NO_SOURCE || class_of(area, i) != area->class) continue;
@@ -251,19 +233,17 @@ static void find_of_class(Area *area, Arena *arena, int *room, FrameGlare *out)
         }
         if (out->source_count == *room) {
             *room = 2 * *room + 64;
-            out->sources =
-                ARENA_GROW(arena, FrameSource, out->sources, out->source_count, *room);
+            out->sources = ARENA_GROW(arena, FrameSource, out->sources, out->source_count, *room);
         }
         out->sources[out->source_count++] = source_of(area);
     }
 }
 
-static void find_sources(Area *area, Arena *arena, FrameGlare *out)
-{
+static void find_sources(Area *area, Arena *arena, FrameGlare *out) {
     const Pixels *p = area->pixels;
-    int           room = 0;
+    int room = 0;
     for (size_t i = 0; i < count_of(p); i++) p->source[i] = NO_SOURCE;
-    for (area->class = CLASS_PEAK; area->class > CLASS_BACKGROUND; area->class--)
+    for (area->class = CLASS_PEAK; area->class > CLASS_BACKGROUND; area->class --)
         find_of_class(area, arena, &room, out);
     for (size_t i = 0; i < count_of(p); i++)
         if (p->source[i] == REFUTED) p->source[i] = NO_SOURCE;
@@ -274,18 +254,16 @@ static void find_sources(Area *area, Arena *arena, FrameGlare *out)
 #define AROUND 2 /* pixels to each side in which the background about a rim is looked for */
 
 /* Pixel i's neighbour; -1: outside. */
-static long beside(const Pixels *p, size_t i, int dx, int dy)
-{
+static long beside(const Pixels *p, size_t i, int dx, int dy) {
     int x = (int)(i % (size_t)p->width) + dx, y = (int)(i / (size_t)p->width) + dy;
     return x < 0 || y < 0 || x >= p->width || y >= p->height ? -1 : (long)y * p->width + x;
 }
 
 /* The brightest source that a background pixel touches, of those with a core. */
-static int32_t touched(const Pixels *p, const FrameGlare *found, size_t i)
-{
+static int32_t touched(const Pixels *p, const FrameGlare *found, size_t i) {
     int32_t best = NO_SOURCE;
     for (int k = 0; k < 9; k++) {
-        long    at = beside(p, i, k % 3 - 1, k / 3 - 1);
+        long at = beside(p, i, k % 3 - 1, k / 3 - 1);
         int32_t id = at < 0 ? NO_SOURCE : p->source[at];
         if (id == NO_SOURCE || !found->sources[id].has_core) continue;
         double l = found->sources[id].source.luminance_cd_m2;
@@ -295,8 +273,7 @@ static int32_t touched(const Pixels *p, const FrameGlare *found, size_t i)
 }
 
 /* Mean luminance of the background near pixel i that touches no source; NaN: there is none. */
-static double behind_rim(const Pixels *p, const int32_t *rim, size_t i)
-{
+static double behind_rim(const Pixels *p, const int32_t *rim, size_t i) {
     double sum = 0, sr = 0;
     for (int dy = -AROUND; dy <= AROUND; dy++)
         for (int dx = -AROUND; dx <= AROUND; dx++) {
@@ -311,15 +288,13 @@ static double behind_rim(const Pixels *p, const int32_t *rim, size_t i)
 
 /* Of a rim's luminance y, source and background in part: y = f l + (1 - f) b. At most all of it
  * is the source's; noise of a pixel may leave it less than nothing. */
-static double share_of(double y, double l, double b)
-{
+static double share_of(double y, double l, double b) {
     return y < l ? l * (y - b) / (l - b) : y;
 }
 
 /* Every pixel of an edge has its part of the source, whether that makes it brighter than the
  * threshold or not. Then source[i] is that of rims, too. */
-static void share_rims(const Pixels *p, const FrameGlare *found, Arena scratch)
-{
+static void share_rims(const Pixels *p, const FrameGlare *found, Arena scratch) {
     int32_t *rim = ARENA_NEW(&scratch, int32_t, count_of(p));
     for (size_t i = 0; i < count_of(p); i++) {
         bool is_behind = p->projected_sr[i] > 0 && p->source[i] == NO_SOURCE;
@@ -331,8 +306,7 @@ static void share_rims(const Pixels *p, const FrameGlare *found, Arena scratch)
         if (id == NO_SOURCE || !found->sources[id].has_core || p->is_core[i]) continue;
         double b = behind_rim(p, rim, i);
         if (!isnan(b))
-            p->share[i] = share_of((double)p->y[i],
-                                   found->sources[id].source.luminance_cd_m2, b);
+            p->share[i] = share_of((double)p->y[i], found->sources[id].source.luminance_cd_m2, b);
         else if (p->source[i] == NO_SOURCE) p->share[i] = 0;
     }
     for (size_t i = 0; i < count_of(p); i++)
@@ -340,8 +314,7 @@ static void share_rims(const Pixels *p, const FrameGlare *found, Arena scratch)
 }
 
 /* Sources get the light of their shares. */
-static void add_shares(const Pixels *p, FrameGlare *found)
-{
+static void add_shares(const Pixels *p, FrameGlare *found) {
     for (int i = 0; i < found->source_count; i++)
         found->sources[i].light = found->sources[i].lx = 0;
     for (size_t i = 0; i < count_of(p); i++) {
@@ -361,17 +334,15 @@ static void add_shares(const Pixels *p, FrameGlare *found)
 /* What the figures are made of. */
 typedef struct GlareSums {
     GlareView view;
-    double    lux, squares; /* all light; the sum of L^2 w/P^2 */
+    double lux, squares; /* all light; the sum of L^2 w/P^2 */
 } GlareSums;
 
-static double weight_of(const GlareSource *s)
-{
+static double weight_of(const GlareSource *s) {
     return s->solid_angle_sr / (s->position_index * s->position_index);
 }
 
 static bool sum_up(const Pixels *pixels, const GlareRequest *request, const FrameGlare *found,
-                   Arena *arena, GlareSums *out, Error *err)
-{
+                   Arena *arena, GlareSums *out, Error *err) {
     GlareSource *list = ARENA_NEW(arena, GlareSource, found->source_count + 1);
     *out = (GlareSums){.view = {.sources = list, .count = found->source_count}};
     for (int i = 0; i < found->source_count; i++) {
@@ -384,12 +355,13 @@ static bool sum_up(const Pixels *pixels, const GlareRequest *request, const Fram
         if (pixels->projected_sr[i] > 0)
             out->view.background_lx +=
                 ((double)pixels->y[i] - pixels->share[i]) * pixels->projected_sr[i];
-    if (request->has_lux)
-        out->view.background_lx = request->vertical_lx - out->view.source_lx;
+    if (request->has_lux) out->view.background_lx = request->vertical_lx - out->view.source_lx;
     out->lux = out->view.source_lx + out->view.background_lx;
     return out->view.background_lx >= 0 ||
-           error_set(err, ERROR_USAGE, "--vertical-lux %g: the sources in the frame alone give "
-                     "%.6g lx", request->vertical_lx, out->view.source_lx);
+           error_set(err, ERROR_USAGE,
+                     "--vertical-lux %g: the sources in the frame alone give "
+                     "%.6g lx",
+                     request->vertical_lx, out->view.source_lx);
 }
 
 /* How a figure grows with the sum of squares, with all light and with the background's. */
@@ -398,11 +370,15 @@ typedef struct Slopes {
 } Slopes;
 
 typedef enum Figure {
-    FIGURE_LUX, FIGURE_BACKGROUND, FIGURE_UGR, FIGURE_DGP, FIGURE_DGI, FIGURES
+    FIGURE_LUX,
+    FIGURE_BACKGROUND,
+    FIGURE_UGR,
+    FIGURE_DGP,
+    FIGURE_DGI,
+    FIGURES
 } Figure;
 
-static Slopes dgp_slopes(const GlareSettings *settings, const GlareSums *sums, double dgp)
-{
+static Slopes dgp_slopes(const GlareSettings *settings, const GlareSums *sums, double dgp) {
     double ratio = sums->squares / pow_d(sums->lux, 1.87);
     double factor = settings->low_light ? discomfort_dgp_low_light(sums->lux) : 1;
     double by_log = factor * 0.092 / log_d(10) * ratio / (1 + ratio);
@@ -414,13 +390,12 @@ static Slopes dgp_slopes(const GlareSettings *settings, const GlareSums *sums, d
 /* DGI is no function of the sum of squares, but of each source's L^2 w: */
 typedef struct DgiSlopes {
     double *of_source;
-    double  background_lx;
+    double background_lx;
 } DgiSlopes;
 
-static DgiSlopes dgi_slopes(const GlareSums *sums, Arena *arena)
-{
+static DgiSlopes dgi_slopes(const GlareSums *sums, Arena *arena) {
     DgiSlopes out = {ARENA_NEW(arena, double, sums->view.count + 1), 0};
-    double    behind = sums->view.background_lx / PI, total = 0;
+    double behind = sums->view.background_lx / PI, total = 0;
     for (int i = 0; i < sums->view.count; i++) {
         const GlareSource *s = &sums->view.sources[i];
         double l = s->luminance_cd_m2, square = l * l * s->solid_angle_sr;
@@ -444,41 +419,36 @@ typedef struct FigureNoise {
 } FigureNoise;
 
 typedef struct SlopeTable {
-    Slopes    of[FIGURES];
+    Slopes of[FIGURES];
     DgiSlopes dgi;
-    bool      lux_is_given;
+    bool lux_is_given;
 } SlopeTable;
 
 static SlopeTable find_slopes(const GlareRequest *request, const GlareSums *sums, double dgp,
-                              Arena *arena)
-{
-    double     to_log = 8 / log_d(10);
+                              Arena *arena) {
+    double to_log = 8 / log_d(10);
     SlopeTable table = {.dgi = dgi_slopes(sums, arena), .lux_is_given = request->has_lux};
     table.of[FIGURE_LUX] = (Slopes){0, 1, 0};
     table.of[FIGURE_BACKGROUND] = (Slopes){0, 0, 1 / PI};
-    table.of[FIGURE_UGR] =
-        (Slopes){to_log / sums->squares, 0, -to_log / sums->view.background_lx};
+    table.of[FIGURE_UGR] = (Slopes){to_log / sums->squares, 0, -to_log / sums->view.background_lx};
     table.of[FIGURE_DGP] = dgp_slopes(&request->settings, sums, dgp);
     return table;
 }
 
 /* By how much L^2 w of its source grows with the luminance of pixel i: the source's luminance
  * times its light, which is without a core the sum of the pixels' own squares. */
-static double square_slope(const Pixels *pixels, const FrameSource *s, size_t i)
-{
+static double square_slope(const Pixels *pixels, const FrameSource *s, size_t i) {
     double sr = pixels->sr[i];
     if (!s->has_core) return 2 * (double)pixels->y[i] * sr;
-    return s->source.luminance_cd_m2 * sr +
-           (pixels->is_core[i] ? s->light * sr / s->core_sr : 0);
+    return s->source.luminance_cd_m2 * sr + (pixels->is_core[i] ? s->light * sr / s->core_sr : 0);
 }
 
 /* By how much each figure grows with the luminance of pixel i. */
 static void pixel_slopes(const Pixels *pixels, const FrameGlare *found, const SlopeTable *table,
-                         size_t i, double out[FIGURES])
-{
+                         size_t i, double out[FIGURES]) {
     int32_t id = pixels->source[i];
-    double  lux = pixels->projected_sr[i], behind = id == NO_SOURCE ? lux : 0, square = 0;
-    double  squares = 0;
+    double lux = pixels->projected_sr[i], behind = id == NO_SOURCE ? lux : 0, square = 0;
+    double squares = 0;
     if (id != NO_SOURCE) {
         const FrameSource *s = &found->sources[id];
         square = square_slope(pixels, s, i);
@@ -492,8 +462,7 @@ static void pixel_slopes(const Pixels *pixels, const FrameGlare *found, const Sl
     if (id != NO_SOURCE) out[FIGURE_DGI] += table->dgi.of_source[id] * square;
 }
 
-static void add_noise(const double slopes[FIGURES], double variance, FigureNoise *to)
-{
+static void add_noise(const double slopes[FIGURES], double variance, FigureNoise *to) {
     for (int f = 0; f < FIGURES; f++) {
         double square = slopes[f] * slopes[f] * variance;
         to->squares[f] += square;
@@ -504,8 +473,7 @@ static void add_noise(const double slopes[FIGURES], double variance, FigureNoise
 #define HALVES_FREEDOM 16 /* of the halves' squares, at least */
 
 /* Half an interval's width: by halves where they are enough, else by the samples' spread. */
-static double width_of(const FigureNoise *halves, const FigureNoise *spread, Figure f)
-{
+static double width_of(const FigureNoise *halves, const FigureNoise *spread, Figure f) {
     double square = halves->squares[f];
     double freedom = halves->fourths[f] > 0 ? 3 * square * square / halves->fourths[f] : 0;
     if (freedom >= HALVES_FREEDOM) return student_quantile(freedom) * sqrt(square);
@@ -514,8 +482,7 @@ static double width_of(const FigureNoise *halves, const FigureNoise *spread, Fig
 
 /* widths: NaN where the frame has no word of its noise. */
 static void find_widths(const Pixels *pixels, const FrameGlare *found, const SlopeTable *table,
-                        double widths[FIGURES])
-{
+                        double widths[FIGURES]) {
     FigureNoise halves = {.squares = {0}}, spread = {.squares = {0}};
     for (size_t i = 0; i < count_of(pixels); i++) {
         double slopes[FIGURES];
@@ -531,8 +498,7 @@ static void find_widths(const Pixels *pixels, const FrameGlare *found, const Slo
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static int compare_sources(const void *a, const void *b)
-{
+static int compare_sources(const void *a, const void *b) {
     const GlareSource *x = &((const FrameSource *)a)->source;
     const GlareSource *y = &((const FrameSource *)b)->source;
     double first = x->luminance_cd_m2 * x->luminance_cd_m2 * weight_of(x);
@@ -540,24 +506,21 @@ static int compare_sources(const void *a, const void *b)
     return (first < second) - (first > second);
 }
 
-static bool check_seen(const GlareRequest *request, const FrameGlare *found, Error *err)
-{
+static bool check_seen(const GlareRequest *request, const FrameGlare *found, Error *err) {
     if (request->has_lux || found->seen >= GLARE_SEEN_LEAST) return true;
     return error_set(err, ERROR_INPUT,
                      "sees %.1f %% of the light that comes to the eye from an even half space, "
                      "required all: a fisheye (render --projection fisheye), or the "
-                     "illuminance at the eye (--vertical-lux LX)", 100 * found->seen);
+                     "illuminance at the eye (--vertical-lux LX)",
+                     100 * found->seen);
 }
 
-static Measured figure_of(double value, double width, bool is_given)
-{
+static Measured figure_of(double value, double width, bool is_given) {
     return measured_about(value, is_given ? (double)NAN : width);
 }
 
-static void set_figures(const GlareFigures *f, const GlareSums *sums,
-                        const double widths[FIGURES], const GlareRequest *request,
-                        FrameGlare *out)
-{
+static void set_figures(const GlareFigures *f, const GlareSums *sums, const double widths[FIGURES],
+                        const GlareRequest *request, FrameGlare *out) {
     out->none = f->none;
     out->has_intervals = !isnan(widths[FIGURE_BACKGROUND]);
     out->vertical_lx = figure_of(sums->lux, widths[FIGURE_LUX], request->has_lux);
@@ -568,28 +531,28 @@ static void set_figures(const GlareFigures *f, const GlareSums *sums,
 }
 
 bool frame_glare_measure(const FrameImage *frame, const GlareRequest *request, Arena *arena,
-                         FrameGlare *out, Error *err)
-{
+                         FrameGlare *out, Error *err) {
     const GlareSettings *settings = &request->settings;
     FrameGlare found = {.task_cd_m2 = (double)NAN};
-    Pixels     pixels = {.width = 0};
-    GlareSums       sums;
-    double     widths[FIGURES];
+    Pixels pixels = {.width = 0};
+    GlareSums sums;
+    double widths[FIGURES];
     if (!find_pixels(frame, arena, &pixels, err)) return false;
     find_solid_angles(&pixels, &found);
     if (!check_seen(request, &found, err)) return false;
-    if (settings->task_factor > 0)
-        found.task_cd_m2 = task_luminance(&pixels, settings->task_deg);
+    if (settings->task_factor > 0) found.task_cd_m2 = task_luminance(&pixels, settings->task_deg);
     found.threshold_cd_m2 = glare_threshold(settings, found.task_cd_m2);
     found.has_noise = is_known(&pixels, pixels.halves) || is_known(&pixels, pixels.variance);
-    Area area = {.pixels = &pixels, .settings = settings, .threshold = found.threshold_cd_m2,
+    Area area = {.pixels = &pixels,
+                 .settings = settings,
+                 .threshold = found.threshold_cd_m2,
                  .list = ARENA_NEW(arena, size_t, count_of(&pixels))};
     find_sources(&area, arena, &found);
     share_rims(&pixels, &found, *arena);
     add_shares(&pixels, &found);
     if (!sum_up(&pixels, request, &found, arena, &sums, err)) return false;
     GlareFigures figures = discomfort_figures(settings, &sums.view);
-    SlopeTable   table = find_slopes(request, &sums, figures.dgp, arena);
+    SlopeTable table = find_slopes(request, &sums, figures.dgp, arena);
     find_widths(&pixels, &found, &table, widths);
     set_figures(&figures, &sums, widths, request, &found);
     qsort(found.sources, (size_t)found.source_count, sizeof *found.sources, compare_sources);

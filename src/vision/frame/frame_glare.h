@@ -36,34 +36,34 @@
 
 typedef struct GlareRequest {
     GlareSettings settings;
-    bool   has_lux;
+    bool has_lux;
     double vertical_lx; /* at the eye, instead of the frame's */
 } GlareRequest;
 
 typedef struct FrameSource {
     GlareSource source;
-    double lx;             /* on the pupil's plane */
-    double x, y;           /* pixels: the middle of its light */
+    double lx;                /* on the pupil's plane */
+    double x, y;              /* pixels: the middle of its light */
     double right_deg, up_deg; /* of that from the line of sight: azimuth and elevation */
-    double greatest_cd_m2; /* of a pixel */
-    long   pixels;
-    bool   has_core;
+    double greatest_cd_m2;    /* of a pixel */
+    long pixels;
+    bool has_core;
     double light, squares;         /* sums of L w and L^2 w over pixels, of all */
     double core_cd_sr_m2, core_sr; /* and of the core */
 } FrameSource;
 
 typedef struct FrameGlare {
-    double seen;             /* share of the half space before the eye, by cosine: 1 all */
-    double solid_angle_sr;   /* of all pixels with light */
-    double threshold_cd_m2;  /* that was used */
-    double task_cd_m2;       /* mean luminance of the task; NaN without a task factor */
+    double seen;            /* share of the half space before the eye, by cosine: 1 all */
+    double solid_angle_sr;  /* of all pixels with light */
+    double threshold_cd_m2; /* that was used */
+    double task_cd_m2;      /* mean luminance of the task; NaN without a task factor */
     GlareNone none;
-    Measured  vertical_lx, background_cd_m2, ugr, dgp, dgi;
-    FrameSource *sources;    /* the one of the most L^2 w/P^2 first */
-    int    source_count;
-    long   doubtful;         /* areas above the threshold that are noise, it seems */
-    bool   has_noise;        /* that was looked into */
-    bool   has_intervals;
+    Measured vertical_lx, background_cd_m2, ugr, dgp, dgi;
+    FrameSource *sources; /* the one of the most L^2 w/P^2 first */
+    int source_count;
+    long doubtful;  /* areas above the threshold that are noise, it seems */
+    bool has_noise; /* that was looked into */
+    bool has_intervals;
 } FrameGlare;
 
 #define GLARE_SEEN_LEAST 0.99 /* of the half space: else the illuminance lacks light */

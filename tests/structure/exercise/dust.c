@@ -17,8 +17,7 @@
 #include "base/mathf.h"
 #include "base/units.h"
 
-static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
-{
+static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf) {
     const Dust *dust = parameters;
     *pdf = fmaxf(wi.z, 0) * INV_PI_F;
     if (!(wi.z > 0 && wo.z > 0)) return spectrum_all(0);
@@ -26,8 +25,7 @@ static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
 }
 
 /* Uniform over the disc below the hemisphere: by the cosine. */
-static bool model_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
-{
+static bool model_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample) {
     float radius = sqrtf(u[0]), sine, cosine;
     sincos_turns(u[1], &sine, &cosine);
     *sample = (BsdfSample){.wi = vec3(radius * cosine, radius * sine, sqrtf(1 - u[0]))};
@@ -37,28 +35,27 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
     return true;
 }
 
-static void model_facts(const void *parameters, BsdfFacts *facts)
-{
+static void model_facts(const void *parameters, BsdfFacts *facts) {
     (void)parameters;
     facts->scatters = true;
 }
 
 /* The integral of f cos i over the hemisphere: grain / 2 (1 - e ln(1 + 1 / e)), e = cos e. */
-static Spectrum model_albedo(const void *parameters, Vec3 wo)
-{
+static Spectrum model_albedo(const void *parameters, Vec3 wo) {
     const Dust *dust = parameters;
-    float       e = fmaxf(wo.z, 1e-4f);
+    float e = fmaxf(wo.z, 1e-4f);
     return dust->grain * spectrum_all(0.5f * (1 - e * log_f(1 + 1 / e)));
 }
 
-static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
-{
+static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes) {
     lobes->prob = 1;
     lobes->diffuse = spectrum_max_lane(model_albedo(parameters, wo));
 }
 
 const BsdfModel dust_model = {
-    .scatter = {.eval = model_eval, .sample = model_sample, .albedo = model_albedo,
+    .scatter = {.eval = model_eval,
+                .sample = model_sample,
+                .albedo = model_albedo,
                 .lobes = model_lobes},
     .facts = model_facts,
 };

@@ -19,28 +19,27 @@
 #include "panel/set/angle_table.h"
 
 typedef struct DirectionGrid {
-    int          thetas, phis;
-    const float *theta, *phi;   /* rising; phi over [0, 2 pi), or [0, pi] when mirrored */
-    bool         is_mirrored;   /* values at -phi are those at phi */
-    bool         has_pole;      /* theta[0] is 0 */
-    bool         is_scattered;  /* the table had no grid's order */
-    int          filled_cells;  /* cells that no row stands for */
-    float        widest_gap;    /* of the measured azimuths */
+    int thetas, phis;
+    const float *theta, *phi; /* rising; phi over [0, 2 pi), or [0, pi] when mirrored */
+    bool is_mirrored;         /* values at -phi are those at phi */
+    bool has_pole;            /* theta[0] is 0 */
+    bool is_scattered;        /* the table had no grid's order */
+    int filled_cells;         /* cells that no row stands for */
+    float widest_gap;         /* of the measured azimuths */
     /* what a cell is made of: rows and weights from start[cell] to start[cell + 1] */
-    const int   *start, *row;
+    const int *start, *row;
     const float *weight;
 } DirectionGrid;
 
 /* A value as a weighted sum of cells. */
 typedef struct GridTaps {
-    int   count;
-    int   cell[16];
+    int count;
+    int cell[16];
     float weight[16];
 } GridTaps;
 
 /* mirrored: the table is symmetric in phi (isotropic reflection); both halves are averaged. */
-void direction_grid_build(const AngleTable *table, bool mirrored, Arena *arena,
-                          DirectionGrid *out);
+void direction_grid_build(const AngleTable *table, bool mirrored, Arena *arena, DirectionGrid *out);
 
 /* thetas x phis x channels of the cells, from values of the rows. */
 float *direction_grid_cells(const DirectionGrid *grid, const float *value, int channels,
@@ -56,7 +55,6 @@ void direction_grid_read(const GridTaps *taps, const float *cells, int channels,
 int direction_grid_index(const float *rising, int count, float value, float apart);
 
 /* An azimuth of [0, 2 pi) in [0, pi], where values at -phi are those at phi. */
-static inline float direction_grid_fold(float phi, bool is_mirrored)
-{
+static inline float direction_grid_fold(float phi, bool is_mirrored) {
     return is_mirrored && phi > PI_F ? 2 * PI_F - phi : phi;
 }

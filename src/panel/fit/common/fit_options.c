@@ -4,14 +4,12 @@
 #include <math.h>
 #include <stdarg.h>
 
-float fit_haar_share(const FitOptions *options, double numbers, double leaves, int components)
-{
+float fit_haar_share(const FitOptions *options, double numbers, double leaves, int components) {
     double rows = FIT_HAAR_SOURCE * sizeof(float) * numbers / (2 * components + 8);
     return options->keep_share > 0 ? options->keep_share : (float)fmin(1, rows / leaves);
 }
 
-void fit_note(FitNotes *notes, const char *format, ...)
-{
+void fit_note(FitNotes *notes, const char *format, ...) {
     if (notes->count == FIT_NOTES_MAX) return;
     va_list args;
     va_start(args, format);

@@ -16,34 +16,32 @@ typedef enum FitBasis { FIT_VERTEX = 0, FIT_HAAR = 1 } FitBasis; /* on the hemis
 
 /* 0 is "choose". */
 typedef struct FitOptions {
-    int         level;      /* of the trees; 0: what the samples need */
-    float       keep_share; /* Haar: stored rows over leaves, (0, 1]; 0: what FIT_HAAR_SOURCE of
-                               the source's float32 has room for */
-    float       bound;      /* relative error allowed at every measured sample; 0: 2 %, and
-                               2.5 % of noisy tables. Noise allows its own 5 sigma anyway */
-    float       error_floor; /* share of an emission channel's largest value in a table: of what
-                                is less, errors count relative to it */
-    FitBasis    basis;
-    bool        has_wavelet; /* along the wavelengths; else a few principal spectra */
+    int level;         /* of the trees; 0: what the samples need */
+    float keep_share;  /* Haar: stored rows over leaves, (0, 1]; 0: what FIT_HAAR_SOURCE of
+                          the source's float32 has room for */
+    float bound;       /* relative error allowed at every measured sample; 0: 2 %, and
+                          2.5 % of noisy tables. Noise allows its own 5 sigma anyway */
+    float error_floor; /* share of an emission channel's largest value in a table: of what
+                          is less, errors count relative to it */
+    FitBasis basis;
+    bool has_wavelet; /* along the wavelengths; else a few principal spectra */
     WaveletKind wavelet;
-    bool        lobe_is_mirror; /* a peak on the haze is the instrument's image of the mirror,
-                                   its width the instrument's, where that is not declared */
-    float       frame_exponent; /* k of the specular-following frame; 0: choose */
-    bool        is_linear_in_incidence; /* over two slices instead of cubic over four */
-    bool        force;      /* a panel that is judged not usable is written all the same */
-    int         threads;    /* at least 1; the bytes do not depend on it */
+    bool lobe_is_mirror;         /* a peak on the haze is the instrument's image of the mirror,
+                                    its width the instrument's, where that is not declared */
+    float frame_exponent;        /* k of the specular-following frame; 0: choose */
+    bool is_linear_in_incidence; /* over two slices instead of cubic over four */
+    bool force;                  /* a panel that is judged not usable is written all the same */
+    int threads;                 /* at least 1; the bytes do not depend on it */
     ProgressMode progress;
 } FitOptions;
 
-static inline FitOptions fit_options_default(void)
-{
-    return (FitOptions){.error_floor = 0.001f, .wavelet = WAVELET_CDF53, .threads = 1,
-                        .progress = PROGRESS_NONE};
+static inline FitOptions fit_options_default(void) {
+    return (FitOptions){
+        .error_floor = 0.001f, .wavelet = WAVELET_CDF53, .threads = 1, .progress = PROGRESS_NONE};
 }
 
 /* The bound that errors are held against. chosen: where the user requires none. */
-static inline double fit_required_bound(const FitOptions *options, double chosen)
-{
+static inline double fit_required_bound(const FitOptions *options, double chosen) {
     return options->bound > 0 ? (double)options->bound : chosen;
 }
 
@@ -57,8 +55,8 @@ float fit_haar_share(const FitOptions *options, double numbers, double leaves, i
 
 typedef struct FitNotes {
     const char *text[FIT_NOTES_MAX];
-    int         count;
-    Arena      *arena;
+    int count;
+    Arena *arena;
 } FitNotes;
 
 /* As printf. */

@@ -24,8 +24,8 @@ typedef double ScatterRead(void *context, Vec3 at, double *off);
 /* What is checked in a table. */
 typedef struct ScatterAsked {
     const ScatterSurface *surface;
-    ScatterRead          *read;
-    void                 *context;
+    ScatterRead *read;
+    void *context;
 } ScatterAsked;
 
 ScatterGaps scatter_gaps_find(const ScatterAsked *asked, Arena scratch);

@@ -19,46 +19,42 @@
 
 typedef struct Point {
     double x, y;
-    int    row;
+    int row;
 } Point;
 
 struct ScatterSurface {
-    int    channels;
+    int channels;
     double noise; /* of the values */
     double share; /* of the noise in a patch's matrix */
     /* a cut: both halves between low and high along an axis */
     const ScatterSurface *half[2];
-    int    axis;
+    int axis;
     double low, high;
     /* a patch: points about its centre, over its size, with one weight a channel */
-    int     count;
-    double  centre[2], scale;
-    Point  *point;
+    int count;
+    double centre[2], scale;
+    Point *point;
     double *weight; /* (points + 3 of the plane) x channels */
 };
 
-static Point point_of(Vec3 d)
-{
+static Point point_of(Vec3 d) {
     double z = 1 + fmax(0, (double)d.z);
     return (Point){(double)d.x / z, (double)d.y / z, 0};
 }
 
-static double along(const Point *p, int axis)
-{
+static double along(const Point *p, int axis) {
     return axis ? p->y : p->x;
 }
 
 /* ---- one patch --------------------------------------------------------------------------- */
 
-static double kernel(double x, double y)
-{
+static double kernel(double x, double y) {
     double square = x * x + y * y;
     return square * sqrt(square);
 }
 
 static void place_patch(ScatterSurface *s, const Point *from, int count, const double box[4],
-                        Arena *arena)
-{
+                        Arena *arena) {
     s->count = count;
     s->centre[0] = 0.5 * (box[0] + box[2]), s->centre[1] = 0.5 * (box[1] + box[3]);
     s->scale = 2 / fmax(1e-6, fmax(box[2] - box[0], box[3] - box[1]));
@@ -69,33 +65,28 @@ static void place_patch(ScatterSurface *s, const Point *from, int count, const d
 }
 
 /* The plane stands in the matrix as a covariance: it is positive definite by that. */
-static void factor_patch(const ScatterSurface *s, double noise, double *matrix)
-{
+static void factor_patch(const ScatterSurface *s, double noise, double *matrix) {
     size_t n = (size_t)s->count;
     for (size_t i = 0; i < n; i++) {
         const Point *a = &s->point[i];
         for (size_t j = 0; j <= i; j++) {
             const Point *b = &s->point[j];
-            matrix[i * n + j] = kernel(a->x - b->x, a->y - b->y) +
-                                PLANE * (1 + a->x * b->x + a->y * b->y);
+            matrix[i * n + j] =
+                kernel(a->x - b->x, a->y - b->y) + PLANE * (1 + a->x * b->x + a->y * b->y);
         }
         matrix[i * n + i] += noise;
     }
     least_squares_factor(matrix, n);
 }
 
-static void take_channel(const ScatterSurface *s, const float *value, int channel,
-                         double *right)
-{
+static void take_channel(const ScatterSurface *s, const float *value, int channel, double *right) {
     for (int i = 0; i < s->count; i++)
-        right[i] = (double)value[(size_t)s->point[i].row * (size_t)s->channels +
-                                 (size_t)channel];
+        right[i] = (double)value[(size_t)s->point[i].row * (size_t)s->channels + (size_t)channel];
 }
 
 /* How much noise there is beside the surface: what makes the values of the middle channel most
  * likely. Sets the noise; returns its share. */
-static double choose_noise(ScatterSurface *s, const float *value, double *matrix, double *right)
-{
+static double choose_noise(ScatterSurface *s, const float *value, double *matrix, double *right) {
     static const double shares[] = {NO_NOISE, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
     double best = INFINITY, share = NO_NOISE;
     size_t n = (size_t)s->count;
@@ -114,12 +105,11 @@ static double choose_noise(ScatterSurface *s, const float *value, double *matrix
     return share;
 }
 
-static void fit_patch(ScatterSurface *s, const float *value, Arena *arena)
-{
-    size_t  n = (size_t)s->count, channels = (size_t)s->channels;
+static void fit_patch(ScatterSurface *s, const float *value, Arena *arena) {
+    size_t n = (size_t)s->count, channels = (size_t)s->channels;
     s->weight = ARENA_NEW(arena, double, (n + 3) * channels);
-    Arena   scratch = *arena;
-    double *matrix = ARENA_NEW(&scratch, double, n * n);
+    Arena scratch = *arena;
+    double *matrix = ARENA_NEW(&scratch, double, n *n);
     double *right = ARENA_NEW(&scratch, double, n);
     s->share = choose_noise(s, value, matrix, right);
     factor_patch(s, s->share, matrix);
@@ -136,10 +126,9 @@ static void fit_patch(ScatterSurface *s, const float *value, Arena *arena)
     }
 }
 
-static void read_patch(const ScatterSurface *s, Point at, double share, double *out)
-{
-    size_t  channels = (size_t)s->channels, n = (size_t)s->count;
-    double  x = (at.x - s->centre[0]) * s->scale, y = (at.y - s->centre[1]) * s->scale;
+static void read_patch(const ScatterSurface *s, Point at, double share, double *out) {
+    size_t channels = (size_t)s->channels, n = (size_t)s->count;
+    double x = (at.x - s->centre[0]) * s->scale, y = (at.y - s->centre[1]) * s->scale;
     double *plane = s->weight + n * channels;
     for (size_t k = 0; k < channels; k++)
         out[k] += share * (plane[k] + x * plane[channels + k] + y * plane[2 * channels + k]);
@@ -151,10 +140,10 @@ static void read_patch(const ScatterSurface *s, Point at, double share, double *
 
 /* ---- what a patch leaves open ------------------------------------------------------------ */
 
-#define NEAR 10  /* samples around a direction that say how rough the values are there */
+#define NEAR 10          /* samples around a direction that say how rough the values are there */
 #define NOISE_BESIDE 2.0 /* times its variance: so far ten misses of noise alone may reach */
-#define TURNS 36 /* around a direction; */
-#define EDGE 14  /* so many of them without a sample: it lies at the edge or outside */
+#define TURNS 36         /* around a direction; */
+#define EDGE 14          /* so many of them without a sample: it lies at the edge or outside */
 
 /* A point's value as the others predict it: its miss, squared, less what noise explains, and
  * the variance of such a prediction. Both follow from the inverse's diagonal (Dubrule, Math.
@@ -165,8 +154,7 @@ typedef struct LeftOut {
 } LeftOut;
 
 static void leave_out(const ScatterSurface *s, const double *factor, double *column,
-                      LeftOut *left)
-{
+                      LeftOut *left) {
     size_t n = (size_t)s->count, channels = (size_t)s->channels;
     for (size_t i = 0; i < n; i++) {
         double diagonal = 0, weight = s->weight[i * channels + channels / 2];
@@ -192,14 +180,12 @@ static void leave_out(const ScatterSurface *s, const double *factor, double *col
 }
 
 /* Variance of the surface there, of unit roughness. */
-static double open_at(const ScatterSurface *s, const double *factor, Point at, double *column)
-{
+static double open_at(const ScatterSurface *s, const double *factor, Point at, double *column) {
     size_t n = (size_t)s->count;
     double open = PLANE * (1 + at.x * at.x + at.y * at.y);
     for (size_t i = 0; i < n; i++) {
         const Point *p = &s->point[i];
-        double sum = kernel(at.x - p->x, at.y - p->y) +
-                     PLANE * (1 + at.x * p->x + at.y * p->y);
+        double sum = kernel(at.x - p->x, at.y - p->y) + PLANE * (1 + at.x * p->x + at.y * p->y);
         for (size_t k = 0; k < i; k++) sum -= factor[i * n + k] * column[k];
         column[i] = sum / factor[i * n + i];
         open -= column[i] * column[i];
@@ -209,14 +195,13 @@ static double open_at(const ScatterSurface *s, const double *factor, Point at, d
 
 /* What the nearest points miss over what they might, how much their values differ, and how far
  * the nearest one is. */
-static ScatterDoubt doubt_of_nearest(const ScatterSurface *s, const LeftOut *left, Point at)
-{
-    double  far[NEAR] = {0}, open = 0, miss = 0, low = INFINITY, high = -INFINITY;
+static ScatterDoubt doubt_of_nearest(const ScatterSurface *s, const LeftOut *left, Point at) {
+    double far[NEAR] = {0}, open = 0, miss = 0, low = INFINITY, high = -INFINITY;
     LeftOut near[NEAR] = {0};
-    int     count = 0;
+    int count = 0;
     for (int i = 0; i < s->count; i++) {
         double x = s->point[i].x - at.x, y = s->point[i].y - at.y, square = x * x + y * y;
-        int    k = count < NEAR ? count++ : NEAR;
+        int k = count < NEAR ? count++ : NEAR;
         for (; k > 0 && far[k - 1] > square; k--)
             if (k < NEAR) far[k] = far[k - 1], near[k] = near[k - 1];
         if (k < NEAR) far[k] = square, near[k] = left[i];
@@ -225,15 +210,14 @@ static ScatterDoubt doubt_of_nearest(const ScatterSurface *s, const LeftOut *lef
         miss += near[k].miss, open += near[k].open;
         low = fmin(low, near[k].value), high = fmax(high, near[k].value);
     }
-    return (ScatterDoubt){.roughness = sqrt(fmax(0, miss / open)), .spread = high - low,
-                          .gap = sqrt(far[0])};
+    return (ScatterDoubt){
+        .roughness = sqrt(fmax(0, miss / open)), .spread = high - low, .gap = sqrt(far[0])};
 }
 
 /* Do points stand all round? */
-static bool is_surrounded(const ScatterSurface *s, Point at)
-{
+static bool is_surrounded(const ScatterSurface *s, Point at) {
     bool is_taken[TURNS] = {false};
-    int  empty = 0, most = 0;
+    int empty = 0, most = 0;
     for (int i = 0; i < s->count; i++) {
         double turn = atan2_d(s->point[i].y - at.y, s->point[i].x - at.x) / (2 * PI) + 1;
         is_taken[(int)(turn * TURNS) % TURNS] = true;
@@ -246,11 +230,10 @@ static bool is_surrounded(const ScatterSurface *s, Point at)
 }
 
 /* Units of values and of the plane: the kernel is a third power of the patch's scale. */
-static ScatterDoubt doubt_at(const ScatterSurface *s, const double *factor,
-                             const LeftOut *left, Point whole, double *column)
-{
+static ScatterDoubt doubt_at(const ScatterSurface *s, const double *factor, const LeftOut *left,
+                             Point whole, double *column) {
     double scale = s->scale * sqrt(s->scale), flat = whole.x * whole.x + whole.y * whole.y;
-    Point  at = {(whole.x - s->centre[0]) * s->scale, (whole.y - s->centre[1]) * s->scale, 0};
+    Point at = {(whole.x - s->centre[0]) * s->scale, (whole.y - s->centre[1]) * s->scale, 0};
     ScatterDoubt out = doubt_of_nearest(s, left, at);
     out.roughness *= scale;
     out.open = sqrt(open_at(s, factor, at, column)) / scale;
@@ -261,20 +244,22 @@ static ScatterDoubt doubt_at(const ScatterSurface *s, const double *factor,
 
 /* ---- cuts -------------------------------------------------------------------------------- */
 
-static int order_by(const void *a, const void *b, int axis)
-{
+static int order_by(const void *a, const void *b, int axis) {
     const Point *p = a, *q = b;
-    double       first = along(p, axis) - along(q, axis);
-    double       second = along(p, 1 - axis) - along(q, 1 - axis);
-    double       rise = first != 0 ? first : second;
+    double first = along(p, axis) - along(q, axis);
+    double second = along(p, 1 - axis) - along(q, 1 - axis);
+    double rise = first != 0 ? first : second;
     return (rise > 0) - (rise < 0);
 }
 
-static int order_x(const void *a, const void *b) { return order_by(a, b, 0); }
-static int order_y(const void *a, const void *b) { return order_by(a, b, 1); }
+static int order_x(const void *a, const void *b) {
+    return order_by(a, b, 0);
+}
+static int order_y(const void *a, const void *b) {
+    return order_by(a, b, 1);
+}
 
-static void find_box(const Point *point, int count, double box[4])
-{
+static void find_box(const Point *point, int count, double box[4]) {
     box[0] = box[1] = INFINITY, box[2] = box[3] = -INFINITY;
     for (int i = 0; i < count; i++) {
         box[0] = fmin(box[0], point[i].x), box[2] = fmax(box[2], point[i].x);
@@ -284,10 +269,9 @@ static void find_box(const Point *point, int count, double box[4])
 
 /* Sorts the points. */
 static const ScatterSurface *make(Point *point, int count, const float *value, int channels,
-                                  Arena *arena)
-{
+                                  Arena *arena) {
     ScatterSurface *s = ARENA_NEW(arena, ScatterSurface, 1);
-    double          box[4];
+    double box[4];
     s->channels = channels;
     find_box(point, count, box);
     if (count <= PATCH_MOST) {
@@ -297,21 +281,20 @@ static const ScatterSurface *make(Point *point, int count, const float *value, i
     }
     s->axis = box[3] - box[1] > box[2] - box[0];
     qsort(point, (size_t)count, sizeof *point, s->axis ? order_y : order_x);
-    int    middle = count / 2, first = middle - 2 * SHARED;
-    int    left = middle + 2 * SHARED, right = count - first;
+    int middle = count / 2, first = middle - 2 * SHARED;
+    int left = middle + 2 * SHARED, right = count - first;
     Point *copy = ARENA_NEW(arena, Point, left);
     s->low = along(&point[middle - SHARED], s->axis);
     s->high = along(&point[middle + SHARED], s->axis);
     memcpy(copy, point, sizeof *copy * (size_t)left);
     s->half[1] = make(point + first, right, value, channels, arena);
     s->half[0] = make(copy, left, value, channels, arena);
-    s->noise = sqrt(0.5 * (s->half[0]->noise * s->half[0]->noise +
-                           s->half[1]->noise * s->half[1]->noise));
+    s->noise =
+        sqrt(0.5 * (s->half[0]->noise * s->half[0]->noise + s->half[1]->noise * s->half[1]->noise));
     return s;
 }
 
-static void read_part(const ScatterSurface *s, Point at, double share, double *out)
-{
+static void read_part(const ScatterSurface *s, Point at, double share, double *out) {
     if (!s->half[0]) {
         read_patch(s, at, share, out);
         return;
@@ -324,23 +307,21 @@ static void read_part(const ScatterSurface *s, Point at, double share, double *o
 }
 
 /* The patch that says most at a place. */
-static const ScatterSurface *patch_at(const ScatterSurface *s, Point at)
-{
+static const ScatterSurface *patch_at(const ScatterSurface *s, Point at) {
     while (s->half[0]) s = s->half[along(&at, s->axis) > 0.5 * (s->low + s->high)];
     return s;
 }
 
 static void doubt_patches(const ScatterSurface *root, const ScatterSurface *s, const Vec3 *at,
-                          int count, ScatterDoubt *out, Arena scratch)
-{
+                          int count, ScatterDoubt *out, Arena scratch) {
     for (int h = 0; h < 2 && s->half[0]; h++)
         doubt_patches(root, s->half[h], at, count, out, scratch);
     if (s->half[0]) return;
-    size_t  n = (size_t)s->count;
-    double *factor = ARENA_NEW(&scratch, double, n * n);
+    size_t n = (size_t)s->count;
+    double *factor = ARENA_NEW(&scratch, double, n *n);
     double *column = ARENA_NEW(&scratch, double, n);
     LeftOut *left = ARENA_NEW(&scratch, LeftOut, n);
-    bool    is_made = false;
+    bool is_made = false;
     for (int i = 0; i < count; i++) {
         Point place = point_of(at[i]);
         if (patch_at(root, place) != s) continue;
@@ -356,10 +337,9 @@ static void doubt_patches(const ScatterSurface *root, const ScatterSurface *s, c
 /* ---- the whole --------------------------------------------------------------------------- */
 
 const ScatterSurface *scatter_surface_make(const AngleTable *table, bool mirrored,
-                                           const float *value, int channels, Arena *arena)
-{
+                                           const float *value, int channels, Arena *arena) {
     Point *point = ARENA_NEW(arena, Point, 2 * table->rows);
-    int    count = 0;
+    int count = 0;
     for (int i = 0; i < table->rows; i++) {
         Point one = point_of(table_row_direction(table, i));
         one.row = i;
@@ -370,25 +350,23 @@ const ScatterSurface *scatter_surface_make(const AngleTable *table, bool mirrore
     return make(point, count, value, channels, arena);
 }
 
-void scatter_surface_read(const ScatterSurface *surface, Vec3 at, float *out)
-{
+void scatter_surface_read(const ScatterSurface *surface, Vec3 at, float *out) {
     double sum[MEASUREMENT_WAVELENGTHS_MAX] = {0};
     read_part(surface, point_of(at), 1, sum);
     for (int k = 0; k < surface->channels; k++) out[k] = (float)sum[k];
 }
 
-#define NOISE_ROWS 2000 /* at most about so many show a table's noise */
+#define NOISE_ROWS 2000      /* at most about so many show a table's noise */
 #define LEAST_LOG_SHARE 1e-6 /* of the largest value, where logarithms are taken */
 
 double scatter_surface_table_noise(const AngleTable *table, int channel, bool in_logs,
-                                   Arena scratch)
-{
+                                   Arena scratch) {
     AngleTable some = *table;
-    int        stride = 1 + table->rows / NOISE_ROWS, rows = table->rows / stride;
-    size_t     channels = (size_t)table->channels;
-    float     *theta = ARENA_NEW(&scratch, float, rows);
-    float     *phi = ARENA_NEW(&scratch, float, rows);
-    float     *value = ARENA_NEW(&scratch, float, rows), most = 1e-30f;
+    int stride = 1 + table->rows / NOISE_ROWS, rows = table->rows / stride;
+    size_t channels = (size_t)table->channels;
+    float *theta = ARENA_NEW(&scratch, float, rows);
+    float *phi = ARENA_NEW(&scratch, float, rows);
+    float *value = ARENA_NEW(&scratch, float, rows), most = 1e-30f;
     for (int i = 0; i < rows; i++) {
         theta[i] = table->theta[i * stride], phi[i] = table->phi[i * stride];
         value[i] = table->value[(size_t)(i * stride) * channels + (size_t)channel];
@@ -401,18 +379,15 @@ double scatter_surface_table_noise(const AngleTable *table, int channel, bool in
     return scatter_surface_noise(scatter_surface_make(&some, false, value, 1, &scratch));
 }
 
-double scatter_surface_noise(const ScatterSurface *surface)
-{
+double scatter_surface_noise(const ScatterSurface *surface) {
     return surface->noise;
 }
 
 void scatter_surface_doubt(const ScatterSurface *surface, const Vec3 *at, int count,
-                           ScatterDoubt *out, Arena scratch)
-{
+                           ScatterDoubt *out, Arena scratch) {
     doubt_patches(surface, surface, at, count, out, scratch);
 }
 
-double scatter_doubt_sigma(const ScatterDoubt *doubt)
-{
+double scatter_doubt_sigma(const ScatterDoubt *doubt) {
     return fmin(doubt->open * doubt->roughness, doubt->spread);
 }

@@ -37,11 +37,11 @@ double scatter_surface_table_noise(const AngleTable *table, int channel, bool in
 
 /* How far the surface may be off at a direction. */
 typedef struct ScatterDoubt {
-    double open;       /* of a surface of roughness 1 through the same samples */
-    double roughness;  /* what the samples around miss by as the others predict them, over it */
-    double spread;     /* by how much the values around differ */
-    double gap;        /* to the nearest sample, radians */
-    bool   is_between; /* samples stand all round */
+    double open;      /* of a surface of roughness 1 through the same samples */
+    double roughness; /* what the samples around miss by as the others predict them, over it */
+    double spread;    /* by how much the values around differ */
+    double gap;       /* to the nearest sample, radians */
+    bool is_between;  /* samples stand all round */
 } ScatterDoubt;
 
 /* Of the middle channel, at many directions. |p - q|^3 is a covariance; the values' own noise

@@ -17,13 +17,13 @@
  * four where it can be, which queries sum fastest. */
 
 typedef struct PrincipalShape {
-    int    rows, channels;
-    int    components_max;
+    int rows, channels;
+    int components_max;
     double tolerance; /* rms of the weighted rest over rows and channels */
 } PrincipalShape;
 
 typedef struct Principal {
-    int    components; /* at least 1 */
+    int components;        /* at least 1 */
     float *mean, *loading; /* channels; channels x components */
     float *score;          /* rows x components */
     const double *weight;  /* as given */
@@ -31,8 +31,8 @@ typedef struct Principal {
 } Principal;
 
 /* values: rows x channels; row_weight: areas; weight: what a channel's error is worth. */
-Principal principal_components(const float *values, const double *row_weight,
-                               const double *weight, PrincipalShape shape, Arena *arena);
+Principal principal_components(const float *values, const double *row_weight, const double *weight,
+                               PrincipalShape shape, Arena *arena);
 
 /* Jacobi's method for a symmetric n x n matrix: it becomes diagonal, and column k of `vector`
  * is the unit eigenvector of its k-th diagonal number. */

@@ -16,28 +16,28 @@
 /* An emission as it is kept. */
 typedef struct EmissionTree {
     const void *bytes; /* as in the file */
-    TreeReport  report;
-    int         level;
-    int         missed; /* samples beyond tolerance and noise */
-    bool        has_grid;
+    TreeReport report;
+    int level;
+    int missed; /* samples beyond tolerance and noise */
+    bool has_grid;
     EmissionEdges edges; /* of a grid */
 } EmissionTree;
 
 /* Where a tree is coded and what it is held to. */
 typedef struct EmissionCoder {
-    EmissionModel   *model;
-    const Geodesic  *geodesic;
-    VertexLattice    lattice;
-    uint32_t         vertices;
-    Vec3            *direction; /* of vertices */
-    float           *smooth;    /* vertices x stride: the spline there */
-    float           *value;     /* vertices x components: the rest */
-    float           *wanted;    /* vertices x channels: M in cd m^-2 */
-    float           *limit;     /* vertices: relative; INFINITY: anything will do */
-    float           *least;     /* channels: errors count relative to no less than this */
-    float           *work;      /* channels */
-    double           pardon;    /* sigmas of noise that a sample may miss by besides */
-    int              threads;
+    EmissionModel *model;
+    const Geodesic *geodesic;
+    VertexLattice lattice;
+    uint32_t vertices;
+    Vec3 *direction; /* of vertices */
+    float *smooth;   /* vertices x stride: the spline there */
+    float *value;    /* vertices x components: the rest */
+    float *wanted;   /* vertices x channels: M in cd m^-2 */
+    float *limit;    /* vertices: relative; INFINITY: anything will do */
+    float *least;    /* channels: errors count relative to no less than this */
+    float *work;     /* channels */
+    double pardon;   /* sigmas of noise that a sample may miss by besides */
+    int threads;
 } EmissionCoder;
 
 /* Scores less the smooth part, rows x components. */

@@ -11,8 +11,7 @@
 
 /* ---- what the samples have --------------------------------------------------------------- */
 
-static void find_bright(EmissionColour *o)
-{
+static void find_bright(EmissionColour *o) {
     const EmissionSamples *s = o->model->samples;
     float most = -1;
     for (int c = 1; c < s->channels; c += 3)
@@ -23,8 +22,7 @@ static void find_bright(EmissionColour *o)
 }
 
 /* ln of a channel over the bright one, of components; what the cosine does cancels. */
-static float ratio_of(const EmissionColour *o, const float *components, int channel)
-{
+static float ratio_of(const EmissionColour *o, const float *components, int channel) {
     const EmissionRank *rank = o->model->rank;
     const float *a = rank->loading + channel * rank->components;
     const float *b = rank->loading + o->bright * rank->components;
@@ -34,14 +32,13 @@ static float ratio_of(const EmissionColour *o, const float *components, int chan
 }
 
 /* What a row says of the ratios. Not measured (sigma is INFINITY): anything. */
-static void find_row(EmissionColour *o, int row)
-{
+static void find_row(EmissionColour *o, int row) {
     const EmissionSamples *s = o->model->samples;
-    const EmissionRank    *rank = o->model->rank;
+    const EmissionRank *rank = o->model->rank;
     const float *sigma = s->sigma + (size_t)row * (size_t)s->channels;
     float *ratio = o->ratio + (size_t)row * (size_t)s->channels;
     float *slack = o->slack + (size_t)row * (size_t)s->channels;
-    float  logs[3 * EMISSION_TABLES_MAX];
+    float logs[3 * EMISSION_TABLES_MAX];
     emission_rank_logs(rank, s->channels, rank->score + row * rank->components,
                        emission_rank_fall(rank->cosine_power, s->direction[row]), logs);
     float bright = sigma[o->bright] / exp_f(logs[o->bright]);
@@ -52,19 +49,17 @@ static void find_row(EmissionColour *o, int row)
 }
 
 /* The least-squares answer to "all channels by 1", scaled to be so for the bright one. */
-static void find_raise(EmissionColour *o, Arena scratch)
-{
+static void find_raise(EmissionColour *o, Arena scratch) {
     const EmissionRank *rank = o->model->rank;
-    int     n = rank->components;
-    double *normal = ARENA_NEW(&scratch, double, n * n);
+    int n = rank->components;
+    double *normal = ARENA_NEW(&scratch, double, n *n);
     double *right = ARENA_NEW(&scratch, double, n);
-    double  bright = 0;
+    double bright = 0;
     for (int c = 0; c < o->model->samples->channels; c++)
         for (int i = 0; i < n; i++) {
             double l = (double)rank->loading[c * n + i];
             right[i] += l;
-            for (int k = 0; k <= i; k++)
-                normal[i * n + k] += l * (double)rank->loading[c * n + k];
+            for (int k = 0; k <= i; k++) normal[i * n + k] += l * (double)rank->loading[c * n + k];
         }
     for (int i = 0; i < n; i++) normal[i * (n + 1)] += 1e-9;
     least_squares_factor(normal, (size_t)n);
@@ -73,11 +68,11 @@ static void find_raise(EmissionColour *o, Arena scratch)
     for (int k = 0; k < n; k++) o->raise[k] = bright > 0.5 ? (float)(right[k] / bright) : 0;
 }
 
-void emission_colour_make(const EmissionModel *model, Arena *arena, EmissionColour *out)
-{
+void emission_colour_make(const EmissionModel *model, Arena *arena, EmissionColour *out) {
     const EmissionSamples *s = model->samples;
     size_t numbers = (size_t)s->rows * (size_t)s->channels;
-    *out = (EmissionColour){.model = model, .ratio = ARENA_NEW(arena, float, numbers),
+    *out = (EmissionColour){.model = model,
+                            .ratio = ARENA_NEW(arena, float, numbers),
                             .slack = ARENA_NEW(arena, float, numbers),
                             .raise = ARENA_NEW(arena, float, model->rank->components)};
     direction_grid_build(s->master, false, arena, &out->grid);
@@ -90,14 +85,12 @@ void emission_colour_make(const EmissionModel *model, Arena *arena, EmissionColo
 
 /* Rows and their weights, which sum to 1, none below 0. */
 typedef struct ColourRows {
-    int   count, row[NEIGHBOURS_MAX];
+    int count, row[NEIGHBOURS_MAX];
     float weight[NEIGHBOURS_MAX];
 } ColourRows;
 
-static void add_cell(const DirectionGrid *g, int ring, int azimuth, float weight,
-                     ColourRows *out)
-{
-    int   cell = ring * g->phis + azimuth;
+static void add_cell(const DirectionGrid *g, int ring, int azimuth, float weight, ColourRows *out) {
+    int cell = ring * g->phis + azimuth;
     float sum = 0;
     for (int i = g->start[cell]; i < g->start[cell + 1]; i++) sum += fmaxf(0, g->weight[i]);
     for (int i = g->start[cell]; i < g->start[cell + 1] && out->count < NEIGHBOURS_MAX; i++) {
@@ -107,25 +100,23 @@ static void add_cell(const DirectionGrid *g, int ring, int azimuth, float weight
 }
 
 /* Last index whose value is not above `at`; -1: all are. */
-static int last_below(const float *rising, int count, float at)
-{
+static int last_below(const float *rising, int count, float at) {
     int i = -1;
     while (i + 1 < count && rising[i + 1] <= at) i++;
     return i;
 }
 
 /* The ends of the intervals of rings and of azimuths. */
-static ColourRows rows_around(const DirectionGrid *g, Vec3 d)
-{
+static ColourRows rows_around(const DirectionGrid *g, Vec3 d) {
     ColourRows out = {0};
     float theta = acos_f(fminf(1, d.z)), phi = atan2_f(d.y, d.x);
     phi -= 2 * PI_F * floorf(phi / (2 * PI_F));
-    int   low = last_below(g->phi, g->phis, phi), high = (low + 1) % g->phis;
+    int low = last_below(g->phi, g->phis, phi), high = (low + 1) % g->phis;
     float turn = low < 0 ? 2 * PI_F : 0;
     if (low < 0) low = g->phis - 1;
     float gap = g->phi[high] - g->phi[low], far = phi + turn - g->phi[low];
     if (gap <= 0) gap += 2 * PI_F;
-    int   inner = last_below(g->theta, g->thetas, theta), outer = inner + 1;
+    int inner = last_below(g->theta, g->thetas, theta), outer = inner + 1;
     float t = fminf(1, far / gap), u = 1;
     if (outer < g->thetas && inner >= 0)
         u = (theta - g->theta[inner]) / (g->theta[outer] - g->theta[inner]);
@@ -140,10 +131,9 @@ static ColourRows rows_around(const DirectionGrid *g, Vec3 d)
 }
 
 /* How far from `base`, which is in the range of the rows, a ratio may go to `value`: 0 to 1. */
-static float share_within(const EmissionColour *o, const ColourRows *rows, int channel,
-                          float base, float value)
-{
-    int   channels = o->model->samples->channels;
+static float share_within(const EmissionColour *o, const ColourRows *rows, int channel, float base,
+                          float value) {
+    int channels = o->model->samples->channels;
     float low = INFINITY, high = -INFINITY;
     for (int i = 0; i < rows->count; i++) {
         size_t at = (size_t)rows->row[i] * (size_t)channels + (size_t)channel;
@@ -152,23 +142,23 @@ static float share_within(const EmissionColour *o, const ColourRows *rows, int c
     }
     float width = fmaxf(COLOUR_LEAST, COLOUR_SHARE * (high - low));
     low -= width, high += width;
-    return value > high ? (high - base) / (value - base)
-         : value < low  ? (base - low) / (base - value) : 1;
+    return value > high  ? (high - base) / (value - base)
+           : value < low ? (base - low) / (base - value)
+                         : 1;
 }
 
-void emission_colour_hold(const EmissionColour *o, Vec3 direction, float *components)
-{
+void emission_colour_hold(const EmissionColour *o, Vec3 direction, float *components) {
     if ((double)direction.z < cos_d(o->model->samples->cone)) return;
     const EmissionRank *rank = o->model->rank;
-    const float        *bright = rank->loading + o->bright * rank->components;
+    const float *bright = rank->loading + o->bright * rank->components;
     ColourRows rows = rows_around(&o->grid, direction);
-    float      base[PANEL_COMPONENTS_MAX] = {0}, share = 1, dimmed = 0;
+    float base[PANEL_COMPONENTS_MAX] = {0}, share = 1, dimmed = 0;
     for (int i = 0; i < rows.count; i++)
         for (int k = 0; k < rank->components; k++)
             base[k] += rows.weight[i] * rank->score[rows.row[i] * rank->components + k];
     for (int c = 0; c < o->model->samples->channels; c++)
-        share = fminf(share, share_within(o, &rows, c, ratio_of(o, base, c),
-                                          ratio_of(o, components, c)));
+        share = fminf(share,
+                      share_within(o, &rows, c, ratio_of(o, base, c), ratio_of(o, components, c)));
     if (!(share < 1)) return;
     for (int k = 0; k < rank->components; k++) {
         float moved = (1 - share) * (base[k] - components[k]);

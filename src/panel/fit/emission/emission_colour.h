@@ -23,11 +23,11 @@
 typedef struct EmissionColour {
     const EmissionModel *model;
     DirectionGrid grid;
-    int     bright;   /* the channel of Y that has the largest value */
-    float  *ratio;    /* rows x channels: ln of a channel's E over the bright one's */
-    float  *slack;    /* rows x channels */
-    float  *raise;    /* components: by 1 they raise the logarithms of all channels by about 1,
-                         the bright one's exactly */
+    int bright;   /* the channel of Y that has the largest value */
+    float *ratio; /* rows x channels: ln of a channel's E over the bright one's */
+    float *slack; /* rows x channels */
+    float *raise; /* components: by 1 they raise the logarithms of all channels by about 1,
+                     the bright one's exactly */
 } EmissionColour;
 
 void emission_colour_make(const EmissionModel *model, Arena *arena, EmissionColour *out);

@@ -13,21 +13,21 @@
 #include "panel/shape/panel_profiles.h"
 
 typedef struct EmissionPeak {
-    double estimate;   /* what the panel may miss there, relative; 0: no sample stands out */
-    double missed;     /* the sample, by its neighbours */
+    double estimate; /* what the panel may miss there, relative; 0: no sample stands out */
+    double missed;   /* the sample, by its neighbours */
     double theta, phi;
-    double step;       /* to the next sample, radians of theta or of azimuth */
-    bool   is_azimuth; /* the neighbours are those on the ring */
+    double step;     /* to the next sample, radians of theta or of azimuth */
+    bool is_azimuth; /* the neighbours are those on the ring */
 } EmissionPeak;
 
 typedef struct EmissionEdges {
-    DirectionGrid  grid;
-    const float   *cell;      /* thetas x phis x components */
-    PanelProfiles  profiles;
-    bool           are_there; /* edges */
-    double         share;     /* of a channel's largest value: ratios count above it */
+    DirectionGrid grid;
+    const float *cell; /* thetas x phis x components */
+    PanelProfiles profiles;
+    bool are_there;           /* edges */
+    double share;             /* of a channel's largest value: ratios count above it */
     PanelFollowing following; /* of four azimuths or more */
-    EmissionPeak   peak;      /* of the brightest table */
+    EmissionPeak peak;        /* of the brightest table */
 } EmissionEdges;
 
 /* Do neighbouring samples of the brightest table jump? False also where they are no grid with

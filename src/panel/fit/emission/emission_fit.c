@@ -16,13 +16,12 @@
 #include "panel/shape/spectral_warp.h"
 
 #define TOLERANCE 0.0025 /* relative, where the noise does not allow more */
-#define SIGMAS 4.0      /* of the noise that the components have left */
+#define SIGMAS 4.0       /* of the noise that the components have left */
 
 /* ---- what is known of the tables -------------------------------------------------------- */
 
 /* A black pattern whose light is below every meter's reach is a true black. */
-static bool black_shines(const Measurement *set)
-{
+static bool black_shines(const Measurement *set) {
     double sum = 0, noise = 0;
     if (!set->has_black) return false;
     for (int i = 0; i < set->black.rows; i++) {
@@ -34,23 +33,21 @@ static bool black_shines(const Measurement *set)
 
 /* What every table shows in one direction may be a peak of the display as well: no other table
  * says that it is not. */
-static void find_shared(const Measurement *set, EmissionResult *out)
-{
+static void find_shared(const Measurement *set, EmissionResult *out) {
     const AngleTable *first = emission_samples_table(set, out->has_black, 0).table;
     for (int row = 0; first && row < first->rows; row++) {
         EmissionTable one;
-        bool          is_shared = true;
+        bool is_shared = true;
         for (int i = 0; (one = emission_samples_table(set, out->has_black, i)).table; i++)
-            is_shared &= one.primary == 3 ||
-                         (one.table->rows == first->rows && out->outlier[i][row]);
+            is_shared &=
+                one.primary == 3 || (one.table->rows == first->rows && out->outlier[i][row]);
         if (is_shared && !out->shared++)
-            out->shared_first = (EmissionFlag){.theta = (double)first->theta[row],
-                                               .phi = (double)first->phi[row]};
+            out->shared_first =
+                (EmissionFlag){.theta = (double)first->theta[row], .phi = (double)first->phi[row]};
     }
 }
 
-static void survey_tables(const Measurement *set, Arena *arena, EmissionResult *out)
-{
+static void survey_tables(const Measurement *set, Arena *arena, EmissionResult *out) {
     const AngleTable *table;
     out->outliers.flag = ARENA_NEW(arena, EmissionFlag, EMISSION_FLAGS_MAX);
     out->holes.flag = ARENA_NEW(arena, EmissionFlag, EMISSION_FLAGS_MAX);
@@ -59,36 +56,37 @@ static void survey_tables(const Measurement *set, Arena *arena, EmissionResult *
         out->noise[i] = emission_samples_noise(table, 1, *arena);
         for (int j = 0; j < 3; j++) out->dim[i][j] = table_noise_dim(table, j, *arena);
         out->outlier[i] = ARENA_NEW(arena, uint8_t, table->rows);
-        out->outlier_count += emission_outliers_find(table, out->outlier[i], &out->outliers,
-                                                     *arena);
+        out->outlier_count +=
+            emission_outliers_find(table, out->outlier[i], &out->outliers, *arena);
         out->hole_count += emission_outliers_find_holes(table, &out->holes, *arena);
     }
     find_shared(set, out);
 }
 
-static void note_flags(const EmissionResult *e, FitNotes *notes)
-{
+static void note_flags(const EmissionResult *e, FitNotes *notes) {
     if (e->outlier_count)
-        fit_note(notes, "%d emission samples stand out of their neighbours and are not "
-                 "followed; the errors leave them out", e->outlier_count);
+        fit_note(notes,
+                 "%d emission samples stand out of their neighbours and are not "
+                 "followed; the errors leave them out",
+                 e->outlier_count);
     if (e->hole_count)
-        fit_note(notes, "%d directions of the emission tables' grids are not measured; the "
-                 "other tables and their neighbours fill them", e->hole_count);
+        fit_note(notes,
+                 "%d directions of the emission tables' grids are not measured; the "
+                 "other tables and their neighbours fill them",
+                 e->hole_count);
 }
 
 /* ---- the section of the file (layout: panel_file.h) -------------------------------------- */
 
-static void put(unsigned char **to, const void *from, size_t bytes)
-{
+static void put(unsigned char **to, const void *from, size_t bytes) {
     memcpy(*to, from, bytes);
     *to += bytes;
 }
 
-static void put_levels(unsigned char **to, const Measurement *set)
-{
+static void put_levels(unsigned char **to, const Measurement *set) {
     for (int p = 0; p < 3; p++)
         for (int i = 0; i < set->primary[p].level_count; i++) {
-            double   units = rint(set->primary[p].level[i] * (double)PANEL_LEVEL_UNIT);
+            double units = rint(set->primary[p].level[i] * (double)PANEL_LEVEL_UNIT);
             uint16_t level = (uint16_t)fmax(1, fmin(255 * (double)PANEL_LEVEL_UNIT, units));
             put(to, &level, sizeof level);
         }
@@ -96,10 +94,9 @@ static void put_levels(unsigned char **to, const Measurement *set)
 
 /* The step of a component's loadings: what is left of the rounding, times scores of up to five
  * times their deviation, must not matter. */
-static int loading_exponent(const EmissionModel *model)
-{
+static int loading_exponent(const EmissionModel *model) {
     double step = 2 * model->tolerance / (24 * 5 * sqrt((double)model->rank->components));
-    int    exponent = 0;
+    int exponent = 0;
     frexp(step, &exponent);
     return 1 - exponent < 0 ? 0 : 1 - exponent > 20 ? 20 : 1 - exponent;
 }
@@ -108,10 +105,9 @@ typedef struct LoadingCode {
     uint8_t exponent, width;
 } LoadingCode;
 
-static LoadingCode loading_code(const EmissionModel *model, int component)
-{
+static LoadingCode loading_code(const EmissionModel *model, int component) {
     const EmissionRank *rank = model->rank;
-    int   channels = model->samples->channels, e = loading_exponent(model);
+    int channels = model->samples->channels, e = loading_exponent(model);
     float most = 0;
     for (int c = 0; c < channels; c++)
         most = fmaxf(most, fabsf(rank->loading[c * rank->components + component]));
@@ -119,18 +115,15 @@ static LoadingCode loading_code(const EmissionModel *model, int component)
     return (LoadingCode){(uint8_t)e, ldexpf(most, e) < 126.5f ? 1 : 2};
 }
 
-static int rounded_to(float value, int exponent)
-{
+static int rounded_to(float value, int exponent) {
     return (int)fminf(32767, fmaxf(-32767, rintf(ldexpf(value, exponent))));
 }
 
 /* Means and loadings become what the section holds. */
-static void round_model(EmissionModel *model)
-{
+static void round_model(EmissionModel *model) {
     EmissionRank *rank = model->rank;
     for (int c = 0; c < model->samples->channels; c++)
-        rank->mean[c] = ldexpf((float)rounded_to(rank->mean[c], PANEL_MEAN_BITS),
-                               -PANEL_MEAN_BITS);
+        rank->mean[c] = ldexpf((float)rounded_to(rank->mean[c], PANEL_MEAN_BITS), -PANEL_MEAN_BITS);
     for (int k = 0; k < rank->components; k++) {
         LoadingCode code = loading_code(model, k);
         for (int c = 0; c < model->samples->channels; c++) {
@@ -140,20 +133,19 @@ static void round_model(EmissionModel *model)
     }
 }
 
-static PanelEmissionHead section_head(const EmissionModel *model)
-{
+static PanelEmissionHead section_head(const EmissionModel *model) {
     const EmissionSamples *s = model->samples;
     PanelEmissionHead head = {.components = (uint8_t)model->rank->components,
-        .has_black = s->black >= 0, .beams = (uint8_t)model->beams,
-        .cone_cos = fmaxf(0, (float)cos_d(s->cone)),
-        .level_power = 2.2f, .cosine_power = model->rank->cosine_power};
-    for (int p = 0; p < 3; p++)
-        head.level_count[p] = (uint8_t)s->set->primary[p].level_count;
+                              .has_black = s->black >= 0,
+                              .beams = (uint8_t)model->beams,
+                              .cone_cos = fmaxf(0, (float)cos_d(s->cone)),
+                              .level_power = 2.2f,
+                              .cosine_power = model->rank->cosine_power};
+    for (int p = 0; p < 3; p++) head.level_count[p] = (uint8_t)s->set->primary[p].level_count;
     return head;
 }
 
-static void put_loadings(unsigned char **to, const EmissionModel *model)
-{
+static void put_loadings(unsigned char **to, const EmissionModel *model) {
     const EmissionRank *rank = model->rank;
     LoadingCode code[PANEL_COMPONENTS_MAX];
     for (int k = 0; k < rank->components; k++) code[k] = loading_code(model, k);
@@ -162,21 +154,19 @@ static void put_loadings(unsigned char **to, const EmissionModel *model)
     for (int pass = 2; pass >= 1; pass--)
         for (int k = 0; k < rank->components; k++)
             for (int c = 0; c < model->samples->channels && code[k].width == pass; c++) {
-                int     value = rounded_to(rank->loading[c * rank->components + k],
-                                           code[k].exponent);
+                int value = rounded_to(rank->loading[c * rank->components + k], code[k].exponent);
                 int16_t wide = (int16_t)value;
-                int8_t  narrow = (int8_t)value;
+                int8_t narrow = (int8_t)value;
                 put(to, pass == 2 ? (const void *)&wide : (const void *)&narrow, (size_t)pass);
             }
 }
 
-static const void *write_section(const EmissionModel *model, Arena *arena, size_t *size)
-{
+static const void *write_section(const EmissionModel *model, Arena *arena, size_t *size) {
     size_t channels = (size_t)model->samples->channels;
     size_t most = sizeof(PanelEmissionHead) + 4 * channels +
                   (size_t)model->rank->components * (2 + 2 * channels) + model->spline_size;
     for (int b = 0; b < model->beams; b++) most += model->beam[b].size;
-    unsigned char    *bytes = ARENA_NEW(arena, unsigned char, most), *at = bytes;
+    unsigned char *bytes = ARENA_NEW(arena, unsigned char, most), *at = bytes;
     PanelEmissionHead head = section_head(model);
     put(&at, &head, sizeof head);
     put_levels(&at, model->samples->set);
@@ -194,44 +184,39 @@ static const void *write_section(const EmissionModel *model, Arena *arena, size_
 /* ---- the model ------------------------------------------------------------------------- */
 
 /* Noise of every component's score at a row, from differences of neighbours. */
-static void find_score_noise(EmissionModel *model, Arena *arena)
-{
+static void find_score_noise(EmissionModel *model, Arena *arena) {
     const EmissionSamples *s = model->samples;
-    int        n = model->rank->components;
+    int n = model->rank->components;
     AngleTable table = *s->master;
     table.channels = n;
     table.value = model->rank->score;
     model->score_noise = ARENA_NEW(arena, float, n);
     for (int k = 0; k < n; k++)
-        model->score_noise[k] = (float)(model->is_scattered
-            ? scatter_surface_table_noise(&table, k, false, *arena)
-            : table_noise_plain(&table, k, *arena));
+        model->score_noise[k] =
+            (float)(model->is_scattered ? scatter_surface_table_noise(&table, k, false, *arena)
+                                        : table_noise_plain(&table, k, *arena));
 }
 
 /* Noise of a channel due to the scores' noise; the median of all. */
-static double channel_noise(const EmissionModel *model, Arena scratch)
-{
+static double channel_noise(const EmissionModel *model, Arena scratch) {
     const EmissionRank *rank = model->rank;
-    int     n = rank->components, channels = model->samples->channels;
+    int n = rank->components, channels = model->samples->channels;
     double *list = ARENA_NEW(&scratch, double, channels);
     for (int c = 0; c < channels; c++) {
         for (int k = 0; k < n; k++)
-            list[c] +=
-                pow_d((double)rank->loading[c * n + k] * (double)model->score_noise[k], 2);
+            list[c] += pow_d((double)rank->loading[c * n + k] * (double)model->score_noise[k], 2);
         list[c] = sqrt(list[c]);
     }
     return sort_median(list, channels);
 }
 
-static double choose_tolerance(const EmissionModel *model, const FitOptions *options)
-{
+static double choose_tolerance(const EmissionModel *model, const FitOptions *options) {
     if (options->bound > 0) return (double)options->bound;
     return fmax(TOLERANCE, SIGMAS * model->noise);
 }
 
 /* Rounding steps of the components: together they may cost a sixth of the tolerance. */
-static void choose_steps(EmissionModel *model, Arena *arena)
-{
+static void choose_steps(EmissionModel *model, Arena *arena) {
     const EmissionRank *rank = model->rank;
     int n = rank->components;
     model->step = ARENA_NEW(arena, float, n);
@@ -249,22 +234,21 @@ static void choose_steps(EmissionModel *model, Arena *arena)
 #define HELD_EDGED 0.0015
 
 static void gather(EmissionModel *model, const Measurement *set, const EmissionResult *out,
-                   EmissionSamples *samples, Arena *arena)
-{
+                   EmissionSamples *samples, Arena *arena) {
     emission_samples_gather(set, out->has_black, out->outlier, arena, samples);
     emission_rank_find(samples, arena, model->rank);
 }
 
 static bool build_model(const Measurement *set, const FitOptions *options, Arena *arena,
-                        FitNotes *notes, EmissionResult *out, EmissionModel *model)
-{
+                        FitNotes *notes, EmissionResult *out, EmissionModel *model) {
     EmissionSamples *samples = ARENA_NEW(arena, EmissionSamples, 1);
     samples->tolerance = options->bound > 0 ? (double)options->bound : TOLERANCE;
     samples->floor_share = (double)options->error_floor;
-    EmissionRank    *rank = ARENA_NEW(arena, EmissionRank, 1);
+    EmissionRank *rank = ARENA_NEW(arena, EmissionRank, 1);
     samples->held_share = HELD;
-    *model = (EmissionModel){.samples = samples, .rank = rank,
-                             .dim = (const double (*)[3])out->dim,
+    *model = (EmissionModel){.samples = samples,
+                             .rank = rank,
+                             .dim = (const double(*)[3])out->dim,
                              .tolerance = samples->tolerance};
     gather(model, set, out, samples, arena);
     if (emission_edges_are_there(model, *arena)) {
@@ -288,21 +272,18 @@ static bool build_model(const Measurement *set, const FitOptions *options, Arena
  * Of the brightest channel. */
 
 typedef struct LightRead {
-    const EmissionModel  *model;
+    const EmissionModel *model;
     const ScatterSurface *surface;
-    Tree                  tree;
-    int                   channel;
-    float                *total; /* of all channels */
+    Tree tree;
+    int channel;
+    float *total; /* of all channels */
 } LightRead;
 
-static double log_of(const LightRead *read, float value)
-{
-    return log_d(fmax((double)value, fmax(read->model->samples->floor[read->channel],
-                                          1e-9)));
+static double log_of(const LightRead *read, float value) {
+    return log_d(fmax((double)value, fmax(read->model->samples->floor[read->channel], 1e-9)));
 }
 
-static double read_gap(void *context, Vec3 at, double *off)
-{
+static double read_gap(void *context, Vec3 at, double *off) {
     const LightRead *read = context;
     float components[PANEL_COMPONENTS_MAX], log;
     emission_coder_components(read->model, &read->tree, at, components);
@@ -313,10 +294,9 @@ static double read_gap(void *context, Vec3 at, double *off)
     return panel;
 }
 
-static int brightest(const EmissionSamples *s)
-{
+static int brightest(const EmissionSamples *s) {
     double most = -1;
-    int    out = 0;
+    int out = 0;
     for (int c = 0; c < s->channels; c++) {
         double sum = 0;
         for (int i = 0; i < s->rows; i++) sum += (double)s->total[i * s->channels + c];
@@ -326,12 +306,11 @@ static int brightest(const EmissionSamples *s)
 }
 
 /* tree: of what the smooth part leaves. */
-static bool emission_gaps_find(const EmissionModel *model, const EmissionTree *tree,
-                               Arena scratch, ScatterGaps *out, Error *err)
-{
+static bool emission_gaps_find(const EmissionModel *model, const EmissionTree *tree, Arena scratch,
+                               ScatterGaps *out, Error *err) {
     const EmissionSamples *s = model->samples;
-    LightRead read = {.model = model, .channel = brightest(s),
-                    .total = ARENA_NEW(&scratch, float, s->channels)};
+    LightRead read = {
+        .model = model, .channel = brightest(s), .total = ARENA_NEW(&scratch, float, s->channels)};
     float *log = ARENA_NEW(&scratch, float, s->rows);
     for (int i = 0; i < s->rows; i++)
         log[i] = (float)log_of(&read, s->total[i * s->channels + read.channel]);
@@ -346,9 +325,8 @@ static bool emission_gaps_find(const EmissionModel *model, const EmissionTree *t
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena,
-                  FitNotes *notes, EmissionResult *out, Error *err)
-{
+bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena, FitNotes *notes,
+                  EmissionResult *out, Error *err) {
     EmissionModel *model = ARENA_NEW(arena, EmissionModel, 1);
     out->has_black = black_shines(set);
     survey_tables(set, arena, out);
@@ -370,11 +348,10 @@ bool emission_fit(const Measurement *set, const FitOptions *options, Arena *aren
     return true;
 }
 
-bool emission_fit_scale(EmissionResult *e, const double *integral_error, Arena *arena)
-{
+bool emission_fit_scale(EmissionResult *e, const double *integral_error, Arena *arena) {
     EmissionModel *model = ARENA_NEW(arena, EmissionModel, 1);
-    EmissionRank  *rank = ARENA_NEW(arena, EmissionRank, 1);
-    bool           any = false;
+    EmissionRank *rank = ARENA_NEW(arena, EmissionRank, 1);
+    bool any = false;
     *model = *e->model;
     *rank = *model->rank;
     rank->mean = ARENA_NEW(arena, float, model->samples->channels);
@@ -394,16 +371,14 @@ bool emission_fit_scale(EmissionResult *e, const double *integral_error, Arena *
 
 #define SPECTRA_STEPS 6
 
-static float most_of(const float *spectrum)
-{
+static float most_of(const float *spectrum) {
     float most = 0;
     for (int i = 0; i < SPECTRAL_COUNT; i++) most = fmaxf(most, spectrum[i]);
     return most;
 }
 
 /* Range of whole nm that hold light in any primary. */
-static void lit_range(const float (*spectrum)[SPECTRAL_COUNT], int *first, int *last)
-{
+static void lit_range(const float (*spectrum)[SPECTRAL_COUNT], int *first, int *last) {
     *first = SPECTRAL_COUNT;
     *last = 0;
     for (int p = 0; p < 3; p++)
@@ -415,13 +390,12 @@ static void lit_range(const float (*spectrum)[SPECTRAL_COUNT], int *first, int *
 }
 
 /* Do samples every `step` nm from `first` on determine everything in between? */
-static bool is_told_by(const float (*spectrum)[SPECTRAL_COUNT], int first, int last, int step)
-{
+static bool is_told_by(const float (*spectrum)[SPECTRAL_COUNT], int first, int last, int step) {
     for (int p = 0; p < 3; p++) {
         const float *s = spectrum[p];
         float small = 1e-5f * most_of(s);
         for (int i = first; i <= last; i++) {
-            int   a = first + (i - first) / step * step, b = a + step;
+            int a = first + (i - first) / step * step, b = a + step;
             float t = (float)(i - a) / (float)step;
             if (b > last && i > a) return false;
             if (b > last) continue;
@@ -431,8 +405,7 @@ static bool is_told_by(const float (*spectrum)[SPECTRAL_COUNT], int first, int l
     return true;
 }
 
-static int choose_step(const float (*spectrum)[SPECTRAL_COUNT], int first, int last)
-{
+static int choose_step(const float (*spectrum)[SPECTRAL_COUNT], int first, int last) {
     static const int steps[SPECTRA_STEPS] = {20, 10, 5, 4, 2, 1};
     for (int k = 0; k < SPECTRA_STEPS; k++)
         if ((last - first) % steps[k] == 0 && is_told_by(spectrum, first, last, steps[k]))
@@ -441,8 +414,7 @@ static int choose_step(const float (*spectrum)[SPECTRAL_COUNT], int first, int l
 }
 
 /* A spectrum that is 0 at its ends may have begun and ended one step outside of the light. */
-static int widen(const float (*spectrum)[SPECTRAL_COUNT], int *first, int *last)
-{
+static int widen(const float (*spectrum)[SPECTRAL_COUNT], int *first, int *last) {
     int best = choose_step(spectrum, *first, *last), low = *first, high = *last;
     for (int before = 0; before < 20 && low - before >= 0; before++)
         for (int after = 0; after < 20 && high + after < SPECTRAL_COUNT; after++) {
@@ -456,8 +428,7 @@ static int widen(const float (*spectrum)[SPECTRAL_COUNT], int *first, int *last)
 }
 
 /* XYZ of a primary nearest to the normal, without black; one without light has Rec.709's. */
-static void colour_at_normal(const Measurement *set, int p, double xyz[3])
-{
+static void colour_at_normal(const Measurement *set, int p, double xyz[3]) {
     const MeasuredPrimary *primary = &set->primary[p];
     const AngleTable *const of[2] = {&primary->table[primary->level_count - 1], &set->black};
     for (int b = 0; b < 1 + set->has_black; b++) {
@@ -465,44 +436,48 @@ static void colour_at_normal(const Measurement *set, int p, double xyz[3])
         double sum[3] = {0, 0, 0};
         for (; rows < of[b]->rows && of[b]->theta[rows] == of[b]->theta[0]; rows++)
             for (int j = 0; j < 3; j++) sum[j] += (double)of[b]->value[3 * rows + j];
-        for (int j = 0; j < 3; j++)
-            xyz[j] = b ? fmax(0, xyz[j] - sum[j] / rows) : sum[j] / rows;
+        for (int j = 0; j < 3; j++) xyz[j] = b ? fmax(0, xyz[j] - sum[j] / rows) : sum[j] / rows;
     }
     for (int j = 0; j < 3 && !(xyz[0] >= 0 && xyz[1] > 0 && xyz[2] >= 0); j++)
         xyz[j] = (double)xyz_from_rgb_matrix[3 * j + p];
 }
 
 static void assume_bands(const Measurement *set, Arena *arena, EmissionPrimaries *out,
-                         FitNotes *notes)
-{
+                         FitNotes *notes) {
     PrimaryBands *bands = ARENA_NEW(arena, PrimaryBands, 1);
-    double        xyz[3][3];
-    const char   *missed = "", *moved = "";
+    double xyz[3][3];
+    const char *missed = "", *moved = "";
     for (int p = 0; p < 3; p++) colour_at_normal(set, p, xyz[p]);
-    primary_bands_find(set->backlight, set->peaks_nm, (const double (*)[3])xyz, bands);
+    primary_bands_find(set->backlight, set->peaks_nm, (const double(*)[3])xyz, bands);
     if (set->peaks_nm[0] > 0 && memcmp(bands->peak_nm, set->peaks_nm, sizeof bands->peak_nm))
-        moved = arena_format(arena, " (stated: %g, %g, %g nm, from where the colours are out "
-                             "of reach)", set->peaks_nm[0], set->peaks_nm[1], set->peaks_nm[2]);
+        moved = arena_format(arena,
+                             " (stated: %g, %g, %g nm, from where the colours are out "
+                             "of reach)",
+                             set->peaks_nm[0], set->peaks_nm[1], set->peaks_nm[2]);
     if (bands->miss > PRIMARY_BANDS_MISS)
-        missed = arena_format(arena, "; no light has the measured colours, which are missed by "
-                              "delta u'v' %.2g", bands->miss);
-    out->assumed = arena_format(arena, "spectra of the primaries assumed: bands of a backlight "
+        missed = arena_format(arena,
+                              "; no light has the measured colours, which are missed by "
+                              "delta u'v' %.2g",
+                              bands->miss);
+    out->assumed = arena_format(
+        arena,
+        "spectra of the primaries assumed: bands of a backlight "
         "'%s'%s at %.4g, %.4g and %.4g nm%s, %.3g, %.3g and %.3g nm wide, mixed to the "
-        "measured colours", primary_backlights[bands->backlight],
-        set->backlight ? "" : " (not stated)",
+        "measured colours",
+        primary_backlights[bands->backlight], set->backlight ? "" : " (not stated)",
         bands->peak_nm[0], bands->peak_nm[1], bands->peak_nm[2], moved, bands->fwhm_nm[0],
         bands->fwhm_nm[1], bands->fwhm_nm[2]);
-    fit_note(notes, "%s%s; white may be off by delta u'v' %.2g behind a pane whose "
+    fit_note(notes,
+             "%s%s; white may be off by delta u'v' %.2g behind a pane whose "
              "transmittance changes twofold from 400 to 700 nm, and by %.2g behind a sharp "
              "edge (to the narrowest bands of the same colours): measure spectra (primaries)",
              out->assumed, missed, bands->off_uv, bands->off_edge);
-    out->spectrum = (const float (*)[SPECTRAL_COUNT])bands->spectrum;
+    out->spectrum = (const float(*)[SPECTRAL_COUNT])bands->spectrum;
 }
 
 /* The section at the sampling of the spectra. */
-static void write_primaries(EmissionPrimaries *out, PanelPrimariesHead head, Arena *arena)
-{
-    const float (*spectrum)[SPECTRAL_COUNT] = out->spectrum;
+static void write_primaries(EmissionPrimaries *out, PanelPrimariesHead head, Arena *arena) {
+    const float(*spectrum)[SPECTRAL_COUNT] = out->spectrum;
     int first = 0, last = -1, step = 1;
     if (spectrum) {
         lit_range(spectrum, &first, &last);
@@ -528,14 +503,13 @@ static void write_primaries(EmissionPrimaries *out, PanelPrimariesHead head, Are
 }
 
 void emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *arena,
-                            EmissionPrimaries *out)
-{
+                            EmissionPrimaries *out) {
     PanelPrimariesHead head = {.kind = PANEL_SPECTRA_STORED};
-    bool is_split = set->is_white_only && !(set->white_miss > 0) && !set->backlight &&
-                    !(set->peaks_nm[0] > 0);
+    bool is_split =
+        set->is_white_only && !(set->white_miss > 0) && !set->backlight && !(set->peaks_nm[0] > 0);
     *out = (EmissionPrimaries){.spectrum = NULL};
     if (set->has_spectra) {
-        out->spectrum = (const float (*)[SPECTRAL_COUNT])set->spectrum;
+        out->spectrum = (const float(*)[SPECTRAL_COUNT])set->spectrum;
     } else if (is_split) {
         head.kind = PANEL_SPECTRA_REC709;
         out->assumed = "spectra of the primaries assumed: the Rec.709 primaries' smooth "

@@ -12,19 +12,19 @@
 #include "panel/fit/emission/emission_tree.h"
 
 typedef struct EmissionResult {
-    const void   *section; /* as in the file */
-    size_t        section_size;
-    EmissionTree  tree;
-    ScatterGaps   gaps; /* of samples that are no grid */
+    const void *section; /* as in the file */
+    size_t section_size;
+    EmissionTree tree;
+    ScatterGaps gaps;           /* of samples that are no grid */
     const EmissionModel *model; /* in the end */
-    int           table_count;
-    bool          has_black;
-    double        noise[EMISSION_TABLES_MAX];  /* relative, per table; last: black */
-    double        dim[EMISSION_TABLES_MAX][3]; /* cd m^-2, per table and channel */
-    uint8_t      *outlier[EMISSION_TABLES_MAX]; /* per row */
-    int           outlier_count, hole_count;
-    int           shared;   /* directions that stand out in every table but the black one */
-    EmissionFlag  shared_first;
+    int table_count;
+    bool has_black;
+    double noise[EMISSION_TABLES_MAX];     /* relative, per table; last: black */
+    double dim[EMISSION_TABLES_MAX][3];    /* cd m^-2, per table and channel */
+    uint8_t *outlier[EMISSION_TABLES_MAX]; /* per row */
+    int outlier_count, hole_count;
+    int shared; /* directions that stand out in every table but the black one */
+    EmissionFlag shared_first;
     EmissionFlags outliers, holes;
 } EmissionResult;
 
@@ -32,16 +32,16 @@ typedef struct EmissionResult {
  * stands in their place. */
 typedef struct EmissionPrimaries {
     const float (*spectrum)[SPECTRAL_COUNT]; /* NULL: none is stored */
-    const char *assumed; /* in words; NULL: measured */
+    const char *assumed;                     /* in words; NULL: measured */
     const void *bytes;
-    size_t      size;
+    size_t size;
 } EmissionPrimaries;
 
 void emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *arena,
                             EmissionPrimaries *out);
 
-bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena,
-                  FitNotes *notes, EmissionResult *out, Error *err);
+bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena, FitNotes *notes,
+                  EmissionResult *out, Error *err);
 
 /* The tables' light less their integrals' errors (relative, signed), as far as means can be
  * stored; the model is a copy. False: no mean changes. */

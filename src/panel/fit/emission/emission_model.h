@@ -13,25 +13,25 @@
 /* A beam as stored, and as it will be read again. */
 typedef struct EmissionBeam {
     const void *bytes;
-    size_t      size;
-    PanelBeam   view;
-    double      half_width; /* radians: where the logarithm is down by half */
+    size_t size;
+    PanelBeam view;
+    double half_width; /* radians: where the logarithm is down by half */
 } EmissionBeam;
 
 typedef struct EmissionModel {
     const EmissionSamples *samples;
-    EmissionRank *rank;      /* means and loadings are rounded */
-    const void   *spline_bytes;
-    size_t        spline_size;
-    PanelSpline   spline;
-    int           beams;
-    EmissionBeam  beam[PANEL_BEAMS_MAX];
-    float        *step;      /* per component: what rounding may cost */
-    float        *score_noise; /* per component, of a row's score */
-    const double (*dim)[3];  /* noise without light of every table's X, Y, Z, cd m^-2 */
-    double        tolerance; /* relative to M */
-    bool          is_scattered; /* the samples have no rings */
-    double        noise;     /* of the channels after the components pooled it, a median */
+    EmissionRank *rank; /* means and loadings are rounded */
+    const void *spline_bytes;
+    size_t spline_size;
+    PanelSpline spline;
+    int beams;
+    EmissionBeam beam[PANEL_BEAMS_MAX];
+    float *step;            /* per component: what rounding may cost */
+    float *score_noise;     /* per component, of a row's score */
+    const double (*dim)[3]; /* noise without light of every table's X, Y, Z, cd m^-2 */
+    double tolerance;       /* relative to M */
+    bool is_scattered;      /* the samples have no rings */
+    double noise;           /* of the channels after the components pooled it, a median */
 } EmissionModel;
 
 /* Adds spline and beams to components (PANEL_COMPONENTS_MAX floats). */

@@ -12,14 +12,14 @@
 /* A direction of a table that stands out, or is missing. */
 typedef struct EmissionFlag {
     const char *table;
-    double      theta, phi;      /* radians */
-    double      value, expected; /* Y, cd m^-2 */
+    double theta, phi;      /* radians */
+    double value, expected; /* Y, cd m^-2 */
 } EmissionFlag;
 
 #define EMISSION_FLAGS_MAX 4096
 typedef struct EmissionFlags {
-    EmissionFlag *flag;  /* room for EMISSION_FLAGS_MAX */
-    int           count; /* may be more than are listed */
+    EmissionFlag *flag; /* room for EMISSION_FLAGS_MAX */
+    int count;          /* may be more than are listed */
 } EmissionFlags;
 
 /* Rows of an XYZ table that no neighbour explains: is_outlier[row]. Returns how many. */

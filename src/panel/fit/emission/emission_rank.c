@@ -19,24 +19,21 @@
 
 #define COMPONENTS_MAX 24
 #define ITERATIONS 6
-#define PATIENCE 3 /* so many more components without any gain are enough */
-#define ASKED_ROWS 5000 /* loadings are found from about so many */
-#define HUBER 4.0       /* sigmas */
+#define PATIENCE 3         /* so many more components without any gain are enough */
+#define ASKED_ROWS 5000    /* loadings are found from about so many */
+#define HUBER 4.0          /* sigmas */
 #define UNKNOWN_BLACK 0.1f /* relative error of a black estimated from neighbours */
-#define STRAY 0.3       /* a sample this far off, */
-#define STRAYS 1e-3     /* and with few like it, is none that a component is made for */
+#define STRAY 0.3          /* a sample this far off, */
+#define STRAYS 1e-3        /* and with few like it, is none that a component is made for */
 #define SCORE_MOST 1e3
-#define PRIOR 400.0     /* 1/variance: a channel's loadings against a brighter one's */
+#define PRIOR 400.0 /* 1/variance: a channel's loadings against a brighter one's */
 
-float emission_rank_fall(float cosine_power, Vec3 direction)
-{
+float emission_rank_fall(float cosine_power, Vec3 direction) {
     return cosine_power * log_f(clampf(direction.z, PANEL_LEAST_COS, 1));
 }
 
-void emission_rank_logs(const EmissionRank *rank, int channels, const float *components,
-                        float fall,
-                        float *logs)
-{
+void emission_rank_logs(const EmissionRank *rank, int channels, const float *components, float fall,
+                        float *logs) {
     for (int c = 0; c < channels; c++) {
         const float *loading = rank->loading + c * rank->components;
         float sum = fall + rank->mean[c];
@@ -47,19 +44,16 @@ void emission_rank_logs(const EmissionRank *rank, int channels, const float *com
 
 /* ---- the start ------------------------------------------------------------------------- */
 
-static bool is_black_channel(const EmissionSamples *s, int channel)
-{
+static bool is_black_channel(const EmissionSamples *s, int channel) {
     return s->black >= 0 && channel >= s->black;
 }
 
-static size_t number(const EmissionSamples *s, int row, int channel)
-{
+static size_t number(const EmissionSamples *s, int row, int channel) {
     return (size_t)row * (size_t)s->channels + (size_t)channel;
 }
 
 /* E = M - M_black and its standard deviation. */
-static float added_light(const EmissionSamples *s, int row, int channel, float *sigma)
-{
+static float added_light(const EmissionSamples *s, int row, int channel, float *sigma) {
     size_t at = number(s, row, channel);
     *sigma = s->sigma[at];
     if (s->black < 0 || is_black_channel(s, channel)) return s->total[at];
@@ -70,11 +64,10 @@ static float added_light(const EmissionSamples *s, int row, int channel, float *
 }
 
 /* d ln E / d ln cos theta of a channel over the last fifth of the cone; false: no light. */
-static bool channel_power(const EmissionSamples *s, int channel, double *power)
-{
+static bool channel_power(const EmissionSamples *s, int channel, double *power) {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (int i = 0; i < s->rows; i++) {
-        float  sigma, e = added_light(s, i, channel, &sigma);
+        float sigma, e = added_light(s, i, channel, &sigma);
         double z = (double)s->direction[i].z;
         if (acos_d(fmin(1, z)) < 0.8 * s->cone || z < (double)PANEL_LEAST_COS) continue;
         if (!(e > 5 * sigma)) continue;
@@ -87,8 +80,7 @@ static bool channel_power(const EmissionSamples *s, int channel, double *power)
     return true;
 }
 
-static float shared_power(const EmissionSamples *s)
-{
+static float shared_power(const EmissionSamples *s) {
     double sum = 0, count = 0, power;
     for (int c = 0; c < s->channels; c++)
         if (channel_power(s, c, &power)) sum += fmin(9.5, fmax(0.5, power)), count++;
@@ -97,8 +89,7 @@ static float shared_power(const EmissionSamples *s)
 
 /* ln E less the fall, no lower than what noise leaves to be seen; holes have the channel's
  * mean. weight[c]: how much of a channel is clear of noise and of black. */
-static float *start_logs(const EmissionSamples *s, float power, double *weight, Arena *arena)
-{
+static float *start_logs(const EmissionSamples *s, float power, double *weight, Arena *arena) {
     float *logs = ARENA_NEW(arena, float, number(s, s->rows, 0));
     for (int c = 0; c < s->channels; c++) {
         double sum = 0, known = 1e-9, clear = 0;
@@ -128,8 +119,7 @@ typedef struct RankWish {
     double step, weight;
 } RankWish;
 
-static RankWish wish_of(const EmissionSamples *s, int row, int channel, const float *logs)
-{
+static RankWish wish_of(const EmissionSamples *s, int row, int channel, const float *logs) {
     size_t at = number(s, row, channel);
     double sigma = (double)s->sigma[at];
     if (isinf(sigma)) return (RankWish){0, 0};
@@ -144,8 +134,7 @@ static RankWish wish_of(const EmissionSamples *s, int row, int channel, const fl
 
 /* Adds w x x^T (lower half) and w x y. */
 static void add_equation(const double *x, double y, double w, int n, double *matrix,
-                         double *right)
-{
+                         double *right) {
     for (int i = 0; i < n; i++) {
         double wx = w * x[i];
         for (int j = 0; j <= i; j++) matrix[i * n + j] += wx * x[j];
@@ -155,17 +144,15 @@ static void add_equation(const double *x, double y, double w, int n, double *mat
 
 typedef struct RankWork {
     const EmissionSamples *samples;
-    EmissionRank          *rank;
-    float                 *logs; /* channels */
+    EmissionRank *rank;
+    float *logs; /* channels */
 } RankWork;
 
 /* d M / d scores of a channel over sigma, and the rest of M over sigma; returns the weight. */
-static double row_equation(const RankWork *work, size_t at, int channel, double *x,
-                           double *rest)
-{
+static double row_equation(const RankWork *work, size_t at, int channel, double *x, double *rest) {
     const EmissionSamples *s = work->samples;
-    const EmissionRank    *rank = work->rank;
-    int    n = rank->components, dark = s->black + channel % 3;
+    const EmissionRank *rank = work->rank;
+    int n = rank->components, dark = s->black + channel % 3;
     double sigma = (double)s->sigma[at];
     double e = exp_d(fmin(60, (double)work->logs[channel])) / sigma, b = 0;
     if (s->black >= 0 && !is_black_channel(s, channel))
@@ -179,8 +166,7 @@ static double row_equation(const RankWork *work, size_t at, int channel, double 
 }
 
 /* A step is no longer than what changes a channel by a factor of e. */
-static double step_length(const EmissionRank *rank, int channels, const double *step)
-{
+static double step_length(const EmissionRank *rank, int channels, const double *step) {
     double most = 0;
     for (int c = 0; c < channels; c++) {
         double change = 0;
@@ -193,11 +179,10 @@ static double step_length(const EmissionRank *rank, int channels, const double *
 
 /* New scores of a row; the prior (1: that they are of variance 1) is 1/variance. Returns the
  * information that the row has on its components, a mean. */
-static double improve_row(const RankWork *work, int row, double prior)
-{
+static double improve_row(const RankWork *work, int row, double prior) {
     const EmissionSamples *s = work->samples;
     EmissionRank *rank = work->rank;
-    int    n = rank->components;
+    int n = rank->components;
     double matrix[COMPONENTS_MAX * COMPONENTS_MAX] = {0}, step[COMPONENTS_MAX] = {0};
     double x[COMPONENTS_MAX], trace = 0;
     float *score = rank->score + (size_t)row * (size_t)n;
@@ -225,8 +210,7 @@ static double improve_row(const RankWork *work, int row, double prior)
 }
 
 /* The channel whose loadings one resembles: the next brighter level's, Y of the brightest. */
-static int elder(const EmissionSamples *s, int channel)
-{
+static int elder(const EmissionSamples *s, int channel) {
     EmissionTable of = emission_samples_table(s->set, s->black >= 0, channel / 3);
     if (of.primary < 3 && of.level + 1 < s->set->primary[of.primary].level_count)
         return channel + 3;
@@ -234,18 +218,17 @@ static int elder(const EmissionSamples *s, int channel)
 }
 
 /* New mean and loadings of a channel. */
-static void improve_channel(const RankWork *work, int channel, int stride)
-{
+static void improve_channel(const RankWork *work, int channel, int stride) {
     const EmissionSamples *s = work->samples;
     EmissionRank *rank = work->rank;
-    int    n = rank->components, older = elder(s, channel);
+    int n = rank->components, older = elder(s, channel);
     double matrix[(COMPONENTS_MAX + 1) * (COMPONENTS_MAX + 1)] = {0};
     double right[COMPONENTS_MAX + 1] = {0}, x[COMPONENTS_MAX + 1] = {1};
     float *loading = rank->loading + channel * n, logs[3];
     for (int i = 0; i < s->rows; i += stride) {
         const float *score = rank->score + (size_t)i * (size_t)n;
-        int    both[2] = {channel, s->black >= 0 ? s->black + channel % 3 : channel};
-        float  fall = emission_rank_fall(rank->cosine_power, s->direction[i]);
+        int both[2] = {channel, s->black >= 0 ? s->black + channel % 3 : channel};
+        float fall = emission_rank_fall(rank->cosine_power, s->direction[i]);
         for (int b = 0; b < 2; b++) {
             logs[b] = fall + rank->mean[both[b]];
             for (int k = 0; k < n; k++) logs[b] += rank->loading[both[b] * n + k] * score[k];
@@ -254,8 +237,7 @@ static void improve_channel(const RankWork *work, int channel, int stride)
         RankWish wish = wish_of(s, i, channel, work->logs);
         if (wish.weight == 0) continue;
         for (int k = 0; k < n; k++) x[k + 1] = (double)score[k];
-        add_equation(x, wish.step + (double)(logs[0] - fall), wish.weight, n + 1, matrix,
-                     right);
+        add_equation(x, wish.step + (double)(logs[0] - fall), wish.weight, n + 1, matrix, right);
     }
     matrix[0] += 1e-2;
     right[0] += 1e-2 * (double)rank->mean[channel];
@@ -274,8 +256,7 @@ static void improve_channel(const RankWork *work, int channel, int stride)
 /* ---- components that are worth their order ---------------------------------------------- */
 
 /* new = old times matrix (n x n), in place, row by row. */
-static void turn_rows(float *rows, int count, const double *matrix, int n)
-{
+static void turn_rows(float *rows, int count, const double *matrix, int n) {
     double out[COMPONENTS_MAX];
     for (int i = 0; i < count; i++) {
         float *row = rows + (size_t)i * (size_t)n;
@@ -288,9 +269,8 @@ static void turn_rows(float *rows, int count, const double *matrix, int n)
 }
 
 /* Scores to mean 0, the channels' means take it. */
-static void centre(const EmissionSamples *s, EmissionRank *rank)
-{
-    int    n = rank->components;
+static void centre(const EmissionSamples *s, EmissionRank *rank) {
+    int n = rank->components;
     double mean[COMPONENTS_MAX] = {0}, area = 0;
     for (int i = 0; i < s->rows; i++) {
         area += s->area[i];
@@ -305,8 +285,7 @@ static void centre(const EmissionSamples *s, EmissionRank *rank)
 
 /* Covariance of rows, weighted. */
 static void row_covariance(const float *rows, int count, const double *weight, int n,
-                           double *matrix)
-{
+                           double *matrix) {
     double total = 0;
     memset(matrix, 0, sizeof *matrix * (size_t)(n * n));
     for (int i = 0; i < count; i++) {
@@ -321,9 +300,8 @@ static void row_covariance(const float *rows, int count, const double *weight, i
 
 /* Scores uncorrelated and of variance 1, then components in falling order of what they do to
  * the channels. */
-static void straighten(const EmissionSamples *s, const double *weight, EmissionRank *rank)
-{
-    int    n = rank->components, order[COMPONENTS_MAX];
+static void straighten(const EmissionSamples *s, const double *weight, EmissionRank *rank) {
+    int n = rank->components, order[COMPONENTS_MAX];
     double matrix[COMPONENTS_MAX * COMPONENTS_MAX], axes[COMPONENTS_MAX * COMPONENTS_MAX];
     double turn[COMPONENTS_MAX * COMPONENTS_MAX] = {0};
     double back[COMPONENTS_MAX * COMPONENTS_MAX] = {0};
@@ -351,15 +329,13 @@ static void straighten(const EmissionSamples *s, const double *weight, EmissionR
 
 /* The largest |M - model| / M, M no less than the floor, beyond what noise explains; *count:
  * how many are beyond a quarter of the tolerance. */
-static double worst_rest(const RankWork *work, int *count)
-{
+static double worst_rest(const RankWork *work, int *count) {
     const EmissionSamples *s = work->samples;
-    const EmissionRank    *rank = work->rank;
+    const EmissionRank *rank = work->rank;
     double worst = 0;
     *count = 0;
     for (int i = 0; i < s->rows; i++) {
-        emission_rank_logs(rank, s->channels,
-                           rank->score + (size_t)i * (size_t)rank->components,
+        emission_rank_logs(rank, s->channels, rank->score + (size_t)i * (size_t)rank->components,
                            emission_rank_fall(rank->cosine_power, s->direction[i]), work->logs);
         for (int c = 0; c < s->channels; c++) {
             size_t at = number(s, i, c);
@@ -378,8 +354,7 @@ static double worst_rest(const RankWork *work, int *count)
 
 /* The first n of the start's components. */
 static void take_start(const EmissionSamples *s, const Principal *start, int n,
-                       EmissionRank *rank)
-{
+                       EmissionRank *rank) {
     rank->components = n;
     for (int c = 0; c < s->channels; c++) {
         rank->mean[c] = start->mean[c];
@@ -392,8 +367,7 @@ static void take_start(const EmissionSamples *s, const Principal *start, int n,
                 start->score[(size_t)i * (size_t)start->components + (size_t)k];
 }
 
-static void improve(const RankWork *work, const double *weight)
-{
+static void improve(const RankWork *work, const double *weight) {
     const EmissionSamples *s = work->samples;
     int stride = 1 + s->rows / ASKED_ROWS;
     straighten(s, weight, work->rank);
@@ -402,14 +376,12 @@ static void improve(const RankWork *work, const double *weight)
         for (int c = s->channels - 1; c >= 0; c--) improve_channel(work, c, stride);
     }
     for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < s->rows; i++)
-            work->rank->belief[i] = (float)improve_row(work, i, 1);
+        for (int i = 0; i < s->rows; i++) work->rank->belief[i] = (float)improve_row(work, i, 1);
     straighten(s, weight, work->rank);
 }
 
 /* Information to a weight in (0, 1]: what a tenth of the median knows counts a tenth. */
-static void settle_belief(const EmissionSamples *s, EmissionRank *rank, Arena scratch)
-{
+static void settle_belief(const EmissionSamples *s, EmissionRank *rank, Arena scratch) {
     double *sorted = ARENA_NEW(&scratch, double, s->rows);
     for (int i = 0; i < s->rows; i++) sorted[i] = (double)rank->belief[i];
     double middle = fmax(1e-9, sort_median(sorted, s->rows));
@@ -418,8 +390,7 @@ static void settle_belief(const EmissionSamples *s, EmissionRank *rank, Arena sc
 }
 
 /* Rows' areas, less where few channels are clear of noise: for the start. */
-static double *start_weights(const EmissionSamples *s, Arena *arena)
-{
+static double *start_weights(const EmissionSamples *s, Arena *arena) {
     double *weight = ARENA_NEW(arena, double, s->rows);
     for (int i = 0; i < s->rows; i++) {
         double clear = 0;
@@ -435,8 +406,7 @@ static double *start_weights(const EmissionSamples *s, Arena *arena)
 
 /* A fit with n components; returns how many samples it misses. */
 static int try_components(const RankWork *work, const Principal *start, int n,
-                          const double *weight)
-{
+                          const double *weight) {
     int missed;
     take_start(work->samples, start, n, work->rank);
     improve(work, weight);
@@ -444,27 +414,26 @@ static int try_components(const RankWork *work, const Principal *start, int n,
     return missed;
 }
 
-static bool is_enough(const EmissionSamples *s, const EmissionRank *rank, int missed)
-{
+static bool is_enough(const EmissionSamples *s, const EmissionRank *rank, int missed) {
     double numbers = (double)s->rows * s->channels;
     return missed <= (rank->worst > STRAY ? STRAYS * numbers : 0);
 }
 
-void emission_rank_find(const EmissionSamples *s, Arena *arena, EmissionRank *out)
-{
-    size_t  channels = (size_t)s->channels, rows = (size_t)s->rows;
+void emission_rank_find(const EmissionSamples *s, Arena *arena, EmissionRank *out) {
+    size_t channels = (size_t)s->channels, rows = (size_t)s->rows;
     double *weight = ARENA_NEW(arena, double, channels);
-    int     most = s->channels < COMPONENTS_MAX ? s->channels : COMPONENTS_MAX;
+    int most = s->channels < COMPONENTS_MAX ? s->channels : COMPONENTS_MAX;
     *out = (EmissionRank){.cosine_power = shared_power(s)};
     out->mean = ARENA_NEW(arena, float, channels);
-    out->loading = ARENA_NEW(arena, float, channels * COMPONENTS_MAX);
-    out->score = ARENA_NEW(arena, float, rows * COMPONENTS_MAX);
+    out->loading = ARENA_NEW(arena, float, channels *COMPONENTS_MAX);
+    out->score = ARENA_NEW(arena, float, rows *COMPONENTS_MAX);
     out->belief = ARENA_NEW(arena, float, rows);
-    Arena     scratch = *arena;
-    RankWork  work = {s, out, ARENA_NEW(&scratch, float, channels)};
-    float    *logs = start_logs(s, out->cosine_power, weight, &scratch);
-    Principal start = principal_components(logs, start_weights(s, &scratch), weight,
-        (PrincipalShape){s->rows, s->channels, most, 0}, &scratch);
+    Arena scratch = *arena;
+    RankWork work = {s, out, ARENA_NEW(&scratch, float, channels)};
+    float *logs = start_logs(s, out->cosine_power, weight, &scratch);
+    Principal start =
+        principal_components(logs, start_weights(s, &scratch), weight,
+                             (PrincipalShape){s->rows, s->channels, most, 0}, &scratch);
     int best = 0, least = INT32_MAX;
     for (int n = most < 3 ? most : 3; n <= most; n++) {
         int missed = try_components(&work, &start, n, weight);
@@ -481,14 +450,12 @@ void emission_rank_find(const EmissionSamples *s, Arena *arena, EmissionRank *ou
 #define FREE_PRIOR 1e-4
 #define FREE_PASSES 6
 
-void emission_rank_free_scores(const EmissionSamples *s, Vec3 centre, double chord,
-                               Arena scratch,
-                               EmissionRank *rank)
-{
-    int      missed;
+void emission_rank_free_scores(const EmissionSamples *s, Vec3 centre, double chord, Arena scratch,
+                               EmissionRank *rank) {
+    int missed;
     RankWork work = {s, rank, ARENA_NEW(&scratch, float, s->channels)};
     for (int i = 0; i < s->rows; i++) {
-        Vec3   v = vec3_sub(s->direction[i], centre);
+        Vec3 v = vec3_sub(s->direction[i], centre);
         double prior = (double)vec3_dot(v, v) > chord * chord ? 1 : FREE_PRIOR;
         for (int pass = 0; pass < FREE_PASSES; pass++) improve_row(&work, i, prior);
     }

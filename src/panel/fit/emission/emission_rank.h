@@ -11,8 +11,8 @@
 #include "panel/fit/emission/emission_samples.h"
 
 typedef struct EmissionRank {
-    int    components;
-    float  cosine_power;
+    int components;
+    float cosine_power;
     float *mean, *loading; /* channels; channels x components */
     float *score;          /* rows x components, variance about 1 */
     float *belief;         /* rows: weight of a row's scores, 0..1 */
@@ -27,8 +27,8 @@ void emission_rank_free_scores(const EmissionSamples *samples, Vec3 centre, doub
                                Arena scratch, EmissionRank *rank);
 
 /* ln E of all channels from components; fall included. */
-void emission_rank_logs(const EmissionRank *rank, int channels, const float *components,
-                        float fall, float *logs);
+void emission_rank_logs(const EmissionRank *rank, int channels, const float *components, float fall,
+                        float *logs);
 
 /* cosine_power ln cos theta as queries have it. */
 float emission_rank_fall(float cosine_power, Vec3 direction);

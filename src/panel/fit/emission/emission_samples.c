@@ -11,13 +11,11 @@
 #include "panel/fit/common/scatter_surface.h"
 #include "panel/fit/common/table_rows.h"
 
-EmissionTable emission_samples_table(const Measurement *set, bool has_black, int index)
-{
+EmissionTable emission_samples_table(const Measurement *set, bool has_black, int index) {
     for (int p = 0; p < 3; p++) {
         const MeasuredPrimary *primary = &set->primary[p];
         if (index < primary->level_count)
-            return (EmissionTable){&primary->table[index], p, index,
-                                   (float)primary->level[index]};
+            return (EmissionTable){&primary->table[index], p, index, (float)primary->level[index]};
         index -= primary->level_count;
     }
     return (EmissionTable){has_black && index == 0 ? &set->black : NULL, 3, 0, 0};
@@ -27,16 +25,15 @@ EmissionTable emission_samples_table(const Measurement *set, bool has_black, int
  * cubic in the logarithm. */
 typedef struct Resampler {
     const AngleTable *table;
-    DirectionGrid     grid;
-    const float      *cells; /* ln value */
+    DirectionGrid grid;
+    const float *cells; /* ln value */
 } Resampler;
 
-static Resampler start_resampler(const AngleTable *table, Arena *arena)
-{
+static Resampler start_resampler(const AngleTable *table, Arena *arena) {
     Resampler out = {.table = table};
     direction_grid_build(table, false, arena, &out.grid);
     float *cells = direction_grid_cells(&out.grid, table->value, 3, arena), most[3] = {0, 0, 0};
-    int    count = 3 * out.grid.thetas * out.grid.phis;
+    int count = 3 * out.grid.thetas * out.grid.phis;
     for (int i = 0; i < count; i++) most[i % 3] = fmaxf(most[i % 3], cells[i]);
     for (int i = 0; i < count; i++)
         cells[i] = log_f(fmaxf(cells[i], fmaxf(1e-6f * most[i % 3], 1e-9f)));
@@ -45,8 +42,7 @@ static Resampler start_resampler(const AngleTable *table, Arena *arena)
 }
 
 /* False: outside of the table. */
-static bool resample(const Resampler *from, float theta, float phi, float value[3])
-{
+static bool resample(const Resampler *from, float theta, float phi, float value[3]) {
     GridTaps taps;
     direction_grid_taps(&from->grid, theta, phi, &taps);
     direction_grid_read(&taps, from->cells, 3, value);
@@ -60,15 +56,13 @@ static bool resample(const Resampler *from, float theta, float phi, float value[
 /* Relative sigma, at least, of values interpolated between a table's directions. */
 #define RESAMPLED_SIGMA 0.002
 
-
 typedef struct TableNoise {
     double relative[3], dim[3];
     double floor[3]; /* cd m^-2, errors are relative to no less */
 } TableNoise;
 
 double emission_samples_floor(const AngleTable *table, int channel, const uint8_t *outlier,
-                              double share)
-{
+                              double share) {
     double most = 0;
     for (int i = 0; i < table->rows; i++)
         if (!outlier || !outlier[i])
@@ -77,25 +71,22 @@ double emission_samples_floor(const AngleTable *table, int channel, const uint8_
 }
 
 /* Most rows stand on a ring of their own, which is what rings are looked for in first. */
-bool emission_samples_are_scattered(const AngleTable *table, Arena scratch)
-{
+bool emission_samples_are_scattered(const AngleTable *table, Arena scratch) {
     DirectionGrid grid;
-    int           rings = 0;
+    int rings = 0;
     for (int i = 0; i < table->rows; i = table_ring_end(table, i)) rings++;
     if (2 * rings <= table->rows) return false;
     direction_grid_build(table, false, &scratch, &grid);
     return grid.is_scattered;
 }
 
-double emission_samples_noise(const AngleTable *table, int channel, Arena scratch)
-{
+double emission_samples_noise(const AngleTable *table, int channel, Arena scratch) {
     return emission_samples_are_scattered(table, scratch)
                ? scatter_surface_table_noise(table, channel, true, scratch)
                : table_noise_relative(table, channel, scratch);
 }
 
-static TableNoise table_noise(const AngleTable *table, const double floor[3], Arena scratch)
-{
+static TableNoise table_noise(const AngleTable *table, const double floor[3], Arena scratch) {
     TableNoise noise;
     for (int j = 0; j < 3; j++) {
         noise.floor[j] = floor[j];
@@ -106,22 +97,19 @@ static TableNoise table_noise(const AngleTable *table, const double floor[3], Ar
 }
 
 static void put_row(EmissionSamples *out, int row, int channel, const float value[3],
-                    const TableNoise *noise)
-{
+                    const TableNoise *noise) {
     for (int j = 0; j < 3; j++) {
         size_t at = (size_t)row * (size_t)out->channels + (size_t)(channel + j);
         double held = out->held_share * noise->floor[j];
         double m = (double)value[j], scale = fmax(fabs(m), noise->floor[j]);
-        out->total[at] = m < held && noise->dim[j] < held && held > EMISSION_NO_LIGHT
-                             ? (float)held : value[j];
-        out->sigma[at] =
-            (float)sqrt(pow_d(noise->relative[j] * m, 2) + pow_d(noise->dim[j], 2) +
-                        pow_d(LEAST_SIGMA * out->tolerance * scale, 2));
+        out->total[at] =
+            m < held && noise->dim[j] < held && held > EMISSION_NO_LIGHT ? (float)held : value[j];
+        out->sigma[at] = (float)sqrt(pow_d(noise->relative[j] * m, 2) + pow_d(noise->dim[j], 2) +
+                                     pow_d(LEAST_SIGMA * out->tolerance * scale, 2));
     }
 }
 
-static void put_nothing(EmissionSamples *out, int row, int channel)
-{
+static void put_nothing(EmissionSamples *out, int row, int channel) {
     for (int j = 0; j < 3; j++) {
         size_t at = (size_t)row * (size_t)out->channels + (size_t)(channel + j);
         out->total[at] = 0;
@@ -130,8 +118,7 @@ static void put_nothing(EmissionSamples *out, int row, int channel)
 }
 
 /* By theta, then phi. */
-static int order_of(const AngleTable *a, int i, const AngleTable *b, int j)
-{
+static int order_of(const AngleTable *a, int i, const AngleTable *b, int j) {
     if (a->theta[i] != b->theta[j]) return a->theta[i] < b->theta[j] ? -1 : 1;
     if (a->phi[i] != b->phi[j]) return a->phi[i] < b->phi[j] ? -1 : 1;
     return 0;
@@ -139,8 +126,7 @@ static int order_of(const AngleTable *a, int i, const AngleTable *b, int j)
 
 /* For every row of `to` the row of `from` in the same direction, or -1. Returns how many have
  * one. */
-static int match_rows(const AngleTable *to, const AngleTable *from, int *row)
-{
+static int match_rows(const AngleTable *to, const AngleTable *from, int *row) {
     int j = 0, matched = 0;
     for (int i = 0; i < to->rows; i++) {
         while (j < from->rows && order_of(from, j, to, i) < 0) j++;
@@ -151,16 +137,14 @@ static int match_rows(const AngleTable *to, const AngleTable *from, int *row)
 }
 
 /* Tables on one grid differ by a few missing directions at most. */
-static bool is_on_grid(const AngleTable *grid, const AngleTable *table, Arena scratch)
-{
+static bool is_on_grid(const AngleTable *grid, const AngleTable *table, Arena scratch) {
     return 2 * match_rows(grid, table, ARENA_NEW(&scratch, int, grid->rows)) > table->rows;
 }
 
 static void put_table(EmissionSamples *out, const AngleTable *table, int channel,
-                      const uint8_t *outlier, Arena scratch)
-{
+                      const uint8_t *outlier, Arena scratch) {
     TableNoise noise = table_noise(table, out->floor + channel, scratch);
-    int       *row = ARENA_NEW(&scratch, int, out->rows);
+    int *row = ARENA_NEW(&scratch, int, out->rows);
     if (2 * match_rows(out->master, table, row) > table->rows) {
         for (int i = 0; i < out->rows; i++)
             if (row[i] < 0 || outlier[row[i]]) put_nothing(out, i, channel);
@@ -168,20 +152,17 @@ static void put_table(EmissionSamples *out, const AngleTable *table, int channel
         return;
     }
     Resampler from = start_resampler(table, &scratch);
-    for (int j = 0; j < 3; j++)
-        noise.relative[j] = fmax(noise.relative[j], RESAMPLED_SIGMA);
+    for (int j = 0; j < 3; j++) noise.relative[j] = fmax(noise.relative[j], RESAMPLED_SIGMA);
     for (int i = 0; i < out->rows; i++) {
         float value[3];
         if (resample(&from, out->master->theta[i], out->master->phi[i], value))
             put_row(out, i, channel, value, &noise);
-        else
-            put_nothing(out, i, channel);
+        else put_nothing(out, i, channel);
     }
 }
 
 /* Unknown numbers start from the known rows before and behind them. */
-static void fill_unknown(EmissionSamples *out, int channel)
-{
+static void fill_unknown(EmissionSamples *out, int channel) {
     size_t step = (size_t)out->channels, known = SIZE_MAX;
     for (size_t i = 0; i < (size_t)out->rows; i++) {
         size_t at = i * step + (size_t)channel;
@@ -190,9 +171,8 @@ static void fill_unknown(EmissionSamples *out, int channel)
             continue;
         }
         size_t next = i + 1;
-        while (next < (size_t)out->rows && isinf(out->sigma[next * step + (size_t)channel]))
-            next++;
-        bool  has_next = next < (size_t)out->rows;
+        while (next < (size_t)out->rows && isinf(out->sigma[next * step + (size_t)channel])) next++;
+        bool has_next = next < (size_t)out->rows;
         float behind = has_next ? out->total[next * step + (size_t)channel] : 0;
         float before = known == SIZE_MAX ? behind : out->total[known];
         out->total[at] = has_next ? sqrtf(fmaxf(before, 0) * fmaxf(behind, 0)) : before;
@@ -200,13 +180,12 @@ static void fill_unknown(EmissionSamples *out, int channel)
 }
 
 /* Rows' areas: the ring's share of the hemisphere over its rows; and how dense they are. */
-static void measure_rows(EmissionSamples *out, Arena scratch)
-{
+static void measure_rows(EmissionSamples *out, Arena scratch) {
     const AngleTable *table = out->master;
     float *phi = ARENA_NEW(&scratch, float, table->rows);
-    int    rings = 0, azimuths = 0;
+    int rings = 0, azimuths = 0;
     for (int i = 0; i < table->rows;) {
-        int    end = table_ring_end(table, i);
+        int end = table_ring_end(table, i);
         double theta = (double)table->theta[i];
         double before = i ? (double)table->theta[i - 1] : -theta;
         double after = end < table->rows ? (double)table->theta[end] : 2 * theta - before;
@@ -219,20 +198,17 @@ static void measure_rows(EmissionSamples *out, Arena scratch)
     }
     for (int i = 0; i < table->rows; i++) phi[i] = table->phi[i];
     sort_floats(phi, table->rows);
-    for (int i = 0; i < table->rows; i++)
-        azimuths += i == 0 || phi[i] - phi[i - 1] > 1e-3f;
+    for (int i = 0; i < table->rows; i++) azimuths += i == 0 || phi[i] - phi[i - 1] > 1e-3f;
     out->azimuths = azimuths;
-    out->step_deg = degrees_from_radians((double)table->theta_max) /
-                    (rings > 1 ? rings - 1 : 1);
+    out->step_deg = degrees_from_radians((double)table->theta_max) / (rings > 1 ? rings - 1 : 1);
 }
 
 /* The directions of both. */
-static const AngleTable *unite(const AngleTable *a, const AngleTable *b, Arena *arena)
-{
+static const AngleTable *unite(const AngleTable *a, const AngleTable *b, Arena *arena) {
     AngleTable *out = ARENA_NEW(arena, AngleTable, 1);
     float *theta = ARENA_NEW(arena, float, a->rows + b->rows);
     float *phi = ARENA_NEW(arena, float, a->rows + b->rows);
-    int    rows = 0, i = 0, j = 0;
+    int rows = 0, i = 0, j = 0;
     while (i < a->rows || j < b->rows) {
         int order = i == a->rows ? 1 : j == b->rows ? -1 : order_of(a, i, b, j);
         theta[rows] = order <= 0 ? a->theta[i] : b->theta[j];
@@ -240,15 +216,17 @@ static const AngleTable *unite(const AngleTable *a, const AngleTable *b, Arena *
         i += order <= 0;
         j += order >= 0;
     }
-    *out = (AngleTable){.name = a->name, .rows = rows, .theta = theta, .phi = phi,
+    *out = (AngleTable){.name = a->name,
+                        .rows = rows,
+                        .theta = theta,
+                        .phi = phi,
                         .theta_max = fmaxf(a->theta_max, b->theta_max)};
     return out;
 }
 
 /* The grid of the largest table, with the directions that others on this grid have besides. */
 static void find_master(const Measurement *set, bool has_black, Arena *arena,
-                        EmissionSamples *out)
-{
+                        EmissionSamples *out) {
     const AngleTable *table;
     out->cone = PI / 2;
     for (int i = 0; (table = emission_samples_table(set, has_black, i).table); i++) {
@@ -257,31 +235,29 @@ static void find_master(const Measurement *set, bool has_black, Arena *arena,
         if (!out->master || table->rows > out->master->rows) out->master = table;
     }
     for (int i = 0; (table = emission_samples_table(set, has_black, i).table); i++)
-        if (!angle_table_same_rows(out->master, table) &&
-            is_on_grid(out->master, table, *arena))
+        if (!angle_table_same_rows(out->master, table) && is_on_grid(out->master, table, *arena))
             out->master = unite(out->master, table, arena);
     out->rows = out->master->rows;
     out->black = has_black ? out->channels - 3 : -1;
 }
 
-void emission_samples_note(const EmissionSamples *samples, Arena scratch, FitNotes *notes)
-{
+void emission_samples_note(const EmissionSamples *samples, Arena scratch, FitNotes *notes) {
     DirectionGrid grid;
     direction_grid_build(samples->master, false, &scratch, &grid);
     if (grid.widest_gap > radians_from_degrees(30))
-        fit_note(notes, "azimuths up to %.0f degrees apart; between them the values are "
-                 "interpolated, not measured", degrees_from_radians((double)grid.widest_gap));
+        fit_note(notes,
+                 "azimuths up to %.0f degrees apart; between them the values are "
+                 "interpolated, not measured",
+                 degrees_from_radians((double)grid.widest_gap));
     if (grid.is_scattered)
-        fit_note(notes, "table '%s': directions without a grid's order",
-                 samples->master->name);
+        fit_note(notes, "table '%s': directions without a grid's order", samples->master->name);
 }
 
 #define DARK_SHARE 0.02 /* of the rows: fewer are dead pixels */
 
 /* Zeros, which no logarithm follows: only then does the fit need the floor. Without them it
  * holds the darkest values relative to themselves, which is more than is required. */
-static bool has_darkness(const AngleTable *table, int channel)
-{
+static bool has_darkness(const AngleTable *table, int channel) {
     int dark = 0;
     for (int i = 0; i < table->rows; i++)
         dark += !(table->value[3 * (size_t)i + (size_t)channel] > 0);
@@ -289,11 +265,12 @@ static bool has_darkness(const AngleTable *table, int channel)
 }
 
 void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *const *outlier,
-                             Arena *arena, EmissionSamples *out)
-{
+                             Arena *arena, EmissionSamples *out) {
     const AngleTable *table;
-    *out = (EmissionSamples){.set = set, .tolerance = out->tolerance,
-                             .floor_share = out->floor_share, .held_share = out->held_share};
+    *out = (EmissionSamples){.set = set,
+                             .tolerance = out->tolerance,
+                             .floor_share = out->floor_share,
+                             .held_share = out->held_share};
     find_master(set, has_black, arena, out);
     size_t rows = (size_t)out->rows, numbers = rows * (size_t)out->channels;
     out->direction = ARENA_NEW(arena, Vec3, rows);
@@ -305,9 +282,10 @@ void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *co
     out->floor = ARENA_NEW(arena, double, out->channels);
     for (int i = 0; (table = emission_samples_table(set, has_black, i).table); i++)
         for (int j = 0; j < 3; j++)
-            out->floor[3 * i + j] = has_darkness(table, j)
-                ? emission_samples_floor(table, j, outlier[i], out->floor_share)
-                : EMISSION_NO_LIGHT;
+            out->floor[3 * i + j] =
+                has_darkness(table, j)
+                    ? emission_samples_floor(table, j, outlier[i], out->floor_share)
+                    : EMISSION_NO_LIGHT;
     for (int i = 0; (table = emission_samples_table(set, has_black, i).table); i++)
         put_table(out, table, 3 * i, outlier[i], *arena);
     for (int c = 0; c < out->channels; c++) fill_unknown(out, c);

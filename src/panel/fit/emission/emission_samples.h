@@ -19,27 +19,27 @@
 /* Every table's totals M at the rows of the table that has the most. */
 typedef struct EmissionSamples {
     const Measurement *set;
-    const AngleTable  *master;
-    int     rows, channels;
-    int     black;    /* the black pattern's first channel, -1: none */
-    Vec3   *direction;
-    double *area;     /* of a row, up to a factor */
-    float  *total;    /* rows x channels, cd m^-2 */
-    float  *sigma;    /* rows x channels: what a deviation is measured in; INFINITY: unknown */
-    double  cone;     /* radians: the narrowest table's */
-    double  step_deg; /* about how far apart neighbours are */
-    int     azimuths; /* on a ring */
-    double  tolerance; /* relative to M */
-    double  held_share; /* of the floor: nothing goes below it */
-    double *floor;    /* channels: errors count relative to no less than this, cd m^-2 */
-    double  floor_share; /* of a channel's largest value that the floor is */
+    const AngleTable *master;
+    int rows, channels;
+    int black; /* the black pattern's first channel, -1: none */
+    Vec3 *direction;
+    double *area;       /* of a row, up to a factor */
+    float *total;       /* rows x channels, cd m^-2 */
+    float *sigma;       /* rows x channels: what a deviation is measured in; INFINITY: unknown */
+    double cone;        /* radians: the narrowest table's */
+    double step_deg;    /* about how far apart neighbours are */
+    int azimuths;       /* on a ring */
+    double tolerance;   /* relative to M */
+    double held_share;  /* of the floor: nothing goes below it */
+    double *floor;      /* channels: errors count relative to no less than this, cd m^-2 */
+    double floor_share; /* of a channel's largest value that the floor is */
 } EmissionSamples;
 
 typedef struct EmissionTable {
-    const AngleTable *table;   /* NULL: none */
-    int               primary; /* 3: black */
-    int               level;   /* of the primary */
-    float             code;    /* that level shows; 0: black */
+    const AngleTable *table; /* NULL: none */
+    int primary;             /* 3: black */
+    int level;               /* of the primary */
+    float code;              /* that level shows; 0: black */
 } EmissionTable;
 
 /* Table `index` of a set in the order of channels; has_black: the pattern is one of them. */

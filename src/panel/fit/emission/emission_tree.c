@@ -12,7 +12,7 @@
 #include "panel/fit/emission/emission_beam.h"
 #include "panel/fit/emission/emission_coder.h"
 
-#define BEAM_GATE 0.02 /* relative error of triangles that makes worth looking for a beam */
+#define BEAM_GATE 0.02   /* relative error of triangles that makes worth looking for a beam */
 #define BEAM_WORTH 0.7   /* and that must go down so far */
 #define NO_NOISE 0.02    /* of the tolerance: beams then keep it without pardon for noise */
 #define BEAM_ENOUGH 0.25 /* of the tolerance: no other reach is tried */
@@ -21,10 +21,9 @@
 
 #define CELLS_A_STEP 3.0 /* triangles between two rings */
 #define EDGED_TOLERANCE 0.01
-#define FINER 0.8   /* what a finer level must leave */
+#define FINER 0.8 /* what a finer level must leave */
 
-static int edge_level(const EmissionSamples *s, const FitOptions *options)
-{
+static int edge_level(const EmissionSamples *s, const FitOptions *options) {
     int level = 5;
     if (options->level) return options->level;
     while (level < EMISSION_LEVEL_MOST - 1 &&
@@ -34,8 +33,7 @@ static int edge_level(const EmissionSamples *s, const FitOptions *options)
 }
 
 /* Few rings with an edge look like noise: it does not count beyond a per cent. */
-static void hold_tolerance(EmissionModel *model)
-{
+static void hold_tolerance(EmissionModel *model) {
     double most = fmax(EDGED_TOLERANCE, model->samples->tolerance);
     for (int k = 0; k < model->rank->components && model->tolerance > most; k++)
         model->step[k] *= (float)(most / model->tolerance);
@@ -45,20 +43,21 @@ static void hold_tolerance(EmissionModel *model)
 /* The measured directions as cells, and the tree that a panel makes of them. */
 typedef struct KeptCells {
     const void *bytes;
-    Tree        tree;
-    double      error;  /* the largest of a row's */
-    int         missed; /* rows beyond the tolerance */
+    Tree tree;
+    double error; /* the largest of a row's */
+    int missed;   /* rows beyond the tolerance */
 } KeptCells;
 
-static bool make_cells(EmissionCoder *coder, const EmissionEdges *edges, int level,
-                       Arena *arena, KeptCells *out, Error *err)
-{
+static bool make_cells(EmissionCoder *coder, const EmissionEdges *edges, int level, Arena *arena,
+                       KeptCells *out, Error *err) {
     const EmissionModel *model = coder->model;
-    const EmissionRank  *rank = model->rank;
-    PanelEmission  as_read = {.components = rank->components, .mean = rank->mean,
-                              .channels = model->samples->channels, .loading = rank->loading,
-                              .cosine_power = rank->cosine_power,
-                              .has_black = model->samples->black >= 0};
+    const EmissionRank *rank = model->rank;
+    PanelEmission as_read = {.components = rank->components,
+                             .mean = rank->mean,
+                             .channels = model->samples->channels,
+                             .loading = rank->loading,
+                             .cosine_power = rank->cosine_power,
+                             .has_black = model->samples->black >= 0};
     PanelGridCells cells = emission_edges_cells(edges, model, level);
     *out = (KeptCells){.bytes = panel_grid_pack(&cells, arena)};
     if (!panel_grid_expand(out->bytes, tree_size(out->bytes), &as_read, coder->geodesic, arena,
@@ -75,9 +74,9 @@ static bool make_cells(EmissionCoder *coder, const EmissionEdges *edges, int lev
 }
 
 /* A coder that errors of cells are found by, without vertices. */
-static EmissionCoder make_judge(EmissionModel *model, const EmissionEdges *edges, Arena *arena)
-{
-    EmissionCoder coder = {.model = model, .pardon = 5,
+static EmissionCoder make_judge(EmissionModel *model, const EmissionEdges *edges, Arena *arena) {
+    EmissionCoder coder = {.model = model,
+                           .pardon = 5,
                            .geodesic = geodesic_create(VERTEX_PLANE_LEVEL, arena),
                            .least = ARENA_NEW(arena, float, model->samples->channels),
                            .work = ARENA_NEW(arena, float, model->samples->channels)};
@@ -89,10 +88,9 @@ static EmissionCoder make_judge(EmissionModel *model, const EmissionEdges *edges
 
 /* The same function as a coded tree: of many directions that is less. */
 static bool code_cells(const EmissionCoder *judge, const KeptCells *cells,
-                       const FitOptions *options, Arena *arena, EmissionTree *out, Error *err)
-{
+                       const FitOptions *options, Arena *arena, EmissionTree *out, Error *err) {
     EmissionModel *model = judge->model;
-    size_t        n = (size_t)model->rank->components;
+    size_t n = (size_t)model->rank->components;
     EmissionCoder coder = emission_coder_make(model, cells->tree.level, arena);
     memcpy(coder.least, judge->least, sizeof *coder.least * (size_t)model->samples->channels);
     coder.threads = options->threads;
@@ -106,30 +104,28 @@ static bool code_cells(const EmissionCoder *judge, const KeptCells *cells,
 }
 
 /* Kept numbers of cells, as a tree's report has them. */
-static void report_cells(const EmissionModel *model, const KeptCells *cells, EmissionTree *out)
-{
+static void report_cells(const EmissionModel *model, const KeptCells *cells, EmissionTree *out) {
     const EmissionEdges *e = &out->edges;
     uint32_t rows = 1 + (uint32_t)((e->grid.thetas - 1) * e->grid.phis);
     out->bytes = cells->bytes;
     out->missed = cells->missed;
-    out->report = (TreeReport){.stored_rows = rows, .bytes = tree_size(cells->bytes),
-        .stored_values = (size_t)rows * (size_t)model->rank->components};
+    out->report = (TreeReport){.stored_rows = rows,
+                               .bytes = tree_size(cells->bytes),
+                               .stored_values = (size_t)rows * (size_t)model->rank->components};
 }
 
 /* Numbers of a source that are kept as they are where a fit would need as many. */
 #define KEPT_VALUES 20000
 
-static bool is_small(const EmissionModel *model)
-{
+static bool is_small(const EmissionModel *model) {
     return (double)model->samples->rows * model->samples->channels <= KEPT_VALUES;
 }
 
 /* An emission as its cells: with edges, where a smooth part would only ring, or small. */
 static bool build_cells(EmissionModel *model, const FitOptions *options, Arena *arena,
-                        EmissionTree *out, Error *err)
-{
+                        EmissionTree *out, Error *err) {
     KeptCells cells, finer;
-    int       level = edge_level(model->samples, options);
+    int level = edge_level(model->samples, options);
     hold_tolerance(model);
     if (!emission_model_clear_smooth(model, arena))
         return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
@@ -150,8 +146,7 @@ static bool build_cells(EmissionModel *model, const FitOptions *options, Arena *
     return true;
 }
 
-static int start_level(const EmissionSamples *s, const FitOptions *options)
-{
+static int start_level(const EmissionSamples *s, const FitOptions *options) {
     if (options->level) return options->level;
     return s->step_deg < 1.5 ? 7 : s->step_deg < 3 ? 6 : 5;
 }
@@ -159,19 +154,18 @@ static int start_level(const EmissionSamples *s, const FitOptions *options)
 /* The tree's coder at a level, and what it leaves uncoded at the worst row. */
 typedef struct Start {
     EmissionCoder coder;
-    float        *rest;
-    double        uncoded;
-    int           worst;
+    float *rest;
+    double uncoded;
+    int worst;
 } Start;
 
 /* Inputs of start(). */
 typedef struct Plan {
     EmissionModel *model;
-    int            level, threads;
+    int level, threads;
 } Plan;
 
-static bool start(const Plan *plan, Arena *arena, Start *out, Error *err)
-{
+static bool start(const Plan *plan, Arena *arena, Start *out, Error *err) {
     EmissionModel *model = plan->model;
     *out = (Start){.rest = emission_coder_rest(model, arena)};
     if (!emission_coder_start(model, plan->level, out->rest, arena, &out->coder, err) ||
@@ -183,13 +177,12 @@ static bool start(const Plan *plan, Arena *arena, Start *out, Error *err)
 }
 
 /* A beam at the worst row, of the reach that leaves less. *found: there is one. */
-static bool add_beam(const Plan *plan, Arena *arena, Start *best, bool *found, Error *err)
-{
+static bool add_beam(const Plan *plan, Arena *arena, Start *best, bool *found, Error *err) {
     EmissionModel *model = plan->model;
     static const double reach[2] = {10, 30};
     const EmissionModel before = *model;
-    EmissionModel       chosen = before;
-    int                 worst = best->worst;
+    EmissionModel chosen = before;
+    int worst = best->worst;
     *found = false;
     for (int i = 0; i < 2; i++) {
         Start one;
@@ -208,16 +201,15 @@ static bool add_beam(const Plan *plan, Arena *arena, Start *best, bool *found, E
 
 /* Where triangles miss samples by far, narrow beams are looked for; they stay if the tree is
  * much better off with them. */
-static bool start_with_beams(const Plan *plan, Arena *arena, Start *out, Error *err)
-{
+static bool start_with_beams(const Plan *plan, Arena *arena, Start *out, Error *err) {
     EmissionModel *model = plan->model;
     double gate = fmax(BEAM_GATE, 4 * model->tolerance);
     if (!start(plan, arena, out, err)) return false;
     if (out->uncoded <= gate) return true;
     EmissionModel plain = *model;
-    EmissionRank  rank = *model->rank; /* whose scores change */
-    Start         bare = *out;
-    size_t        scores = (size_t)model->samples->rows * (size_t)rank.components;
+    EmissionRank rank = *model->rank; /* whose scores change */
+    Start bare = *out;
+    size_t scores = (size_t)model->samples->rows * (size_t)rank.components;
     model->rank->score = ARENA_NEW(arena, float, scores);
     memcpy(model->rank->score, rank.score, scores * sizeof *rank.score);
     for (bool found = true; found && out->uncoded > gate && model->beams < PANEL_BEAMS_MAX;)
@@ -232,22 +224,20 @@ static bool start_with_beams(const Plan *plan, Arena *arena, Start *out, Error *
 /* A model as it was before a smooth part, with its scores. */
 typedef struct PlainModel {
     EmissionModel model;
-    EmissionRank  rank;
-    float        *score;
+    EmissionRank rank;
+    float *score;
 } PlainModel;
 
-static PlainModel plain_of(const EmissionModel *model, Arena *arena)
-{
+static PlainModel plain_of(const EmissionModel *model, Arena *arena) {
     PlainModel out = {*model, *model->rank, NULL};
-    size_t     numbers = (size_t)model->samples->rows * (size_t)out.rank.components;
-    out.score = memcpy(ARENA_NEW(arena, float, numbers), out.rank.score,
-                       numbers * sizeof *out.score);
+    size_t numbers = (size_t)model->samples->rows * (size_t)out.rank.components;
+    out.score =
+        memcpy(ARENA_NEW(arena, float, numbers), out.rank.score, numbers * sizeof *out.score);
     out.rank.score = out.score;
     return out;
 }
 
-static size_t smooth_bytes(const EmissionModel *model, const EmissionTree *tree)
-{
+static size_t smooth_bytes(const EmissionModel *model, const EmissionTree *tree) {
     size_t sum = tree_size(tree->bytes) + model->spline_size;
     for (int b = 0; b < model->beams; b++) sum += model->beam[b].size;
     return sum;
@@ -255,12 +245,11 @@ static size_t smooth_bytes(const EmissionModel *model, const EmissionTree *tree)
 
 /* *worth false: a small table that the first lattice does not fit: its cells are fewer. */
 static bool build_smooth(EmissionModel *model, const FitOptions *options, Arena *arena,
-                         EmissionTree *out, bool *worth, Error *err)
-{
-    int           level = start_level(model->samples, options);
-    Start         first;
+                         EmissionTree *out, bool *worth, Error *err) {
+    int level = start_level(model->samples, options);
+    Start first;
     EmissionCoder coder, finer;
-    Plan          plan = {model, level, options->threads};
+    Plan plan = {model, level, options->threads};
     *worth = true;
     if (out->has_grid && options->basis != FIT_HAAR && is_small(model)) {
         if (!start(&plan, arena, &first, err)) return false;
@@ -289,13 +278,12 @@ static bool build_smooth(EmissionModel *model, const FitOptions *options, Arena 
 }
 
 bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena *arena,
-                         EmissionTree *out, Error *err)
-{
+                         EmissionTree *out, Error *err) {
     double cell = emission_coder_cell(edge_level(model->samples, options));
     out->has_grid = emission_edges_find(model, cell, is_small(model), arena, &out->edges);
     if (out->edges.are_there) return build_cells(model, options, arena, out, err);
     PlainModel plain = plain_of(model, arena);
-    bool       worth;
+    bool worth;
     if (!build_smooth(model, options, arena, out, &worth, err)) return false;
     if (!out->has_grid || options->basis == FIT_HAAR || !is_small(model)) return true;
     PanelGridCells cells = emission_edges_cells(&out->edges, &plain.model, 1);

@@ -15,8 +15,7 @@
 /* What tables are divided by: the unpolarised reflectance of a smooth face of ordinary glass.
  * The cosine is clamped, since rounding may have left its range. */
 #define REFLECTION_REFRACTIVE_INDEX 1.5
-static inline double reflection_fresnel(double cosine)
-{
+static inline double reflection_fresnel(double cosine) {
     return fresnel_unpolarised_d(fmin(1, fmax(0, cosine)), REFLECTION_REFRACTIVE_INDEX);
 }
 
@@ -31,30 +30,30 @@ PeakSpacing peak_window_spacing(const AngleTable *table, double incidence, Arena
 
 /* One row near the mirror direction. */
 typedef struct PeakRow {
-    int    row;
-    double image; /* of a mirror of reflectance 1, sr^-1 */
-    double b2;    /* squared distance of the projections on the panel's plane */
-    double tilt;  /* theta - incidence */
-    double gain;  /* sqrt(F(theta) / F(incidence)) */
-    double angle; /* to the mirror direction */
+    int row;
+    double image;   /* of a mirror of reflectance 1, sr^-1 */
+    double b2;      /* squared distance of the projections on the panel's plane */
+    double tilt;    /* theta - incidence */
+    double gain;    /* sqrt(F(theta) / F(incidence)) */
+    double angle;   /* to the mirror direction */
     double leaving; /* what the surface lets out: 1 - F(theta) */
-    double mean;  /* over the wavelengths */
+    double mean;    /* over the wavelengths */
 } PeakRow;
 
 /* Reflectance within an aperture around the mirror direction: one more equation. */
 typedef struct PeakSpecular {
-    double        aperture; /* full angle, radians; 0: the mirror alone */
-    double        weight;   /* of the equation, relative to a row's */
-    double        mean;     /* over the wavelengths */
-    const double *value;    /* per wavelength */
+    double aperture;     /* full angle, radians; 0: the mirror alone */
+    double weight;       /* of the equation, relative to a row's */
+    double mean;         /* over the wavelengths */
+    const double *value; /* per wavelength */
 } PeakSpecular;
 
 typedef struct PeakWindow {
-    PeakRow          *row;
-    int               count, stride; /* stride: of the rows that a solution counts */
-    double            incidence;
-    double            lambertian; /* of the slice, mean over the wavelengths, over `leaving` */
-    double            width[2];   /* of the haze, that are tried; 0: 0.5 to 40 times scale */
+    PeakRow *row;
+    int count, stride; /* stride: of the rows that a solution counts */
+    double incidence;
+    double lambertian; /* of the slice, mean over the wavelengths, over `leaving` */
+    double width[2];   /* of the haze, that are tried; 0: 0.5 to 40 times scale */
     const AngleTable *slice;
     const PeakSpecular *specular; /* NULL: none */
 } PeakWindow;

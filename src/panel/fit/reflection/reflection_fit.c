@@ -25,32 +25,31 @@
  * measured sample. */
 
 typedef struct ReflectionMisses {
-    int    samples, misses; /* samples beyond their bound */
-    double worst;           /* largest error over its bound */
+    int samples, misses; /* samples beyond their bound */
+    double worst;        /* largest error over its bound */
 } ReflectionMisses;
 
-#define PLACE_SHARE 0.8    /* of the bound, for places: the rest is for what lies between */
-#define PEAK_SHARE 0.35    /* of that where a grid is within 1/e of its largest value */
-#define GUIDED_SHARE 0.6   /* of tables between whose rows no sample checks the tree */
-#define HELD_FROM 0.05f    /* radians behind their edge: triangles reach across it */
-#define HELD_ROOM 4.0      /* times the bound, for what is held outside of the samples */
-#define TIGHTER 0.6        /* a miss makes the places around it so much more precise */
-#define TIGHTEST 0.2       /* of the bound, beyond what the components leave out: rounding */
+#define PLACE_SHARE 0.8  /* of the bound, for places: the rest is for what lies between */
+#define PEAK_SHARE 0.35  /* of that where a grid is within 1/e of its largest value */
+#define GUIDED_SHARE 0.6 /* of tables between whose rows no sample checks the tree */
+#define HELD_FROM 0.05f  /* radians behind their edge: triangles reach across it */
+#define HELD_ROOM 4.0    /* times the bound, for what is held outside of the samples */
+#define TIGHTER 0.6      /* a miss makes the places around it so much more precise */
+#define TIGHTEST 0.2     /* of the bound, beyond what the components leave out: rounding */
 #define ROUNDS 5
-#define HOPELESS 200 /* one miss in fewer samples: a finer level is required, not smaller
-                        steps */
+#define HOPELESS \
+    200 /* one miss in fewer samples: a finer level is required, not smaller \
+           steps */
 #define ATTEMPTS 8
 #define LOOSER 1.3f
 #define CHUNK 256
 
-static void place_logs(const ReflectionModel *model, int place, int table, float *logs)
-{
-    reflection_spectra_logs(model, table,
-                            model->score + (size_t)place * (size_t)model->components, logs);
+static void place_logs(const ReflectionModel *model, int place, int table, float *logs) {
+    reflection_spectra_logs(model, table, model->score + (size_t)place * (size_t)model->components,
+                            logs);
 }
 
-static float largest_difference(const float *a, const float *b, int count)
-{
+static float largest_difference(const float *a, const float *b, int count) {
     float most = 0;
     for (int w = 0; w < count; w++) {
         float difference = fabsf(a[w] - b[w]);
@@ -62,8 +61,7 @@ static float largest_difference(const float *a, const float *b, int count)
 /* ---- what a place may miss by ------------------------------------------------------------ */
 
 /* Largest value of a table, mean over its wavelengths. */
-static float table_peak(const ReflectionModel *model, int table)
-{
+static float table_peak(const ReflectionModel *model, int table) {
     float most = -1e30f;
     for (int i = 0; i < model->places; i++) {
         const float *row = reflection_model_row(model, model->value, i, table);
@@ -75,19 +73,18 @@ static float table_peak(const ReflectionModel *model, int table)
 }
 
 /* The share of the bound, and never less than what the components leave out. */
-static void start_tolerances(ReflectionModel *model)
-{
+static void start_tolerances(ReflectionModel *model) {
     float logs[MEASUREMENT_WAVELENGTHS_MAX];
-    int   middle = model->wavelengths / 2;
+    int middle = model->wavelengths / 2;
     for (int t = 0; t < model->tables; t++) {
-        float  peak = table_peak(model, t);
+        float peak = table_peak(model, t);
         ReflectionView view = reflection_view(model, t);
         for (int i = 0; i < model->places; i++) {
             const float *row = reflection_model_row(model, model->value, i, t);
-            Vec3   local = reflection_view_local(&view, model->direction[i]);
+            Vec3 local = reflection_view_local(&view, model->direction[i]);
             double f = exp_d((double)row[middle]) * reflection_view_reference(&view, local);
-            double bound = fmax(model->bound,
-                                5 * reflection_parts_noise(model->parts, t, f)) * PLACE_SHARE;
+            double bound =
+                fmax(model->bound, 5 * reflection_parts_noise(model->parts, t, f)) * PLACE_SHARE;
             if (row[middle] > peak - 1 && !model->scatter[t]) bound *= PEAK_SHARE;
             if (model->guide[t].is_used) bound *= GUIDED_SHARE;
             if (model->scatter[t] && panel_reach_room(&model->reach[t], local) < -HELD_FROM)
@@ -100,8 +97,7 @@ static void start_tolerances(ReflectionModel *model)
     }
 }
 
-static bool accepts(const void *context, uint32_t place, const float *reconstructed)
-{
+static bool accepts(const void *context, uint32_t place, const float *reconstructed) {
     const ReflectionModel *model = context;
     for (int t = 0; t < model->tables; t++) {
         size_t at = (size_t)place * (size_t)model->tables + (size_t)t;
@@ -116,51 +112,49 @@ static bool accepts(const void *context, uint32_t place, const float *reconstruc
 
 /* ---- the two bases ----------------------------------------------------------------------- */
 
-static bool build_vertex(ReflectionModel *model, Error *err)
-{
-    VertexTreeOptions options = {.lattice = model->lattice, .components = model->components,
-                                 .accepts = accepts, .context = model,
+static bool build_vertex(ReflectionModel *model, Error *err) {
+    VertexTreeOptions options = {.lattice = model->lattice,
+                                 .components = model->components,
+                                 .accepts = accepts,
+                                 .context = model,
                                  .threads = model->options->threads};
     return vertex_tree_build(&options, model->score, model->arena, &model->tree,
                              &model->tree_report, err);
 }
 
-static bool build_haar(ReflectionModel *model, Error *err)
-{
+static bool build_haar(ReflectionModel *model, Error *err) {
     float scale[PANEL_REFLECTION_COMPONENTS_MAX] = {0};
-    int   n = model->components, w_count = model->wavelengths, m = model->coefficients;
+    int n = model->components, w_count = model->wavelengths, m = model->coefficients;
     for (int i = 0; i < model->tables * m; i++)
         for (int w = 0; w < w_count; w++)
             for (int c = 0; c < n; c++)
-                scale[c] = fmaxf(scale[c], fabsf(model->loading[i * n + c] *
-                                                 model->basis[i % m * w_count + w]));
+                scale[c] = fmaxf(
+                    scale[c], fabsf(model->loading[i * n + c] * model->basis[i % m * w_count + w]));
     double numbers = 0;
-    for (int t = 0; t < model->tables; t++)
-        numbers += (double)model->parts->kept[t].rows * w_count;
+    for (int t = 0; t < model->tables; t++) numbers += (double)model->parts->kept[t].rows * w_count;
     HaarTreeOptions options = {
         .shape = {model->lattice.level, model->lattice.octants, n, HAAR_AREA},
         .keep_share = fit_haar_share(model->options, numbers, model->places, n),
-        .component_scale = scale, .rows = TREE_ROWS_INT16};
-    return haar_tree_build(&options, model->score, model->arena, &model->tree,
-                           &model->tree_report, err);
+        .component_scale = scale,
+        .rows = TREE_ROWS_INT16};
+    return haar_tree_build(&options, model->score, model->arena, &model->tree, &model->tree_report,
+                           err);
 }
 
-static void loosen(ReflectionModel *model)
-{
+static void loosen(ReflectionModel *model) {
     size_t count = (size_t)model->places * (size_t)model->tables;
     for (size_t i = 0; i < count; i++) model->tolerance[i] *= LOOSER;
 }
 
 /* The coder's steps are as fine as the tightest places need, and may then be too fine for the
  * largest details: less is required of it until it reaches what is required. */
-static bool build_tree(ReflectionModel *model, Error *err)
-{
+static bool build_tree(ReflectionModel *model, Error *err) {
     bool ok = false;
     for (int attempt = 0; attempt < ATTEMPTS && !ok; attempt++) {
         if (attempt) loosen(model);
         *err = (Error){0};
-        ok = model->options->basis == FIT_VERTEX ? build_vertex(model, err) : build_haar(model,
-                                                                                         err);
+        ok =
+            model->options->basis == FIT_VERTEX ? build_vertex(model, err) : build_haar(model, err);
         if (model->options->basis != FIT_VERTEX) break;
     }
     return ok || error_prefix(err, "reflection");
@@ -169,20 +163,19 @@ static bool build_tree(ReflectionModel *model, Error *err)
 /* ---- all measured samples ---------------------------------------------------------------- */
 
 typedef struct SampleCheck {
-    ReflectionModel  *model;
-    Tree              tree;
-    int               first[PANEL_TABLES_MAX + 1]; /* chunk of each table */
-    ReflectionMisses *part; /* per chunk */
+    ReflectionModel *model;
+    Tree tree;
+    int first[PANEL_TABLES_MAX + 1]; /* chunk of each table */
+    ReflectionMisses *part;          /* per chunk */
 } SampleCheck;
 
 /* Error over bound of one row of a table. */
 static double row_error(const SampleCheck *check, int t, int row, const ReflectionView *view,
-                        Vec3 *stored)
-{
-    ReflectionModel  *model = check->model;
+                        Vec3 *stored) {
+    ReflectionModel *model = check->model;
     const AngleTable *haze = &model->parts->haze[t], *kept = &model->parts->kept[t];
-    float  component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
-    Vec3   local = table_row_direction(haze, row);
+    float component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
+    Vec3 local = table_row_direction(haze, row);
     double reference = reflection_view_reference(view, local), worst = 0;
     *stored = reflection_view_stored(view, local);
     tree_interpolate(&check->tree, *stored, component);
@@ -199,27 +192,25 @@ static double row_error(const SampleCheck *check, int t, int row, const Reflecti
 }
 
 /* The places around a sample that was missed become more precise. */
-static void tighten(ReflectionModel *model, int table, Vec3 stored, float *wanted)
-{
+static void tighten(ReflectionModel *model, int table, Vec3 stored, float *wanted) {
     VertexPoint at = vertex_find(model->geodesic, model->lattice, stored);
     for (int k = 0; k < 3; k++)
         wanted[(size_t)at.vertex[k] * (size_t)model->tables + (size_t)table] = 1;
 }
 
-static void check_chunk(void *context, int item, int worker)
-{
+static void check_chunk(void *context, int item, int worker) {
     SampleCheck *check = context;
-    int          t = 0;
+    int t = 0;
     (void)worker;
     while (check->first[t + 1] <= item) t++;
-    ReflectionModel  *model = check->model;
+    ReflectionModel *model = check->model;
     const AngleTable *table = &model->parts->haze[t];
     ReflectionView view = reflection_view(model, t);
     int begin = (item - check->first[t]) * CHUNK;
     int end = begin + CHUNK < table->rows ? begin + CHUNK : table->rows;
     ReflectionMisses *part = &check->part[item];
     for (int i = begin; i < end; i++) {
-        Vec3   stored;
+        Vec3 stored;
         double error = row_error(check, t, i, &view, &stored);
         part->samples++;
         part->worst = fmax(part->worst, error);
@@ -227,8 +218,7 @@ static void check_chunk(void *context, int item, int worker)
     }
 }
 
-static void start_chunks(SampleCheck *check, Arena *arena)
-{
+static void start_chunks(SampleCheck *check, Arena *arena) {
     int count = 0;
     for (int t = 0; t < check->model->tables; t++) {
         check->first[t] = count;
@@ -239,8 +229,7 @@ static void start_chunks(SampleCheck *check, Arena *arena)
 }
 
 /* Marks what has to be more precise. */
-static void mark_misses(SampleCheck *check, float *wanted)
-{
+static void mark_misses(SampleCheck *check, float *wanted) {
     ReflectionModel *model = check->model;
     for (int t = 0; t < model->tables; t++) {
         ReflectionView view = reflection_view(model, t);
@@ -249,25 +238,22 @@ static void mark_misses(SampleCheck *check, float *wanted)
             int begin = (c - check->first[t]) * CHUNK, rows = model->parts->haze[t].rows;
             for (int i = begin; i < begin + CHUNK && i < rows; i++) {
                 Vec3 stored;
-                if (row_error(check, t, i, &view, &stored) > 1)
-                    tighten(model, t, stored, wanted);
+                if (row_error(check, t, i, &view, &stored) > 1) tighten(model, t, stored, wanted);
             }
         }
     }
 }
 
 /* The tolerances of marked places shrink; false when none can shrink further. */
-static bool shrink(ReflectionModel *model, const float *wanted)
-{
+static bool shrink(ReflectionModel *model, const float *wanted) {
     size_t count = (size_t)model->places * (size_t)model->tables;
-    float  logs[MEASUREMENT_WAVELENGTHS_MAX], least = (float)(TIGHTEST * model->bound);
-    bool   any = false;
+    float logs[MEASUREMENT_WAVELENGTHS_MAX], least = (float)(TIGHTEST * model->bound);
+    bool any = false;
     for (size_t i = 0; i < count; i++) {
         if (wanted[i] == 0) continue;
         int place = (int)(i / (size_t)model->tables), t = (int)(i % (size_t)model->tables);
         place_logs(model, place, t, logs);
-        float lost = largest_difference(logs,
-                                        reflection_model_row(model, model->value, place, t),
+        float lost = largest_difference(logs, reflection_model_row(model, model->value, place, t),
                                         model->wavelengths);
         float next = fmaxf(TIGHTER * model->tolerance[i], lost + least);
         any |= next < 0.99f * model->tolerance[i];
@@ -276,10 +262,9 @@ static bool shrink(ReflectionModel *model, const float *wanted)
     return any;
 }
 
-static bool check_samples(SampleCheck *check, ReflectionMisses *misses, Error *err)
-{
+static bool check_samples(SampleCheck *check, ReflectionMisses *misses, Error *err) {
     ReflectionModel *model = check->model;
-    const void      *blob = model->tree;
+    const void *blob = model->tree;
     if (!tree_open(blob, tree_size(blob), model->geodesic, &check->tree, err))
         return error_prefix(err, "reflection");
     int chunks = check->first[model->tables];
@@ -295,8 +280,7 @@ static bool check_samples(SampleCheck *check, ReflectionMisses *misses, Error *e
 }
 
 /* The tree; what samples and places miss by is corrected as far as the level lets it be. */
-static bool reflection_tree_build(ReflectionModel *model, ReflectionMisses *misses, Error *err)
-{
+static bool reflection_tree_build(ReflectionModel *model, ReflectionMisses *misses, Error *err) {
     SampleCheck *check = ARENA_NEW(model->arena, SampleCheck, 1);
     size_t count = (size_t)model->places * (size_t)model->tables;
     check->model = model;
@@ -308,7 +292,7 @@ static bool reflection_tree_build(ReflectionModel *model, ReflectionMisses *miss
         if (!misses->misses || round == ROUNDS || model->is_trial || is_hopeless ||
             model->options->basis != FIT_VERTEX)
             return true;
-        Arena  scratch = *model->arena;
+        Arena scratch = *model->arena;
         float *wanted = ARENA_NEW(&scratch, float, count);
         mark_misses(check, wanted);
         if (!shrink(model, wanted)) return true;
@@ -317,27 +301,29 @@ static bool reflection_tree_build(ReflectionModel *model, ReflectionMisses *miss
 
 #define DEFAULT_BOUND 0.02
 #define NOISY_BOUND 0.025
-#define NOISY 0.0005       /* relative: tables below it count as without noise */
+#define NOISY 0.0005 /* relative: tables below it count as without noise */
 #define FIRST_LEVEL 6
 #define LAST_LEVEL 9
-#define HELPED 0.8         /* a level that leaves more misses than this share did not help */
-#define NARROWEST 2.0f     /* the largest frame exponent that is tried */
+#define HELPED 0.8     /* a level that leaves more misses than this share did not help */
+#define NARROWEST 2.0f /* the largest frame exponent that is tried */
 #define PLACES_BYTES ((size_t)5 << 29) /* of values at most: memory is bounded */
 #define TRIAL_BYTES ((size_t)32 << 30) /* address space; pages cost nothing until touched */
 
 /* The user's bound; else 2 %, and 2.5 % where there is noise. */
-static double choose_bound(const FitOptions *options, const ReflectionParts *parts)
-{
+static double choose_bound(const FitOptions *options, const ReflectionParts *parts) {
     if (options->bound > 0) return (double)options->bound;
     return reflection_parts_most_noise(parts) > NOISY ? NOISY_BOUND : DEFAULT_BOUND;
 }
 
 static ReflectionModel *start_model(const Measurement *set, const FitOptions *options,
-                                    ReflectionParts *parts, Arena *arena)
-{
+                                    ReflectionParts *parts, Arena *arena) {
     ReflectionModel *model = ARENA_NEW(arena, ReflectionModel, 1);
-    *model = (ReflectionModel){.set = set, .options = options, .parts = parts, .arena = arena,
-                               .tables = parts->tables, .wavelengths = set->wavelength_count,
+    *model = (ReflectionModel){.set = set,
+                               .options = options,
+                               .parts = parts,
+                               .arena = arena,
+                               .tables = parts->tables,
+                               .wavelengths = set->wavelength_count,
                                .bound = choose_bound(options, parts),
                                .k = options->frame_exponent};
     model->lattice.octants = set->azimuth_count > 1 ? 4 : 2;
@@ -349,19 +335,18 @@ static ReflectionModel *start_model(const Measurement *set, const FitOptions *op
 /* One frame exponent and how well it does at the first level. */
 typedef struct FrameTrial {
     const ReflectionModel *model;
-    float                  exponent;
-    ReflectionMisses       misses;
-    size_t                 bytes;
-    bool                   has_failed;
-    Error                  err;
+    float exponent;
+    ReflectionMisses misses;
+    size_t bytes;
+    bool has_failed;
+    Error err;
 } FrameTrial;
 
-static void run_trial(void *context, int item, int worker)
-{
-    FrameTrial     *trial = (FrameTrial *)context + item;
-    Arena           arena = arena_reserve(TRIAL_BYTES);
+static void run_trial(void *context, int item, int worker) {
+    FrameTrial *trial = (FrameTrial *)context + item;
+    Arena arena = arena_reserve(TRIAL_BYTES);
     ReflectionModel model = *trial->model;
-    FitOptions      options = *model.options;
+    FitOptions options = *model.options;
     (void)worker;
     options.threads = 1;
     model.options = &options, model.arena = &arena, model.k = trial->exponent;
@@ -375,9 +360,9 @@ static void run_trial(void *context, int item, int worker)
 
 /* The frame exponent that leaves the fewest samples outside the bound, and of those that are
  * about as good the one with the smallest tree: wide haze likes 1, narrow peaks 2. */
-static bool choose_frame(ReflectionModel *model, Error *err)
-{
-    FrameTrial trials[3] = {{.model = model, .exponent = 1}, {.model = model, .exponent = 1.5f},
+static bool choose_frame(ReflectionModel *model, Error *err) {
+    FrameTrial trials[3] = {{.model = model, .exponent = 1},
+                            {.model = model, .exponent = 1.5f},
                             {.model = model, .exponent = NARROWEST}};
     int best = 0;
     if (model->k > 0) return true;
@@ -397,21 +382,19 @@ static bool choose_frame(ReflectionModel *model, Error *err)
 
 /* ---- the level --------------------------------------------------------------------------- */
 
-static size_t value_bytes(const ReflectionModel *model, int level)
-{
+static size_t value_bytes(const ReflectionModel *model, int level) {
     size_t side = (size_t)1 << level;
     return 2 * side * side * (size_t)model->lattice.octants / 4 * sizeof(float) *
            (size_t)model->tables * (size_t)model->wavelengths;
 }
 
 /* Deeper while samples are missed and the last step helped; one that did not is taken back. */
-static bool code_levels(ReflectionModel *model, ReflectionMisses *misses, Error *err)
-{
+static bool code_levels(ReflectionModel *model, ReflectionMisses *misses, Error *err) {
     int first = model->options->level > 0 ? model->options->level : FIRST_LEVEL;
     int last = model->options->level > 0 ? first : LAST_LEVEL;
     for (int level = first;; level++) {
         ReflectionMisses now;
-        ReflectionModel  before = *model;
+        ReflectionModel before = *model;
         reflection_read_places(model, level);
         reflection_spectra_choose(model);
         model->is_last = level == last;
@@ -427,8 +410,7 @@ static bool code_levels(ReflectionModel *model, ReflectionMisses *misses, Error 
 }
 
 /* The cone that all tables reach. */
-static float least_edge(const ReflectionModel *model)
-{
+static float least_edge(const ReflectionModel *model) {
     float edge = model->parts->haze[0].theta_max;
     for (int t = 1; t < model->tables; t++)
         edge = model->parts->haze[t].theta_max < edge ? model->parts->haze[t].theta_max : edge;
@@ -436,28 +418,29 @@ static float least_edge(const ReflectionModel *model)
 }
 
 static void note_outcome(const ReflectionModel *model, const ReflectionMisses *misses,
-                         FitNotes *notes)
-{
+                         FitNotes *notes) {
     if (model->masked)
-        fit_note(notes, "%d zeros or negative values of reflection were held above a floor "
+        fit_note(notes,
+                 "%d zeros or negative values of reflection were held above a floor "
                  "(1e-6 of their table's largest value); their errors do not count",
                  model->masked);
     if (model->has_reach)
-        fit_note(notes, "reflection: at some incidences the samples do not surround all "
+        fit_note(notes,
+                 "reflection: at some incidences the samples do not surround all "
                  "directions up to %.4g degrees: outside of them the value on their edge is "
                  "held, and called extrapolated (extrapolated_share says how much)",
                  degrees_from_radians((double)least_edge(model)));
     if (misses->misses)
-        fit_note(notes, "reflection: %d of %d samples lie beyond the bound of %.2g %%, the "
-                 "worst by a factor of %.2g", misses->misses, misses->samples,
-                 100 * model->bound, misses->worst);
+        fit_note(notes,
+                 "reflection: %d of %d samples lie beyond the bound of %.2g %%, the "
+                 "worst by a factor of %.2g",
+                 misses->misses, misses->samples, 100 * model->bound, misses->worst);
 }
 
 /* A peak that is missed at the finest level gets the frame that spreads it most. */
-static bool code_frames(ReflectionModel *model, ReflectionMisses *misses, Error *err)
-{
-    Arena            before = *model->arena;
-    float            chosen = model->k;
+static bool code_frames(ReflectionModel *model, ReflectionMisses *misses, Error *err) {
+    Arena before = *model->arena;
+    float chosen = model->k;
     ReflectionMisses other;
     if (!code_levels(model, misses, err)) return false;
     if (!misses->misses || chosen >= NARROWEST || model->options->frame_exponent > 0 ||
@@ -478,30 +461,27 @@ static bool code_frames(ReflectionModel *model, ReflectionMisses *misses, Error 
 
 typedef struct HeldOutPass {
     const ReflectionModel *model;
-    HeldOut               *held_out;
+    HeldOut *held_out;
 } HeldOutPass;
 
-static void hold_out(void *context, int t, int worker)
-{
+static void hold_out(void *context, int t, int worker) {
     HeldOutPass *pass = context;
-    Arena        arena = arena_reserve(TRIAL_BYTES);
+    Arena arena = arena_reserve(TRIAL_BYTES);
     (void)worker;
     pass->held_out[t] = reflection_held_out(pass->model, t, arena);
     arena_release(&arena);
 }
 
-static void look_between(void *context, int t, int worker)
-{
+static void look_between(void *context, int t, int worker) {
     HeldOutPass *pass = context;
-    Arena        arena = arena_reserve(TRIAL_BYTES);
+    Arena arena = arena_reserve(TRIAL_BYTES);
     (void)worker;
     pass->held_out[t].between = reflection_held_out_between(pass->model, t, arena);
     arena_release(&arena);
 }
 
 bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *arena,
-                    FitNotes *notes, ReflectionResult *out, Error *err)
-{
+                    FitNotes *notes, ReflectionResult *out, Error *err) {
     reflection_parts_separate(set, options, arena, notes, &out->parts);
     ReflectionModel *model = start_model(set, options, &out->parts, arena);
     ReflectionMisses misses = {0};

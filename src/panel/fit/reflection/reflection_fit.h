@@ -13,14 +13,14 @@
 
 typedef struct ReflectionResult {
     const ReflectionModel *model; /* in the end */
-    ReflectionParts   parts;
+    ReflectionParts parts;
     ReflectionSection section;
-    const void       *sampling; /* the section's bytes; NULL: not yet built */
-    size_t            sampling_size;
-    const void       *packed; /* the tree, vertex_pack.h; NULL: it is stored as it is */
-    size_t            packed_size;
-    const HeldOut    *held_out; /* per table */
-    double            worst;    /* largest error over the bound */
+    const void *sampling; /* the section's bytes; NULL: not yet built */
+    size_t sampling_size;
+    const void *packed; /* the tree, vertex_pack.h; NULL: it is stored as it is */
+    size_t packed_size;
+    const HeldOut *held_out; /* per table */
+    double worst;            /* largest error over the bound */
 } ReflectionResult;
 
 /* All but the sampling, which follows from the panel's answers to queries. */

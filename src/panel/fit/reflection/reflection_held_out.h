@@ -20,8 +20,8 @@ typedef struct HeldOut {
     double estimate;   /* between the rows with none left out */
     double between;    /* of the tree halfway between rows, relative */
     double theta, phi; /* radians, in the table's frame */
-    bool   is_scattered; /* no grid: none of the above, but gaps */
-    ScatterGaps  gaps;
+    bool is_scattered; /* no grid: none of the above, but gaps */
+    ScatterGaps gaps;
     ScatterDoubt mirror; /* of the surface in the mirror direction */
 } HeldOut;
 

@@ -13,47 +13,45 @@
 #include "panel/fit/reflection/reflection_peak.h"
 #include "panel/query/panel_reflection_layout.h"
 
-double reflection_parts_noise(const ReflectionParts *parts, int table, double f)
-{
+double reflection_parts_noise(const ReflectionParts *parts, int table, double f) {
     double dim = f > 0 ? parts->dim_noise[table] / f : 0;
     return sqrt(parts->noise[table] * parts->noise[table] + dim * dim);
 }
 
-double reflection_parts_most_noise(const ReflectionParts *parts)
-{
+double reflection_parts_most_noise(const ReflectionParts *parts) {
     double most = 0;
     for (int t = 0; t < parts->tables; t++) most = fmax(most, parts->noise[t]);
     return most;
 }
 
-double reflection_parts_fwhm_deg(const ReflectionParts *parts, int table)
-{
+double reflection_parts_fwhm_deg(const ReflectionParts *parts, int table) {
     return degrees_from_radians(parts->lobe_sigma[table] * sqrt(8 * log_d(2)));
 }
 
-static void luminous_weights(const Measurement *set, double *luminous)
-{
+static void luminous_weights(const Measurement *set, double *luminous) {
     double total = 0;
     for (int w = 0; w < set->wavelength_count; w++)
         total += luminous[w] = panel_luminous_weight(set->wavelength_nm[w]);
     for (int w = 0; w < set->wavelength_count; w++) luminous[w] /= total;
 }
 
-static void note_mirror(const Measurement *set, const ReflectionParts *out, FitNotes *notes)
-{
+static void note_mirror(const Measurement *set, const ReflectionParts *out, FitNotes *notes) {
     int last = set->incidence_count - 1;
     if (out->has_mirror)
-        fit_note(notes, "a mirror image as wide as the instrument (%g deg) was moved to the "
+        fit_note(notes,
+                 "a mirror image as wide as the instrument (%g deg) was moved to the "
                  "mirror part: luminous reflectance %.4f at %g deg, %.4f at %g deg",
                  set->instrument_fwhm_deg, out->mirror_y[0],
                  degrees_from_radians(set->incidence[0]), out->mirror_y[last],
                  degrees_from_radians(set->incidence[last]));
     else if (set->instrument_fwhm_deg > 0)
-        fit_note(notes, "no image as narrow as the instrument (%g deg) stands out of the haze: "
-                 "no mirror part", set->instrument_fwhm_deg);
+        fit_note(notes,
+                 "no image as narrow as the instrument (%g deg) stands out of the haze: "
+                 "no mirror part",
+                 set->instrument_fwhm_deg);
     else
         fit_note(notes, "the instrument's width is not declared (instrument_fwhm_deg): no "
-                 "mirror part was separated");
+                        "mirror part was separated");
 }
 
 #define SPECULAR_MISS 0.05 /* relative: measurements that differ by more are two */
@@ -61,84 +59,88 @@ static void note_mirror(const Measurement *set, const ReflectionParts *out, FitN
 #define REACH_DEG 10.0 /* beyond a specular table's incidences: nearer ones go without a word */
 
 /* Beyond its incidences it goes on as plain glass does (specular_table.c). */
-static void note_reach(const Measurement *set, FitNotes *notes)
-{
+static void note_reach(const Measurement *set, FitNotes *notes) {
     const SpecularTable *table = set->specular;
     double low = degrees_from_radians(table->incidence[0]);
     double high = degrees_from_radians(table->incidence[table->rows - 1]);
     double first = degrees_from_radians(set->incidence[0]);
     double last = degrees_from_radians(set->incidence[set->incidence_count - 1]);
     if (low - first > REACH_DEG || last - high > REACH_DEG)
-        fit_note(notes, "the specular measurement (%s) reaches from %.3g to %.3g degrees, the "
+        fit_note(notes,
+                 "the specular measurement (%s) reaches from %.3g to %.3g degrees, the "
                  "tables from %.3g to %.3g: beyond, its mirror goes on as plain glass's does",
                  path_name(table->file), low, high, first, last);
 }
 
 /* Where the specular measurement was needed, and where it disagrees. */
-static void note_specular(const Measurement *set, const ReflectionParts *out, FitNotes *notes)
-{
+static void note_specular(const Measurement *set, const ReflectionParts *out, FitNotes *notes) {
     double worst = 0;
-    int    used = 0;
+    int used = 0;
     for (int t = 0; t < out->tables; t++) {
         used += out->peak[t].source == PEAK_SPECULAR;
         worst = fmax(worst, out->peak[t].specular_miss);
     }
     if (used)
-        fit_note(notes, "of %d of %d tables of reflection the mirror follows from the %s "
-                 "(%s)", used, out->tables, set->specular->is_gloss
-                 ? "gloss, taken as the specular reflectance in a round aperture, the same at "
-                   "all wavelengths" : "specular measurement", path_name(set->specular->file));
+        fit_note(notes,
+                 "of %d of %d tables of reflection the mirror follows from the %s "
+                 "(%s)",
+                 used, out->tables,
+                 set->specular->is_gloss
+                     ? "gloss, taken as the specular reflectance in a round aperture, the same at "
+                       "all wavelengths"
+                     : "specular measurement",
+                 path_name(set->specular->file));
     if (used) note_reach(set, notes);
     if (worst > SPECULAR_MISS)
-        fit_note(notes, "the samples tell the mirror; the specular measurement (%s) differs "
+        fit_note(notes,
+                 "the samples tell the mirror; the specular measurement (%s) differs "
                  "from them by up to %.2g %%: check its aperture and its unit",
                  path_name(set->specular->file), 100 * worst);
 }
 
-static void note_lobe(const Measurement *set, const ReflectionParts *out, FitNotes *notes)
-{
+static void note_lobe(const Measurement *set, const ReflectionParts *out, FitNotes *notes) {
     double least = 1e9, most = 0;
     for (int t = 0; t < out->tables; t++) {
         double fwhm = reflection_parts_fwhm_deg(out, t);
         least = fmin(least, fwhm);
         most = fmax(most, fwhm);
     }
-    fit_note(notes, "a peak of %.2f to %.2f deg full width stands on the haze and is kept as a "
-             "lobe of its own: luminous reflectance %.4f at %g deg%s", least, most,
-             out->lobe_y[0], degrees_from_radians(set->incidence[0]),
-             set->instrument_fwhm_deg > 0 ? "" : "; if that is the instrument's own width, say "
-             "so (instrument_fwhm_deg) and it becomes the mirror part");
+    fit_note(notes,
+             "a peak of %.2f to %.2f deg full width stands on the haze and is kept as a "
+             "lobe of its own: luminous reflectance %.4f at %g deg%s",
+             least, most, out->lobe_y[0], degrees_from_radians(set->incidence[0]),
+             set->instrument_fwhm_deg > 0
+                 ? ""
+                 : "; if that is the instrument's own width, say "
+                   "so (instrument_fwhm_deg) and it becomes the mirror part");
 }
 
 /* ---- one table after the other ----------------------------------------------------------- */
 
 typedef struct PartsPass {
     const Measurement *set;
-    ReflectionParts   *out;
-    AngleTable        *table; /* of the next part */
-    bool              *has_lobe;
-    Arena             *arena; /* per table */
+    ReflectionParts *out;
+    AngleTable *table; /* of the next part */
+    bool *has_lobe;
+    Arena *arena; /* per table */
 } PartsPass;
 
 #define TABLE_BYTES ((size_t)4 << 30) /* address space of one table's scratch */
 
-static double *row_of(double *all, const Measurement *set, int table)
-{
+static double *row_of(double *all, const Measurement *set, int table) {
     return all + table * set->wavelength_count;
 }
 
-static double incidence_of(const Measurement *set, int table)
-{
+static double incidence_of(const Measurement *set, int table) {
     return set->incidence[table % set->incidence_count];
 }
 
 #define GLOSS_WEIGHT 0.25 /* a gloss meter is taken for one of twice the error of a row */
 
 /* The specular measurement at a table's incidence and wavelengths. */
-static PeakSpecular specular_of(const Measurement *set, int t, Arena *arena)
-{
+static PeakSpecular specular_of(const Measurement *set, int t, Arena *arena) {
     PeakSpecular out = {.weight = set->specular->is_gloss ? GLOSS_WEIGHT : 1};
-    double      *value = ARENA_NEW(arena, double, set->wavelength_count);
+    double *value = ARENA_NEW(arena, double, set->wavelength_count);
     for (int w = 0; w < set->wavelength_count; w++) {
         value[w] = specular_table_at(set->specular, incidence_of(set, t),
                                      (double)set->wavelength_nm[w], &out.aperture);
@@ -148,17 +150,14 @@ static PeakSpecular specular_of(const Measurement *set, int t, Arena *arena)
     return out;
 }
 
-static void find_mirror(void *context, int t, int worker)
-{
-    PartsPass         *pass = context;
+static void find_mirror(void *context, int t, int worker) {
+    PartsPass *pass = context;
     const Measurement *set = pass->set;
-    ReflectionParts   *out = pass->out;
-    double             fwhm = radians_from_degrees(set->instrument_fwhm_deg);
+    ReflectionParts *out = pass->out;
+    double fwhm = radians_from_degrees(set->instrument_fwhm_deg);
     (void)worker;
-    out->noise[t] = table_noise_relative(&set->brdf[t], set->wavelength_count / 2,
-                                         pass->arena[t]);
-    out->dim_noise[t] = table_noise_dim(&set->brdf[t], set->wavelength_count / 2,
-                                        pass->arena[t]);
+    out->noise[t] = table_noise_relative(&set->brdf[t], set->wavelength_count / 2, pass->arena[t]);
+    out->dim_noise[t] = table_noise_dim(&set->brdf[t], set->wavelength_count / 2, pass->arena[t]);
     pass->table[t] = set->brdf[t];
     if (!out->peak) return;
     PeakSpecular specular;
@@ -171,22 +170,19 @@ static void find_mirror(void *context, int t, int worker)
     reflection_peak_take_mirror(&task, &pass->arena[t], &out->peak[t], &pass->table[t]);
 }
 
-static void find_lobe(void *context, int t, int worker)
-{
-    PartsPass     *pass = context;
+static void find_lobe(void *context, int t, int worker) {
+    PartsPass *pass = context;
     ReflectionLobe lobe = {.reflectance = row_of(pass->out->lobe, pass->set, t)};
     (void)worker;
-    pass->has_lobe[t] = reflection_peak_take_lobe(&pass->out->kept[t],
-                                                  incidence_of(pass->set, t),
-                                                  pass->out->noise[t], &pass->arena[t], &lobe,
-                                                  &pass->table[t]);
+    pass->has_lobe[t] =
+        reflection_peak_take_lobe(&pass->out->kept[t], incidence_of(pass->set, t),
+                                  pass->out->noise[t], &pass->arena[t], &lobe, &pass->table[t]);
     pass->out->lobe_sigma[t] = lobe.fwhm / sqrt(8 * log_d(2));
 }
 
 /* Copies what the passes made into the fit's arena. */
 static void keep_table(AngleTable *to, const AngleTable *from, const AngleTable *before,
-                       Arena *arena)
-{
+                       Arena *arena) {
     size_t count = (size_t)from->rows * (size_t)from->channels;
     *to = *from;
     if (from->value == before->value) return;
@@ -196,16 +192,14 @@ static void keep_table(AngleTable *to, const AngleTable *from, const AngleTable 
 }
 
 static double luminous_mean(const ReflectionParts *out, const Measurement *set, double *all,
-                            int t)
-{
+                            int t) {
     double sum = 0;
     for (int w = 0; w < set->wavelength_count; w++)
         sum += out->luminous[w] * row_of(all, set, t)[w];
     return sum;
 }
 
-static void separate_mirror(PartsPass *pass, int threads, Arena *arena)
-{
+static void separate_mirror(PartsPass *pass, int threads, Arena *arena) {
     ReflectionParts *out = pass->out;
     parallel_for(threads, out->tables, find_mirror, pass);
     for (int t = 0; t < out->tables; t++) {
@@ -217,8 +211,7 @@ static void separate_mirror(PartsPass *pass, int threads, Arena *arena)
 }
 
 /* A lobe is one only when all tables show it: between them it is interpolated. */
-static void separate_lobe(PartsPass *pass, int threads, Arena *arena)
-{
+static void separate_lobe(PartsPass *pass, int threads, Arena *arena) {
     ReflectionParts *out = pass->out;
     out->has_lobe = true;
     parallel_for(threads, out->tables, find_lobe, pass);
@@ -232,8 +225,7 @@ static void separate_lobe(PartsPass *pass, int threads, Arena *arena)
 }
 
 /* The user states that the lobe is the instrument's image of the mirror. */
-static void take_lobe_for_mirror(ReflectionParts *out)
-{
+static void take_lobe_for_mirror(ReflectionParts *out) {
     double *none = out->reflectance;
     out->reflectance = out->lobe;
     out->lobe = none;
@@ -244,18 +236,16 @@ static void take_lobe_for_mirror(ReflectionParts *out)
     memset(out->lobe_y, 0, sizeof out->lobe_y);
 }
 
-static double median_fwhm_deg(const ReflectionParts *out, Arena scratch)
-{
+static double median_fwhm_deg(const ReflectionParts *out, Arena scratch) {
     double *list = ARENA_NEW(&scratch, double, out->tables);
     memcpy(list, out->lobe_sigma, sizeof *list * (size_t)out->tables);
     return degrees_from_radians(sort_median(list, out->tables) * sqrt(8 * log_d(2)));
 }
 
 void reflection_parts_separate(const Measurement *set, const FitOptions *options, Arena *arena,
-                               FitNotes *notes, ReflectionParts *out)
-{
-    int       tables = set->incidence_count * (set->azimuth_count > 1 ? set->azimuth_count : 1);
-    size_t    rows = (size_t)tables * (size_t)set->wavelength_count;
+                               FitNotes *notes, ReflectionParts *out) {
+    int tables = set->incidence_count * (set->azimuth_count > 1 ? set->azimuth_count : 1);
+    size_t rows = (size_t)tables * (size_t)set->wavelength_count;
     PartsPass pass = {.set = set, .out = out};
     out->tables = tables;
     out->kept = ARENA_NEW(arena, AngleTable, tables);
@@ -276,7 +266,8 @@ void reflection_parts_separate(const Measurement *set, const FitOptions *options
     for (int t = 0; t < tables; t++) arena_release(&pass.arena[t]);
     if (out->has_lobe && options->lobe_is_mirror && !(set->instrument_fwhm_deg > 0)) {
         take_lobe_for_mirror(out);
-        fit_note(notes, "as asked, the peak on the haze counts as the mirror's image: the "
+        fit_note(notes,
+                 "as asked, the peak on the haze counts as the mirror's image: the "
                  "instrument's width is then %.2f deg (an estimate, not declared)",
                  median_fwhm_deg(out, *arena));
     } else {

@@ -12,19 +12,19 @@
 #include "panel/set/measurement.h"
 
 typedef struct ReflectionParts {
-    int         tables;
-    AngleTable *kept;        /* what is left without the mirror */
-    AngleTable *haze;        /* and without the lobe */
-    double     *noise;       /* relative, per table */
-    double     *dim_noise;   /* sr^-1, per table */
-    double     *reflectance; /* of the mirror, [table][wavelength] */
-    double     *lobe;        /* the same of the lobe */
-    double     *lobe_sigma;  /* radians, per table */
-    double      mirror_y[MEASUREMENT_INCIDENCES_MAX]; /* luminous, of the first azimuth */
-    double      lobe_y[MEASUREMENT_INCIDENCES_MAX];
-    double      luminous[MEASUREMENT_WAVELENGTHS_MAX]; /* observer's weight, sum 1 */
-    bool        has_mirror, has_lobe;
-    PeakMirror *peak;        /* per table; NULL: the instrument's width is not declared */
+    int tables;
+    AngleTable *kept;                            /* what is left without the mirror */
+    AngleTable *haze;                            /* and without the lobe */
+    double *noise;                               /* relative, per table */
+    double *dim_noise;                           /* sr^-1, per table */
+    double *reflectance;                         /* of the mirror, [table][wavelength] */
+    double *lobe;                                /* the same of the lobe */
+    double *lobe_sigma;                          /* radians, per table */
+    double mirror_y[MEASUREMENT_INCIDENCES_MAX]; /* luminous, of the first azimuth */
+    double lobe_y[MEASUREMENT_INCIDENCES_MAX];
+    double luminous[MEASUREMENT_WAVELENGTHS_MAX]; /* observer's weight, sum 1 */
+    bool has_mirror, has_lobe;
+    PeakMirror *peak; /* per table; NULL: the instrument's width is not declared */
 } ReflectionParts;
 
 void reflection_parts_separate(const Measurement *set, const FitOptions *options, Arena *arena,

@@ -10,26 +10,25 @@
 
 #define WINDOW_FWHMS 6.0 /* rows nearer to the mirror direction than this are looked at */
 #define LOBE_FWHMS 3.0   /* the same for a lobe, whose haze need not follow the model so far */
-#define CORE_SHARE 0.5   /* where haze is less than this of the peak, the fitted haze replaces
-                            what the subtraction leaves */
-#define CORE_FWHMS 1.6   /* and so near to the mirror direction anyway */
-#define LEAST_PEAK 0.05  /* times the haze under it: less is no image */
-#define LOBE_REST 0.006  /* relative, rms: a lobe explains the data this well, or it is none */
-#define LOBE_HEIGHT 1.0  /* times the haze under it, at least */
-#define WINDOW_STEPS 3.5     /* of the rows: as far a coarse table is looked at */
-#define NARROWEST_HAZE 0.05  /* times the instrument's width: a haze's, at least */
-#define WIDEST_HAZE 1.0      /* of direction cosines */
-#define MODEL_SIGMA 0.01     /* relative: no closer does a real haze follow the model */
-#define ENOUGH 0.05          /* relative: as well as a panel should be known */
-#define CLOSE_ENOUGH 0.04            /* and so wide its range, since the model errs besides */
-#define LEAST_MIRROR 0.002   /* a smaller one need not be known better than this one */
-#define SEARCH_DEG 6.0   /* a lobe's top is nearer to the mirror direction than this */
+#define CORE_SHARE \
+    0.5                     /* where haze is less than this of the peak, the fitted haze replaces \
+                               what the subtraction leaves */
+#define CORE_FWHMS 1.6      /* and so near to the mirror direction anyway */
+#define LEAST_PEAK 0.05     /* times the haze under it: less is no image */
+#define LOBE_REST 0.006     /* relative, rms: a lobe explains the data this well, or it is none */
+#define LOBE_HEIGHT 1.0     /* times the haze under it, at least */
+#define WINDOW_STEPS 3.5    /* of the rows: as far a coarse table is looked at */
+#define NARROWEST_HAZE 0.05 /* times the instrument's width: a haze's, at least */
+#define WIDEST_HAZE 1.0     /* of direction cosines */
+#define MODEL_SIGMA 0.01    /* relative: no closer does a real haze follow the model */
+#define ENOUGH 0.05         /* relative: as well as a panel should be known */
+#define CLOSE_ENOUGH 0.04   /* and so wide its range, since the model errs besides */
+#define LEAST_MIRROR 0.002  /* a smaller one need not be known better than this one */
+#define SEARCH_DEG 6.0      /* a lobe's top is nearer to the mirror direction than this */
 
 /* The peak of every wavelength out of `value`, its height by a model for the haze. */
-static void take_out(const PeakWindow *window, double fwhm, PeakModel model,
-                     double *reflectance,
-                     float *value)
-{
+static void take_out(const PeakWindow *window, double fwhm, PeakModel model, double *reflectance,
+                     float *value) {
     int size = window->slice->channels;
     for (int w = 0; w < size; w++) {
         double lambertian = peak_window_lambertian(window->slice, w);
@@ -40,14 +39,13 @@ static void take_out(const PeakWindow *window, double fwhm, PeakModel model,
             float *at = value + (size_t)spot->row * (size_t)size + w;
             double haze = fmax(peak_model_haze(&model, spot) + lambertian * spot->leaving, 0);
             double peak = reflectance[w] * spot->image;
-            bool   in_core = spot->angle < CORE_FWHMS * fwhm || haze < CORE_SHARE * peak;
+            bool in_core = spot->angle < CORE_FWHMS * fwhm || haze < CORE_SHARE * peak;
             *at = (float)(in_core ? haze : (double)*at - peak);
         }
     }
 }
 
-static float *copy_values(const AngleTable *slice, Arena *arena, AngleTable *haze)
-{
+static float *copy_values(const AngleTable *slice, Arena *arena, AngleTable *haze) {
     size_t count = (size_t)slice->rows * (size_t)slice->channels;
     float *value = ARENA_NEW(arena, float, count);
     memcpy(value, slice->value, sizeof *value * count);
@@ -58,47 +56,43 @@ static float *copy_values(const AngleTable *slice, Arena *arena, AngleTable *haz
 
 /* ---- which mirrors, and which haze under them, rows allow -------------------------------- */
 
-#define CHI_SQUARED 4.0   /* two standard deviations of one number */
-#define LEAST_POWER 1.05   /* of the haze */
+#define CHI_SQUARED 4.0  /* two standard deviations of one number */
+#define LEAST_POWER 1.05 /* of the haze */
 #define MOST_POWER 4.0
-#define POWERS 12          /* of them, that are tried everywhere */
-#define WIDTHS 28          /* and widths */
+#define POWERS 12 /* of them, that are tried everywhere */
+#define WIDTHS 28 /* and widths */
 #define POWER_BISECTIONS 8
 #define BISECTIONS 12
-#define PLACES 9          /* of the haze: quarters of a step, from 0 to two of them */
+#define PLACES 9 /* of the haze: quarters of a step, from 0 to two of them */
 
 typedef struct RangeSearch {
     const PeakWindow *window;
-    double     sigma, step, least; /* least: chi squared of the best */
-    double     haze[2][PLACES];
+    double sigma, step, least; /* least: chi squared of the best */
+    double haze[2][PLACES];
     PeakRange *out;
 } RangeSearch;
 
-static double chi_squared(const RangeSearch *search, double rest)
-{
+static double chi_squared(const RangeSearch *search, double rest) {
     double rows = rest / search->sigma;
     return rows * rows * search->window->count;
 }
 
-static double haze_at(const RangeSearch *search, const PeakModel *model, double b)
-{
+static double haze_at(const RangeSearch *search, const PeakModel *model, double b) {
     const PeakWindow *window = search->window;
     double leaving = 1 - reflection_fresnel(cos_d(window->incidence));
     return fmax(0, model->a) * pow_d(1 + b * b / (model->width * model->width), -model->power) +
            window->lambertian * leaving;
 }
 
-static void widen(double range[2], double low, double high)
-{
+static void widen(double range[2], double low, double high) {
     range[0] = fmin(range[0], low);
     range[1] = fmax(range[1], high);
 }
 
 /* A model that the rows allow, solved; chi: by how much it explains them less well. */
-static void take_model(RangeSearch *search, PeakModel *model, double chi)
-{
+static void take_model(RangeSearch *search, PeakModel *model, double chi) {
     PeakRange *out = search->out;
-    double     variance[2], room = sqrt(fmax(0, CHI_SQUARED - chi)) * search->sigma;
+    double variance[2], room = sqrt(fmax(0, CHI_SQUARED - chi)) * search->sigma;
     peak_window_variances(search->window, model, variance);
     double r = room * sqrt(variance[0]), a = room * sqrt(variance[1]);
     double full = peak_model_fwhm(model);
@@ -114,8 +108,7 @@ static void take_model(RangeSearch *search, PeakModel *model, double chi)
 }
 
 /* Tries one width; true: the rows allow it. */
-static bool try_width(RangeSearch *search, PeakModel *model, double log_width)
-{
+static bool try_width(RangeSearch *search, PeakModel *model, double log_width) {
     model->width = exp_d(log_width);
     double rest = peak_window_solve(search->window, -1, search->window->lambertian, model);
     double chi = chi_squared(search, rest) - search->least;
@@ -125,8 +118,7 @@ static bool try_width(RangeSearch *search, PeakModel *model, double log_width)
 }
 
 /* From a width that the rows allow as far as they allow it. */
-static void walk(RangeSearch *search, PeakModel model, double limit)
-{
+static void walk(RangeSearch *search, PeakModel model, double limit) {
     double inside = log_d(model.width), outside = log_d(limit);
     if (try_width(search, &model, outside)) return;
     for (int i = 0; i < BISECTIONS; i++) {
@@ -137,8 +129,7 @@ static void walk(RangeSearch *search, PeakModel model, double limit)
 }
 
 /* Tries a power with its best width, and from there all widths; true: the rows allow it. */
-static bool try_power(RangeSearch *search, PeakModel *model, double power)
-{
+static bool try_power(RangeSearch *search, PeakModel *model, double power) {
     const PeakWindow *window = search->window;
     model->power = power;
     double chi = chi_squared(search, peak_window_best_width(window, 0, model)) - search->least;
@@ -149,8 +140,7 @@ static bool try_power(RangeSearch *search, PeakModel *model, double power)
 }
 
 /* The same for powers: from the best one towards a limit. */
-static void walk_powers(RangeSearch *search, double inside, double outside)
-{
+static void walk_powers(RangeSearch *search, double inside, double outside) {
     PeakModel model = {0};
     if (try_power(search, &model, outside)) return;
     for (int i = 0; i < POWER_BISECTIONS; i++) {
@@ -160,25 +150,22 @@ static void walk_powers(RangeSearch *search, double inside, double outside)
     }
 }
 
-static double geometric(double low, double high, double share)
-{
+static double geometric(double low, double high, double share) {
     return exp_d(log_d(low) + share * log_d(high / low));
 }
 
 /* All powers and widths on a grid, then from the best power both ways: the haze that explains
  * rows best may be narrow without a mirror or wide with one. */
-static void search_all(RangeSearch *search, PeakModel best)
-{
+static void search_all(RangeSearch *search, PeakModel best) {
     PeakModel model[POWERS * WIDTHS];
-    double    chi[POWERS * WIDTHS];
+    double chi[POWERS * WIDTHS];
     const PeakWindow *window = search->window;
     search->least = chi_squared(search, peak_window_best_width(window, 0, &best));
     for (int i = 0; i < POWERS * WIDTHS; i++) {
         model[i].power = geometric(LEAST_POWER, MOST_POWER, (i / WIDTHS) / (POWERS - 1.0));
-        model[i].width = geometric(window->width[0], window->width[1],
-                                   (i % WIDTHS) / (WIDTHS - 1.0));
-        chi[i] = chi_squared(search, peak_window_solve(window, -1, window->lambertian,
-                                                       &model[i]));
+        model[i].width =
+            geometric(window->width[0], window->width[1], (i % WIDTHS) / (WIDTHS - 1.0));
+        chi[i] = chi_squared(search, peak_window_solve(window, -1, window->lambertian, &model[i]));
         search->least = fmin(search->least, chi[i]);
     }
     for (int i = 0; i < POWERS * WIDTHS; i++)
@@ -190,19 +177,16 @@ static void search_all(RangeSearch *search, PeakModel best)
 }
 
 /* No row can have more of the image than it has. */
-static double most_mirror(const PeakWindow *window, double sigma)
-{
+static double most_mirror(const PeakWindow *window, double sigma) {
     double most = 1;
     for (int i = 0; i < window->count; i++) {
         const PeakRow *spot = &window->row[i];
-        if (spot->image > 0)
-            most = fmin(most, fmax(0, spot->mean) * (1 + 2 * sigma) / spot->image);
+        if (spot->image > 0) most = fmin(most, fmax(0, spot->mean) * (1 + 2 * sigma) / spot->image);
     }
     return most;
 }
 
-static void finish(const RangeSearch *search, PeakRange *out)
-{
+static void finish(const RangeSearch *search, PeakRange *out) {
     for (int k = 0; k < PLACES; k++) {
         double low = search->haze[0][k], high = search->haze[1][k];
         out->spread = fmax(out->spread, high > 0 ? (high - low) / (high + low) : 1);
@@ -215,11 +199,10 @@ static void finish(const RangeSearch *search, PeakRange *out)
  * squares leave open. sigma: by what a row may miss the model, relative. step: of the rows,
  * radians. */
 static PeakRange find_peak_range(const PeakWindow *window, const PeakModel *best, double sigma,
-                                 double step)
-{
+                                 double step) {
     PeakRange out = {.mirror = {1e30, -1e30}, .fwhm = {1e30, 0}, .has_model = true};
-    RangeSearch    search = {window, sigma, step, 1e30, {{0}}, &out};
-    double    most = most_mirror(window, sigma);
+    RangeSearch search = {window, sigma, step, 1e30, {{0}}, &out};
+    double most = most_mirror(window, sigma);
     if (window->count < PEAK_RANGE_ROWS) return (PeakRange){.mirror = {0, most}};
     for (int k = 0; k < PLACES; k++) search.haze[0][k] = 1e30, search.haze[1][k] = 0;
     search_all(&search, *best);
@@ -232,8 +215,7 @@ static PeakRange find_peak_range(const PeakWindow *window, const PeakModel *best
 /* ---- the mirror's image ------------------------------------------------------------------ */
 
 /* Keeps the rows of an ellipse: `theta` along the plane of incidence, `across` it. */
-static void keep_ellipse(PeakWindow *window, double theta, double across)
-{
+static void keep_ellipse(PeakWindow *window, double theta, double across) {
     int kept = 0;
     for (int i = 0; i < window->count; i++) {
         double x = window->row[i].tilt / theta, away = window->row[i].angle / across;
@@ -244,8 +226,7 @@ static void keep_ellipse(PeakWindow *window, double theta, double across)
 }
 
 /* A window whose haze may be as narrow as a twentieth of the instrument's image. */
-static PeakWindow open_window(const PeakTask *task, double reach, Arena *arena)
-{
+static PeakWindow open_window(const PeakTask *task, double reach, Arena *arena) {
     PeakWindow window = peak_window_collect(task->slice, task->incidence, reach, arena);
     window.width[0] = NARROWEST_HAZE * task->fwhm;
     window.width[1] = fmax(40 * task->fwhm, WIDEST_HAZE);
@@ -254,56 +235,50 @@ static PeakWindow open_window(const PeakTask *task, double reach, Arena *arena)
     return window;
 }
 
-static double height_of(const PeakTask *task, double r)
-{
+static double height_of(const PeakTask *task, double r) {
     return r * 4 * log_d(2) / (PI * task->fwhm * task->fwhm * cos_d(task->incidence));
 }
 
 /* By what a row may miss: its noise, what the model misses, and what no model of a surface
  * holds to. */
-static double row_sigma(const PeakTask *task, double rest)
-{
+static double row_sigma(const PeakTask *task, double rest) {
     return fmax(MODEL_SIGMA, fmax(task->noise, rest));
 }
 
 /* The range of what a window's rows allow, around its model. */
 static void find_range(const PeakTask *task, const PeakWindow *window, const PeakModel *model,
-                       PeakMirror *mirror)
-{
+                       PeakMirror *mirror) {
     PeakWindow open = *window;
-    PeakModel  best = *model;
+    PeakModel best = *model;
     open.width[0] = NARROWEST_HAZE * task->fwhm;
     open.width[1] = fmax(40 * task->fwhm, WIDEST_HAZE);
     mirror->model = best;
     mirror->lambertian = window->lambertian;
     mirror->rest = peak_window_solve(window, -1, window->lambertian, &best);
-    mirror->range = find_peak_range(&open, model, row_sigma(task, mirror->rest),
-                                    mirror->spacing.widest);
+    mirror->range =
+        find_peak_range(&open, model, row_sigma(task, mirror->rest), mirror->spacing.widest);
     /* a haze narrower than the instrument's image no instrument has seen as it is */
     mirror->has_haze_open = !mirror->range.has_model || mirror->range.spread > ENOUGH ||
                             peak_model_fwhm(model) < task->fwhm;
 }
 
 /* Within 5 % of it, or of the least mirror that matters? */
-static bool is_known(const PeakMirror *mirror)
-{
+static bool is_known(const PeakMirror *mirror) {
     const double *range = mirror->range.mirror;
     double middle = 0.5 * (range[0] + range[1]);
     return mirror->range.has_model &&
            0.5 * (range[1] - range[0]) <= CLOSE_ENOUGH * fmax(middle, LEAST_MIRROR);
 }
 
-static bool stands_out(const PeakTask *task, const PeakModel *model, double lambertian)
-{
+static bool stands_out(const PeakTask *task, const PeakModel *model, double lambertian) {
     return height_of(task, model->r) > LEAST_PEAK * (model->a + lambertian);
 }
 
 /* Rows as near as the image's width alone: what fine tables need. True: they determine the
  * mirror, or show that there is none. */
-static bool take_near(const PeakTask *task, Arena *arena, PeakMirror *mirror, float *value)
-{
-    PeakWindow window = peak_window_collect(task->slice, task->incidence,
-                                            WINDOW_FWHMS * task->fwhm, arena);
+static bool take_near(const PeakTask *task, Arena *arena, PeakMirror *mirror, float *value) {
+    PeakWindow window =
+        peak_window_collect(task->slice, task->incidence, WINDOW_FWHMS * task->fwhm, arena);
     if (window.count < 12) return false;
     peak_window_set_image(&window, task->fwhm);
     PeakModel model = peak_window_choose_haze(&window, task->fwhm);
@@ -318,8 +293,7 @@ static bool take_near(const PeakTask *task, Arena *arena, PeakMirror *mirror, fl
 
 /* Rows from further away, as far as a coarse grid needs, and a specular measurement. The best
  * that there is comes out of the table even where it is open. */
-static bool take_far(const PeakTask *task, Arena *arena, PeakMirror *mirror, float *value)
-{
+static bool take_far(const PeakTask *task, Arena *arena, PeakMirror *mirror, float *value) {
     const PeakSpacing *step = &mirror->spacing;
     double near = WINDOW_FWHMS * task->fwhm, reach = fmax(near, WINDOW_STEPS * step->widest);
     PeakWindow window = open_window(task, reach, arena);
@@ -340,17 +314,15 @@ static bool take_far(const PeakTask *task, Arena *arena, PeakMirror *mirror, flo
 }
 
 /* By how much the specular measurement differs from what samples give without it. */
-static double specular_miss(const PeakTask *task, const PeakMirror *mirror, Arena *arena)
-{
+static double specular_miss(const PeakTask *task, const PeakMirror *mirror, Arena *arena) {
     PeakWindow window = open_window(task, 0, arena);
     return peak_window_specular_miss(&window, &mirror->model);
 }
 
 void reflection_peak_take_mirror(const PeakTask *task, Arena *arena, PeakMirror *mirror,
-                                 AngleTable *haze_table)
-{
+                                 AngleTable *haze_table) {
     PeakTask alone = *task;
-    float   *value = copy_values(task->slice, arena, haze_table);
+    float *value = copy_values(task->slice, arena, haze_table);
     for (int w = 0; w < task->slice->channels; w++) mirror->reflectance[w] = 0;
     alone.specular = NULL;
     mirror->spacing = peak_window_spacing(task->slice, task->incidence, *arena);
@@ -369,16 +341,14 @@ void reflection_peak_take_mirror(const PeakTask *task, Arena *arena, PeakMirror 
 
 /* ---- a lobe ------------------------------------------------------------------------------ */
 
-static double row_angle(const AngleTable *slice, int row, double incidence)
-{
+static double row_angle(const AngleTable *slice, int row, double incidence) {
     return peak_window_angle((double)slice->theta[row], (double)slice->phi[row], incidence);
 }
 
 /* Full width at half of the largest value near the mirror direction; 0: the largest value is
  * not there, or 0. By the outermost row above half of it, or the grid's step if that is
  * wider. */
-static double guess_width(const AngleTable *slice, double incidence)
-{
+static double guess_width(const AngleTable *slice, double incidence) {
     double top = 0, reach = radians_from_degrees(SEARCH_DEG), half = 0, nearest = 1;
     for (int i = 0; i < slice->rows; i++) {
         double angle = row_angle(slice, i, incidence);
@@ -388,15 +358,13 @@ static double guess_width(const AngleTable *slice, double incidence)
     if (!(top > 0)) return 0;
     for (int i = 0; i < slice->rows; i++) {
         double angle = row_angle(slice, i, incidence);
-        if (angle < reach && peak_window_row_mean(slice, i) > 0.5 * top)
-            half = fmax(half, angle);
+        if (angle < reach && peak_window_row_mean(slice, i) > 0.5 * top) half = fmax(half, angle);
     }
     return half > 0.8 * reach ? 0 : 2 * fmax(half, nearest);
 }
 
 /* The residual at a width, with the haze that suits it best. */
-static double rest_of_width(PeakWindow *window, double fwhm, double haze, PeakModel *model)
-{
+static double rest_of_width(PeakWindow *window, double fwhm, double haze, PeakModel *model) {
     peak_window_set_image(window, fwhm);
     *model = peak_window_choose_haze(window, haze);
     return peak_window_solve(window, -1, window->lambertian, model);
@@ -404,8 +372,7 @@ static double rest_of_width(PeakWindow *window, double fwhm, double haze, PeakMo
 
 /* The width that leaves the least, by golden section over its logarithm. haze: begins there. */
 static double choose_width(PeakWindow *window, const double range[2], double haze,
-                           PeakModel *model)
-{
+                           PeakModel *model) {
     double low = log_d(range[0]), high = log_d(range[1]);
     double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
     double left = rest_of_width(window, exp_d(a), haze, model);
@@ -426,8 +393,7 @@ static double choose_width(PeakWindow *window, const double range[2], double haz
 }
 
 /* rms of what the model leaves where the peak is the larger part, relative. */
-static double core_rest(const PeakWindow *window, const PeakModel *model)
-{
+static double core_rest(const PeakWindow *window, const PeakModel *model) {
     double squares = 0, count = 0;
     for (int i = 0; i < window->count; i++) {
         const PeakRow *spot = &window->row[i];
@@ -442,9 +408,7 @@ static double core_rest(const PeakWindow *window, const PeakModel *model)
 }
 
 bool reflection_peak_take_lobe(const AngleTable *slice, double incidence, double noise,
-                               Arena *arena,
-                               ReflectionLobe *lobe, AngleTable *haze_table)
-{
+                               Arena *arena, ReflectionLobe *lobe, AngleTable *haze_table) {
     double guess = guess_width(slice, incidence);
     *haze_table = *slice;
     if (!(guess > 0)) return false;

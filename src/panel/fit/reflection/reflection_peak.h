@@ -15,19 +15,19 @@
 /* Least and most of each, means over the wavelengths. */
 typedef struct PeakRange {
     double mirror[2];
-    double haze[2];   /* under the peak, with the lambertian part */
-    double fwhm[2];   /* of the haze, across the plane of incidence */
-    double spread;    /* half of what the haze may vary by, relative: the largest one from the
-                         mirror direction to two steps of the rows from it */
-    bool   has_model; /* false: too few rows; only the mirror's range is set then */
+    double haze[2]; /* under the peak, with the lambertian part */
+    double fwhm[2]; /* of the haze, across the plane of incidence */
+    double spread;  /* half of what the haze may vary by, relative: the largest one from the
+                       mirror direction to two steps of the rows from it */
+    bool has_model; /* false: too few rows; only the mirror's range is set then */
 } PeakRange;
 
 /* Inputs of the search for the mirror's image in a table. */
 typedef struct PeakTask {
-    const AngleTable   *slice;
-    double              incidence, fwhm; /* of the instrument */
-    double              noise;           /* of the slice, relative */
-    const PeakSpecular *specular;        /* NULL: not measured */
+    const AngleTable *slice;
+    double incidence, fwhm;       /* of the instrument */
+    double noise;                 /* of the slice, relative */
+    const PeakSpecular *specular; /* NULL: not measured */
 } PeakTask;
 
 /* Data that determine the mirror's reflectance. */
@@ -38,15 +38,15 @@ typedef enum PeakSource {
 } PeakSource;
 
 typedef struct PeakMirror {
-    double     *reflectance; /* per wavelength, room for them */
-    PeakSource  source;
-    PeakRange   range;   /* of mirror and haze */
-    PeakModel   model;   /* of the haze, where the range has one */
-    double      lambertian, rest; /* of the same */
-    PeakSpacing spacing; /* of the rows around the mirror direction */
-    double      specular_miss; /* of a measurement that was not needed, relative; else 0 */
-    bool        has_haze_open; /* the haze near the mirror direction may differ by more than
-                                  5 % from what was taken */
+    double *reflectance; /* per wavelength, room for them */
+    PeakSource source;
+    PeakRange range;         /* of mirror and haze */
+    PeakModel model;         /* of the haze, where the range has one */
+    double lambertian, rest; /* of the same */
+    PeakSpacing spacing;     /* of the rows around the mirror direction */
+    double specular_miss;    /* of a measurement that was not needed, relative; else 0 */
+    bool has_haze_open;      /* the haze near the mirror direction may differ by more than
+                                5 % from what was taken */
 } PeakMirror;
 
 /* Takes the mirror's image out of one table: reflectances, and the table without it (values in
@@ -56,7 +56,7 @@ void reflection_peak_take_mirror(const PeakTask *task, Arena *arena, PeakMirror 
 
 /* A Gaussian lobe on the mirror direction that stands on the haze. */
 typedef struct ReflectionLobe {
-    double  fwhm;        /* radians */
+    double fwhm;         /* radians */
     double *reflectance; /* per wavelength, room for them */
 } ReflectionLobe;
 

@@ -23,29 +23,26 @@
  * edges are lines there, or, where they turn by less than 60 degrees, linear in the turn: rings
  * of eight directions are round. */
 
-#define ROUND (PI / 3)      /* edges of smaller turns are linear in the turn */
-#define ROOM_DEG 2.0f       /* a cone is held if it lacks no more than this */
+#define ROUND (PI / 3) /* edges of smaller turns are linear in the turn */
+#define ROOM_DEG 2.0f  /* a cone is held if it lacks no more than this */
 #define CONE_SIDES 72
 
 typedef struct HullPoint {
     double x, y, angle, turn;
 } HullPoint;
 
-static int order_by_x(const void *a, const void *b)
-{
+static int order_by_x(const void *a, const void *b) {
     const HullPoint *p = a, *q = b;
-    double           rise = p->x != q->x ? p->x - q->x : p->y - q->y;
+    double rise = p->x != q->x ? p->x - q->x : p->y - q->y;
     return (rise > 0) - (rise < 0);
 }
 
-static double turned_left(const HullPoint *a, const HullPoint *b, const HullPoint *c)
-{
+static double turned_left(const HullPoint *a, const HullPoint *b, const HullPoint *c) {
     return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
 }
 
 /* Andrew's monotone chain: anticlockwise; points are sorted. */
-static int convex_hull(HullPoint *point, int count, HullPoint *hull)
-{
+static int convex_hull(HullPoint *point, int count, HullPoint *hull) {
     int n = 0;
     qsort(point, (size_t)count, sizeof *point, order_by_x);
     for (int side = 0; side < 2; side++) {
@@ -62,8 +59,7 @@ static int convex_hull(HullPoint *point, int count, HullPoint *hull)
 
 /* ---- the centre -------------------------------------------------------------------------- */
 
-static void set_centre(const AngleTable *table, bool mirrored, PanelReachStored *out)
-{
+static void set_centre(const AngleTable *table, bool mirrored, PanelReachStored *out) {
     double sum[3] = {0, 0, 0};
     for (int i = 0; i < table->rows; i++) {
         Vec3 d = table_row_direction(table, i);
@@ -74,18 +70,16 @@ static void set_centre(const AngleTable *table, bool mirrored, PanelReachStored 
     out->phi = (uint16_t)(int)rint((phi < 0 ? phi + 2 * PI : phi) / (2 * PI) * 65536);
 }
 
-static HullPoint point_at(const Vec3 axis[3], double theta, double phi)
-{
+static HullPoint point_at(const Vec3 axis[3], double theta, double phi) {
     PanelReachPlace at = panel_reach_place(axis, table_direction(theta, phi));
-    double          angle = (double)at.angle, turn = (double)at.turn;
+    double angle = (double)at.angle, turn = (double)at.turn;
     return (HullPoint){angle * cos_d(turn), angle * sin_d(turn), angle, turn};
 }
 
 /* ---- the edge ---------------------------------------------------------------------------- */
 
 /* Where the edge from a to b is at a turn, which it spans. */
-static double edge_at(const HullPoint *a, const HullPoint *b, double turn)
-{
+static double edge_at(const HullPoint *a, const HullPoint *b, double turn) {
     double span = b->turn - a->turn, from = turn - a->turn;
     span -= 2 * PI * floor(span / (2 * PI));
     from -= 2 * PI * floor(from / (2 * PI));
@@ -97,8 +91,7 @@ static double edge_at(const HullPoint *a, const HullPoint *b, double turn)
 
 /* Sides in units of the largest, none rounded down; some room is left for corners. */
 #define CORNERS 1.02
-static void store_sides(const double side[PANEL_REACH_SIDES], PanelReachStored *out)
-{
+static void store_sides(const double side[PANEL_REACH_SIDES], PanelReachStored *out) {
     double most = 1e-3;
     for (int k = 0; k < PANEL_REACH_SIDES; k++) most = fmax(most, side[k]);
     out->most = (uint16_t)fmin(65535, ceil(CORNERS * most / PI * 65535));
@@ -107,10 +100,9 @@ static void store_sides(const double side[PANEL_REACH_SIDES], PanelReachStored *
 }
 
 /* Between two sides a corner of the hull may stand out: both are raised to hold it. */
-static void hold_point(const HullPoint *point, PanelReachStored *out)
-{
+static void hold_point(const HullPoint *point, PanelReachStored *out) {
     double at = point->turn * PANEL_REACH_SIDES / (2 * PI);
-    int    side = (int)at % PANEL_REACH_SIDES, next = (side + 1) % PANEL_REACH_SIDES;
+    int side = (int)at % PANEL_REACH_SIDES, next = (side + 1) % PANEL_REACH_SIDES;
     double edge = (double)panel_reach_edge(out, (float)point->turn);
     if (point->angle <= edge) return;
     int more = (int)ceil((point->angle - edge) / (double)panel_reach_unit(out) + 1e-3);
@@ -119,14 +111,13 @@ static void hold_point(const HullPoint *point, PanelReachStored *out)
 }
 
 /* mirrored: directions at -phi count as those at phi. */
-static PanelReachStored reflection_reach(const AngleTable *table, bool mirrored, Arena scratch)
-{
+static PanelReachStored reflection_reach(const AngleTable *table, bool mirrored, Arena scratch) {
     PanelReachStored out = {0};
-    Vec3             axis[3];
+    Vec3 axis[3];
     HullPoint *point = ARENA_NEW(&scratch, HullPoint, 2 * table->rows);
     HullPoint *hull = ARENA_NEW(&scratch, HullPoint, 4 * table->rows + 1);
-    double     side[PANEL_REACH_SIDES] = {0};
-    int        count = 0;
+    double side[PANEL_REACH_SIDES] = {0};
+    int count = 0;
     set_centre(table, mirrored, &out);
     panel_reach_axes(&out, axis);
     for (int i = 0; i < table->rows; i++) {
@@ -137,26 +128,24 @@ static PanelReachStored reflection_reach(const AngleTable *table, bool mirrored,
     count = convex_hull(point, count, hull);
     for (int k = 0; k < PANEL_REACH_SIDES; k++)
         for (int i = 0; i < count; i++)
-            side[k] = fmax(side[k], edge_at(&hull[i], &hull[(i + 1) % count],
-                                            2 * PI * k / PANEL_REACH_SIDES));
+            side[k] = fmax(
+                side[k], edge_at(&hull[i], &hull[(i + 1) % count], 2 * PI * k / PANEL_REACH_SIDES));
     store_sides(side, &out);
     for (int i = 0; i < count; i++) hold_point(&hull[i], &out);
     return out;
 }
 
 /* All directions up to an angle. */
-static PanelReachStored reflection_reach_cone(float theta)
-{
+static PanelReachStored reflection_reach_cone(float theta) {
     PanelReachStored out = {0};
-    double           side[PANEL_REACH_SIDES];
+    double side[PANEL_REACH_SIDES];
     for (int k = 0; k < PANEL_REACH_SIDES; k++) side[k] = (double)theta;
     store_sides(side, &out);
     return out;
 }
 
 /* Does it hold the cone, but for what lies between two samples of its last ring? */
-static bool reflection_reach_is_cone(const PanelReachStored *reach, float theta)
-{
+static bool reflection_reach_is_cone(const PanelReachStored *reach, float theta) {
     float inner = fmaxf(0, theta - (float)radians_from_degrees((double)ROOM_DEG));
     for (int k = 0; k < CONE_SIDES; k++) {
         Vec3 d = table_direction((double)inner, 2 * PI * k / CONE_SIDES);
@@ -169,33 +158,31 @@ static bool reflection_reach_is_cone(const PanelReachStored *reach, float theta)
 #define LEAST_VALUE 1e-8 /* sr^-1 */
 #define EDGE_CELLS 3.0f  /* so far beyond it places still count: triangles reach across */
 #define CHUNK 512        /* places that one thread reads at a time */
-#define STEEPEST 0.5f     /* what a logarithm may change by beyond the last ring: held there at
+#define STEEPEST \
+    0.5f                  /* what a logarithm may change by beyond the last ring: held there at \
                              once, its kink takes eight times the time of a fit to code */
 #define FILLED_SHARE 0.05 /* of a grid's cells: with more of them it is no grid */
 
-double reflection_read_least(const AngleTable *table)
-{
+double reflection_read_least(const AngleTable *table) {
     double most = 0;
     size_t count = (size_t)table->rows * (size_t)table->channels;
     for (size_t i = 0; i < count; i++) most = fmax(most, (double)table->value[i]);
     return fmax(LEAST_VALUE, LEAST_SHARE * most);
 }
 
-static int count_below(const AngleTable *table, double least)
-{
-    int    count = 0;
+static int count_below(const AngleTable *table, double least) {
+    int count = 0;
     size_t values = (size_t)table->rows * (size_t)table->channels;
     for (size_t i = 0; i < values; i++) count += (double)table->value[i] < least;
     return count;
 }
 
-static float *log_cells(ReflectionModel *model, int table)
-{
+static float *log_cells(ReflectionModel *model, int table) {
     const DirectionGrid *grid = &model->grid[table];
-    float *cells = direction_grid_cells(grid, model->parts->haze[table].value,
-                                        model->wavelengths, model->arena);
+    float *cells = direction_grid_cells(grid, model->parts->haze[table].value, model->wavelengths,
+                                        model->arena);
     size_t count = (size_t)(grid->thetas * grid->phis) * (size_t)model->wavelengths;
-    float  least = (float)model->least_value[table];
+    float least = (float)model->least_value[table];
     for (size_t i = 0; i < count; i++) cells[i] = log_f(fmaxf(cells[i], least));
     return cells;
 }
@@ -206,23 +193,23 @@ static float *log_cells(ReflectionModel *model, int table)
 #define WINDOW_STEPS 3.0
 
 /* The guide that a peak's model makes. */
-static ReflectionGuide guide_of(const PeakMirror *peak, double incidence)
-{
+static ReflectionGuide guide_of(const PeakMirror *peak, double incidence) {
     const PeakModel *model = &peak->model;
-    return (ReflectionGuide){.incidence = incidence, .width = model->width,
-        .power = model->power, .a = model->a, .lambertian = fmax(1e-9, peak->lambertian),
-        .reach = WINDOW_STEPS * peak->spacing.widest};
+    return (ReflectionGuide){.incidence = incidence,
+                             .width = model->width,
+                             .power = model->power,
+                             .a = model->a,
+                             .lambertian = fmax(1e-9, peak->lambertian),
+                             .reach = WINDOW_STEPS * peak->spacing.widest};
 }
 
-double reflection_guide_log(const ReflectionGuide *guide, double theta, double phi)
-{
+double reflection_guide_log(const ReflectionGuide *guide, double theta, double phi) {
     double b2 = peak_window_squares(theta, phi, guide->incidence);
     double haze = guide->a * pow_d(1 + b2 / (guide->width * guide->width), -guide->power);
     return log_d(haze + guide->lambertian);
 }
 
-void reflection_read_halfway(const DirectionGrid *grid, ReflectionBetween *visit, void *context)
-{
+void reflection_read_halfway(const DirectionGrid *grid, ReflectionBetween *visit, void *context) {
     for (int i = 0; i + 1 < grid->thetas; i++)
         for (int k = 0; k < grid->phis; k++) {
             double theta = (double)grid->theta[i], phi = (double)grid->phi[k], turn = phi;
@@ -237,24 +224,23 @@ void reflection_read_halfway(const DirectionGrid *grid, ReflectionBetween *visit
 /* A direction between cells; the middle channel is what is compared there. */
 typedef struct GuideCheck {
     const DirectionGrid *grid;
-    const float         *cells;
-    int                  channels;
-    ReflectionGuide     *guide;
+    const float *cells;
+    int channels;
+    ReflectionGuide *guide;
 } GuideCheck;
 
 /* Both ways of reading, from the same cells. */
-static void compare_at(void *context, double theta, double phi)
-{
-    const GuideCheck    *at = context;
+static void compare_at(void *context, double theta, double phi) {
+    const GuideCheck *at = context;
     const DirectionGrid *grid = at->grid;
     GridTaps taps;
-    double   plain = 0, rest = 0;
+    double plain = 0, rest = 0;
     if (peak_window_angle(theta, phi, at->guide->incidence) > at->guide->reach) return;
     direction_grid_taps(grid, (float)theta, (float)phi, &taps);
     for (int i = 0; i < taps.count; i++) {
-        int    cell = taps.cell[i];
-        double log = (double)at->cells[(size_t)cell * (size_t)at->channels +
-                                       (size_t)at->channels / 2];
+        int cell = taps.cell[i];
+        double log =
+            (double)at->cells[(size_t)cell * (size_t)at->channels + (size_t)at->channels / 2];
         plain += (double)taps.weight[i] * log;
         rest += (double)taps.weight[i] *
                 (log - reflection_guide_log(at->guide, (double)grid->theta[cell / grid->phis],
@@ -267,8 +253,7 @@ static void compare_at(void *context, double theta, double phi)
 /* Compares reading between the cells, which hold logarithms, with and without the guide, and
  * decides; the middle channel is compared. */
 static void choose_guide(const DirectionGrid *grid, const float *cells, int channels,
-                         ReflectionGuide *guide)
-{
+                         ReflectionGuide *guide) {
     GuideCheck at = {grid, cells, channels, guide};
     reflection_read_halfway(grid, compare_at, &at);
     guide->is_used = guide->miss > GUIDE_MISS;
@@ -278,8 +263,7 @@ static void choose_guide(const DirectionGrid *grid, const float *cells, int chan
 #define GUIDE_SPREAD 0.25 /* relative: nor is one whose peak is anybody's guess */
 
 /* The peak's model, where it is one that rows do determine. */
-static bool find_guide(const ReflectionModel *model, int table, ReflectionGuide *guide)
-{
+static bool find_guide(const ReflectionModel *model, int table, ReflectionGuide *guide) {
     const PeakMirror *peak = model->parts->peak ? &model->parts->peak[table] : NULL;
     if (!peak || !peak->range.has_model || model->parts->has_lobe || !(peak->model.a > 0) ||
         peak->range.spread > GUIDE_SPREAD ||
@@ -290,10 +274,9 @@ static bool find_guide(const ReflectionModel *model, int table, ReflectionGuide 
 }
 
 /* Where rows are too far apart for the peak, cells hold what they have over the guide. */
-static void guide_cells(ReflectionModel *model, int table)
-{
+static void guide_cells(ReflectionModel *model, int table) {
     const DirectionGrid *grid = &model->grid[table];
-    ReflectionGuide     *guide = &model->guide[table];
+    ReflectionGuide *guide = &model->guide[table];
     float *cells = model->cells[table];
     if (!find_guide(model, table, guide)) return;
     choose_guide(grid, cells, model->wavelengths, guide);
@@ -307,42 +290,36 @@ static void guide_cells(ReflectionModel *model, int table)
 
 /* ---- tables without a grid's order ------------------------------------------------------- */
 
-static bool is_scattered(const DirectionGrid *grid)
-{
-    return grid->is_scattered ||
-           grid->filled_cells > FILLED_SHARE * grid->thetas * grid->phis;
+static bool is_scattered(const DirectionGrid *grid) {
+    return grid->is_scattered || grid->filled_cells > FILLED_SHARE * grid->thetas * grid->phis;
 }
 
 /* The surface through a table's logarithms; over the guide wherever there is one. */
-static void scatter_table(ReflectionModel *model, int t, bool mirrored)
-{
+static void scatter_table(ReflectionModel *model, int t, bool mirrored) {
     const AngleTable *table = &model->parts->haze[t];
-    ReflectionGuide  *guide = &model->guide[t];
+    ReflectionGuide *guide = &model->guide[t];
     size_t channels = (size_t)model->wavelengths;
-    float *logs = ARENA_NEW(model->arena, float, (size_t)table->rows * channels);
-    float  least = (float)model->least_value[t];
+    float *logs = ARENA_NEW(model->arena, float, (size_t)table->rows *channels);
+    float least = (float)model->least_value[t];
     guide->is_used = find_guide(model, t, guide);
     for (int i = 0; i < table->rows; i++) {
         float log = 0;
         if (guide->is_used)
-            log = (float)reflection_guide_log(guide, (double)table->theta[i],
-                                              (double)table->phi[i]);
+            log =
+                (float)reflection_guide_log(guide, (double)table->theta[i], (double)table->phi[i]);
         for (size_t k = (size_t)i * channels; k < (size_t)(i + 1) * channels; k++)
             logs[k] = log_f(fmaxf(table->value[k], least)) - log;
     }
-    model->scatter[t] = scatter_surface_make(table, mirrored, logs, model->wavelengths,
-                                             model->arena);
+    model->scatter[t] =
+        scatter_surface_make(table, mirrored, logs, model->wavelengths, model->arena);
     model->reach[t] = reflection_reach(table, mirrored, *model->arena);
-    model->parts->noise[t] = fmax(model->parts->noise[t],
-                                  scatter_surface_noise(model->scatter[t]));
+    model->parts->noise[t] = fmax(model->parts->noise[t], scatter_surface_noise(model->scatter[t]));
 }
 
 /* What the samples of all tables surround counts where some do not surround the cone. */
-static void find_reach(ReflectionModel *model)
-{
+static void find_reach(ReflectionModel *model) {
     float edge = 0.5f * PI_F;
-    for (int t = 0; t < model->tables; t++)
-        edge = fminf(edge, model->parts->haze[t].theta_max);
+    for (int t = 0; t < model->tables; t++) edge = fminf(edge, model->parts->haze[t].theta_max);
     for (int t = 0; t < model->tables; t++) {
         if (!model->scatter[t])
             model->reach[t] = reflection_reach_cone(model->parts->haze[t].theta_max);
@@ -350,8 +327,7 @@ static void find_reach(ReflectionModel *model)
     }
 }
 
-void reflection_read_tables(ReflectionModel *model)
-{
+void reflection_read_tables(ReflectionModel *model) {
     bool mirrored = model->set->azimuth_count < 2;
     model->grid = ARENA_NEW(model->arena, DirectionGrid, model->tables);
     model->cells = ARENA_NEW(model->arena, float *, model->tables);
@@ -374,9 +350,7 @@ void reflection_read_tables(ReflectionModel *model)
     find_reach(model);
 }
 
-static void read_at(const ReflectionModel *model, int table, float theta, float phi,
-                    float *logs)
-{
+static void read_at(const ReflectionModel *model, int table, float theta, float phi, float *logs) {
     GridTaps taps;
     if (model->scatter[table]) {
         scatter_surface_read(model->scatter[table], table_direction((double)theta, (double)phi),
@@ -390,10 +364,9 @@ static void read_at(const ReflectionModel *model, int table, float theta, float 
     for (int w = 0; w < model->wavelengths; w++) logs[w] += log;
 }
 
-float reflection_read_logs(const ReflectionModel *model, int table, Vec3 outer, float *logs)
-{
+float reflection_read_logs(const ReflectionModel *model, int table, Vec3 outer, float *logs) {
     const DirectionGrid *grid = &model->grid[table];
-    bool  is_scattered = model->scatter[table] != NULL;
+    bool is_scattered = model->scatter[table] != NULL;
     if (is_scattered) outer = panel_reach_inside(&model->reach[table], outer);
     float across = sqrtf(outer.x * outer.x + outer.y * outer.y);
     float theta = atan2_f(across, fmaxf(outer.z, 0)), phi = atan2_f(outer.y, outer.x);
@@ -412,13 +385,12 @@ float reflection_read_logs(const ReflectionModel *model, int table, Vec3 outer, 
 /* One table at one place of the tree. */
 typedef struct TablePlace {
     ReflectionView view;
-    Vec3           stored, local;
-    float          beyond; /* radians: how far behind the last ring */
+    Vec3 stored, local;
+    float beyond; /* radians: how far behind the last ring */
 } TablePlace;
 
 /* ln (f / reference) at a place. */
-static TablePlace read_stored(const ReflectionModel *model, int table, Vec3 stored, float *logs)
-{
+static TablePlace read_stored(const ReflectionModel *model, int table, Vec3 stored, float *logs) {
     TablePlace at = {reflection_view(model, table), stored, stored, 0};
     at.local = reflection_view_local(&at.view, stored);
     at.beyond = reflection_read_logs(model, table, at.local, logs);
@@ -428,16 +400,14 @@ static TablePlace read_stored(const ReflectionModel *model, int table, Vec3 stor
 }
 
 /* The stored direction of the last ring at a place's azimuth. */
-static Vec3 ring_at(const TablePlace *at)
-{
+static Vec3 ring_at(const TablePlace *at) {
     double theta = acos_d(fmin(1, fmax(0, (double)at->local.z))) - (double)at->beyond;
     double phi = atan2_d((double)at->local.y, (double)at->local.x);
     return reflection_view_stored(&at->view, table_direction(theta, phi));
 }
 
 /* So far behind the last ring, as the tree sees it, that no triangle reaches back. */
-static bool is_far(const ReflectionModel *model, const TablePlace *at)
-{
+static bool is_far(const ReflectionModel *model, const TablePlace *at) {
     float edge = EDGE_CELLS * 0.5f * PI_F / (float)(1 << model->lattice.level);
     if (model->surface.stored.frame == PANEL_FRAME_SPECULAR || !(at->beyond > 0))
         return at->beyond > edge;
@@ -445,15 +415,13 @@ static bool is_far(const ReflectionModel *model, const TablePlace *at)
     return vec3_dot(chord, chord) > edge * edge;
 }
 
-static void read_place(ReflectionModel *model, int table, int place)
-{
-    float     *row = reflection_model_row(model, model->value, place, table);
+static void read_place(ReflectionModel *model, int table, int place) {
+    float *row = reflection_model_row(model, model->value, place, table);
     TablePlace at = read_stored(model, table, model->direction[place], row);
     model->is_free[(size_t)place * (size_t)model->tables + (size_t)table] = is_far(model, &at);
 }
 
-static void read_chunk(void *context, int item, int worker)
-{
+static void read_chunk(void *context, int item, int worker) {
     ReflectionModel *model = context;
     int last = (item + 1) * CHUNK < model->places ? (item + 1) * CHUNK : model->places;
     (void)worker;
@@ -461,21 +429,19 @@ static void read_chunk(void *context, int item, int worker)
         for (int i = item * CHUNK; i < last; i++) read_place(model, t, i);
 }
 
-void reflection_read_places(ReflectionModel *model, int level)
-{
+void reflection_read_places(ReflectionModel *model, int level) {
     model->lattice.level = level;
     model->geodesic = geodesic_create(level, model->arena);
     bool is_vertex = model->options->basis == FIT_VERTEX;
-    model->places = is_vertex ? (int)vertex_count(model->lattice)
-                            : model->lattice.octants << 2 * level;
+    model->places =
+        is_vertex ? (int)vertex_count(model->lattice) : model->lattice.octants << 2 * level;
     model->direction = ARENA_NEW(model->arena, Vec3, model->places);
     if (is_vertex) vertex_directions(model->lattice, model->direction);
     for (int i = 0; i < model->places && !is_vertex; i++)
         model->direction[i] = geodesic_center(level, (uint32_t)i);
     size_t rows = (size_t)model->places * (size_t)model->tables;
-    model->value = ARENA_NEW(model->arena, float, rows * (size_t)model->wavelengths);
+    model->value = ARENA_NEW(model->arena, float, rows *(size_t)model->wavelengths);
     model->is_free = ARENA_NEW(model->arena, bool, rows);
     model->tolerance = ARENA_NEW(model->arena, float, rows);
-    parallel_for(model->options->threads, (model->places + CHUNK - 1) / CHUNK, read_chunk,
-                 model);
+    parallel_for(model->options->threads, (model->places + CHUNK - 1) / CHUNK, read_chunk, model);
 }

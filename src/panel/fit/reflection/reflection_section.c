@@ -17,15 +17,15 @@
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_reflection_layout.h"
 
-#define INTEGRAL_ROOM 0.5   /* of the bound: what the integrals may move all values by */
-#define LOBE_SQUARE 42.25   /* of the distance over sigma: where queries end the lobe */
-#define ALBEDO_MOST 0.995   /* haze, lobe and mirror together */
+#define INTEGRAL_ROOM 0.5 /* of the bound: what the integrals may move all values by */
+#define LOBE_SQUARE 42.25 /* of the distance over sigma: where queries end the lobe */
+#define ALBEDO_MOST 0.995 /* haze, lobe and mirror together */
 #define ALBEDO_LEVEL 6
 #define LAMBERTIAN_QUANTILE 100 /* one row in so many is dimmer than the lambertian part */
 #define LAMBERTIAN_DEG 60.0     /* rows further from the normal do not count */
 #define NODES 7
 #define SIDES_MOST 8 /* azimuths of the light beyond the last incidence */
-#define FAR 1.13 /* radians: where measurements usually end before; else nodes are even */
+#define FAR 1.13     /* radians: where measurements usually end before; else nodes are even */
 
 /* The first stands for the last measured incidence. */
 static const double beyond_deg[NODES] = {0, 70, 75, 80, 84, 87, 89.5};
@@ -33,21 +33,25 @@ static const double beyond_deg[NODES] = {0, 70, 75, 80, 84, 87, 89.5};
 /* A section under construction, its parts writable. */
 typedef struct SectionDraft {
     PanelReflectionStored *stored;
-    ReflectionLayout       layout;
-    ReflectionSection     *out;
+    ReflectionLayout layout;
+    ReflectionSection *out;
 } SectionDraft;
 
-static float   *floats(const float *at)     { return (float *)(uintptr_t)at; }
-static int16_t *shorts(const int16_t *at)   { return (int16_t *)(uintptr_t)at; }
-static uint16_t *shares(const uint16_t *at) { return (uint16_t *)(uintptr_t)at; }
+static float *floats(const float *at) {
+    return (float *)(uintptr_t)at;
+}
+static int16_t *shorts(const int16_t *at) {
+    return (int16_t *)(uintptr_t)at;
+}
+static uint16_t *shares(const uint16_t *at) {
+    return (uint16_t *)(uintptr_t)at;
+}
 
-static int16_t stepped(double value, double scale)
-{
+static int16_t stepped(double value, double scale) {
     return (int16_t)fmax(-32767, fmin(32767, scale > 0 ? rint(value / scale) : 0));
 }
 
-static uint16_t share(double value)
-{
+static uint16_t share(double value) {
     return (uint16_t)rint(65535 * fmax(0, fmin(1, value)));
 }
 
@@ -55,16 +59,15 @@ static uint16_t share(double value)
 
 typedef struct IntegralPass {
     const ReflectionModel *model;
-    Tree                   tree;
-    double                *change; /* tables x wavelengths, of the logarithm */
-    double                *gain;   /* the same of the lobe, a factor */
+    Tree tree;
+    double *change; /* tables x wavelengths, of the logarithm */
+    double *gain;   /* the same of the lobe, a factor */
 } IntegralPass;
 
 /* The lobe of reflectance 1 at a row, sr^-1. */
-static double lobe_shape(const ReflectionModel *model, int table, Vec3 d)
-{
+static double lobe_shape(const ReflectionModel *model, int table, Vec3 d) {
     double theta = reflection_model_incidence(model, table),
- sigma = model->parts->lobe_sigma[table];
+           sigma = model->parts->lobe_sigma[table];
     double x = (double)d.x - sin_d(theta), y = (double)d.y, z = (double)d.z - cos_d(theta);
     double chord = x * x + y * y + z * z, square = chord * (1 + chord / 12) / (sigma * sigma);
     if (square > LOBE_SQUARE) return 0;
@@ -73,21 +76,20 @@ static double lobe_shape(const ReflectionModel *model, int table, Vec3 d)
 
 /* By what the lobe must be multiplied so that the sums of haze and lobe over the rows are those
  * of the table. */
-static void match_lobe(IntegralPass *pass, int t)
-{
+static void match_lobe(IntegralPass *pass, int t) {
     const ReflectionModel *model = pass->model;
-    const AngleTable      *kept = &model->parts->kept[t], *haze = &model->parts->haze[t];
-    double                 shape = 0, wanted[MEASUREMENT_WAVELENGTHS_MAX] = {0};
+    const AngleTable *kept = &model->parts->kept[t], *haze = &model->parts->haze[t];
+    double shape = 0, wanted[MEASUREMENT_WAVELENGTHS_MAX] = {0};
     for (int i = 0; i < kept->rows; i++) {
         double weight = table_row_weight(kept, i);
         size_t at = (size_t)i * (size_t)model->wavelengths;
         shape += weight * lobe_shape(model, t, table_row_direction(kept, i));
         for (int w = 0; w < model->wavelengths; w++)
-            wanted[w] += weight * (double)(kept->value[at + (size_t)w] -
-                                           haze->value[at + (size_t)w]);
+            wanted[w] +=
+                weight * (double)(kept->value[at + (size_t)w] - haze->value[at + (size_t)w]);
     }
     for (int w = 0; w < model->wavelengths; w++) {
-        int    i = t * model->wavelengths + w;
+        int i = t * model->wavelengths + w;
         double lobe = shape * model->parts->lobe[i], room = INTEGRAL_ROOM * model->bound;
         double gain = lobe > 0 ? wanted[w] / lobe : 1;
         pass->gain[i] = fmax(1 - room, fmin(1 + room, gain));
@@ -95,26 +97,25 @@ static void match_lobe(IntegralPass *pass, int t)
 }
 
 /* The change of a table's means by which its rows add up to the same as the haze. */
-static void match_integrals(void *context, int t, int worker)
-{
-    IntegralPass          *pass = context;
+static void match_integrals(void *context, int t, int worker) {
+    IntegralPass *pass = context;
     const ReflectionModel *model = pass->model;
-    const AngleTable      *table = &model->parts->haze[t];
+    const AngleTable *table = &model->parts->haze[t];
     double found[MEASUREMENT_WAVELENGTHS_MAX] = {0}, wanted[MEASUREMENT_WAVELENGTHS_MAX] = {0};
     double room = INTEGRAL_ROOM * model->bound;
     ReflectionView view = reflection_view(model, t);
     (void)worker;
     for (int i = 0; i < table->rows; i++) {
-        float  component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
-        Vec3   d = table_row_direction(table, i);
+        float component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
+        Vec3 d = table_row_direction(table, i);
         double weight = table_row_weight(table, i);
         double reference = reflection_view_reference(&view, d);
         tree_interpolate(&pass->tree, reflection_view_stored(&view, d), component);
         reflection_spectra_logs(model, t, component, logs);
         for (int w = 0; w < model->wavelengths; w++) {
             found[w] += weight * exp_d((double)logs[w]) * reference;
-            wanted[w] += weight * (double)table->value[(size_t)i * (size_t)model->wavelengths +
-                                                       (size_t)w];
+            wanted[w] +=
+                weight * (double)table->value[(size_t)i * (size_t)model->wavelengths + (size_t)w];
         }
     }
     if (model->parts->has_lobe) match_lobe(pass, t);
@@ -124,14 +125,12 @@ static void match_integrals(void *context, int t, int worker)
     }
 }
 
-static bool settle_integrals(ReflectionModel *model, Error *err)
-{
+static bool settle_integrals(ReflectionModel *model, Error *err) {
     IntegralPass pass = {.model = model};
     int count = model->tables * model->wavelengths;
     pass.change = ARENA_NEW(model->arena, double, count);
     pass.gain = ARENA_NEW(model->arena, double, count);
-    if (!tree_open(model->tree, tree_size(model->tree), model->geodesic,
-                   &pass.tree, err))
+    if (!tree_open(model->tree, tree_size(model->tree), model->geodesic, &pass.tree, err))
         return error_prefix(err, "reflection");
     parallel_for(model->options->threads, model->tables, match_integrals, &pass);
     for (int i = 0; i < count; i++) {
@@ -144,22 +143,20 @@ static bool settle_integrals(ReflectionModel *model, Error *err)
 /* ---- the lambertian part ----------------------------------------------------------------- */
 
 /* The level away from the peak: nearly the least value inside 60 degrees. */
-static double lambertian_of(const AngleTable *table, int wavelength, double *list)
-{
+static double lambertian_of(const AngleTable *table, int wavelength, double *list) {
     int count = 0;
     for (int i = 0; i < table->rows; i++)
         if ((double)table->theta[i] < radians_from_degrees(LAMBERTIAN_DEG))
-            list[count++] = (double)table->value[(size_t)i * (size_t)table->channels +
-                                                 (size_t)wavelength];
+            list[count++] =
+                (double)table->value[(size_t)i * (size_t)table->channels + (size_t)wavelength];
     if (!count) return 1e-12;
     sort_doubles(list, count);
     return fmax(1e-12, list[count / LAMBERTIAN_QUANTILE]);
 }
 
-static void fill_lambertian(const ReflectionModel *model, const SectionDraft *section)
-{
+static void fill_lambertian(const ReflectionModel *model, const SectionDraft *section) {
     for (int t = 0; t < model->tables; t++) {
-        Arena   scratch = *model->arena;
+        Arena scratch = *model->arena;
         double *list = ARENA_NEW(&scratch, double, model->parts->haze[t].rows), sum = 0;
         for (int w = 0; w < model->wavelengths; w++) {
             double value = lambertian_of(&model->parts->haze[t], w, list);
@@ -173,14 +170,12 @@ static void fill_lambertian(const ReflectionModel *model, const SectionDraft *se
 
 /* ---- the numbers of the fit -------------------------------------------------------------- */
 
-static double lobe_logarithm(const ReflectionModel *model, int table, int wavelength)
-{
+static double lobe_logarithm(const ReflectionModel *model, int table, int wavelength) {
     double r = model->parts->lobe[table * model->wavelengths + wavelength];
     return log_d(fmax(r, 1e-9) / reflection_model_fresnel(model, table));
 }
 
-static double largest_lobe(const ReflectionModel *model)
-{
+static double largest_lobe(const ReflectionModel *model) {
     double most = 1;
     for (int t = 0; t < model->tables; t++)
         for (int w = 0; w < model->wavelengths; w++)
@@ -188,8 +183,7 @@ static double largest_lobe(const ReflectionModel *model)
     return most;
 }
 
-static PanelReflectionStored head_of(const ReflectionModel *model)
-{
+static PanelReflectionStored head_of(const ReflectionModel *model) {
     double edge = 0.5 * PI, most = 30;
     for (int t = 0; t < model->tables; t++)
         edge = fmin(edge, (double)model->parts->haze[t].theta_max);
@@ -210,23 +204,21 @@ static PanelReflectionStored head_of(const ReflectionModel *model)
         .lobe_scale = model->parts->has_lobe ? (float)(largest_lobe(model) / 32767) : 0};
 }
 
-static void fill_axes(const ReflectionModel *model, const SectionDraft *section)
-{
+static void fill_axes(const ReflectionModel *model, const SectionDraft *section) {
     const ReflectionLayout *to = &section->layout;
     int incidences = model->set->incidence_count, n = 0;
     double last = model->set->incidence[incidences - 1];
-    for (int i = 0; i < incidences; i++)
-        floats(to->incidence)[i] = (float)model->set->incidence[i];
+    for (int i = 0; i < incidences; i++) floats(to->incidence)[i] = (float)model->set->incidence[i];
     for (int i = 0; i < section->stored->azimuths; i++)
-        floats(to->azimuth)[i] = (float)(section->stored->azimuths > 1 ? model->set->azimuth[i]
-                                                                       : 0);
+        floats(to->azimuth)[i] =
+            (float)(section->stored->azimuths > 1 ? model->set->azimuth[i] : 0);
     for (int i = 0; i < model->wavelengths; i++)
         floats(to->wavelength_nm)[i] = model->set->wavelength_nm[i];
     floats(to->node_theta)[n++] = (float)last;
     for (int i = 1; i < NODES; i++) {
         double theta = radians_from_degrees(beyond_deg[i]), room = 0.5 * PI - last;
         double spaced = last + room * i / (NODES - 0.9);
-        bool   is_usual = last < FAR && theta > last;
+        bool is_usual = last < FAR && theta > last;
         floats(to->node_theta)[n++] = (float)(is_usual ? theta : spaced);
     }
     for (int k = 0; k < model->coefficients; k++)
@@ -237,27 +229,24 @@ static void fill_axes(const ReflectionModel *model, const SectionDraft *section)
         floats(to->lobe_sigma)[t] = (float)model->parts->lobe_sigma[t];
 }
 
-static void fill_numbers(const ReflectionModel *model, const SectionDraft *section)
-{
+static void fill_numbers(const ReflectionModel *model, const SectionDraft *section) {
     const ReflectionLayout *to = &section->layout;
     int m = model->coefficients, n = model->components, wavelengths = model->wavelengths;
     for (int i = 0; i < model->tables * wavelengths; i++)
-        shorts(to->mean)[i] = stepped((double)model->mean[i],
-                                      (double)section->stored->mean_scale);
+        shorts(to->mean)[i] = stepped((double)model->mean[i], (double)section->stored->mean_scale);
     for (int i = 0; i < m * wavelengths; i++)
-        shorts(to->basis)[i] = stepped((double)model->basis[i],
-                                       (double)model->basis_scale[i / wavelengths]);
+        shorts(to->basis)[i] =
+            stepped((double)model->basis[i], (double)model->basis_scale[i / wavelengths]);
     for (int i = 0; i < model->tables * m * n; i++)
-        shorts(to->loading)[i] = stepped((double)model->loading[i],
-                                         (double)model->loading_scale[i % n]);
+        shorts(to->loading)[i] =
+            stepped((double)model->loading[i], (double)model->loading_scale[i % n]);
     for (int i = 0; i < model->tables * wavelengths && model->parts->has_lobe; i++)
         shorts(to->lobe)[i] = stepped(lobe_logarithm(model, i / wavelengths, i % wavelengths),
                                       (double)section->stored->lobe_scale);
 }
 
 /* Mirror reflectance, of the azimuths the mean. */
-static void fill_mirror(const ReflectionModel *model, const SectionDraft *section)
-{
+static void fill_mirror(const ReflectionModel *model, const SectionDraft *section) {
     int incidences = model->set->incidence_count, azimuths = section->stored->azimuths;
     for (int i = 0; i < incidences && model->parts->has_mirror; i++)
         for (int w = 0; w < model->wavelengths; w++) {
@@ -271,10 +260,8 @@ static void fill_mirror(const ReflectionModel *model, const SectionDraft *sectio
 /* ---- energy ------------------------------------------------------------------------------ */
 
 /* A query's view of the section as it stands. */
-static bool view_section(const ReflectionModel *model, const SectionDraft *section,
-                         Arena *arena,
-                         Panel *panel, Error *err)
-{
+static bool view_section(const ReflectionModel *model, const SectionDraft *section, Arena *arena,
+                         Panel *panel, Error *err) {
     const PanelSurfaceStored *surface = &model->surface.stored;
     PanelReflectionBytes sections = {
         {(const unsigned char *)section->stored, section->out->size, "panel", err},
@@ -289,51 +276,48 @@ static bool view_section(const ReflectionModel *model, const SectionDraft *secti
 
 typedef struct AlbedoPass {
     const ReflectionModel *model;
-    const Panel           *panel;
-    const SectionDraft    *section;
-    double                *albedo; /* items x wavelengths */
-    Vec3                  *direction;
-    double                *area;
-    int                    leaves;
+    const Panel *panel;
+    const SectionDraft *section;
+    double *albedo; /* items x wavelengths */
+    Vec3 *direction;
+    double *area;
+    int leaves;
 } AlbedoPass;
 
 /* Azimuths of the light at which an incidence beyond the last is looked at. */
-static int sides_of(const ReflectionModel *model)
-{
+static int sides_of(const ReflectionModel *model) {
     int azimuths = model->set->azimuth_count;
     return azimuths < 2 ? 1 : azimuths < SIDES_MOST ? azimuths : SIDES_MOST;
 }
 
 /* Where the light is of an item: tables first, then the nodes beyond the last incidence, side
  * after side. */
-static Vec3 light_of(const AlbedoPass *pass, int item)
-{
+static Vec3 light_of(const AlbedoPass *pass, int item) {
     const ReflectionModel *model = pass->model;
     if (item < model->tables) return reflection_model_light(model->set, item);
-    int    node = (item - model->tables) % NODES, side = (item - model->tables) / NODES;
+    int node = (item - model->tables) % NODES, side = (item - model->tables) / NODES;
     double theta = (double)pass->section->layout.node_theta[node] + 1e-5;
     return table_direction(theta, PI + 2 * PI * side / sides_of(model));
 }
 
-static void haze_albedo(void *context, int item, int worker)
-{
-    AlbedoPass            *pass = context;
+static void haze_albedo(void *context, int item, int worker) {
+    AlbedoPass *pass = context;
     const ReflectionModel *model = pass->model;
-    Vec3   wi = light_of(pass, item);
+    Vec3 wi = light_of(pass, item);
     double s = sqrt((double)(wi.x * wi.x + wi.y * wi.y)), theta = atan2_d(s, (double)wi.z);
-    float  ex = s > 1e-7 ? (float)((double)-wi.x / s) : 1;
-    float  ey = s > 1e-7 ? (float)((double)-wi.y / s) : 0;
+    float ex = s > 1e-7 ? (float)((double)-wi.x / s) : 1;
+    float ey = s > 1e-7 ? (float)((double)-wi.y / s) : 0;
     SpecularFrame frame = specular_frame((float)theta, 2);
     double *albedo = pass->albedo + item * model->wavelengths;
     (void)worker;
     for (int first = 0; first < model->wavelengths; first += SPECTRUM_LANES) {
         Wavelengths wavelengths = reflection_model_wavelengths(model->set, first);
         for (int i = 0; i < pass->leaves; i++) {
-            Vec3   d = specular_frame_outer(&frame, pass->direction[i]);
+            Vec3 d = specular_frame_outer(&frame, pass->direction[i]);
             double weight = pass->area[i] * fmax(0, (double)d.z) *
                             (double)specular_frame_jacobian(&frame, pass->direction[i]);
-            Spectrum f = panel_brdf(pass->panel, vec3(ex * d.x - ey * d.y, ey * d.x + ex * d.y,
-                                                      d.z), wi, &wavelengths);
+            Spectrum f = panel_brdf(
+                pass->panel, vec3(ex * d.x - ey * d.y, ey * d.x + ex * d.y, d.z), wi, &wavelengths);
             for (int k = 0; k < SPECTRUM_LANES && first + k < model->wavelengths; k++)
                 albedo[first + k] += weight * (double)f[k];
         }
@@ -341,9 +325,8 @@ static void haze_albedo(void *context, int item, int worker)
 }
 
 /* A node's is that of its brightest side. */
-static void take_brightest_side(const ReflectionModel *model, double *albedo)
-{
-    int     row = NODES * model->wavelengths;
+static void take_brightest_side(const ReflectionModel *model, double *albedo) {
+    int row = NODES * model->wavelengths;
     double *first = albedo + model->tables * model->wavelengths;
     for (int i = row; i < sides_of(model) * row; i++)
         first[i % row] = fmax(first[i % row], first[i]);
@@ -351,11 +334,9 @@ static void take_brightest_side(const ReflectionModel *model, double *albedo)
 
 /* Directional-hemispherical reflectance of the haze without the lobe: tables, then nodes. */
 static double *all_albedos(const ReflectionModel *model, const Panel *panel,
-                           const SectionDraft *section,
-                           Arena *arena)
-{
+                           const SectionDraft *section, Arena *arena) {
     AlbedoPass pass = {.model = model, .panel = panel, .section = section};
-    int  items = model->tables + NODES * sides_of(model), octants = model->lattice.octants;
+    int items = model->tables + NODES * sides_of(model), octants = model->lattice.octants;
     pass.albedo = ARENA_NEW(arena, double, items * model->wavelengths);
     pass.leaves = octants << 2 * ALBEDO_LEVEL;
     pass.direction = ARENA_NEW(arena, Vec3, pass.leaves);
@@ -371,39 +352,35 @@ static double *all_albedos(const ReflectionModel *model, const Panel *panel,
 
 /* The lobe's reflectance at an item: its own, and beyond the last incidence like Fresnel's. */
 static double lobe_albedo(const ReflectionModel *model, const SectionDraft *section, int item,
-                          int w)
-{
+                          int w) {
     int last = model->set->incidence_count - 1;
     if (!model->parts->has_lobe) return 0;
     if (item < model->tables) return model->parts->lobe[item * model->wavelengths + w];
     double theta = (double)section->layout.node_theta[item - model->tables];
-    return model->parts->lobe[last * model->wavelengths + w] *
-           reflection_fresnel(cos_d(theta)) / reflection_model_fresnel(model, last);
+    return model->parts->lobe[last * model->wavelengths + w] * reflection_fresnel(cos_d(theta)) /
+           reflection_model_fresnel(model, last);
 }
 
-static double mirror_albedo(const Panel *panel, const ReflectionModel *model, Vec3 light, int w)
-{
+static double mirror_albedo(const Panel *panel, const ReflectionModel *model, Vec3 light, int w) {
     Wavelengths wavelengths = reflection_model_wavelengths(model->set, w);
     return (double)panel_mirror(panel, light.z, &wavelengths)[0];
 }
 
 /* Writes albedos down, and holds haze, lobe and mirror at 1 in every table and node. */
 static void hold_energy(ReflectionModel *model, const Panel *panel, const SectionDraft *section,
-                        const double *albedo)
-{
+                        const double *albedo) {
     const ReflectionLayout *to = &section->layout;
     AlbedoPass where = {.model = model, .section = section};
     int n = model->wavelengths;
     for (int i = 0; i < (model->tables + NODES) * n; i++) {
-        int    item = i / n, w = i % n, node = i - model->tables * n;
+        int item = i / n, w = i % n, node = i - model->tables * n;
         double mirror = mirror_albedo(panel, model, light_of(&where, item), w);
         double lobe = lobe_albedo(model, section, item, w), haze = albedo[i];
         double room = fmax(0.01, ALBEDO_MOST - mirror), both = haze + lobe;
         double factor = both > room ? room / both : 1;
-        bool   is_table = item < model->tables;
+        bool is_table = item < model->tables;
         if (is_table)
-            section->out->largest_albedo =
-                fmax(section->out->largest_albedo, both + mirror);
+            section->out->largest_albedo = fmax(section->out->largest_albedo, both + mirror);
         if (is_table) shares(to->albedo)[i] = share(both * factor);
         else shares(to->node_albedo)[node] = share(both * factor);
         if (!is_table) shares(to->held)[node] = factor < 1 ? share(factor - 1e-5) : 65535;
@@ -415,8 +392,7 @@ static void hold_energy(ReflectionModel *model, const Panel *panel, const Sectio
 }
 
 static bool settle_energy(ReflectionModel *model, const SectionDraft *section, FitNotes *notes,
-                          Error *err)
-{
+                          Error *err) {
     Arena scratch = *model->arena;
     Panel panel = {0};
     if (!view_section(model, section, &scratch, &panel, err)) return false;
@@ -427,14 +403,15 @@ static bool settle_energy(ReflectionModel *model, const SectionDraft *section, F
     double *albedo = all_albedos(model, &panel, section, &scratch);
     hold_energy(model, &panel, section, albedo);
     if (section->out->largest_albedo > ALBEDO_MOST)
-        fit_note(notes, "directional-hemispherical reflectance reached %.4f in a table; held "
-                 "at %.3f", section->out->largest_albedo, ALBEDO_MOST);
+        fit_note(notes,
+                 "directional-hemispherical reflectance reached %.4f in a table; held "
+                 "at %.3f",
+                 section->out->largest_albedo, ALBEDO_MOST);
     return true;
 }
 
 bool reflection_section_write(ReflectionModel *model, FitNotes *notes, ReflectionSection *out,
-                              Error *err)
-{
+                              Error *err) {
     PanelReflectionStored head;
     SectionDraft section = {.out = out};
     if (!settle_integrals(model, err)) return false;
@@ -447,8 +424,7 @@ bool reflection_section_write(ReflectionModel *model, FitNotes *notes, Reflectio
     fill_numbers(model, &section);
     fill_lambertian(model, &section);
     fill_mirror(model, &section);
-    for (int i = 0; i < NODES * model->wavelengths; i++)
-        shares(section.layout.held)[i] = 65535;
+    for (int i = 0; i < NODES * model->wavelengths; i++) shares(section.layout.held)[i] = 65535;
     if (!settle_energy(model, &section, notes, err)) return false;
     fill_numbers(model, &section); /* again: energy may have lowered the means */
     return true;

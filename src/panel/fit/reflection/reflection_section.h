@@ -6,9 +6,9 @@
 
 typedef struct ReflectionSection {
     const void *bytes; /* PanelReflectionStored and what follows it */
-    size_t      size;
-    double      lambertian_y[MEASUREMENT_INCIDENCES_MAX]; /* luminous, of the first azimuth */
-    double      largest_albedo; /* before it was held at 1 */
+    size_t size;
+    double lambertian_y[MEASUREMENT_INCIDENCES_MAX]; /* luminous, of the first azimuth */
+    double largest_albedo;                           /* before it was held at 1 */
 } ReflectionSection;
 
 /* Means and lobe of the model change. */
