@@ -83,7 +83,7 @@ EXERCISES = {
          ("src/review/verdict.c", "c.height_arcmin = c.stroke_ratio =", "c.stroke_arcmin = "),
          ("src/review/run/cases.c", "    c->stroke_ratio = symbol_stroke_ratio(look->symbol);",
           "    c->stroke_arcmin = c->height_arcmin * symbol_stroke_ratio(look->symbol);\n"),
-         ("src/review/output/review_json.c", '    LATER("stroke_ratio", FIGURE,',
+         ("src/review/output/case_json.c", 'LATER("stroke_ratio", FIGURE,',
           '    LATER("stroke_arcmin", FIGURE, ReviewCase, stroke_arcmin),\n'),
          ("assets/schemas/json_answers.md", "`height_arcmin`, `stroke_ratio` (stroke",
           "`stroke_arcmin`, "),
