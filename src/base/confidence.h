@@ -11,10 +11,9 @@
  * Threads  pure functions.
  */
 #pragma once
-#define CONFIDENCE_MISS 0.05 /* chance that a 95 % interval does not hold the true value: */
-#define NORMAL_QUANTILE \
-    1.959963984540054 /* that a normal variable lies farther out, on either \
-                         side: erfc(z / sqrt 2) */
+#define CONFIDENCE_MISS 0.05 /* chance that a 95 % interval does not hold the true value */
+/* A normal variable lies farther out, on either side, with that chance: erfc(z / sqrt 2) */
+#define NORMAL_QUANTILE 1.959963984540054
 
 /* Power sums of batch means; every batch has the same number of samples. */
 typedef struct BatchSums {

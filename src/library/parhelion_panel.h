@@ -80,9 +80,8 @@ PARHELION_PANEL_API void parhelion_panel_close(ParhelionPanel *panel); /* NULL i
 #define PARHELION_PANEL_ANISOTROPIC 8u /* reflection depends on the azimuth of the light */
 #define PARHELION_PANEL_VARIES 16u     /* not the same at every place */
 #define PARHELION_PANEL_POLARISED 32u
-#define PARHELION_PANEL_HAS_ZONES \
-    64u /* local dimming: all answers are of a backlight that \
-           is full; what a picture makes of it is not told */
+/* Local dimming: all answers are of a full backlight, not of what a picture makes of it. */
+#define PARHELION_PANEL_HAS_ZONES 64u
 
 /* Numbers of what is absent are 0. */
 typedef struct ParhelionPanelInfo {

@@ -10,9 +10,8 @@
 #include "review/visibility_figure.h"
 
 #define ROOT_HALF 0.70710678118654752
-#define UNDECIDABLE_SHARE \
-    0.5 /* of what may be true: more is reported as what no paths \
-           decide */
+/* of what may be true: more is reported as what no paths decide */
+#define UNDECIDABLE_SHARE 0.5
 
 /* A figure with its 95 % interval. */
 typedef struct Figure {

@@ -23,9 +23,8 @@
 #include "base/vec.h"
 #include "light/lit_point.h"
 
-#define SUNLIT_LEVELS \
-    9 /* of quarters: 2^9 pixels along the square's side; where few are lit \
-         they are cut further */
+/* of quarters: 2^9 pixels along the square's side; where few are lit they are cut further */
+#define SUNLIT_LEVELS 9
 #define SUNLIT_SIDE (1 << SUNLIT_LEVELS)
 
 /* Four quarters side by side: the surfaces on which their rays end. Number k is the one of

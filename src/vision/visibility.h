@@ -27,9 +27,8 @@
 
 #define VISIBILITY_AGE_MIN 23.0 /* years */
 #define VISIBILITY_AGE_MAX 75.0
-#define VISIBILITY_AGE_JUMP \
-    64.0                            /* where AF falls from 1.9275 to 1.9009, though it should \
-                                       rise */
+/* where AF falls from 1.9275 to 1.9009, though it should rise */
+#define VISIBILITY_AGE_JUMP 64.0
 #define VISIBILITY_GLANCE_LONG 2.0  /* s: from here on the glance's time counts for nothing */
 #define VISIBILITY_SIZE_LARGE 60.0  /* arc minutes: whether TF holds above is open */
 #define VISIBILITY_DARKER_MIN 0.004 /* cd m^-2: no FCP is published up to here; 1 counts */

@@ -14,9 +14,8 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in 
 #define PANEL_MAGIC "PHPANEL\n"
 #define PANEL_VERSION 4u        /* of files that a reader of version 3 would misread */
 #define PANEL_VERSION_PLACES 5u /* of files with several spots or a map: one of 4 would too */
-#define PANEL_VERSION_ZONES \
-    6u                         /* of files with local dimming: older ones would show the \
-                                  black that a full backlight leaks */
+/* of files with local dimming: older ones would show the black that a full backlight leaks */
+#define PANEL_VERSION_ZONES 6u
 #define PANEL_VERSION_PLAIN 3u /* of all others, so that it can read them */
 #define PANEL_ALIGN 8          /* of sections, bytes */
 #define PANEL_SECTIONS_MAX 64

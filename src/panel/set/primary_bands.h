@@ -25,9 +25,8 @@ int primary_backlight_named(const char *name);
 /* All of them, with commas between. */
 const char *primary_backlight_names(Arena *arena);
 
-#define PRIMARY_BANDS_MISS \
-    1e-4                        /* delta u'v' of a colour that counts as reached; what lies \
-                                   beyond the spectrum's own locus is not */
+/* delta u'v' of a colour that counts as reached; beyond the spectrum's own locus none does */
+#define PRIMARY_BANDS_MISS 1e-4
 #define PRIMARY_BANDS_MOST 2e-3 /* further off the bands are not the display's */
 
 typedef struct PrimaryBands {

@@ -227,9 +227,8 @@ static void gaze_paths_places(const GazePaths *paths, double weight, double *pan
 #define LEAST 2048 /* whole paths */
 #define PILOT 1024
 #define REACH 32 /* estimate_plan.h */
-#define MIRRORS \
-    4             /* so many times as many by mirrors, at least: they take a third of the \
-                     time */
+/* so many times as many by mirrors, at least: they take a third of the time */
+#define MIRRORS 4
 #define UNMET 0.1 /* of all light there: what lamps may have that no path met */
 
 /* Paths of both kinds. */

@@ -45,9 +45,9 @@ typedef struct GazeImage {
     float share;
 } GazeImage;
 
-#define GAZE_IMAGES \
-    2 /* that a batch keeps of a figure: the first ones behind the first \
-         mirror, and as many behind others; they stand for all */
+/* that a batch keeps of a figure: the first ones behind the first mirror, and as many behind
+ * others; they stand for all */
+#define GAZE_IMAGES 2
 
 /* What a batch of paths found. */
 typedef struct GazeBatch {

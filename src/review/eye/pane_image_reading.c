@@ -110,10 +110,9 @@ static int mirroring_pane(const Scene *scene, const PathHistory *history) {
     return is_pane(scene, part_id) ? part_id : NO_ID;
 }
 
-#define GHOST_LEAST \
-    0.25 /* of how far the pane's thickness puts the ghost aside: what is nearer \
-            is the image itself. Between a cell's corners the place is known \
-            to a minute of arc of a curved pane */
+/* of how far the pane's thickness puts the ghost aside: what is nearer is the image itself.
+ * Between a cell's corners the place is known to a minute of arc of a curved pane */
+#define GHOST_LEAST 0.25
 
 /* m, across the rays: s = d sin 2t / sqrt(n^2 - sin^2 t) of a flat pane of thickness d; 0: it
  * has none of its own. The turn from the way in to the way out is 180 degrees less 2 t. */

@@ -52,10 +52,9 @@ typedef struct ReadingTools {
     int threads;
 } ReadingTools;
 
-#define READING_BATCHES \
-    ESTIMATE_BATCHES /* batches are alike and independent: each has a \
-                        seed of its own, its samples are well spread \
-                        among themselves */
+/* batches are alike and independent: each has a seed of its own, its samples are well spread among
+ * themselves */
+#define READING_BATCHES ESTIMATE_BATCHES
 
 typedef struct Reading {
     double reflected;                /* Y; of a luxmeter the illuminance */
@@ -69,12 +68,10 @@ typedef struct Reading {
     long paths;     /* that it was read from; a pilot's do not count */
 } Reading;
 
-#define READING_LEAST \
-    1024 /* paths of a reading that a pilot decides; twice its pilot's, \
-            at least */
-#define READING_ASKED_LEAST \
-    4096 /* with a question: light that only one path in hundreds finds \
-            must have been met */
+/* paths of a reading that a pilot decides; twice its pilot's, at least */
+#define READING_LEAST 1024
+/* with a question: light that only one path in hundreds finds must have been met */
+#define READING_ASKED_LEAST 4096
 
 Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                      Arena scratch);

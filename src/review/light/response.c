@@ -12,9 +12,8 @@
 
 #define WAVE 16 /* chunks that are traced before they are added, in order */
 #define PILOT 8 /* chunks that sample every triangle */
-#define NEAR \
-    1.2f /* widths of a triangle: what is sampled for a sun; one lies within, or \
-            more */
+/* widths of a triangle: what is sampled for a sun; one lies within, or more */
+#define NEAR 1.2f
 /* Later ones sample a cell that those found in every so manyth chunk: as many rays go out along
  * so many times as many paths, whose noise is greater than that of directions within a
  * triangle. */

@@ -36,9 +36,9 @@ typedef struct ResponseOptions {
 
 #define RESPONSE_CHUNK 16
 #define RESPONSE_GROUPS 16
-#define RESPONSE_CLASSES \
-    16 /* triangles that get light are sampled by the same paths where \
-          their numbers differ by a multiple of it, else by others */
+/* triangles that get light are sampled by the same paths where their numbers differ by a multiple
+ * of it, else by others */
+#define RESPONSE_CLASSES 16
 
 #define RESPONSE_SLABS 128
 

@@ -16,9 +16,8 @@
 #include "review/run/sweep_probes.h"
 
 #define FALSE_SUN_VEIL_CD_M2 10.0
-#define FALSE_SUN_NEAR_DEG \
-    1.0 /* nearer to the gaze it is looked at: it veils as if it stood \
-           there */
+/* nearer to the gaze it is looked at: it veils as if it stood there */
+#define FALSE_SUN_NEAR_DEG 1.0
 
 /* Adds what was found: of each eye the worst mirrors, FALSE_SUNS_LISTED at most. */
 #define FALSE_SUNS_LISTED 12

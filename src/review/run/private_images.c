@@ -13,9 +13,9 @@
 #define COARSE_PRECISION 0.05
 #define COARSE_PATHS 4096
 #define COARSE_SEED 0x70727669u
-#define PLACES \
-    61 /* of a cell, at which its emission is read: of a bar of 20 x 14 pixels \
-          the mean of all is then known to 1 in 10,000, by 16 to 6 in 1,000 */
+/* of a cell, at which its emission is read: of a bar of 20 x 14 pixels the mean of all is then
+ * known to 1 in 10,000, by 16 to 6 in 1,000 */
+#define PLACES 61
 #define SEARCH_BYTES ((size_t)1 << 32) /* of address space */
 
 /* As gaze_reading.c has them. */

@@ -17,9 +17,8 @@
 #include "review/suns/sweep_suns.h"
 
 #define WORST_READ 3 /* steps that are read again, at most */
-#define WORST_APART_DEG \
-    5.0                       /* the suns of two of them, at least: a response's angular \
-                                 resolution */
+/* the suns of two of them, at least: a response's angular resolution */
+#define WORST_APART_DEG 5.0
 #define REFINED 4             /* steps about which the worst is looked for, at most */
 #define REFINED_APART_DEG 3.0 /* the suns of two of them, at least */
 #define PICK_SEED 0x40000000u

@@ -124,9 +124,8 @@ static bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAr
 
 #define RESPONSE_PATHS 65536
 #define RESPONSE_PRECISION 0.004
-#define RESPONSE_PRECISION_VARIANT \
-    0.006 /* their worst is read by paths of its own; this is \
-             for how long they fail */
+/* their worst is read by paths of its own; this is for how long they fail */
+#define RESPONSE_PRECISION_VARIANT 0.006
 #define METER_PATHS 16384
 #define SUN_PATHS SYMBOL_POINTS /* of the first vertex: a lobe is narrower than a symbol */
 #define METER_SUN_PATHS 64

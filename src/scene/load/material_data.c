@@ -4,9 +4,8 @@
 #include "panel/query/panel_stated.h"
 
 #define NAMES_LISTED 12
-#define LAMP_CD_M2 \
-    0.25f /* less is no lamp: exporters write ambient terms of old formats (AC3D, \
-             OBJ) as 0.03 to 0.21 */
+/* less is no lamp: exporters write ambient terms of old formats (AC3D, OBJ) as 0.03 to 0.21 */
+#define LAMP_CD_M2 0.25f
 
 static bool is_one(const float rgb[3]) {
     return rgb[0] == 1 && rgb[1] == 1 && rgb[2] == 1;

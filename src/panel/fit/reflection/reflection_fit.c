@@ -37,9 +37,8 @@ typedef struct ReflectionMisses {
 #define TIGHTER 0.6      /* a miss makes the places around it so much more precise */
 #define TIGHTEST 0.2     /* of the bound, beyond what the components leave out: rounding */
 #define ROUNDS 5
-#define HOPELESS \
-    200 /* one miss in fewer samples: a finer level is required, not smaller \
-           steps */
+/* one miss in fewer samples: a finer level is required, not smaller steps */
+#define HOPELESS 200
 #define ATTEMPTS 8
 #define LOOSER 1.3f
 #define CHUNK 256

@@ -10,9 +10,8 @@
 
 #define WINDOW_FWHMS 6.0 /* rows nearer to the mirror direction than this are looked at */
 #define LOBE_FWHMS 3.0   /* the same for a lobe, whose haze need not follow the model so far */
-#define CORE_SHARE \
-    0.5                     /* where haze is less than this of the peak, the fitted haze replaces \
-                               what the subtraction leaves */
+/* where haze is less than this of the peak, the fitted haze replaces what the subtraction leaves */
+#define CORE_SHARE 0.5
 #define CORE_FWHMS 1.6      /* and so near to the mirror direction anyway */
 #define LEAST_PEAK 0.05     /* times the haze under it: less is no image */
 #define LOBE_REST 0.006     /* relative, rms: a lobe explains the data this well, or it is none */

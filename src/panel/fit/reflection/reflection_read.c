@@ -158,9 +158,9 @@ static bool reflection_reach_is_cone(const PanelReachStored *reach, float theta)
 #define LEAST_VALUE 1e-8 /* sr^-1 */
 #define EDGE_CELLS 3.0f  /* so far beyond it places still count: triangles reach across */
 #define CHUNK 512        /* places that one thread reads at a time */
-#define STEEPEST \
-    0.5f                  /* what a logarithm may change by beyond the last ring: held there at \
-                             once, its kink takes eight times the time of a fit to code */
+/* what a logarithm may change by beyond the last ring: held there at once, its kink takes eight
+ * times the time of a fit to code */
+#define STEEPEST 0.5f
 #define FILLED_SHARE 0.05 /* of a grid's cells: with more of them it is no grid */
 
 double reflection_read_least(const AngleTable *table) {
