@@ -17,6 +17,7 @@ import browser
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 sys.path[:0] = [os.path.join(ROOT, "tests", "image"), os.path.join(ROOT, "tests", "structure")]
+from gltf import Scene, png  # noqa: E402
 from report import Report  # noqa: E402
 from review import PANEL, Reviewer, dashboard, moment, request  # noqa: E402
 
@@ -215,13 +216,33 @@ CUT = ("[...document.querySelectorAll('.grid .wide')].filter(w=>w.scrollWidth>w.
        "w.getBoundingClientRect().right>innerWidth).length")
 
 
+def small_screen(place):
+    """Writes a dark display of 2 cm about the origin that faces +Z."""
+    scene = Scene()
+    bars = png(30, 30, [[255 if 10 <= x < 20 and 8 <= y < 22 else 0 for x in range(30)
+                         for _ in range(3)] for y in range(30)])
+    shown = scene.material("screen", extensions={"PARHELION_display": {
+        "panel": "ips.panel", "content": {"index": scene.image("image/png", bars)}}})
+    scene.quad(shown, [-0.01, -0.01, 0], [0.02, 0, 0], [0, 0.02, 0])
+    shutil.copy(PANEL, os.path.join(place, "ips.panel"))
+    scene.write(os.path.join(place, "dash.gltf"))
+
+
+def small_request(name, luminance, **members):
+    """The small screen, off, under a light of one luminance."""
+    return request(**{
+        "forward": [0, 0, -1], "precision": {"contrast": 0.2}, "levels": {"off": {"*": 0.0001}},
+        "conditions": [{**moment(name, type="constant", luminance=luminance), "level": "off"}],
+        **members})
+
+
 def check_unjudged(report, program, parhelion):
     """What cannot be judged: the first screen says what that is, why, and what to do."""
     with tempfile.TemporaryDirectory() as place:
-        reviewer, scene = glare.Reviewer(parhelion, place), Scene()
-        glare.screen(scene)
-        review = reviewer.review(scene, glare.request(
-            {"a bright day": 3000}, eyes={"who stands behind it": {"position_m": [0, 0, -3]}}))
+        small_screen(place)
+        _, review = Reviewer(parhelion, place).review(small_request(
+            "a bright day", 3000, eyes={"who stands behind it": {"position_m": [0, 0, -3]}}),
+            "out")
         report.claim(review["verdict"] == "cannot be judged", review["verdict"])
         index = os.path.join(place, "out", "index.html")
         with browser.Browser(program, "file://" + index, SCREEN) as page:
@@ -240,14 +261,13 @@ def check_names(report, program, parhelion):
     more = {"Fahrersitzhöhenverstellungsposition": 0.75, "Beifahrersitzlehnenposition": 0.85}
     for which in (eyes, {**eyes, **more}):
         with tempfile.TemporaryDirectory() as place:
-            reviewer, scene = glare.Reviewer(parhelion, place), Scene()
-            glare.screen(scene)
-            document = glare.request(
-                {"low sun from behind on the left": 30}, levels={"off": {"*": 1}},
+            small_screen(place)
+            document = small_request(
+                "low sun from behind on the left", 30, levels={"off": {"*": 1}},
                 eyes={name: {"position_m": [0, 0, z]} for name, z in which.items()},
                 symbols={name: {"display": "screen", "uv": [0.1, 0.1, 0.9, 0.9]}
                          for name in names})
-            reviewer.review(scene, document)
+            Reviewer(parhelion, place).review(document, "out")
             index = os.path.join(place, "out", "index.html")
             with browser.Browser(program, "file://" + index, SCREEN) as page:
                 report.claim(page.run(CUT) == 0, f"{len(which)} eyes: the grid is cut off")
