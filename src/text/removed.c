@@ -45,6 +45,7 @@ const RemovedWord removed_words[] = {
     {"explain", "-o",
      "--json has the rays as lists of points; a review's page draws them over "
      "the frame"},
+    {"explain", "--gltf", "--json has the rays as lists of points"},
     {"explain", "--outlook",
      "render --projection fisheye --eye X,Y,Z --look-at X,Y,Z shows what "
      "is seen from there"},
