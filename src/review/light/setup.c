@@ -125,6 +125,7 @@ bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, S
                 Error *err) {
     SceneOptions scene = scene_options(options, arena);
     *out = (Setup){.request = options->request,
+                   .moment_guide = options->means.moment_guide,
                    .condition = options->condition,
                    .tools = {.threads = options->means.threads},
                    .sensor_lux = (double)NAN};
@@ -338,11 +339,42 @@ Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Are
 #define TRAINING_HEIGHT 270
 #define TRAINING_DEG 60.0
 
+static bool has_same_files(const ReviewRequest *a, const ReviewRequest *b) {
+    if (a->scene_count != b->scene_count) return false;
+    for (int i = 0; i < a->scene_count; i++)
+        if (strcmp(a->scenes[i], b->scenes[i]) != 0) return false;
+    return true;
+}
+
+static bool has_same_lights(const GuideScene *a, const GuideScene *b) {
+    return a->light_count == b->light_count && a->lamp_count == b->lamp_count &&
+           memcmp(a->has, b->has, sizeof a->has) == 0;
+}
+
+static bool is_taken_over(const Setup *setup, const GuideScene *scene) {
+    const MomentGuide *moment = setup->moment_guide;
+    const ReviewChange *change = setup->request->change;
+    return moment && moment->request && moment->guide && change && !change->mirror &&
+           has_same_files(moment->request, setup->request) &&
+           has_same_lights(&moment->scene, scene);
+}
+
 void trained_guide_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena) {
+    GuideScene scene = train_guide_scene(&setup->context);
+    if (is_taken_over(setup, &scene)) {
+        setup->context.guide = setup->moment_guide->guide;
+        return;
+    }
+    bool is_left = setup->moment_guide && !setup->request->change;
     SceneCamera look =
         camera_look_at(eye, vec3_add(eye, towards), (float)radians_from_degrees(TRAINING_DEG));
     Camera camera = camera_from_scene(&look, TRAINING_WIDTH, TRAINING_HEIGHT);
     TrainOptions options = {setup->tools.kernel, setup->tools.threads, true};
     PathStatistics cost;
-    setup->context.guide = train_guide(&setup->context, &camera, &options, arena, &cost);
+    setup->context.guide = train_guide(&setup->context, &camera, &options,
+                                       is_left ? &setup->moment_guide->room : arena, &cost);
+    if (!is_left) return;
+    setup->moment_guide->request = setup->request;
+    setup->moment_guide->guide = setup->context.guide;
+    setup->moment_guide->scene = scene;
 }

@@ -9,11 +9,22 @@
  */
 #pragma once
 #include "base/problems.h"
+#include "guide/guide_file.h"
 #include "review/light/sky_table.h"
 #include "review/light/reading.h"
 #include "review/request/request.h"
 
 #define SETUP_BOUNCES 64
+
+/* The guide of a review's moment, which its variants take over: a guide directs paths and biases
+ * no reading, and readings with one guide have more of their noise in common, so that their
+ * difference is sharper than they are. */
+typedef struct MomentGuide {
+    Arena room;                   /* of the guide */
+    const ReviewRequest *request; /* NULL: there is none yet */
+    const LightGuide *guide;
+    GuideScene scene;
+} MomentGuide;
 
 typedef struct Setup {
     const ReviewRequest *request;
@@ -22,10 +33,11 @@ typedef struct Setup {
     Scene *scene;
     Bvh *bvh;
     PathContext context;
-    double sensor_lux;    /* NaN: no level follows the light */
-    double *scene_levels; /* the displays', before the condition's */
-    const char *identity; /* program and scene (render/identity.h), not its light */
-    const char *files;    /* hashes of those that the request names besides */
+    double sensor_lux;         /* NaN: no level follows the light */
+    double *scene_levels;      /* the displays', before the condition's */
+    const char *identity;      /* program and scene (render/identity.h), not its light */
+    const char *files;         /* hashes of those that the request names besides */
+    MomentGuide *moment_guide; /* NULL: nobody takes it over */
 } Setup;
 
 /* By what means: the same for all setups of a review. */
@@ -33,7 +45,8 @@ typedef struct SetupMeans {
     const char *root; /* --root, or NULL */
     SceneState state; /* scene.h's */
     int threads;
-    const char *isa; /* kernel.h's; NULL: the best */
+    const char *isa;           /* kernel.h's; NULL: the best */
+    MomentGuide *moment_guide; /* of a condition with variants; NULL: of its own each time */
 } SetupMeans;
 
 typedef struct SetupOptions {
@@ -113,9 +126,10 @@ bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, V
                       Error *err);
 
 /* Trains a guide for a setup's paths on a condition's light, before any of
- * them counts.
+ * them counts; a variant takes over that of the review's moment where both are of the same files
+ * and lights, and the vehicle is not mirrored.
  *
- * Memory   the guide comes from the arena.
+ * Memory   the guide comes from the arena, or lies in the moment's room.
  * Threads  starts its own; the same guide for any count. */
 
 /* For an eye, m, that looks towards what is judged. */
