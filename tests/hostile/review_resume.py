@@ -212,6 +212,12 @@ def check_strangers(work):
                           not os.path.exists(work.path("none")),
                           f"{what}: status {done.returncode}: {done.stderr}")
 
+    merged("nowhere", 3, "nowhere: cannot be opened: No such folder")
+    shutil.copytree(work.path("of suns"), work.path("cut"))
+    part = os.path.join(work.path("cut"), "conditions",
+                        os.listdir(os.path.join(work.path("cut"), "conditions"))[0])
+    os.truncate(part, os.path.getsize(part) // 2)
+    merged("cut", 3, "is cut off: has")
     for what, options, status, said in (
             ("of sse2", ("--isa", "sse2"), 5, "was made with sse2"),
             ("strict", ("--strict",), 3, "is of another review than")):

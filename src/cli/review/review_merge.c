@@ -90,6 +90,8 @@ static bool find_parts(const char *const *folders, int count, Arena *arena, Revi
     int room = 0;
     Lines *found = ARENA_NEW(arena, Lines, count);
     for (int i = 0; i < count; i++) {
+        if (!file_exists(folders[i]))
+            return error_at(err, ERROR_INPUT, folders[i], "", "cannot be opened: No such folder");
         found[i] =
             files_with(arena_format(arena, "%s/conditions", folders[i]), ".condition", arena);
         room += found[i].count;
