@@ -78,8 +78,8 @@ static Trial *cases_under(const Moment *m, const Profile *profile, unsigned seed
 
 static double contrast_at(const Moment *m, double reflected) {
     SymbolLook look = {&m->symbol->surface, &m->symbol->split, m->aim.eye, m->setup->tools.threads};
-    SymbolEmission shown =
-        symbol_emission(&look, setup_level(m->setup, m->symbol->display.display_id));
+    double level = (double)m->setup->scene->displays[m->symbol->display.display_id].level;
+    SymbolEmission shown = symbol_emission(&look, level);
     return luminance_contrast(shown.foreground_xyz[1], shown.background_xyz[1], reflected);
 }
 

@@ -261,7 +261,7 @@ static void open_first(Brute *b, const ReviewRequest *request, Problems *problem
     SymbolVisibility seen = symbol_visibility(surface, &b->setup.context, eye, is_visible);
     for (int i = 0; i < surface->point_count; i++)
         if (is_visible[i]) targets[b->aim.target_count++] = surface->points[i].position;
-    double level = setup_level(&b->setup, symbols[0].display.display_id);
+    double level = (double)b->setup.scene->displays[symbols[0].display.display_id].level;
     SymbolLook look = {surface, &symbols[0].split, eye, b->setup.tools.threads};
     SymbolEmission shown = symbol_emission(&look, level);
     b->shown[0] = seen.transmittance * shown.foreground_xyz[1];
