@@ -83,24 +83,43 @@ typedef struct MirrorSearch {
     void *user;
 } MirrorSearch;
 
-/* Where a mirror turns w, the direction from the point to it, into s, its normal lies along
- * h = s - w, on one side or the other. Over the node w stays within a chord of the direction to
- * its centre: sin beta = radius / distance, chord = 2 sin(beta / 2); and so does h. A leaning
- * facet's normal is off by no more than its slope. */
-static bool may_reflect(const MirrorNode *node, const MirrorSearch *asking) {
-    Vec3 to = vec3_sub(node->centre, asking->query->from);
+/* Over a ball the direction to a place of it, seen from `from`, stays within a chord of that to
+ * its centre: sin beta = radius / distance, chord = 2 sin(beta / 2). False: `from` may lie in
+ * it. */
+static bool look_at_ball(const MirrorNode *node, Vec3 from, Vec3 *towards, float *chord) {
+    Vec3 to = vec3_sub(node->centre, from);
     float far2 = vec3_dot(to, to), radius2 = node->radius * node->radius * 1.0001f;
-    if (!(far2 > radius2)) return true;
-    float chord2 = 2 * (1 - sqrtf(1 - radius2 / far2));
-    Vec3 h = vec3_along(asking->query->towards, to, -1 / sqrtf(far2));
+    if (!(far2 > radius2)) return false;
+    *chord = sqrtf(2 * (1 - sqrtf(1 - radius2 / far2)));
+    *towards = vec3_scale(to, 1 / sqrtf(far2));
+    return true;
+}
+
+/* Where a mirror turns w, the direction from the point to it, into s, towards the light, its
+ * normal lies along h = s - w, on one side or the other. h stays within the chords of w and s
+ * over the node. A leaning facet's normal is off by no more than its slope. */
+static bool may_reflect(const MirrorNode *node, const MirrorSearch *asking) {
+    const ReflectionLight *light = &asking->query->light;
+    Vec3 w, s;
+    float chord, chord_of_light;
+    if (!look_at_ball(node, asking->query->from, &w, &chord)) return true;
+    if (!light->is_near) {
+        s = light->at;
+    } else {
+        if (!look_at_ball(node, light->at, &s, &chord_of_light)) return true;
+        s = vec3_neg(s);
+        chord += chord_of_light;
+    }
+    Vec3 h = vec3_sub(s, w);
     float lean = asking->lean * node->alpha;
-    return may_be_normal(node, h, sqrtf(chord2) * (1 + lean) + lean * vec3_length(h) + 1e-5f);
+    return may_be_normal(node, h, chord * (1 + lean) + lean * vec3_length(h) + 1e-5f);
 }
 
 /* The point and the light lie on one side of a triangle that reflects. */
-static bool is_on_one_side(const MirrorTriangle *t, Vec3 from, Vec3 towards) {
+static bool is_on_one_side(const MirrorTriangle *t, Vec3 from, const ReflectionLight *light) {
     Vec3 n = vec3_cross(vec3_sub(t->position[1], t->position[0]),
                         vec3_sub(t->position[2], t->position[0]));
+    Vec3 towards = light->is_near ? vec3_sub(light->at, t->position[0]) : light->at;
     return vec3_dot(n, towards) * vec3_dot(n, vec3_sub(from, t->position[0])) > 0;
 }
 
@@ -113,10 +132,10 @@ static int leaning_points(const MirrorPatch *patch, const MirrorSearch *asking,
     float density = a2 / (PI_F * (a2 + m * m) * (a2 + m * m));
     MirrorTriangle leaning = reflection_leaning(
         &patch->corners, (Vec2){m * asking->direction.x, m * asking->direction.y});
-    int count = reflection_points_find(&leaning, query->from, query->towards, points);
+    int count = reflection_points_find(&leaning, query->from, &query->light, points);
     for (int i = 0; i < count; i++)
         points[i].spread =
-            reflection_slope_spread(&patch->corners, query->from, query->towards, &points[i]) /
+            reflection_slope_spread(&patch->corners, query->from, &query->light, &points[i]) /
             density;
     return count;
 }
@@ -124,10 +143,10 @@ static int leaning_points(const MirrorPatch *patch, const MirrorSearch *asking,
 static void find_on_patch(const MirrorPatch *patch, const MirrorSearch *asking) {
     const MirrorQuery *query = asking->query;
     ReflectionPoint points[REFLECTION_POINTS_MAX];
-    if (!is_on_one_side(&patch->corners, query->from, query->towards)) return;
+    if (!is_on_one_side(&patch->corners, query->from, &query->light)) return;
     int count = query->is_rough
                     ? leaning_points(patch, asking, points)
-                    : reflection_points_find(&patch->corners, query->from, query->towards, points);
+                    : reflection_points_find(&patch->corners, query->from, &query->light, points);
     for (int i = 0; i < count; i++) {
         const Vec2 *uv = patch->uv;
         float u = points[i].u, v = points[i].v, w = 1 - u - v;

@@ -73,7 +73,7 @@ typedef struct MirrorQuery {
     int part_id;
     bool is_rough; /* then by u, in [0, 1)^2, facets lean as GGX facets do */
     Vec3 from;     /* the point, m, scene */
-    Vec3 towards;  /* unit, to the light */
+    ReflectionLight light;
     Vec2 u;
 } MirrorQuery;
 
@@ -81,7 +81,7 @@ typedef struct MirrorQuery {
  * mirrors spread is solid angle seen from the point by area of slopes, over their density. */
 typedef void MirrorFound(void *user, uint32_t triangle, const ReflectionPoint *point);
 
-/* Finds all points of the part's mirrors that turn light from `towards` to the point, in an
+/* Finds all points of the part's mirrors that turn the light to the point, in an
  * order that the scene alone decides. Occlusion is not tested. Returns the number of nodes
  * that were visited. */
 uint32_t mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFound *found,

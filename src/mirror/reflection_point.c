@@ -1,28 +1,35 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* With d from the lit point to the mirror, n its normal of any length and s towards the light,
+/* With d from the lit point to the mirror, n its normal of any length and e towards the light,
  *
  *     F = (n.n) d - 2 (n.d) n
  *
- * is n.n times d mirrored at n, and a reflection is where F points along s: F.a = F.b = 0 for
- * a, b across s, and F.s > 0. Over a triangle d and n are linear in the barycentric weights, so
- * F is a cubic, whose ten Bernstein coefficients follow from the corners' d and n: for corners
- * i, j, k (i = j and so on allowed) by the blossom
+ * is n.n times d mirrored at n, and a reflection is where F points along e. Let c be the mean of
+ * the unit vectors along e and a, b across it: then it is where G = (F.(e x a), F.(e x b)) is 0,
+ * e.c > 0 and F.e > 0. Of a light far away e is c everywhere, and G is F's parts along b and a.
+ * Over a triangle d, n and e are linear in the barycentric weights, so F is a cubic and G, where
+ * the light is near, a quartic. F's ten Bernstein coefficients follow from the corners' d and n:
+ * for corners i, j, k (i = j and so on allowed) by the blossom
  *
  *     C_ijk = 1/3 sum over the three ways to split {i, j, k} into a pair p, q and a rest r of
- *             (n_p.n_q) d_r - (n_p.d_q + n_q.d_p) n_r.
+ *             (n_p.n_q) d_r - (n_p.d_q + n_q.d_p) n_r,
  *
- * Any smaller triangle in it, a patch, has corners and so coefficients of its own. Inside it F
+ * and G's fifteen likewise: the mean over the four ways to take e from one corner and C from the
+ * other three.
+ *
+ * Any smaller triangle in it, a patch, has corners and so coefficients of its own. Inside it G
  * is a weighted mean of them: where all have one sign there is no root (Farin, Curves and
  * Surfaces for CAGD, chapter 17). The derivative is such a mean of their differences; with P
- * the inverse of the derivative at the centre, q = max |P dF - 1| over the differences bounds
+ * the inverse of the derivative at the centre, q = max |P dG - 1| over the differences bounds
  * how far the patch is from linear. A small q means at most one root: it lies within q times
  * the patch of where the first of Newton's steps ends, and the steps, held in the patch, reach
  * it. Other patches are cut in four.
  *
- * Spread, with N the cross product of the edges and ' for derivatives by (u, v): the light's
- * direction is F / |F| with |F| = (n.n) |d|, so |ds'| = |det (F.a, F.b)'| / |F|^2, while the
+ * Spread, with N the cross product of the edges and ' for derivatives by (u, v). Far away, the
+ * light's direction is F / |F| with |F| = (n.n) |d|, so |ds'| = |det G'| / |F|^2, while the
  * point sees |dw'| = |N.d| / |d|^3. Their quotient is |N.d| (n.n)^2 / (|d| |det|).
- */
+ * Near: a step dx of the lit point across d changes F by -(n.n) times dx mirrored, and so G by
+ * an area (n.n)^2 |e| (e.c) a unit area; the light sees |N.e| / |e|^3. So a source of one
+ * candela makes |N.e| (n.n)^2 (e.c) / (|e|^2 |det|) lux there. */
 #include "mirror/reflection_point.h"
 
 #include <stdint.h>
@@ -34,8 +41,12 @@
 #define STEPS_MAX 16
 #define FARTHEST 0.75 /* corner from the centre, in u and v */
 #define ON_ROOT 1e-9  /* of the patch: the last step's length */
-#define BERNSTEIN 10
-#define DIFFERENCES 6
+#define ALONG \
+    (1 - 1e-9)          /* cosine between F and e at a root; G is 0, too, where e lies across c \
+                         */
+#define NO_NORMAL 1e-10 /* squared, of the corners': opposite ones leave none there */
+#define CUBIC 10        /* coefficients over a triangle */
+#define QUARTIC 15
 
 typedef struct D2 {
     double a, b;
@@ -48,7 +59,7 @@ typedef struct Slope {
 
 typedef struct PatchCorner {
     double u, v; /* in the whole triangle */
-    D3 d, n;
+    D3 d, n, e;
 } PatchCorner;
 
 typedef struct Patch {
@@ -56,7 +67,8 @@ typedef struct Patch {
 } Patch;
 
 typedef struct Search {
-    D3 across[2], towards; /* a, b, s */
+    bool is_near;
+    D3 across[2], towards; /* a, b, c */
     Patch whole;
     ReflectionPoint *out;
     int count;
@@ -78,110 +90,167 @@ static D3 interpolate(D3 a, D3 b, D3 c, double u, double v) {
     return d3_along(d3_along(a, d3_sub(b, a), u), d3_sub(c, a), v);
 }
 
-/* F.a and F.b, and the terms that they come from. */
+/* G, and the terms that it comes from. */
 typedef struct Value {
-    D2 f;
-    D3 d, n;
+    D2 g;
+    D3 d, n, e, f;
     double nn, nd;
 } Value;
+
+/* f along the two axes that `along`, e or its derivative, has across the light. */
+static D2 across(const Search *search, D3 f, D3 along) {
+    if (!search->is_near) return (D2){d3_dot(f, search->across[0]), d3_dot(f, search->across[1])};
+    return (D2){d3_dot(f, d3_cross(along, search->across[0])),
+                d3_dot(f, d3_cross(along, search->across[1]))};
+}
 
 static Value value_at(const Search *search, const Patch *patch, double u, double v) {
     const PatchCorner *c = patch->corner;
     Value at = {.d = interpolate(c[0].d, c[1].d, c[2].d, u, v),
-                .n = interpolate(c[0].n, c[1].n, c[2].n, u, v)};
+                .n = interpolate(c[0].n, c[1].n, c[2].n, u, v),
+                .e = interpolate(c[0].e, c[1].e, c[2].e, u, v)};
     at.nn = d3_dot(at.n, at.n);
     at.nd = d3_dot(at.n, at.d);
-    D3 f = d3_along((D3){at.nn * at.d.x, at.nn * at.d.y, at.nn * at.d.z}, at.n, -2 * at.nd);
-    at.f = (D2){d3_dot(f, search->across[0]), d3_dot(f, search->across[1])};
+    at.f = d3_along((D3){at.nn * at.d.x, at.nn * at.d.y, at.nn * at.d.z}, at.n, -2 * at.nd);
+    at.g = across(search, at.f, at.e);
     return at;
 }
 
-/* dF = 2 (n.n') d + (n.n) d' - 2 (n'.d + n.d') n - 2 (n.d) n' along one edge. */
-static D2 derivative(const Search *search, const Value *at, D3 edge_d, D3 edge_n) {
+/* dF = 2 (n.n') d + (n.n) d' - 2 (n'.d + n.d') n - 2 (n.d) n' along the edge between corners
+ * 0 and k, and G's from it. */
+static D2 derivative(const Search *search, const Patch *patch, const Value *at, int k) {
+    const PatchCorner *from = &patch->corner[0], *to = &patch->corner[k];
+    D3 edge_d = d3_sub(to->d, from->d), edge_n = d3_sub(to->n, from->n);
     double shrink = 2 * d3_dot(at->n, edge_n);
     double turn = 2 * (d3_dot(edge_n, at->d) + d3_dot(at->n, edge_d));
     D3 f = {shrink * at->d.x, shrink * at->d.y, shrink * at->d.z};
     f = d3_along(d3_along(d3_along(f, edge_d, at->nn), at->n, -turn), edge_n, -2 * at->nd);
-    return (D2){d3_dot(f, search->across[0]), d3_dot(f, search->across[1])};
+    D2 g = across(search, f, at->e);
+    if (!search->is_near) return g;
+    D2 by_light = across(search, at->f, d3_sub(to->e, from->e));
+    return (D2){g.a + by_light.a, g.b + by_light.b};
 }
 
 static Slope slope_at(const Search *search, const Patch *patch, const Value *at) {
-    const PatchCorner *c = patch->corner;
-    return (Slope){derivative(search, at, d3_sub(c[1].d, c[0].d), d3_sub(c[1].n, c[0].n)),
-                   derivative(search, at, d3_sub(c[2].d, c[0].d), d3_sub(c[2].n, c[0].n))};
+    return (Slope){derivative(search, patch, at, 1), derivative(search, patch, at, 2)};
 }
 
-/* ---- Bernstein coefficients -------------------------------------------------------------- */
+/* ---- Bernstein coefficients --------------------------------------------------------------
+ *
+ * That of so many times corners 0, 1 and 2 stands at place_of. */
 
-enum { C000, C111, C222, C001, C011, C112, C122, C022, C002, C012 };
+static int place_of(int ones, int twos) {
+    return (ones + twos) * (ones + twos + 1) / 2 + twos;
+}
 
-static void coefficients(const Search *search, const Patch *patch, D2 out[BERNSTEIN]) {
-    static const uint8_t corners[BERNSTEIN][3] = {
-        [C000] = {0, 0, 0}, [C111] = {1, 1, 1}, [C222] = {2, 2, 2}, [C001] = {0, 0, 1},
-        [C011] = {0, 1, 1}, [C112] = {1, 1, 2}, [C122] = {1, 2, 2}, [C022] = {0, 2, 2},
-        [C002] = {0, 0, 2}, [C012] = {0, 1, 2}};
-    const PatchCorner *c = patch->corner;
+/* Of each coefficient its corners, three of a cubic, four of a quartic. */
+static const uint8_t CORNERS3[CUBIC][3] = {{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 1, 1}, {0, 1, 2},
+                                           {0, 2, 2}, {1, 1, 1}, {1, 1, 2}, {1, 2, 2}, {2, 2, 2}};
+static const uint8_t CORNERS4[QUARTIC][4] = {{0, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 2}, {0, 0, 1, 1},
+                                             {0, 0, 1, 2}, {0, 0, 2, 2}, {0, 1, 1, 1}, {0, 1, 1, 2},
+                                             {0, 1, 2, 2}, {0, 2, 2, 2}, {1, 1, 1, 1}, {1, 1, 1, 2},
+                                             {1, 1, 2, 2}, {1, 2, 2, 2}, {2, 2, 2, 2}};
+
+/* weights[i]: of d of corner i, of n of corner i; F's coefficients are sums of these. */
+typedef struct CubicTerms {
     double nn[3][3], nd[3][3];
+} CubicTerms;
+
+static CubicTerms cubic_terms(const PatchCorner *c) {
+    CubicTerms t;
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k <= i; k++) {
+            t.nn[i][k] = t.nn[k][i] = d3_dot(c[i].n, c[k].n) * (1.0 / 3);
+            t.nd[i][k] = t.nd[k][i] = (d3_dot(c[i].n, c[k].d) + d3_dot(c[k].n, c[i].d)) * (1.0 / 3);
+        }
+    return t;
+}
+
+/* G of a light far away: F's parts across it. */
+static int far_coefficients(const Search *search, const PatchCorner *c, D2 *out) {
+    CubicTerms t = cubic_terms(c);
     D2 d[3], n[3];
     for (int i = 0; i < 3; i++) {
-        d[i] = (D2){d3_dot(c[i].d, search->across[0]), d3_dot(c[i].d, search->across[1])};
-        n[i] = (D2){d3_dot(c[i].n, search->across[0]), d3_dot(c[i].n, search->across[1])};
-        for (int k = 0; k <= i; k++) {
-            nn[i][k] = nn[k][i] = d3_dot(c[i].n, c[k].n) * (1.0 / 3);
-            nd[i][k] = nd[k][i] = (d3_dot(c[i].n, c[k].d) + d3_dot(c[k].n, c[i].d)) * (1.0 / 3);
-        }
+        d[i] = across(search, c[i].d, c[i].e);
+        n[i] = across(search, c[i].n, c[i].e);
     }
-    for (int m = 0; m < BERNSTEIN; m++) {
+    for (int m = 0; m < CUBIC; m++) {
         out[m] = (D2){0, 0};
         for (int rest = 0; rest < 3; rest++) {
-            int p = corners[m][(rest + 1) % 3], q = corners[m][(rest + 2) % 3],
-                r = corners[m][rest];
-            out[m].a += nn[p][q] * d[r].a - nd[p][q] * n[r].a;
-            out[m].b += nn[p][q] * d[r].b - nd[p][q] * n[r].b;
+            int p = CORNERS3[m][(rest + 1) % 3], q = CORNERS3[m][(rest + 2) % 3];
+            int r = CORNERS3[m][rest];
+            out[m].a += t.nn[p][q] * d[r].a - t.nd[p][q] * n[r].a;
+            out[m].b += t.nn[p][q] * d[r].b - t.nd[p][q] * n[r].b;
         }
     }
+    return CUBIC;
+}
+
+static int near_coefficients(const Search *search, const PatchCorner *c, D2 *out) {
+    CubicTerms t = cubic_terms(c);
+    D3 f[CUBIC], a[3], b[3];
+    for (int m = 0; m < CUBIC; m++) {
+        f[m] = (D3){0, 0, 0};
+        for (int rest = 0; rest < 3; rest++) {
+            int p = CORNERS3[m][(rest + 1) % 3], q = CORNERS3[m][(rest + 2) % 3];
+            int r = CORNERS3[m][rest];
+            f[m] = d3_along(d3_along(f[m], c[r].d, t.nn[p][q]), c[r].n, -t.nd[p][q]);
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        a[i] = d3_cross(c[i].e, search->across[0]);
+        b[i] = d3_cross(c[i].e, search->across[1]);
+    }
+    for (int m = 0; m < QUARTIC; m++) {
+        out[m] = (D2){0, 0};
+        for (int k = 0; k < 4; k++) {
+            int taken = CORNERS4[m][k], ones = 0, twos = 0;
+            for (int i = 0; i < 4; i++) {
+                ones += i != k && CORNERS4[m][i] == 1;
+                twos += i != k && CORNERS4[m][i] == 2;
+            }
+            const D3 *left = &f[place_of(ones, twos)];
+            out[m].a += 0.25 * d3_dot(*left, a[taken]);
+            out[m].b += 0.25 * d3_dot(*left, b[taken]);
+        }
+    }
+    return QUARTIC;
 }
 
 /* All of one sign in a or in b; or all zero: then the point lies on a focus, the whole patch
  * sends its light there, and no single point of it does. */
-static bool has_no_root(const D2 c[BERNSTEIN], double size) {
+static bool has_no_root(const D2 *c, int count, double size) {
     int above[2] = {0}, below[2] = {0}, something = 0;
-    for (int m = 0; m < BERNSTEIN; m++) {
+    for (int m = 0; m < count; m++) {
         above[0] += c[m].a > 0;
         above[1] += c[m].b > 0;
         below[0] += c[m].a < 0;
         below[1] += c[m].b < 0;
         something += c[m].a * c[m].a + c[m].b * c[m].b > size * size * 1e-20;
     }
-    return above[0] == BERNSTEIN || above[1] == BERNSTEIN || below[0] == BERNSTEIN ||
-           below[1] == BERNSTEIN || !something;
+    return above[0] == count || above[1] == count || below[0] == count || below[1] == count ||
+           !something;
 }
 
-static D2 tripled_difference(D2 a, D2 b) {
-    return (D2){3 * (a.a - b.a), 3 * (a.b - b.b)};
+static D2 times_difference(int degree, D2 a, D2 b) {
+    return (D2){degree * (a.a - b.a), degree * (a.b - b.b)};
 }
 
-/* Coefficients of the derivative, which is quadratic. */
-static void differences(const D2 c[BERNSTEIN], Slope out[DIFFERENCES]) {
-    static const uint8_t by[DIFFERENCES][4] = {{C001, C000, C002, C000}, {C111, C011, C112, C011},
-                                               {C122, C022, C222, C022}, {C011, C001, C012, C001},
-                                               {C112, C012, C122, C012}, {C012, C002, C022, C002}};
-    for (int i = 0; i < DIFFERENCES; i++)
-        out[i] = (Slope){tripled_difference(c[by[i][0]], c[by[i][1]]),
-                         tripled_difference(c[by[i][2]], c[by[i][3]])};
-}
-
-/* The greatest |P dF - 1|; infinite where there is no P. */
-static double nonlinearity(const D2 c[BERNSTEIN], const Slope *centre) {
-    Slope steps[DIFFERENCES];
+/* The greatest |P dG - 1| over the derivative's coefficients, G's differences; infinite where
+ * there is no P. */
+static double nonlinearity(const D2 *c, int count, const Slope *centre) {
+    int degree = count == CUBIC ? 3 : 4;
     double det = determinant(centre), worst = 0;
-    differences(c, steps);
-    for (int i = 0; i < DIFFERENCES; i++) {
-        D2 u = unsloped(centre, det, steps[i].by_u), v = unsloped(centre, det, steps[i].by_v);
-        double off = (u.a - 1) * (u.a - 1) + u.b * u.b + v.a * v.a + (v.b - 1) * (v.b - 1);
-        if (!(off < 1e6)) return INFINITY;
-        worst = off > worst ? off : worst;
-    }
+    for (int ones = 0; ones < degree; ones++)
+        for (int twos = 0; ones + twos < degree; twos++) {
+            D2 here = c[place_of(ones, twos)];
+            D2 by_u = times_difference(degree, c[place_of(ones + 1, twos)], here);
+            D2 by_v = times_difference(degree, c[place_of(ones, twos + 1)], here);
+            D2 u = unsloped(centre, det, by_u), v = unsloped(centre, det, by_v);
+            double off = (u.a - 1) * (u.a - 1) + u.b * u.b + v.a * v.a + (v.b - 1) * (v.b - 1);
+            if (!(off < 1e6)) return INFINITY;
+            worst = off > worst ? off : worst;
+        }
     return sqrt(worst);
 }
 
@@ -206,13 +275,17 @@ static bool newton(const Search *search, const Patch *patch, double *u, double *
         Value at = value_at(search, patch, *u, *v);
         Slope slope = slope_at(search, patch, &at);
         double was_u = *u, was_v = *v;
-        step = unsloped(&slope, determinant(&slope), at.f);
+        step = unsloped(&slope, determinant(&slope), at.g);
         *u -= step.a;
         *v -= step.b;
         hold(u, v);
         if (*u == was_u && *v == was_v) break;
     }
     return step.a * step.a + step.b * step.b < ON_ROOT * ON_ROOT;
+}
+
+static double length(D3 a) {
+    return sqrt(d3_dot(a, a));
 }
 
 static void keep(Search *search, const Patch *patch, double u, double v) {
@@ -222,18 +295,22 @@ static void keep(Search *search, const Patch *patch, double u, double v) {
     Value at = value_at(search, &search->whole, at_u, at_v);
     Slope slope = slope_at(search, &search->whole, &at);
     D3 edges = d3_cross(d3_sub(whole[1].d, whole[0].d), d3_sub(whole[2].d, whole[0].d));
-    double along =
-        at.nn * d3_dot(at.d, search->towards) - 2 * at.nd * d3_dot(at.n, search->towards);
-    double spread = fabs(d3_dot(edges, at.d)) * at.nn * at.nn /
-                    (sqrt(d3_dot(at.d, at.d)) * fabs(determinant(&slope)));
-    if (!(along > 0) || !(spread < 1e30) || search->count == REFLECTION_POINTS_MAX) return;
+    double det = fabs(determinant(&slope)), spread;
+    double ahead = fabs(d3_dot(at.e, search->towards));
+    if (search->is_near)
+        spread = fabs(d3_dot(edges, at.e)) * at.nn * at.nn * ahead / (d3_dot(at.e, at.e) * det);
+    else spread = fabs(d3_dot(edges, at.d)) * at.nn * at.nn / (length(at.d) * det);
+    if (!(at.nn > NO_NORMAL * d3_dot(whole[0].n, whole[0].n)) ||
+        !(d3_dot(at.f, at.e) > ALONG * length(at.f) * length(at.e)) || !(spread < 1e30) ||
+        search->count == REFLECTION_POINTS_MAX)
+        return;
     search->out[search->count++] = (ReflectionPoint){(float)at_u, (float)at_v, (float)spread};
 }
 
 static PatchCorner middle(const PatchCorner *a, const PatchCorner *b) {
-    return (PatchCorner){0.5 * (a->u + b->u), 0.5 * (a->v + b->v),
-                         interpolate(a->d, b->d, a->d, 0.5, 0),
-                         interpolate(a->n, b->n, a->n, 0.5, 0)};
+    return (PatchCorner){
+        0.5 * (a->u + b->u), 0.5 * (a->v + b->v), interpolate(a->d, b->d, a->d, 0.5, 0),
+        interpolate(a->n, b->n, a->n, 0.5, 0), interpolate(a->e, b->e, a->e, 0.5, 0)};
 }
 
 static void search_patch(Search *search, const Patch *patch, int depth);
@@ -246,34 +323,52 @@ static void search_quarters(Search *search, const Patch *patch, int depth) {
     for (int i = 0; i < 4; i++) search_patch(search, &quarters[i], depth + 1);
 }
 
+/* The axes follow the patch: the light's direction may turn by much over a large triangle. */
+static void set_axes(Search *search, const Patch *patch) {
+    D3 c = {0, 0, 0};
+    for (int i = 0; i < 3; i++) c = d3_along(c, patch->corner[i].e, 1 / length(patch->corner[i].e));
+    Frame frame = frame_from_z(vec3_normalize(vec3((float)c.x, (float)c.y, (float)c.z)));
+    search->across[0] = d3_of(frame.x);
+    search->across[1] = d3_of(frame.y);
+    search->towards = d3_of(frame.z);
+}
+
 static void search_patch(Search *search, const Patch *patch, int depth) {
     const double third = 1.0 / 3;
-    D2 c[BERNSTEIN];
+    D2 c[QUARTIC];
+    if (search->is_near) set_axes(search, patch);
     Value centre = value_at(search, patch, third, third);
-    coefficients(search, patch, c);
-    if (has_no_root(c, centre.nn * sqrt(d3_dot(centre.d, centre.d)))) return;
+    int count = search->is_near ? near_coefficients(search, patch->corner, c)
+                                : far_coefficients(search, patch->corner, c);
+    if (has_no_root(c, count, centre.nn * length(centre.d) * length(centre.e))) return;
     Slope slope = slope_at(search, patch, &centre);
-    double q = nonlinearity(c, &slope);
+    double q = nonlinearity(c, count, &slope);
     if (q > NEARLY_LINEAR) {
         if (depth < DEPTH_MAX) search_quarters(search, patch, depth);
         return;
     }
-    D2 step = unsloped(&slope, determinant(&slope), centre.f);
+    D2 step = unsloped(&slope, determinant(&slope), centre.g);
     double u = third - step.a, v = third - step.b, reach = q * FARTHEST + ON_ROOT;
     if (u < -reach || v < -reach || u + v > 1 + 2 * reach) return;
     hold(&u, &v);
     if (newton(search, patch, &u, &v)) keep(search, patch, u, v);
 }
 
-int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, Vec3 towards,
+int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, const ReflectionLight *light,
                            ReflectionPoint out[REFLECTION_POINTS_MAX]) {
-    Frame frame = frame_from_z(towards);
-    Search search = {{d3_of(frame.x), d3_of(frame.y)}, d3_of(towards), .out = out};
-    D3 origin = d3_of(from);
-    for (int i = 0; i < 3; i++)
+    Search search = {.is_near = light->is_near, .out = out};
+    D3 origin = d3_of(from), at = d3_of(light->at);
+    for (int i = 0; i < 3; i++) {
+        D3 position = d3_of(triangle->position[i]);
         search.whole.corner[i] =
-            (PatchCorner){i == 1, i == 2, d3_sub(d3_of(triangle->position[i]), origin),
-                          d3_of(triangle->normal[i])};
+            (PatchCorner){i == 1, i == 2, d3_sub(position, origin), d3_of(triangle->normal[i]),
+                          light->is_near ? d3_sub(at, position) : at};
+    }
+    if (!light->is_near) {
+        Frame frame = frame_from_z(light->at);
+        search.across[0] = d3_of(frame.x);
+        search.across[1] = d3_of(frame.y);
+    }
     Patch whole = search.whole;
     search_patch(&search, &whole, 0);
     return search.count;
@@ -295,18 +390,19 @@ MirrorTriangle reflection_leaning(const MirrorTriangle *triangle, Vec2 slope) {
     return leaning;
 }
 
-/* The half vector h = s - w, w = d / |d|, from which slopes follow: g = h / h.z in the frame,
- * slope = n.z (g.x, g.y) - (n.x, n.y). */
+/* The half vector h = s - w, w = d / |d|, s towards the light, from which slopes follow: g =
+ * h / h.z in the frame, slope = n.z (g.x, g.y) - (n.x, n.y). */
 typedef struct HalfWay {
     D3 x, y, z; /* the frame */
-    D3 d, n, w, h;
-    double distance;
+    D3 d, n, w, s, h;
+    double distance, to_light; /* m; infinite of a light far away */
 } HalfWay;
 
-/* dh = -(d' - w (w.d')) / |d|, dg = (dh - g dh.z) / h.z. */
+/* dh = -(d' - w (w.d')) / |d| - (d' - s (s.d')) / |e|, dg = (dh - g dh.z) / h.z. */
 static D2 slope_derivative(const HalfWay *at, D3 edge_d, D3 edge_n) {
     D3 none = {0, 0, 0}, dh = d3_along(edge_d, at->w, -d3_dot(at->w, edge_d));
-    dh = d3_along(none, dh, -1 / at->distance);
+    D3 ds = d3_along(edge_d, at->s, -d3_dot(at->s, edge_d));
+    dh = d3_along(d3_along(none, dh, -1 / at->distance), ds, -1 / at->to_light);
     double hz = d3_dot(at->h, at->z), nz = d3_dot(at->n, at->z);
     double dhz = d3_dot(dh, at->z), dnz = d3_dot(edge_n, at->z);
     double gx = d3_dot(at->h, at->x) / hz, gy = d3_dot(at->h, at->y) / hz;
@@ -315,10 +411,10 @@ static D2 slope_derivative(const HalfWay *at, D3 edge_d, D3 edge_n) {
 }
 
 /* |dw'| / |slope'|, with |dw'| = |N.d| / |d|^3 as above. */
-float reflection_slope_spread(const MirrorTriangle *triangle, Vec3 from, Vec3 towards,
-                              const ReflectionPoint *at) {
+float reflection_slope_spread(const MirrorTriangle *triangle, Vec3 from,
+                              const ReflectionLight *light, const ReflectionPoint *at) {
     Frame frame = reflection_frame(triangle);
-    D3 d[3], n[3];
+    D3 d[3], n[3], none = {0, 0, 0};
     for (int i = 0; i < 3; i++) {
         d[i] = d3_sub(d3_of(triangle->position[i]), d3_of(from));
         n[i] = d3_of(triangle->normal[i]);
@@ -328,10 +424,17 @@ float reflection_slope_spread(const MirrorTriangle *triangle, Vec3 from, Vec3 to
                     .y = d3_of(frame.y),
                     .z = d3_of(frame.z),
                     .d = interpolate(d[0], d[1], d[2], u, v),
-                    .n = interpolate(n[0], n[1], n[2], u, v)};
-    half.distance = sqrt(d3_dot(half.d, half.d));
-    half.w = d3_along((D3){0, 0, 0}, half.d, 1 / half.distance);
-    half.h = d3_sub(d3_of(towards), half.w);
+                    .n = interpolate(n[0], n[1], n[2], u, v),
+                    .s = d3_of(light->at),
+                    .to_light = INFINITY};
+    half.distance = length(half.d);
+    half.w = d3_along(none, half.d, 1 / half.distance);
+    if (light->is_near) {
+        D3 e = d3_sub(d3_sub(half.s, d3_of(from)), half.d);
+        half.to_light = length(e);
+        half.s = d3_along(none, e, 1 / half.to_light);
+    }
+    half.h = d3_sub(half.s, half.w);
     Slope slope = {slope_derivative(&half, d3_sub(d[1], d[0]), d3_sub(n[1], n[0])),
                    slope_derivative(&half, d3_sub(d[2], d[0]), d3_sub(n[2], n[0]))};
     D3 edges = d3_cross(d3_sub(d[1], d[0]), d3_sub(d[2], d[0]));

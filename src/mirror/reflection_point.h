@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* reflection_point.h -- where on a triangle does light from one direction turn towards a point?
+/* reflection_point.h -- where on a triangle does light turn towards a point?
  *
- * The triangle is flat, its mirror normal is the interpolated one: none, one or some points of
- * it can do so, and all of them are found. No chance is in it.
+ * The light comes from one direction or from a point. The triangle is flat, its mirror normal is
+ * the interpolated one: none, one or some points of it can do so, and all of them are found. No
+ * chance is in it.
  *
- * Units    metres, scene; spread without unit.
+ * Units    metres, scene.
  * Threads  pure functions.
  */
 #pragma once
+#include <stdbool.h>
+
 #include "base/vec.h"
 
 typedef struct MirrorTriangle {
@@ -15,19 +18,26 @@ typedef struct MirrorTriangle {
     Vec3 normal[3];   /* any length; of either side */
 } MirrorTriangle;
 
+typedef struct ReflectionLight {
+    Vec3 at; /* is_near: where it is, m; else unit, towards it */
+    bool is_near;
+} ReflectionLight;
+
 typedef struct ReflectionPoint {
     float u, v;   /* barycentric weights of corners 1 and 2 */
-    float spread; /* solid angle seen from the point by solid angle of the light's directions:
-                     1 of a flat mirror, below of a convex one */
+    float spread; /* of a light far away: solid angle seen from the point by solid angle of the
+                     light's directions, 1 of a flat mirror, below of a convex one. Of a near
+                     one m^-2, the lux on what faces the mirror there by a candela: of a flat one
+                     1 over the squared length of the whole way */
 } ReflectionPoint;
 
-#define REFLECTION_POINTS_MAX 9 /* two cubic curves meet no more often (Bezout) */
+#define REFLECTION_POINTS_MAX 16 /* two quartic curves meet no more often (Bezout) */
 
-/* `from`: the point that is lit, off the triangle's plane; `towards`: unit, to the light.
+/* `from`: the point that is lit, and a near light, off the triangle's plane, on one side of it.
  * Returns the number of points in the triangle. Two points that are about to become one,
  * nearer than 2^-16 of the triangle to each other, are left out: they carry less than that
  * share of its light. */
-int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, Vec3 towards,
+int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, const ReflectionLight *light,
                            ReflectionPoint out[REFLECTION_POINTS_MAX]);
 
 /* ---- rough mirrors: facets lean from the normal, by slopes along a frame of the triangle - */
@@ -37,5 +47,5 @@ int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, Vec3 towar
 MirrorTriangle reflection_leaning(const MirrorTriangle *triangle, Vec2 slope);
 
 /* At a point of the leaning triangle: solid angle seen from `from` by area of slopes. */
-float reflection_slope_spread(const MirrorTriangle *triangle, Vec3 from, Vec3 towards,
-                              const ReflectionPoint *at);
+float reflection_slope_spread(const MirrorTriangle *triangle, Vec3 from,
+                              const ReflectionLight *light, const ReflectionPoint *at);

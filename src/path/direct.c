@@ -385,7 +385,7 @@ static void sample_mirrors(PathState *path, const Surface *surface, Vec3 wo, con
     if (!lights_sample(context->lights, LIGHTS_SUN, point, u, sun)) return;
     walk.mirror_query.radiance = lights_radiance(context->lights, sun, path->wavelengths);
     sun->pdf *= prob;
-    MirrorQuery query = {surface->part_id, false, surface->position, sun->wi, {0, 0}};
+    MirrorQuery query = {surface->part_id, false, surface->position, {sun->wi, false}, {0, 0}};
     mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &walk);
     query.is_rough = walk.mirror_query.is_rough = true;
     query.u = sampler_2d(path->sampler);

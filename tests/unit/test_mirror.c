@@ -45,7 +45,8 @@ TEST(no_point_that_reflects_is_missed_and_every_one_told_does) {
         Vec2 at = sampler_2d(&sampler);
         if (at.x + at.y > 1) at = (Vec2){1 - at.x, 1 - at.y};
         Vec3 towards = vec3_normalize(mirrored(&t, from, at.x, at.y));
-        int count = reflection_points_find(&t, from, towards, points), here = 0;
+        int count = reflection_points_find(&t, from, &(ReflectionLight){towards, false}, points),
+            here = 0;
         for (int k = 0; k < count; k++) {
             Vec3 off = vec3_sub(mirrored(&t, from, points[k].u, points[k].v), towards);
             assert_near(vec3_length(off), 0, 1e-4);
@@ -58,6 +59,63 @@ TEST(no_point_that_reflects_is_missed_and_every_one_told_does) {
     /* Left: points a rounding away from another or from an edge. */
     if (found < 19980) fail_msg("%d of 20000 found", found);
     if (more < 100) fail_msg("only %d triangles with more than one", more);
+}
+
+/* The same of a light that is near. */
+TEST(no_point_that_reflects_a_near_light_is_missed) {
+    const float bends[] = {0, 0.05f, 0.3f, 0.6f, 1};
+    int found = 0, more = 0;
+    for (int i = 0; i < 20000; i++) {
+        ReflectionPoint points[REFLECTION_POINTS_MAX];
+        Sampler sampler = sampler_start(5, i, 0, 0);
+        MirrorTriangle t = random_triangle(&sampler, bends[i % 5]);
+        Vec3 from = vec3_scale(random_direction(&sampler), 3);
+        Vec2 at = sampler_2d(&sampler);
+        if (at.x + at.y > 1) at = (Vec2){1 - at.x, 1 - at.y};
+        Vec3 way = mirrored(&t, from, at.x, at.y);
+        Vec3 flat = vec3_cross(vec3_sub(t.position[1], t.position[0]),
+                               vec3_sub(t.position[2], t.position[0]));
+        const ReflectionLight light = {
+            vec3_along(blend(t.position, at.x, at.y), way, 0.3f + 5 * sampler_1d(&sampler)), true};
+        if (!(vec3_dot(flat, way) * vec3_dot(flat, vec3_sub(from, t.position[0])) > 0)) {
+            found++; /* no light on that side */
+            continue;
+        }
+        int count = reflection_points_find(&t, from, &light, points), here = 0;
+        for (int k = 0; k < count; k++) {
+            Vec3 place = blend(t.position, points[k].u, points[k].v);
+            Vec3 to = vec3_normalize(vec3_sub(light.at, place));
+            Vec3 off = vec3_sub(mirrored(&t, from, points[k].u, points[k].v), to);
+            assert_near(vec3_length(off), 0, 1e-4);
+            here += hypotf(points[k].u - at.x, points[k].v - at.y) < 1e-3f;
+        }
+        found += here > 0;
+        more += count > 1;
+        assert_true(here <= 2);
+    }
+    if (found < 19980) fail_msg("%d of 20000 found", found);
+    if (more < 100) fail_msg("only %d triangles with more than one", more);
+}
+
+/* Light by a flat mirror is that of the source's image behind it. */
+TEST(a_candela_by_a_flat_mirror_gives_what_its_image_would) {
+    int met = 0;
+    for (int i = 0; i < 2000; i++) {
+        ReflectionPoint points[REFLECTION_POINTS_MAX];
+        Sampler sampler = sampler_start(6, i, 0, 0);
+        MirrorTriangle t = random_triangle(&sampler, 0);
+        Vec3 from = vec3_scale(random_direction(&sampler), 0.1f + 2 * sampler_1d(&sampler));
+        const ReflectionLight light = {vec3_scale(random_direction(&sampler), 2), true};
+        Vec3 n = t.normal[0], to = vec3_sub(light.at, t.position[0]);
+        float far = vec3_dot(n, to), own = vec3_dot(n, vec3_sub(from, t.position[0]));
+        Vec3 image = vec3_along(light.at, n, -2 * far);
+        if (!(far * own > 0)) continue;
+        if (!reflection_points_find(&t, from, &light, points)) continue;
+        Vec3 way = vec3_sub(image, from);
+        assert_close(points[0].spread, 1 / vec3_dot(way, way), 1e-4);
+        met++;
+    }
+    if (met < 100) fail_msg("only %d", met);
 }
 
 /* Every direction in which the point sees the triangle comes from one direction of the light:
@@ -77,7 +135,8 @@ TEST(spread_adds_up_to_the_solid_angle) {
         for (int k = 0; k < DIRECTIONS; k++) {
             ReflectionPoint points[REFLECTION_POINTS_MAX];
             Sampler at = sampler_start(3, i, 0, (uint32_t)k);
-            int count = reflection_points_find(&t, from, random_direction(&at), points);
+            const ReflectionLight light = {random_direction(&at), false};
+            int count = reflection_points_find(&t, from, &light, points);
             double here = 0;
             for (int p = 0; p < count; p++) here += 4 * PI * (double)points[p].spread;
             sum += here;
@@ -114,9 +173,16 @@ static const Mirrors *all_mirrors(const Scene *scene, Arena *arena) {
     return mirrors_build(scene, pairs, scene->triangle_count, 2, arena);
 }
 
+static Sum ask_near(const Scene *scene, const Mirrors *mirrors, Vec3 from, Vec3 at) {
+    Sum sum = {.scene = scene, .towards = at};
+    const MirrorQuery query = {.part_id = NO_ID, .from = from, .light = {at, true}};
+    sum.nodes = mirrors_find(mirrors, &query, add_point, &sum);
+    return sum;
+}
+
 static Sum ask(const Scene *scene, const Mirrors *mirrors, Vec3 from, Vec3 towards) {
     Sum sum = {.scene = scene, .towards = towards};
-    const MirrorQuery query = {.part_id = NO_ID, .from = from, .towards = towards};
+    const MirrorQuery query = {.part_id = NO_ID, .from = from, .light = {towards, false}};
     sum.nodes = mirrors_find(mirrors, &query, add_point, &sum);
     return sum;
 }
@@ -210,6 +276,29 @@ TEST(a_convex_sphere_spreads_as_the_mirror_equation_says) {
             Sum sum = ask(scene, mirrors, vec3_along(n, out, (float)l), towards);
             assert_int_equal(sum.count, 1);
             assert_close(sum.spread, 1 / ((1 + 2 * l / cos(t)) * (1 + 2 * l * cos(t))), 5e-3);
+        }
+    }
+}
+
+/* Light of a point at s before it has the vergence 1 / s besides: after l its pencil is s + l +
+ * 2 s l / cos t by s + l + 2 s l cos t wide, for a steradian. */
+TEST(a_convex_sphere_spreads_a_near_light_as_the_mirror_equation_says) {
+    for (int i = 1; i < 8; i++) {
+        ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
+        Scene *scene = builder_scene(&arena);
+        double t = 0.18 * i, turn = 0.7 * i;
+        Vec3 n = vec3((float)(sin(t) * cos(turn)), (float)(sin(t) * sin(turn)), (float)cos(t));
+        Vec3 towards = vec3(0, 0, 1), out = vec3_sub(vec3_scale(n, 2 * n.z), towards);
+        builder_part(scene, builder_mirror(1));
+        cap(scene, n);
+        const Mirrors *mirrors = all_mirrors(scene, &arena);
+        for (int k = 0; k < 12; k++) {
+            double l = 0.3 * (1 << k % 4), s = 0.4 * (1 + k / 4 * 3);
+            Sum sum = ask_near(scene, mirrors, vec3_along(n, out, (float)l),
+                               vec3_along(n, towards, (float)s));
+            assert_int_equal(sum.count, 1);
+            assert_close(sum.spread,
+                         1 / ((s + l + 2 * s * l / cos(t)) * (s + l + 2 * s * l * cos(t))), 5e-3);
         }
     }
 }

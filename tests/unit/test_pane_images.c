@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 #include "light/emission.h"
-#include "mirror/image_point.h"
+#include "mirror/reflection_point.h"
 #include "review/eye/pane_image_reading.h"
 #include "review/eye/pane_images.h"
 #include "spectrum/glazing.h"
@@ -146,11 +146,14 @@ TEST(a_bent_pane_shows_a_point_where_its_normals_turn_the_ray) {
             t.normal[k] = vec3_neg(vec3_normalize(local));
             t.position[k] = vec3_along(centre, t.normal[k], (float)-RADIUS);
         }
-        ImagePoint found;
-        if (!image_point_find(&t, eye, source, &found)) continue;
-        Vec3 n = vec3_normalize(vec3_sub(found.position, centre));
-        Vec3 d = vec3_normalize(vec3_sub(found.position, eye));
-        Vec3 s = vec3_normalize(vec3_sub(source, found.position));
+        ReflectionPoint found[REFLECTION_POINTS_MAX];
+        const ReflectionLight light = {source, true};
+        if (!reflection_points_find(&t, eye, &light, found)) continue;
+        Vec3 place = vec3_scale(t.position[0], 1 - found[0].u - found[0].v);
+        place = vec3_along(vec3_along(place, t.position[1], found[0].u), t.position[2], found[0].v);
+        Vec3 n = vec3_normalize(vec3_sub(place, centre));
+        Vec3 d = vec3_normalize(vec3_sub(place, eye));
+        Vec3 s = vec3_normalize(vec3_sub(source, place));
         double off = degrees_between(vec3_along(d, n, -2 * vec3_dot(n, d)), s);
         if (!(off < 0.01)) fail_msg("%g degrees off the law of reflection", off);
         met++;

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "mirror/image_point.h"
+#include "mirror/reflection_point.h"
 #include "scene/point/ray_ends.h"
 
 #define CELLS 512         /* of a display, or one a triangle if it has more */
@@ -99,16 +99,18 @@ static bool point_in(const PaneSearch *search, const Part *part, uint32_t triang
                      PanePoint *out) {
     const Scene *scene = search->context->scene;
     MirrorTriangle mirror = mirror_of(scene, part, triangle);
-    ImagePoint at;
+    ReflectionPoint at[REFLECTION_POINTS_MAX];
+    const ReflectionLight light = {source, true};
     if (scene->materials[part->material_id].is_solid && !faces_eye(&mirror, search->eye))
         return false;
-    if (!image_point_find(&mirror, search->eye, source, &at)) return false;
-    Vec3 towards = vec3_normalize(vec3_sub(at.position, search->eye));
+    if (!reflection_points_find(&mirror, search->eye, &light, at)) return false;
+    Vec3 place = triangle_point(scene, triangle, at[0].u, at[0].v).position;
+    Vec3 towards = vec3_normalize(vec3_sub(place, search->eye));
     *out = (PanePoint){.state = PANE_SHOWS,
                        .covered_by = NO_ID,
                        .triangle = triangle,
-                       .u = at.u,
-                       .v = at.v,
+                       .u = at[0].u,
+                       .v = at[0].v,
                        .towards = towards,
                        .place = source};
     return true;

@@ -3,7 +3,7 @@
  * windscreen, by night above all.
  *
  * Each display is cut into small cells. The middle and the corners of each are looked for in
- * each pane by the point that turns the eye's ray to them (mirror/image_point.h): no path is
+ * each pane by the point that turns the eye's ray to them (mirror/reflection_point.h): no path is
  * traced and no chance is in it. A point is shown where the pane has such a point, where the
  * display faces it, and where nothing stands between: neither before the pane nor behind it.
  * Windows and holes hide nothing, unless less than a hundredth of the light passes them. A cell
