@@ -68,6 +68,7 @@ start 'what one pixel sees' explain-pixel python3 tests/image/explain_pixel.py $
 start 'scenes moved and turned' moved python3 tests/image/moved.py $program
 start 'faults and their outcomes' faults python3 tests/hostile/faults.py $program
 start 'closed forms in frames' image python3 tests/image/run.py $program
+start 'frames that were multiplied' multiplied python3 tests/image/multiplied.py $program
 start 'comparisons' compare python3 tests/hostile/compare.py $program
 start 'same bits, any threads' bits python3 tests/image/bits.py $program
 start 'golden frames' golden python3 tests/image/golden.py $program

@@ -46,8 +46,8 @@ static void judge_limits(const CompareOptions *options, Comparison *out) {
 
 static void judge_statistic(Comparison *out) {
     if (out->stat.verdict != STATISTIC_DIFFERENT) return;
-    lines_add(&out->reasons, "the mean moved: %s",
-              out->stat.reason[0] ? out->stat.reason : "more than the noise explains");
+    lines_add(&out->reasons, "%s",
+              out->stat.reason[0] ? out->stat.reason : "pixels differ by more than their noise");
 }
 
 static void judge_equality(Comparison *out) {
@@ -169,6 +169,9 @@ static const char *mean_sentence(const CompareOptions *options, const Comparison
     if (!out->has_stat)
         return "Whether the mean moved or only the noise is not known: no noise is stated.";
     if (s->verdict == STATISTIC_EQUAL) return "The light is equal in every pixel.";
+    if (s->verdict == STATISTIC_UNKNOWN)
+        return "Whether the mean moved or only the noise is not known: the layers that state the "
+               "noise are not what was rendered.";
     if (is_said && s->verdict == STATISTIC_SAME) return "";
     if (s->verdict == STATISTIC_SAME)
         return arena_format(arena,
@@ -176,8 +179,10 @@ static const char *mean_sentence(const CompareOptions *options, const Comparison
                             "a level of %g).",
                             s->p_value, level_of(options));
     return arena_format(arena, "%s than the noise explains (p = %.2g at a level of %g)%s.",
-                        is_said ? "That is more" : "The mean moved, more", s->p_value,
-                        level_of(options),
+                        is_said         ? "That is more"
+                        : s->mean_moved ? "The mean moved, more"
+                                        : "Pixels differ by more",
+                        s->p_value, level_of(options),
                         s->shares_noise ? "; both share their seed and samples" : "");
 }
 
@@ -389,6 +394,18 @@ static bool measure(const CompareOptions *options, Arena *arena, Comparison *out
     return true;
 }
 
+/* What nothing found different and no noise that is known calls the same is neither. */
+static bool knows_verdict(const Comparison *out, Error *err) {
+    const StatisticResult *s = &out->stat;
+    if (out->judged_by != JUDGED_BY_STATISTIC || s->verdict != STATISTIC_UNKNOWN ||
+        out->reasons.count > 0)
+        return true;
+    return error_at(err, ERROR_INPUT, s->broken_side ? out->test.name : out->reference.name, "",
+                    "has in layer %s: another program changed it, and its noise is not known; "
+                    "required: the frame as it was rendered, or a limit, such as --max flip=0.05",
+                    s->broken);
+}
+
 static bool compare_pixels(const CompareOptions *options, Arena *arena, Comparison *out,
                            Error *err) {
     const CompareInput *const sides[2] = {&out->reference, &out->test};
@@ -402,7 +419,7 @@ static bool compare_pixels(const CompareOptions *options, Arena *arena, Comparis
     if (!measure(options, arena, out, err)) return false;
     out->has_pixels = true;
     judge(options, out);
-    return true;
+    return knows_verdict(out, err);
 }
 
 /* Measured with all metrics: 126 bytes for each further pixel of frames of R, G and B; of 21,

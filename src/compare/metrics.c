@@ -249,8 +249,12 @@ static bool measure_statistic(const CompareOptions *options, Arena *arena, Compa
     out->has_stat =
         statistic_compare(&out->reference.frame, &out->test.frame, &stat, arena, &out->stat, &why);
     if (out->has_stat) {
-        out->value[METRIC_P_VALUE] = out->stat.p_value;
+        if (out->stat.verdict != STATISTIC_UNKNOWN) out->value[METRIC_P_VALUE] = out->stat.p_value;
         out->value[METRIC_FRACTION_FAILED] = out->stat.fraction_failed;
+        if (out->stat.broken[0]) { /* its displays' numbers and samples are no others' */
+            out->value[METRIC_CONTRAST_CHANGE] = NAN;
+            out->contrast_count = 0;
+        }
         if (out->stat.note[0]) lines_add(&out->notes, "%s", out->stat.note);
         return true;
     }

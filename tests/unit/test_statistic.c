@@ -153,6 +153,94 @@ ARENA_TEST(frames_that_share_their_noise_are_compared_pixel_by_pixel) {
     assert_text_has(r.reason, "one seed and the same samples: 1500 of 1536 pixels differ; ");
 }
 
+/* ---- reasons ----------------------------------------------------------------------------- */
+
+/* Every "+a +- b" of a reason has |a| > b; counts them. */
+static int intervals_of(const char *reason) {
+    int count = 0;
+    for (const char *p = reason; (p = strstr(p, " +- ")); p++, count++) {
+        const char *start = p;
+        while (start > reason && start[-1] != ' ') start--;
+        if (!(fabs(atof(start)) > atof(p + 4))) fail_msg("a reason holds 0: %s", reason);
+    }
+    return count;
+}
+
+/* A mean is named where it is known to move; what is seen in a few pixels alone is that their
+ * noise does not explain them. */
+ARENA_TEST(a_reason_is_no_interval_that_holds_0) {
+    static const Noise NOISES[] = {NOISE_GAUSSIAN, NOISE_EXPONENTIAL, NOISE_FIREFLIES};
+    int different = 0, means = 0;
+    Maker a, b;
+    for (uint32_t k = 0; k < 180; k++) {
+        Noise noise = NOISES[k % 3];
+        a = plain_maker(noise, k % 2 ? 16 : 64, 0);
+        b = plain_maker(noise, k % 5 ? a.samples : 64, 0);
+        int pixel = (int)(k * 37 % PIXELS);
+        if (k % 4 == 0) b.light[pixel] += 300;
+        if (k % 4 == 1)
+            for (int i = 0; i < PIXELS; i++) b.light[i] *= 1.03;
+        if (k % 4 == 2) b.light[pixel] += 40, b.light[(pixel + 700) % PIXELS] += 40;
+        if (k % 4 == 3) brighten_block(&b, 16, 8, 0.5);
+        StatisticResult r = judge_pair(&a, &b, k, arena);
+        if (r.verdict != STATISTIC_DIFFERENT) continue;
+        bool names_mean = strstr(r.reason, "the mean moved: ") != NULL;
+        different++;
+        assert_int_equal(names_mean, r.mean_moved);
+        assert_int_equal(intervals_of(r.reason) > 0 || strstr(r.reason, "instead of 0"),
+                         names_mean);
+        means += names_mean;
+        if (!names_mean) assert_text_has(r.reason, "pixels differ by more than their noise: ");
+    }
+    assert_true(different > 90 && means > 30 && means < different - 10);
+}
+
+/* ---- what other programs make of a frame -------------------------------------------------- */
+
+static void multiply(FrameImage *frame, float factor, bool light_only) {
+    for (int c = 0; c < frame->channel_count; c++)
+        for (int i = 0; i < PIXELS; i++)
+            if (!light_only || strlen(frame->channels[c].name) == 1)
+                frame->channels[c].values[i] *= factor;
+}
+
+/* No factor but 1 is the same: the counts of a frame that was multiplied are none any more. */
+ARENA_TEST(a_frame_that_was_multiplied_is_never_the_same) {
+    static const float FACTORS[] = {0.01f, 0.3f, 0.98f, 1, 1.02f, 1.3f, 2, -1};
+    for (int k = 0; k < 16; k++) {
+        Maker maker = plain_maker(NOISE_EXPONENTIAL, 16, 3);
+        Maker other = plain_maker(NOISE_EXPONENTIAL, 16, k < 8 ? 3 : 4);
+        FrameImage a = make_frame(&maker, &arena), b = make_frame(&other, &arena);
+        float factor = FACTORS[k % 8];
+        frame_set_string(&a, "parhelion:samples", "0:16", &arena);
+        frame_set_string(&b, "parhelion:samples", "0:16", &arena);
+        multiply(&b, factor, false);
+        for (int turn = 0; turn < 2; turn++) { /* either may be the reference */
+            StatisticResult r = judge(turn ? &b : &a, turn ? &a : &b, NULL, &arena);
+            if (factor == 1) {
+                assert_int_equal(r.verdict, k < 8 ? STATISTIC_EQUAL : STATISTIC_SAME);
+                assert_string_equal(r.broken, "");
+                continue;
+            }
+            assert_true(r.verdict == STATISTIC_DIFFERENT || r.verdict == STATISTIC_UNKNOWN);
+            assert_text_has(r.broken, "samples.N: ");
+            assert_text_has(r.note, turn ? "the reference has in layer samples.N: "
+                                         : "the test has in layer samples.N: ");
+        }
+    }
+}
+
+/* Where the light alone was, its layers still state the noise. */
+ARENA_TEST(light_that_was_multiplied_is_found_by_the_noise_of_its_layers) {
+    Maker maker = plain_maker(NOISE_QUIET, 16, 3), other = plain_maker(NOISE_QUIET, 16, 4);
+    FrameImage a = make_frame(&maker, &arena), b = make_frame(&other, &arena);
+    multiply(&b, 1.02f, true);
+    StatisticResult r = judge(&a, &b, NULL, &arena);
+    assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
+    assert_string_equal(r.broken, "");
+    assert_text_has(r.reason, "the mean moved: ");
+}
+
 /* ---- masks, gaps, words ------------------------------------------------------------------ */
 
 ARENA_TEST(what_the_mask_leaves_out_does_not_count) {

@@ -25,7 +25,8 @@ static json_t *regions_json(const StatisticResult *s) {
 static json_t *stat_json(const StatisticResult *s) {
     static const char *const VERDICTS[] = {[STATISTIC_EQUAL] = "equal",
                                            [STATISTIC_SAME] = "same",
-                                           [STATISTIC_DIFFERENT] = "different"};
+                                           [STATISTIC_DIFFERENT] = "different",
+                                           [STATISTIC_UNKNOWN] = "unknown"};
     return json_pack("{s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:b, s:i, s:o, s:o}", "p_value",
                      json_figure(s->p_value), "fraction_failed", json_figure(s->fraction_failed),
                      "mean_shift", json_figure(s->mean_shift), "verdict", VERDICTS[s->verdict],

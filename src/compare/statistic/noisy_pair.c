@@ -2,6 +2,7 @@
 #include "compare/statistic/noisy_pair.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,6 +29,50 @@ static double stated_samples(const FrameImage *frame) {
     return last > first ? last - first : (double)NAN;
 }
 
+/* A count: whole, none below 0; NULL: every value is one that the program could have written. */
+static const char *fault_of_count(float value, double most) {
+    if (!(value >= 0) || value != floorf(value)) return "is no count";
+    return (double)value > most ? "is more than the frame has samples" : NULL;
+}
+
+static const char *fault_of_id(float value, double most) {
+    (void)most;
+    return isfinite(value) && value == floorf(value) ? NULL : "is no number of a part";
+}
+
+static const char *fault_of_variance(float value, double most) {
+    (void)most;
+    return value < 0 ? "is no variance" : NULL;
+}
+
+/* Notes the first value of a channel that has a fault; false: there is none. */
+static bool note_fault(const FrameImage *frame, const char *channel, double most,
+                       const char *(*fault_of)(float, double), char broken[96]) {
+    const float *values = frame_channel(frame, channel);
+    size_t width = (size_t)(frame->data.x1 - frame->data.x0);
+    for (size_t i = 0; values && i < frame_pixel_count(frame); i++) {
+        const char *fault = fault_of(values[i], most);
+        if (!fault) continue;
+        snprintf(broken, 96, "%s: %.6g at pixel %zu,%zu %s", channel, (double)values[i], i % width,
+                 i / width, fault);
+        return true;
+    }
+    return false;
+}
+
+/* Whoever multiplies all channels of a frame multiplies these. */
+static void leave_broken_out(const FrameImage *frame, NoisySide *side) {
+    double most = isnan(side->samples_of_all) ? INFINITY : side->samples_of_all;
+    if (note_fault(frame, "samples.N", most, fault_of_count, side->broken)) {
+        side->samples = NULL;
+        side->samples_of_all = NAN;
+    } else if (note_fault(frame, "variance.G", 0, fault_of_variance, side->broken)) {
+        side->variance[0] = side->variance[1] = side->variance[2] = NULL;
+    } else {
+        note_fault(frame, "id.display", 0, fault_of_id, side->broken);
+    }
+}
+
 static bool open_side(const FrameImage *frame, const char *name, NoisySide *out, Error *err) {
     read_layer(frame, "", out->light);
     read_layer(frame, "variance", out->variance);
@@ -35,6 +80,7 @@ static bool open_side(const FrameImage *frame, const char *name, NoisySide *out,
     read_layer(frame, "display.reflected", out->reflected);
     out->samples = frame_channel(frame, "samples.N");
     out->samples_of_all = stated_samples(frame);
+    leave_broken_out(frame, out);
     if (!out->light[0]) return error_at(err, ERROR_INPUT, name, "", "has no channels R, G, B");
     if (out->variance[0] || out->halves[0]) return true;
     return error_at(err, ERROR_INPUT, name, "",
@@ -102,7 +148,7 @@ bool noisy_pair_open(const FrameImage *reference, const FrameImage *test,
         !open_side(test, options->test_name, b, err) ||
         !check_windows(reference, test, options, err))
         return false;
-    pair.display = frame_channel(reference, "id.display");
+    if (!a->broken[0] && !b->broken[0]) pair.display = frame_channel(reference, "id.display");
     pair.has_reflected = pair.display && a->reflected[0] && b->reflected[0];
     pair.has_variance = a->variance[0] && b->variance[0];
     pair.has_halves = a->halves[0] && b->halves[0];

@@ -6,6 +6,9 @@
  * Memory   a view of the frames.
  * Threads  pure.
  * Fails    for frames without a layer that states their noise, or of different windows.
+ *
+ * A layer of counts that holds none (a program multiplied every channel) is left out, and what
+ * needs it: the noise that the other layers state is then of an unknown scale.
  */
 #pragma once
 #include "compare/metrics/planes.h"
@@ -31,6 +34,7 @@ typedef struct NoisySide {
     const float *light[3], *reflected[3], *variance[3], *halves[3];
     const float *samples;  /* NULL: samples_of_all */
     double samples_of_all; /* a pixel; NaN: not known */
+    char broken[96];       /* a layer that is not what the program wrote, and why; "" */
 } NoisySide;
 
 typedef struct NoisyPair {

@@ -11,6 +11,8 @@
 /* Pixels surer than this share of their light weigh no more for it: a region is more than its
  * least noisy corner. */
 #define SUREST 0.02
+/* Half a 95 % interval in standard errors, and what its two digits are rounded up by at most. */
+#define EXCLUDES_NONE (1.96 * 1.06)
 
 typedef struct Region {
     int display; /* id; -1: the frame */
@@ -286,6 +288,20 @@ static void measure_region(const NoisyPair *pair, const BothParts *parts, const 
     region->member = NULL; /* it is gone */
 }
 
+bool regions_excludes_none(double change, double sigma) {
+    return fabs(change) > EXCLUDES_NONE * sigma;
+}
+
+bool regions_shift_is_sure(const StatisticRegion *region) {
+    return isnan(region->shift) || regions_excludes_none(region->shift, region->shift_sigma);
+}
+
+/* The second quotient sees differences in a few pixels from which no mean is known to move. */
+static bool has_moved(const StatisticRegion *region, double level) {
+    return region->p_value < level && (regions_shift_is_sure(region) ||
+                                       regions_excludes_none(region->change, region->change_sigma));
+}
+
 RegionFindings regions_measure(const NoisyPair *pair, const FrameImage *const frames[2],
                                double level, Arena *arena) {
     Region *regions;
@@ -305,6 +321,6 @@ RegionFindings regions_measure(const NoisyPair *pair, const FrameImage *const fr
     out.p = sidak_p(least, out.count);
     out.mean_shift = out.list[0].shift;
     for (int r = 0; r < out.count; r++)
-        out.list[r].moved = out.list[r].p_value < sidak_level(level, out.count);
+        out.list[r].moved = has_moved(&out.list[r], sidak_level(level, out.count));
     return out;
 }

@@ -21,7 +21,8 @@ typedef struct StatisticRegion {
     double change;          /* the best estimate of a change in proportion, and its error: the */
     double change_sigma;    /* surer pixels count more; NaN: it is no proportion */
     double p_value;         /* two-sided */
-    bool moved;             /* after the correction for how many are tested */
+    bool moved; /* after the correction for how many are tested; of shift and change one is
+                   known to be none: its 95 % interval holds no 0 */
 } StatisticRegion;
 
 typedef struct RegionFindings {
@@ -30,6 +31,12 @@ typedef struct RegionFindings {
     double p;          /* of the family; 1 without regions */
     double mean_shift; /* of the frame; NaN without regions */
 } RegionFindings;
+
+/* Whether a change's 95 % interval leaves 0 out. */
+bool regions_excludes_none(double change, double sigma);
+
+/* Whether it is one of nothing, or its plain mean's interval leaves 0 out. */
+bool regions_shift_is_sure(const StatisticRegion *region);
 
 /* frames: reference, test; level: the family's. */
 RegionFindings regions_measure(const NoisyPair *pair, const FrameImage *const frames[2],

@@ -169,12 +169,15 @@ static void append(char *text, size_t size, const char *format, ...) {
     va_end(args);
 }
 
-/* The surest region of displays that moved, since people look for them; else of all. */
+/* The surest region of displays that moved, since people look for them; else of what moved,
+ * else of all. */
 static const StatisticRegion *surest_region(const StatisticResult *r) {
     const StatisticRegion *best = &r->regions[0];
     for (int i = 1; i < r->region_count; i++) {
-        bool is_first_display = r->regions[i].moved && best == &r->regions[0];
-        if (is_first_display || r->regions[i].p_value < best->p_value) best = &r->regions[i];
+        const StatisticRegion *next = &r->regions[i];
+        bool is_first_display = next->moved && best == &r->regions[0];
+        bool is_surer = next->moved >= best->moved && next->p_value < best->p_value;
+        if (is_first_display || (next->moved && !best->moved) || is_surer) best = next;
     }
     return best;
 }
@@ -189,19 +192,20 @@ static bool is_proportional(const StatisticRegion *region) {
 #define INTERVAL_PERCENT 196
 
 static void append_shift(const StatisticRegion *region, char *text, size_t size) {
+    bool has_shift = regions_shift_is_sure(region);
     bool is_surer =
         fabs(region->change) / region->change_sigma > fabs(region->shift) / region->shift_sigma;
-    if (isnan(region->shift)) append(text, size, "%.3g cd/m2 instead of 0", region->test);
-    else
-        append(text, size, "%+.3g +- %.2g %%", 100 * region->shift,
+    if (isnan(region->shift)) append(text, size, " %.3g cd/m2 instead of 0", region->test);
+    else if (has_shift)
+        append(text, size, " %+.3g +- %.2g %%", 100 * region->shift,
                INTERVAL_PERCENT * region->shift_sigma);
-    if (is_surer && !is_proportional(region))
-        append(text, size, ", where its pixels are known best %+.3g +- %.2g %%",
-               100 * region->change, INTERVAL_PERCENT * region->change_sigma);
+    if (!has_shift || (is_surer && !is_proportional(region)))
+        append(text, size, "%s where its pixels are known best %+.3g +- %.2g %%",
+               has_shift ? "," : "", 100 * region->change, INTERVAL_PERCENT * region->change_sigma);
 }
 
-/* "display 'cluster': reflected light +1.02 +- 0.21 %" */
-static void append_region(const StatisticRegion *region, bool is_frame, char *text, size_t size) {
+/* "display 'cluster': reflected light", "the frame: mean luminance" */
+static void append_name(const StatisticRegion *region, bool is_frame, char *text, size_t size) {
     static const char REFLECTED[] = " reflected";
     size_t length = strlen(region->name), tail = sizeof REFLECTED - 1;
     bool is_reflected =
@@ -209,24 +213,33 @@ static void append_region(const StatisticRegion *region, bool is_frame, char *te
     if (is_reflected) length -= tail;
     if (is_frame) append(text, size, "the frame");
     else append(text, size, "display '%.*s'", (int)(length < 60 ? length : 60), region->name);
-    append(text, size, ": %s ", is_reflected ? "reflected light" : "mean luminance");
-    append_shift(region, text, size);
+    append(text, size, ": %s", is_reflected ? "reflected light" : "mean luminance");
 }
 
-/* "block at x 120..128, y 40..48: green -12.1 %" in pixels of the display window. */
+static const SignFlipSum *sum_of_block(const BlockGrid *grid, const BlockFinding *found) {
+    return &grid->sums[found->index][found->channel];
+}
+
+/* "block at x 120..128, y 40..48: green -12.1 +- 3 %" in pixels of the display window. */
 static void append_block(const NoisyPair *pair, const BlockGrid *grid, const BlockFinding *found,
                          char *text, size_t size) {
     const ExrWindow d = pair->data, w = pair->display_window;
-    const SignFlipSum *sum = &grid->sums[found->index][found->channel];
+    const SignFlipSum *sum = sum_of_block(grid, found);
+    double sigma = sign_flip_sigma(sum, pair->law);
     int x = d.x0 - w.x0 + found->index % grid->columns * grid->side;
     int y = d.y0 - w.y0 + found->index / grid->columns * grid->side;
     int right = d.x1 - w.x0, bottom = d.y1 - w.y0;
-    double change = sum->light > 0 ? sum->sum / (sum->light - 0.5 * sum->sum) : 0;
-    append(text, size, "block at x %d..%d, y %d..%d: %s ", x,
+    double light = sum->light - 0.5 * sum->sum;
+    append(text, size, "block at x %d..%d, y %d..%d: %s", x,
            x + grid->side < right ? x + grid->side : right, y,
            y + grid->side < bottom ? y + grid->side : bottom, CHANNELS[found->channel]);
-    if (fabs(change) < 10) append(text, size, "%+.3g %%", 100 * change);
-    else append(text, size, "%+.3g cd/m2", sum->sum / (double)sum->count);
+    if (!regions_excludes_none(sum->sum, sigma)) append(text, size, " (p = %.2g)", found->p_least);
+    else if (fabs(sum->sum) < 10 * light)
+        append(text, size, " %+.3g +- %.2g %%", 100 * sum->sum / light,
+               INTERVAL_PERCENT * sigma / light);
+    else
+        append(text, size, " %+.3g +- %.2g cd/m2", sum->sum / (double)sum->count,
+               INTERVAL_PERCENT / 100.0 * sigma / (double)sum->count);
 }
 
 static void append_shared(const StatisticResult *r, char *text, size_t size) {
@@ -247,18 +260,28 @@ static void statistic_reason(const NoisyPair *pair, const BlockGrid grids[2],
     size_t size = sizeof out->reason;
     text[0] = '\0';
     if (out->verdict == STATISTIC_EQUAL || out->region_count == 0) return;
-    if (out->shares_noise) append_shared(out, text, size);
+    if (out->shares_noise && out->verdict != STATISTIC_UNKNOWN) append_shared(out, text, size);
     if (out->verdict != STATISTIC_DIFFERENT) return;
     const StatisticRegion *region = surest_region(out);
+    const BlockGrid *grid = &grids[found->grid];
     double family_level = sidak_level(level, 3);
-    bool has_region = out->p_regions < family_level;
     bool has_block = out->p_blocks < family_level;
-    if (has_region) append_region(region, region == &out->regions[0], text, size);
+    bool has_region = out->p_regions < family_level && (region->moved || !has_block);
+    if (has_block) {
+        const SignFlipSum *sum = sum_of_block(grid, found);
+        out->mean_moved = regions_excludes_none(sum->sum, sign_flip_sigma(sum, pair->law));
+    }
+    if (region->moved && has_region) out->mean_moved = true;
+    append(text, size,
+           out->mean_moved ? "the mean moved: " : "pixels differ by more than their noise: ");
+    if (has_region) append_name(region, region == &out->regions[0], text, size);
+    if (has_region && region->moved) append_shift(region, text, size);
+    else if (has_region) append(text, size, " (p = %.2g)", region->p_value);
     if (has_region && has_block) append(text, size, "; ");
-    if (has_block) append_block(pair, &grids[found->grid], found, text, size);
+    if (has_block) append_block(pair, grid, found, text, size);
     if (!has_region && !has_block)
         append(text, size,
-               "small changes all over the frame: the blocks' squared deviations "
+               "small changes all over the frame, the blocks' squared deviations "
                "are %.3g of what noise makes (p = %.2g)",
                out->mean_square, out->p_histogram);
 }
@@ -289,8 +312,13 @@ static void make_map(const BlockGrid *grid, NoiseLaw law, Arena *arena, Statisti
 }
 
 /* Names the layers that would make the test more sensitive. */
-static void take_note(const NoisyPair *pair, char *note, size_t size) {
-    if (!pair->knows_samples)
+static void take_note(const NoisyPair *pair, const StatisticResult *r, char *note, size_t size) {
+    if (r->broken[0])
+        snprintf(note, size,
+                 "the %s has in layer %s: another program changed it; what that layer states "
+                 "is left out, of displays too",
+                 r->broken_side ? "test" : "reference", r->broken);
+    else if (!pair->knows_samples)
         snprintf(note, size,
                  "the frames do not say how many samples they have: their noise is "
                  "taken to be of two shapes; --layers samples tells");
@@ -326,7 +354,9 @@ bool statistic_compare(const FrameImage *reference, const FrameImage *test,
     statistic_blocks(&pair, arena, grids);
     BlockFinding found = statistic_block_finding(grids, pair.law, family_level);
     make_map(&grids[0], pair.law, arena, &result);
-    take_note(&pair, result.note, sizeof result.note);
+    result.broken_side = pair.side[0].broken[0] ? 0 : 1;
+    memcpy(result.broken, pair.side[result.broken_side].broken, sizeof result.broken);
+    take_note(&pair, &result, result.note, sizeof result.note);
     result.p_blocks = found.p_least;
     result.p_histogram = found.p_squares;
     result.mean_square = found.mean_square;
@@ -335,6 +365,7 @@ bool statistic_compare(const FrameImage *reference, const FrameImage *test,
         sidak_p(fmin(fmin(result.p_blocks, result.p_histogram), result.p_regions), FAMILIES);
     if (is_equal) result.verdict = STATISTIC_EQUAL;
     else if (result.p_value < level) result.verdict = STATISTIC_DIFFERENT;
+    else if (result.broken[0]) result.verdict = STATISTIC_UNKNOWN;
     statistic_reason(&pair, grids, &found, level, &result);
     *out = result;
     return true;

@@ -29,15 +29,19 @@
  * Units    linear Rec.709 in cd m^-2; probabilities 0 .. 1.
  * Memory   maps come from the arena.
  * Threads  pure.
+ * A reason names a mean only where its interval of 95 % leaves 0 out; else the test that failed.
+ *
  * Fails    when the frames lack the layers that it needs: the text names what to render again.
  */
 #pragma once
 #include "compare/statistic/regions.h"
 
 typedef enum StatisticVerdict {
-    STATISTIC_EQUAL,    /* R, G, B are the same bit for bit */
-    STATISTIC_SAME,     /* only the noise differs */
-    STATISTIC_DIFFERENT /* the mean moved */
+    STATISTIC_EQUAL,     /* R, G, B are the same bit for bit */
+    STATISTIC_SAME,      /* only the noise differs */
+    STATISTIC_DIFFERENT, /* the pixels differ by more than their noise */
+    STATISTIC_UNKNOWN    /* a layer that states the noise holds what no render writes, and what
+                            could be tested without it found nothing */
 } StatisticVerdict;
 
 typedef struct StatisticResult {
@@ -50,6 +54,7 @@ typedef struct StatisticResult {
     long pixels;            /* that were looked at */
     long differing;         /* of these, beyond rounding (1e-5) in some channel */
     bool shares_noise;      /* one seed: see above */
+    bool mean_moved;        /* different, by a mean whose interval leaves "as before" out */
     int block_side;         /* pixels */
     int blocks_x, blocks_y; /* from the data window's corner */
     float *block_p;         /* blocks_x * blocks_y: the least p of the block's channels; NaN
@@ -59,6 +64,8 @@ typedef struct StatisticResult {
     char reason[256]; /* in words, where it moved and how much; without a move, what
                          differs between frames that share their noise, or "" */
     char note[256];   /* what makes the test weaker than it could be, or "" */
+    int broken_side;  /* unknown: 0 the reference, 1 the test */
+    char broken[96];  /* layer, value, place, and what it is not; "" none */
 } StatisticResult;
 
 bool statistic_compare(const FrameImage *reference, const FrameImage *test,
