@@ -41,9 +41,10 @@
  * facets send to other facets (Kulla and Conty 2017).
  * A coat covers its share of the surface. What it lets in and out again is one less its albedo
  * each way; what it holds back meets the base again: a metal's lobe and rebound are scaled for
- * it by coat.h, the Lambert base is coupled to both boundaries at once. A white metal or
- * plastic under any coat returns what it gets, to 85 degrees within 0.1 % (plastic) and 0.2 %
- * (metal); of a coloured base each further turn takes its albedo. All of it is reciprocal.
+ * it by coat.h, so are a non-metal's facets, each further turn by what they reflect in the mean;
+ * the Lambert base is coupled to both boundaries at once. A white metal or plastic of any F0
+ * under any coat returns what it gets, to 85 degrees within 0.1 % (plastic) and 0.2 % (metal);
+ * of a coloured base each further turn takes its albedo. All of it is reciprocal.
  * What coat.h's tables do not know, brushed, filmed and coated faces and sheen, sends out
  * through the coat what covered_lobe.h integrates on the spot; all else of the light that the
  * coat let in is the Lambert base's or the rebound's, coupled symmetrically. Facets of a metal
@@ -87,9 +88,10 @@
  * the exact curve at the coat's normal, however rough, and the light stays unpolarised.
  *
  * Not modelled: subsurface spread, coloured absorption along a slanted path in the coat, turns
- * of light between a coat and the mirror of a non-metal (its few per cent go to the Lambert
- * base), and between a rough base and a coat whose normal is tilted; of a metal without n, k
- * the exact curve (Schlick is within some per cent of it).
+ * of light between a coat and the facets of a brushed, filmed, coated or woven non-metal (what
+ * they would send, to 4 % of F0, goes to the Lambert base), and between a rough base and a coat
+ * whose normal is tilted; of a metal without n, k the exact curve (Schlick is within some per
+ * cent of it).
  */
 #include "shaders/metallic_roughness.h"
 

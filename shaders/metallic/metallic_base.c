@@ -143,8 +143,8 @@ float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf) {
 
 /* ---- the base through the coat ----------------------------------------------------------- */
 
-Spectrum coat_on_metal(const MetallicRoughness *m, const ThroughCoat *out, const ThroughCoat *in) {
-    Spectrum r = energy_metal_mean(m), one = spectrum_all(1), product;
+Spectrum coat_on_facets(Spectrum r, const ThroughCoat *out, const ThroughCoat *in) {
+    Spectrum one = spectrum_all(1), product;
     float stays[2], t[2] = {out->open, in->open}, u[2] = {out->share.boost, in->share.boost};
     for (int i = 0; i < 2; i++) {
         float p = u[i] > 0 ? t[i] / u[i] : 1;
@@ -187,22 +187,37 @@ SheetLight coat_sheet_rebound(const MetallicView *view) {
     return (SheetLight){light.back * share, light.through * share};
 }
 
-/* Share that both boundaries let into the Lambert base. */
-static inline Spectrum let_in_coated(const MetallicFace *b, Energy e, const ThroughCoat *t) {
-    return let_in(b, (Energy){e.all - t->share.all, e.shape - t->share.shape}) *
-           spectrum_all(t->open);
+/* What facets of mean reflectance r send out in all turns by what they do in the first, where a
+ * coat holds back `held` of it: the sum of r held, which of white facets (coat.h's boost) is all
+ * that came to them. */
+static Spectrum all_turns(Spectrum r, float held) {
+    return spectrum_all(1) / (spectrum_all(1) - r * spectrum_all(clampf(held, 0, 1)));
+}
+
+/* Share that both boundaries let into the Lambert base. A tilted coat, of boost `open`, has but
+ * one turn. */
+static Spectrum let_in_coated(const MetallicView *view, Energy e, const ThroughCoat *t) {
+    const MetallicFace *b = &view->boundary;
+    bool turns = t->share.boost > t->open && e.all > 0;
+    Spectrum sent = b->f0 * spectrum_all(e.all - t->share.all) +
+                    b->rise * spectrum_all(e.shape - t->share.shape);
+    sent *= all_turns(view->face_mean, turns ? t->share.all / e.all : 0);
+    return (spectrum_all(1) - sent) * spectrum_all(t->open);
 }
 
 Spectrum coat_diffuse(const MetallicView *view, Spectrum albedo, Energy in,
                       const ThroughCoat *below) {
     const MetallicRoughness *m = view->m;
     const MetallicFace *b = &view->boundary;
+    const CoatMean *coat = &view->coat_mean;
     float share = (1 - m->metallic) * (1 - m->transmission);
     if (!(share > 0)) return spectrum_all(0);
-    Spectrum mean = spectrum_all(view->coat_mean.open) - b->f0 * spectrum_all(view->coat_mean.all) -
-                    b->rise * spectrum_all(view->coat_mean.shape);
-    return albedo * coat_turns(view->coat_mean.open, base_lambert_albedo(m)) *
-           let_in_coated(b, view->energy, &view->through) * let_in_coated(b, in, below) *
+    bool turns = m->clearcoat_normal.z >= COAT_UPRIGHT && coat->lobe > 0;
+    Spectrum sent = b->f0 * spectrum_all(coat->all) + b->rise * spectrum_all(coat->shape);
+    sent *= all_turns(view->face_mean, turns ? 1 - coat->all / coat->lobe : 0);
+    Spectrum mean = spectrum_all(coat->open) - sent;
+    return albedo * coat_turns(coat->open, base_lambert_albedo(m)) *
+           let_in_coated(view, view->energy, &view->through) * let_in_coated(view, in, below) *
            spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
 }
 

@@ -88,8 +88,9 @@ float coat_tilt(const MetallicRoughness *m, Vec3 wo, Vec3 wi);
 float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf);
 
 /* Factor for light in and out along these, t t / sqrt of both 1 - r (1 - p), where p = (t /
- * u)^2 is the share that a lobe's light gets out with each time and r the base's albedo. */
-Spectrum coat_on_metal(const MetallicRoughness *m, const ThroughCoat *out, const ThroughCoat *in);
+ * u)^2 is the share that a lobe's light gets out with each time and r what facets reflect in
+ * the mean, of metal or non-metal. */
+Spectrum coat_on_facets(Spectrum r, const ThroughCoat *out, const ThroughCoat *in);
 
 /* A mirror of reflectance r under a coat that lets pass t: t t (1 + r (1 - t) + ...). A rough
  * lobe has the lesser t of its two directions: so it never sends out more than came in along

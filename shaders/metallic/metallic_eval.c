@@ -37,14 +37,17 @@ static Spectrum facet_below(const MetallicView *view, float cosine, const Throug
     if (m->metallic > 0)
         metal *= is_covered(m)
                      ? coat_on_mirror(energy_metal_mean(m), fminf(view->through.open, below->open))
-                     : coat_on_metal(m, &view->through, below);
+                     : coat_on_facets(energy_metal_mean(m), &view->through, below);
     if (has_sheet_under_coat(m)) {
         SheetFaces faces = facet_sheet(m, &view->boundary, cosine);
         nonmetal -= faces.front * spectrum_all(clear_share(m));
         nonmetal = spectrum_max(nonmetal, spectrum_all(0));
         metal += coat_sheet(view, cosine, below).back;
     }
-    return nonmetal * spectrum_all(view->through.open * below->open) + metal;
+    nonmetal *= is_covered(m) || !(m->metallic < 1)
+                    ? spectrum_all(view->through.open * below->open)
+                    : coat_on_facets(view->face_mean, &view->through, below);
+    return nonmetal + metal;
 }
 
 Spectrum eval_facets(const MetallicView *view, Vec3 wi, const ThroughCoat *below) {
@@ -319,6 +322,10 @@ static void set_layers(MetallicView *view) {
     if (m->clearcoat > 0) {
         view->through = coat_through(m, view->wo);
         view->coat_mean = coat_mean(m->coat, m->alpha, m->clearcoat_alpha);
+        if (m->metallic < 1)
+            view->face_mean =
+                view->boundary.f0 +
+                view->boundary.rise * spectrum_all(energy_average(m->energy, 0).shape);
     }
     if (coated_face(m)) view->coated = energy_coated(m, view->wo);
     if (has_film(m)) set_film(view);

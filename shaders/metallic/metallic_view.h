@@ -87,9 +87,10 @@ typedef struct MetallicView {
     float coat;          /* the coat's albedo towards wo, times its share */
     ThroughCoat through; /* the coat, and of it all: */
     CoatMean coat_mean;
-    Spectrum lambert;           /* the factor of the Lambert base's light that depends on wo */
-    Spectrum coated;            /* what a coated or filmed face sends back towards wo */
-    Spectrum film[LOBE_FACETS]; /* filmed faces' reflectance at facet_cosine */
+    Spectrum face_mean; /* of the non-metal over the hemisphere: its share in further turns */
+    Spectrum lambert;   /* the factor of the Lambert base's light that depends on wo */
+    Spectrum coated;    /* what a coated or filmed face sends back towards wo */
+    Spectrum film[LOBE_FACETS];         /* filmed faces' reflectance at facet_cosine */
     OverlayShare overlay, overlay_mean; /* towards wo; over the hemisphere */
     CoveredBase covered;
 } MetallicView;

@@ -151,6 +151,69 @@ TEST(a_coated_mirror_sums_up_its_turns) {
         }
 }
 
+/* A non-metal of that reflectance at normal incidence. */
+static MetallicRoughness dielectric(float f0, float base, float alpha) {
+    MetallicRoughness m = metallic_roughness_default(glass);
+    m.metallic = 0;
+    m.specular_color = spectrum_all(f0 / fresnel_normal(1.5f));
+    m.base_color = spectrum_all(base);
+    m.alpha = alpha;
+    m.clearcoat = 1;
+    m.clearcoat_energy = glass;
+    m.coat = lacquer;
+    return m;
+}
+
+/* Its facets follow all turns, and the Lambert base is coupled to what they leave. */
+TEST(a_coat_keeps_white_of_any_reflectance_white) {
+    static const float f0s[] = {0.2f, 0.5f, 0.8f, 1}, alphas[] = {0, 0.1f, 0.35f, 1};
+    static const float coats[] = {0, 0.1f, 0.5f};
+    static const double thetas_deg[] = {0, 40, 65, 80, 85};
+    for (int i = 0; i < 4 * 4 * 3 * 5; i++) {
+        MetallicRoughness m = dielectric(f0s[i % 4], 1, alphas[i / 4 % 4]);
+        m.clearcoat_alpha = coats[i / 16 % 3];
+        double theta_deg = thetas_deg[i / 48], sent = furnace_of(&m, theta_deg, 0, 96);
+        if (!(fabs(sent - 1) <= 1e-3))
+            fail_msg("F0 %g, alpha %g under a coat of %g, %g deg: %g", (double)f0s[i % 4],
+                     (double)m.alpha, (double)m.clearcoat_alpha, theta_deg, sent);
+    }
+}
+
+/* Over a black base nothing hides a turn that is left out: a face that reflects all sends back
+ * all, as a white metal does. */
+TEST(a_coated_face_that_reflects_all_is_a_white_metal) {
+    static const float alphas[] = {0, 0.02f, 0.1f}, coats[] = {0, 0.1f, 0.5f};
+    static const double thetas_deg[] = {0, 40, 65, 80};
+    for (int i = 0; i < 3 * 3 * 4; i++) {
+        MetallicRoughness m = dielectric(1, 0, alphas[i % 3]), metal = m;
+        m.clearcoat_alpha = metal.clearcoat_alpha = coats[i / 3 % 3];
+        metal.metallic = 1;
+        metal.base_color = spectrum_all(1);
+        double theta_deg = thetas_deg[i / 9], face = furnace_of(&m, theta_deg, 0, 96);
+        double whole = furnace_of(&metal, theta_deg, 0, 96);
+        Vec3 wo = vec3((float)sin(radians_from_degrees(theta_deg)), 0,
+                       (float)cos(radians_from_degrees(theta_deg)));
+        double hidden = 1 - (double)energy_directional(glass, wo.z, m.alpha).all;
+        if (!(fabs(face + hidden - whole) <= 1e-3 + hidden))
+            fail_msg("alpha %g under a coat of %g, %g deg: %g, metal %g", (double)m.alpha,
+                     (double)m.clearcoat_alpha, theta_deg, face, whole);
+    }
+}
+
+/* A smooth black one under a smooth coat: the series of their turns. */
+TEST(a_coated_dielectric_sums_up_its_turns) {
+    for (float f0 = 0.2f; f0 <= 1; f0 += 0.2f)
+        for (int i = 1; i <= 10; i++) {
+            float cosine = 0.1f * (float)i, f = fresnel_unpolarised(cosine, 1.5f), t = 1 - f;
+            MetallicRoughness m = dielectric(f0, 0, 0);
+            double face = (double)(f0 + (1 - f0) * fresnel_shape(1.5f, cosine));
+            double mean = (double)(f0 + (1 - f0) * energy_average(glass, 0).shape);
+            double theta_deg = acos((double)cosine) / radians_from_degrees(1);
+            double series = (double)f + (double)(t * t) * face / (1 - mean * (double)f);
+            assert_near(furnace_of(&m, theta_deg, 0, 48), series, 1e-3);
+        }
+}
+
 TEST(the_programs_own_tables_are_those_that_a_run_would_make) {
     assert_float_equal(CLEARCOAT_IOR, 1.5f, 0);
     assert_memory_equal(&common_energy_table, glass, sizeof *glass);
