@@ -10,7 +10,10 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/scene_warnings.h"
+#include "cli/options/missed_answer.h"
 #include "cli/options/scene_options.h"
+#include "missed/missed_scene.h"
+#include "missed/missed_words.h"
 #include "scene/check/display_frame.h"
 #include "scene/load/scene_load.h"
 #include "spectrum/photometry.h"
@@ -340,7 +343,8 @@ static json_t *json_animations(const Scene *scene) {
     return list;
 }
 
-static bool print_json(const Scene *scene, const Problems *problems, Arena *arena, Error *err) {
+static bool print_json(const Scene *scene, const MissedLight *missed, const Problems *problems,
+                       Arena *arena, Error *err) {
     json_t *list = cli_json_problems(problems, SEVERITY_ERROR);
     json_t *warnings = cli_json_problems(problems, SEVERITY_WARNING);
     json_array_extend(list, warnings);
@@ -356,11 +360,29 @@ static bool print_json(const Scene *scene, const Problems *problems, Arena *aren
     json_object_set_new(answer, "origin_m", json_world_point(scene->origin));
     json_object_set_new(answer, "variants", json_texts(scene->variants, scene->variant_count));
     json_object_set_new(answer, "animations", json_animations(scene));
+    json_object_set_new(answer, "missed_light", missed_pairs_json(scene, missed));
     json_object_set_new(answer, "material_list", material_list_json(scene, arena));
     return cli_print_json(answer, err);
 }
 
 /* ---- the command ----------------------------------------------------------------------- */
+
+/* A scene with errors is not looked at. */
+static bool find_missed(const Scene *scene, const MissedRun *run, Arena *arena, Problems *problems,
+                        MissedLight *missed, Error *err) {
+    const char *file = scene->input_count ? scene->inputs[0] : "";
+    *missed = (MissedLight){.count = 0};
+    if (problems->error_count) return true;
+    if (!missed_in_scene(scene, run, arena, missed, err)) return false;
+    for (int i = 0; i < missed->count && i < MISSED_LINES; i++)
+        problems_add(problems, SEVERITY_WARNING, file, "", "%s",
+                     missed_pair_words(scene, missed, i, arena));
+    if (missed->count > MISSED_LINES)
+        problems_add(problems, SEVERITY_WARNING, file, "",
+                     "and %d more lights by mirrors or through solids that are not followed",
+                     missed->count - MISSED_LINES);
+    return true;
+}
 
 static Outcome run_check(int argc, char **argv, Arena *arena, Error *err) {
     const char *root = NULL;
@@ -393,12 +415,18 @@ static Outcome run_check(int argc, char **argv, Arena *arena, Error *err) {
     SceneOptions files = {.root = root};
     if (!scene_options_read(&words, &cli, arena, &files, err)) return OUTCOME_FAILED;
     Scene *scene = scene_survey(&files, cli.progress, arena, &problems);
+    const MissedRun run = {cli.threads, cli.progress};
+    MissedLight missed;
     bool done = true;
     hdri_warn(&scene->environment, &problems);
     data_warn(scene, is_strict ? SEVERITY_ERROR : SEVERITY_WARNING, &problems);
     forward_doubt(scene, &problems);
     panels_warn(scene, is_strict ? SEVERITY_ERROR : SEVERITY_WARNING, &problems);
-    if (cli.json) done = print_json(scene, &problems, arena, err);
+    if (!find_missed(scene, &run, arena, &problems, &missed, err)) {
+        scene_close(scene);
+        return OUTCOME_FAILED;
+    }
+    if (cli.json) done = print_json(scene, &missed, &problems, arena, err);
     else if (materials) material_list_print(scene, arena);
     else print_report(scene, &problems, arena);
     if (!cli.json && materials) print_problems(&problems);

@@ -216,6 +216,12 @@ static void print_text(const FrameMeasurement *m, bool is_display) {
         print("%-12s missing: no layer variance (--layers variance)\n", "intervals");
 }
 
+/* What render found out about the frame. */
+static void print_missed(const FrameImage *frame) {
+    const char *missed = frame_string(frame, "parhelion:mayMiss");
+    if (missed) print("%-12s light: %s\n", "may miss", missed);
+}
+
 static void print_lights(const LightShares *lights, bool is_display) {
     if (lights->count && is_display && !lights->pixels) {
         print("%-12s missing: no pixel shows the display alone\n", "by light");
@@ -309,8 +315,8 @@ static json_t *json_lights(const LightShares *lights) {
     return out;
 }
 
-static bool print_json(const MeasureWords *typed, const FrameMeasurement *m,
-                       const LightShares *lights, Error *err) {
+static bool print_json(const MeasureWords *typed, const FrameImage *frame,
+                       const FrameMeasurement *m, const LightShares *lights, Error *err) {
     const MeasureRequest *r = &typed->request;
     json_t *answer =
         json_pack("{s:o, s:I, s:I, s:[o,o,o], s:o, s:o, s:o, s:o}", "frame",
@@ -329,6 +335,8 @@ static bool print_json(const MeasureWords *typed, const FrameMeasurement *m,
         json_object_set_new(answer, "lights", json_lights(lights));
         json_object_set_new(answer, "lights_pixels", json_integer(lights->pixels));
     }
+    json_object_set_new(answer, "may_miss",
+                        json_text_or_null(frame_string(frame, "parhelion:mayMiss")));
     json_object_set_new(answer, "missing_layers", missing(m));
     if (r->display) set_display(answer, r->display, m);
     if (r->has_region)
@@ -354,9 +362,10 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err) {
     if (!measure_frame(&file.frame, &typed->request, *arena, &measured, err)) return false;
     LightShares lights =
         light_shares_measure(&file.frame, &typed->request, measured.luminance.value, arena);
-    if (typed->cli.json) return print_json(typed, &measured, &lights, err);
+    if (typed->cli.json) return print_json(typed, &file.frame, &measured, &lights, err);
     print_text(&measured, typed->request.display != NULL);
     print_lights(&lights, typed->request.display != NULL);
+    print_missed(&file.frame);
     return true;
 }
 

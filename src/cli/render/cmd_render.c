@@ -20,6 +20,7 @@
 #include "denoise/denoise.h"
 #include "film/film_frame.h"
 #include "image/light/radiance_picture.h"
+#include "missed/missed_words.h"
 #include "print/print.h"
 #include "render/signals.h"
 #include "scene/load/scene_load.h"
@@ -35,6 +36,8 @@ typedef struct RenderRun {
     LightGroups lights;
     const char *identity;
     RenderLive live;
+    MissedEye eye; /* the camera, which may miss light */
+    MissedLight missed;
 } RenderRun;
 
 /* ---- before ------------------------------------------------------------------------------ */
@@ -223,6 +226,20 @@ static bool check_dropped(const RenderRun *work, const RenderResult *result, Err
     return false;
 }
 
+/* What paths will miss of the light, before the first of them. */
+static void find_missed(RenderRun *work) {
+    if (work->request.replays) return;
+    work->eye = (MissedEye){.name = "", .camera = &work->setup.camera, .display_id = NO_ID};
+    work->missed = missed_light_find(&work->setup.context, &work->eye, 1, work->arena);
+    work->request.missed = &work->missed;
+    work->request.scene_lit = work->scene;
+    for (int i = 0; i < work->missed.count && i < MISSED_LINES; i++)
+        warn(work, missed_pair_words(work->scene, &work->missed, i, work->arena));
+    if (work->missed.count > MISSED_LINES)
+        warn(work, arena_format(work->arena, "and %d more lights that are not followed",
+                                work->missed.count - MISSED_LINES));
+}
+
 static void warn_of_noise(RenderRun *work, const RenderResult *result) {
     const RenderOptions *options = &work->request.render;
     const char *area = frame_area_words(&work->request.noise.of, work->arena);
@@ -383,6 +400,7 @@ static Outcome run(RenderRun *work, Error *err) {
         return OUTCOME_FAILED;
     bool done = find_lights(work, err) && identify(work, err);
     if (done) warn_of_memory(work);
+    if (done) find_missed(work);
     done = done && render_prepared(&work->setup, options, work->arena, &result, err);
     render_setup_end(&work->setup);
     return done ? hand_over(work, &result, err) : OUTCOME_FAILED;

@@ -12,10 +12,12 @@
 #include "base/units.h"
 #include "cli/options/answer.h"
 #include "cli/options/environment_options.h"
+#include "cli/options/missed_answer.h"
 #include "cli/render/render_identity.h"
 #include "film/film_frame.h"
 #include "film/film_part.h"
 #include "image/frame_view.h"
+#include "missed/missed_words.h"
 #include "render/favour.h"
 #include "render/pilot.h"
 #include "scene/load/material_data.h"
@@ -142,6 +144,11 @@ static void attach_sums(FrameImage *frame, const RenderOptions *options, const R
     film_part_attach(frame, result->film, &part, arena);
 }
 
+/* NULL: nothing worth a word. */
+static const char *missed_text(const RenderRequest *request, Arena *arena) {
+    return request->missed ? missed_words(request->scene_lit, request->missed, arena) : NULL;
+}
+
 FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
                              const SceneCamera *camera, const RenderResult *result, Arena *arena) {
     int room = 32 + scene->part_count + scene->display_count + FILM_LIGHTS_MAX;
@@ -156,6 +163,8 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
     if (assumed) frame_set_string(&frame, "parhelion:assumed", assumed, arena);
     const char *weather = weather_option_text(&scene->environment, arena);
     if (weather) frame_set_string(&frame, "parhelion:weather", weather, arena);
+    const char *missed = missed_text(request, arena);
+    if (missed) frame_set_string(&frame, "parhelion:mayMiss", missed, arena);
     set_sampling(&frame, request, result, arena);
     set_camera(&frame, scene, camera, arena);
     set_names(&frame, scene, request->render.layers, arena);
@@ -164,6 +173,7 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
     return frame;
 }
 
+#define WORDS_BYTES ((size_t)1 << 16)
 #define WORST_PIXELS 5         /* in the answer */
 #define WORST_LEAST_SAMPLES 32 /* a line of its own for the worst: from here on, */
 #define WORST_RATIO 20         /* and when it is so many times the frame's mean */
@@ -237,6 +247,19 @@ static json_t *noise_document(const RenderRequest *request, const RenderResult *
                      "error_may_be", json_figure(result->noise_doubt), "pilot", pilot);
 }
 
+/* Light that may be missing; null: none that is worth a word. */
+static json_t *missed_document(const RenderRequest *request) {
+    const MissedLight *missed = request->missed;
+    Arena scratch = arena_reserve(WORDS_BYTES);
+    const char *words = missed_text(request, &scratch);
+    json_t *out =
+        words ? json_pack("{s:s, s:f, s:f, s:o}", "words", words, "cd_m2", missed->light, "share",
+                          missed->share, "lights", missed_pairs_json(request->scene_lit, missed))
+              : json_null();
+    arena_release(&scratch);
+    return out;
+}
+
 static json_t *answer_document(const RenderRequest *request, const RenderResult *result,
                                const Problems *problems) {
     const PathStatistics *counts = &result->statistics;
@@ -258,6 +281,7 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
                         json_string(render_projection_name(&request->camera)));
     json_object_set_new(answer, "for", favour_document(request, result));
     json_object_set_new(answer, "noise", noise_document(request, result));
+    json_object_set_new(answer, "may_miss", missed_document(request));
     json_object_set_new(answer, "isa", json_string(result->kernel->isa));
     json_object_set_new(answer, "training", training_document(result));
     json_object_set_new(answer, "resumed_samples", json_integer(result->resumed_samples));
@@ -319,6 +343,13 @@ static void print_noise(const RenderRequest *request, const RenderResult *result
           render_noise_is_rare(result) ? "; rare light: not yet known" : "");
 }
 
+static void print_missed(const RenderRequest *request) {
+    Arena scratch = arena_reserve(WORDS_BYTES);
+    const char *words = missed_text(request, &scratch);
+    if (words) print("%s: may miss light: %s\n", request->output, words);
+    arena_release(&scratch);
+}
+
 static void print_line(const RenderRequest *request, const RenderResult *result) {
     const PathStatistics *counts = &result->statistics;
     char samples[32], rays[32], favour[64], error[32];
@@ -338,6 +369,7 @@ static void print_line(const RenderRequest *request, const RenderResult *result)
               "0.065 B); its codes are right within 0.4 %%, layers are only in .exr\n",
               request->output);
     print_worst(request, result);
+    print_missed(request);
 }
 
 bool render_print_answer(const RenderRequest *request, const RenderResult *result, double live_s,

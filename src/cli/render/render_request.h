@@ -12,6 +12,7 @@
 #include "cli/render/noise_goal.h"
 #include "cli/render/render_setup.h"
 #include "image/develop.h"
+#include "missed/missed_light.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -42,7 +43,9 @@ typedef struct RenderRequest {
                                  there is none */
     bool keeps_checkpoints;   /* while rendering; else only when it is stopped */
     bool resumes;             /* goes on from the checkpoint, if there is one */
-    json_t *about;            /* members that the answer has besides, the caller's; NULL: none */
+    const Scene *scene_lit; /* once it is known what paths miss of its light, and that; else NULL */
+    const MissedLight *missed;
+    json_t *about; /* members that the answer has besides, the caller's; NULL: none */
 } RenderRequest;
 
 bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err);
