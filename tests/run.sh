@@ -69,6 +69,7 @@ start 'scenes moved and turned' moved python3 tests/image/moved.py $program
 start 'faults and their outcomes' faults python3 tests/hostile/faults.py $program
 start 'closed forms in frames' image python3 tests/image/run.py $program
 start 'frames that were multiplied' multiplied python3 tests/image/multiplied.py $program
+start 'light that no path connects' missed python3 tests/image/missed.py $program
 start 'comparisons' compare python3 tests/hostile/compare.py $program
 start 'same bits, any threads' bits python3 tests/image/bits.py $program
 start 'golden frames' golden python3 tests/image/golden.py $program

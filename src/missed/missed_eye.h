@@ -1,9 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* missed_eye.h -- where a camera's picture shows a place, and how much light there makes of it.
+/* missed_eye.h -- who might see light that is missed; where a camera's picture shows a place,
+ * and how much light there makes of it.
  *
- * Threads  pure functions. */
+ * Threads  pure functions.
+ */
 #pragma once
 #include "camera/camera.h"
+
+/* Who might see it: a camera, or the front of a display. */
+typedef struct MissedEye {
+    const char *name;
+    const Camera *camera; /* NULL: the display */
+    int display_id;
+} MissedEye;
 
 typedef struct EyePlace {
     float x, y;     /* in the picture, [0, 1) from its upper left */

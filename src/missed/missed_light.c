@@ -11,6 +11,7 @@
 
 #define TILE_PATHS 4 /* of a camera's tile */
 #define DISPLAY_PATHS 256
+#define DARK 1e-6                       /* cd m^-2 or lx: less is not seen by night */
 #define SCRATCH_BYTES ((size_t)1 << 30) /* address space */
 #define SEED 0x70696c6fu
 
@@ -23,11 +24,11 @@ typedef struct Tile {
     double found, missed;
 } Tile;
 
-typedef struct PilotWork {
+typedef struct TilePilot {
     const PathContext *context;
     const MissedEye *eyes;
     Tile *tiles;
-} PilotWork;
+} TilePilot;
 
 static Ray tile_ray(const Camera *camera, int place, Vec2 at) {
     float column = (float)(place % MISSED_SIDE), row = (float)(place / MISSED_SIDE);
@@ -36,7 +37,7 @@ static Ray tile_ray(const Camera *camera, int place, Vec2 at) {
 }
 
 /* One path's light, Y. */
-static double try_path(const PilotWork *work, const Tile *tile, const PathStart *start) {
+static double try_path(const TilePilot *work, const Tile *tile, const PathStart *start) {
     const MissedEye *eye = &work->eyes[tile->eye];
     const Scene *scene = work->context->scene;
     PathResult result = {.xyz = {0}};
@@ -59,7 +60,7 @@ static double try_path(const PilotWork *work, const Tile *tile, const PathStart 
 }
 
 static void try_tile(void *user, int item, int worker) {
-    const PilotWork *work = user;
+    const TilePilot *work = user;
     Tile *tile = &work->tiles[item];
     int paths = work->eyes[tile->eye].camera ? TILE_PATHS : DISPLAY_PATHS;
     PathStatistics counted = {0};
@@ -74,6 +75,23 @@ static void try_tile(void *user, int item, int worker) {
                            .statistics = &counted};
         double y = try_path(work, tile, &start);
         if (isfinite(y) && y > 0) tile->found += y / paths;
+    }
+}
+
+/* Few paths find nothing in a dark tile. As for a frame's relative error (film.h), shadow is judged
+ * against what an eye sees that is adapted to the picture: half its key, the geometric mean. */
+static void lift_shadow(const TilePilot *work, int eye_count) {
+    Tile *first = work->tiles;
+    for (int i = 0; i < eye_count; first += missed_tiles(&work->eyes[i]), i++) {
+        int tiles = missed_tiles(&work->eyes[i]), lit = 0;
+        double logs = 0;
+        for (int k = 0; k < tiles; k++) {
+            if (!(first[k].found > 0)) continue;
+            logs += log(first[k].found);
+            lit++;
+        }
+        double low = lit ? fmax(0.5 * exp(logs / lit), DARK) : DARK;
+        for (int k = 0; k < tiles; k++) first[k].found = fmax(first[k].found, low);
     }
 }
 
@@ -199,10 +217,11 @@ MissedLight missed_light_find(const PathContext *context, const MissedEye *eyes,
     int tile_count;
     if (finds.count) {
         Tile *tiles = list_tiles(context, eyes, eye_count, &tile_count, &scratch);
-        PilotWork pilot = {context, eyes, tiles};
+        TilePilot pilot = {context, eyes, tiles};
         for (uint32_t i = 0; i < finds.count; i++)
             tiles[finds.list[i].tile].missed += (double)finds.list[i].light;
         parallel_for(bvh_threads(context->bvh), tile_count, try_tile, &pilot);
+        lift_shadow(&pilot, eye_count);
         Pairing pairing = {eyes, eye_count, tiles, ARENA_NEW(&scratch, double, eye_count),
                            ARENA_NEW(&scratch, double, eye_count)};
         find_pairs(&pairing, &finds, &out, arena);

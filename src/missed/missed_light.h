@@ -19,19 +19,10 @@
  * Memory   from the arena.  Threads: any number, the same bits.
  */
 #pragma once
-#include "camera/camera.h"
+#include "missed/missed_eye.h"
 #include "path/connected.h"
 
-#define MISSED_EVENTS 8 /* smooth boundaries on a way, two a solid */
-#define MISSED_COMPACT_SR 1e-3f
 #define MISSED_SHARE 0.01 /* of an eye's light: less is not worth a word */
-
-/* Who might see it: a camera, or the front of a display. */
-typedef struct MissedEye {
-    const char *name;
-    const Camera *camera; /* NULL: the display */
-    int display_id;
-} MissedEye;
 
 /* Light of one lamp that goes first by one mirror, or into one solid. */
 typedef struct MissedPair {

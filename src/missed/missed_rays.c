@@ -37,7 +37,7 @@ static AreaList area_list_start(size_t room, Arena *arena) {
     return (AreaList){ARENA_NEW(arena, uint32_t, room), ARENA_NEW(arena, double, room), 0};
 }
 
-AreaList area_list_of_part(const Scene *scene, int part_id, Arena *arena) {
+static AreaList area_list_of_part(const Scene *scene, int part_id, Arena *arena) {
     const Part *part = &scene->parts[part_id];
     AreaList list = area_list_start(part->triangle_count + 1, arena);
     for (uint32_t i = 0; i < part->triangle_count; i++)
@@ -84,7 +84,7 @@ typedef struct Target {
     uint32_t rays, before; /* before: to the targets in front of it */
 } Target;
 
-typedef struct RayWork {
+typedef struct MissedWork {
     const PathContext *context;
     const Wavelengths *wavelengths; /* of all rays: what they bring is an estimate */
     const EyeTiles *eyes;
@@ -96,10 +96,10 @@ typedef struct RayWork {
     MissedFinds *pieces;
     uint32_t *rooms;
     Arena *arenas; /* one a worker */
-} RayWork;
+} MissedWork;
 
-typedef struct Beam {
-    const RayWork *work;
+typedef struct MissedBeam {
+    const MissedWork *work;
     MissedFinds *finds;
     uint32_t *room;
     Arena *arena;
@@ -113,9 +113,9 @@ typedef struct Beam {
     int events;
     LightChain chain;
     MissedFind find; /* whose light, by which parts */
-} Beam;
+} MissedBeam;
 
-static void add_find(Beam *beam, int tile, float light) {
+static void add_find(MissedBeam *beam, int tile, float light) {
     MissedFinds *finds = beam->finds;
     if (!(light > 0) || !isfinite(light)) return;
     if (finds->count == *beam->room) {
@@ -129,7 +129,7 @@ static void add_find(Beam *beam, int tile, float light) {
 }
 
 /* Share of the light that goes along the ray to its end. */
-static Spectrum share_along(const RayWork *work, Ray ray) {
+static Spectrum share_along(const MissedWork *work, Ray ray) {
     const PathContext *c = work->context;
     Spectrum share = spectrum_all(1);
     Hit hit;
@@ -142,7 +142,7 @@ static Spectrum share_along(const RayWork *work, Ray ray) {
     return share;
 }
 
-static float luminous(const RayWork *work, Spectrum power) {
+static float luminous(const MissedWork *work, Spectrum power) {
     float xyz[3] = {0};
     spectrum_add_xyz(work->wavelengths, power, xyz);
     return xyz[1];
@@ -151,7 +151,7 @@ static float luminous(const RayWork *work, Spectrum power) {
 /* ---- what an eye has of it --------------------------------------------------------------- */
 
 /* wo: unit, from the place to where the light comes from. */
-static void show_camera(Beam *beam, const EyeTiles *tiles, const Surface *surface, Vec3 wo) {
+static void show_camera(MissedBeam *beam, const EyeTiles *tiles, const Surface *surface, Vec3 wo) {
     EyePlace place;
     float pdf;
     if (!eye_place_of(tiles->eye->camera, surface->position, &place)) return;
@@ -167,8 +167,8 @@ static void show_camera(Beam *beam, const EyeTiles *tiles, const Surface *surfac
                  luminous(beam->work, f * share_along(beam->work, place.ray)));
 }
 
-static void show(Beam *beam, const Surface *surface, Vec3 wo) {
-    const RayWork *work = beam->work;
+static void show(MissedBeam *beam, const Surface *surface, Vec3 wo) {
+    const MissedWork *work = beam->work;
     for (int i = 0; i < work->eye_count; i++) {
         const EyeTiles *tiles = &work->eyes[i];
         if (tiles->eye->camera) show_camera(beam, tiles, surface, wo);
@@ -179,13 +179,13 @@ static void show(Beam *beam, const Surface *surface, Vec3 wo) {
 }
 
 /* Would chance hardly find the light, from a surface at the end of the way? */
-static bool is_compact(const Beam *beam) {
+static bool is_compact(const MissedBeam *beam) {
     if (beam->chain.from != CHAIN_EMITTER) return true;
     double m2 = beam->work->part_m2[beam->find.light_id];
     return m2 < (double)(MISSED_COMPACT_SR * beam->length * beam->length);
 }
 
-static bool meet(const RayWork *work, Ray *ray, Hit *hit, Surface *surface, Spectrum *power) {
+static bool meet(const MissedWork *work, Ray *ray, Hit *hit, Surface *surface, Spectrum *power) {
     const PathContext *c = work->context;
     for (int i = 0; i < SHEETS_PASSED && bvh_intersect(c->bvh, *ray, 0, hit); i++) {
         surface_at(c->scene, c->tables, hit, vec3_neg(ray->direction), work->wavelengths, surface);
@@ -198,9 +198,9 @@ static bool meet(const RayWork *work, Ray *ray, Hit *hit, Surface *surface, Spec
 }
 
 /* On a surface that scatters: what eyes see of it, and of one more that it lights. */
-static void land(const Beam *beam, const Surface *surface, Vec3 wo, const float u[3]) {
+static void land(const MissedBeam *beam, const Surface *surface, Vec3 wo, const float u[3]) {
     const PathContext *c = beam->work->context;
-    Beam lit = *beam;
+    MissedBeam lit = *beam;
     LightChain chain = beam->chain;
     BsdfSample next;
     Surface other;
@@ -222,7 +222,7 @@ static void land(const Beam *beam, const Surface *surface, Vec3 wo, const float 
 
 /* ---- the way ----------------------------------------------------------------------------- */
 
-static void absorb(const RayWork *work, int medium_id, float distance, Spectrum *power) {
+static void absorb(const MissedWork *work, int medium_id, float distance, Spectrum *power) {
     const Material *m = &work->context->scene->materials[medium_id];
     if (!isfinite(m->attenuation_distance_m)) return;
     Spectrum left = spectrum_from_rgb(work->wavelengths, m->attenuation_color);
@@ -239,7 +239,7 @@ static bool is_flat(const Surface *surface) {
 }
 
 /* The next part on its way, by its mirror or into it. */
-static void name_part(Beam *beam, int part_id, bool is_solid) {
+static void name_part(MissedBeam *beam, int part_id, bool is_solid) {
     MissedFind *find = &beam->find;
     if (find->part_id == NO_ID) {
         find->part_id = part_id;
@@ -250,7 +250,7 @@ static void name_part(Beam *beam, int part_id, bool is_solid) {
 }
 
 /* Counts what happens at the surface. */
-static void note_event(Beam *beam, const Surface *surface, bool crosses) {
+static void note_event(MissedBeam *beam, const Surface *surface, bool crosses) {
     const Scene *scene = beam->work->context->scene;
     LightChain *chain = &beam->chain;
     beam->events++;
@@ -288,7 +288,7 @@ static bool choose(const Surface *surface, const float u[3], BsdfSample *next) {
 }
 
 /* False: it ends there. wo: unit, to where the light comes from. */
-static bool turn(Beam *beam, const Surface *surface, Vec3 wo, const float u[3]) {
+static bool turn(MissedBeam *beam, const Surface *surface, Vec3 wo, const float u[3]) {
     BsdfSample next;
     if (beam->events == MISSED_EVENTS || beam->events + 1 >= beam->work->context->max_bounces ||
         !choose(surface, u, &next))
@@ -307,8 +307,8 @@ static bool turn(Beam *beam, const Surface *surface, Vec3 wo, const float u[3]) 
 }
 
 /* From a first smooth surface on. */
-static void follow(Beam *beam, Sampler *sampler) {
-    const RayWork *work = beam->work;
+static void follow(MissedBeam *beam, Sampler *sampler) {
+    const MissedWork *work = beam->work;
     const PathContext *c = work->context;
     for (int i = 0; i < MISSED_EVENTS + SHEETS_PASSED; i++) {
         Hit hit;
@@ -348,8 +348,8 @@ static int light_of(const Scene *scene, const LightSample *light) {
 }
 
 /* From one light to the place, which stands for m2 of its part, and on. */
-static void send(Beam *beam, LightSet set, const Hit *hit, double m2, Sampler *sampler) {
-    const RayWork *work = beam->work;
+static void send(MissedBeam *beam, LightSet set, const Hit *hit, double m2, Sampler *sampler) {
+    const MissedWork *work = beam->work;
     const PathContext *c = work->context;
     TrianglePoint point = triangle_point(c->scene, hit->triangle, hit->u, hit->v);
     LitPoint place = {point.position, point.ns, true};
@@ -381,7 +381,7 @@ static void send(Beam *beam, LightSet set, const Hit *hit, double m2, Sampler *s
     if (turn(beam, &surface, wo, v)) follow(beam, sampler);
 }
 
-static void send_ray(Beam *beam, const Target *target, uint32_t k) {
+static void send_ray(MissedBeam *beam, const Target *target, uint32_t k) {
     static const LightSet SETS[] = {LIGHTS_SUN, LIGHTS_EMITTERS, LIGHTS_PUNCTUAL};
     double all = area_list_m2(&target->area);
     for (int i = 0; i < 3; i++) {
@@ -397,13 +397,13 @@ static void send_ray(Beam *beam, const Target *target, uint32_t k) {
 }
 
 static void send_piece(void *user, int item, int worker) {
-    RayWork *work = user;
+    MissedWork *work = user;
     uint32_t first = (uint32_t)((uint64_t)work->rays * (uint64_t)item / PIECES);
     uint32_t end = (uint32_t)((uint64_t)work->rays * ((uint64_t)item + 1) / PIECES);
-    Beam beam = {.work = work,
-                 .finds = &work->pieces[item],
-                 .room = &work->rooms[item],
-                 .arena = &work->arenas[worker]};
+    MissedBeam beam = {.work = work,
+                       .finds = &work->pieces[item],
+                       .room = &work->rooms[item],
+                       .arena = &work->arenas[worker]};
     for (int t = 0; t < work->target_count; t++) {
         const Target *target = &work->targets[t];
         for (uint32_t k = 0; k < target->rays; k++)
@@ -419,7 +419,7 @@ static bool is_smooth_material(const Scene *scene, const Material *m) {
 }
 
 /* Half of the rays go to the parts evenly: a small lens counts as much as a wall of glass. */
-static void list_targets(RayWork *work, Arena *arena) {
+static void list_targets(MissedWork *work, Arena *arena) {
     const Scene *scene = work->context->scene;
     Target *targets = ARENA_NEW(arena, Target, scene->part_count + 1);
     double all = 0;
@@ -470,13 +470,13 @@ MissedFinds missed_rays_send(const PathContext *context, const MissedEye *eyes, 
     uint32_t rooms[PIECES] = {0};
     Wavelengths middle;
     Arena scratch = arena_reserve(WORKER_BYTES);
-    RayWork work = {.context = context,
-                    .wavelengths = &middle,
-                    .eyes = list_eyes(context->scene, eyes, eye_count, &scratch),
-                    .eye_count = eye_count,
-                    .part_m2 = measure_parts(context->scene, &scratch),
-                    .pieces = pieces,
-                    .rooms = rooms};
+    MissedWork work = {.context = context,
+                       .wavelengths = &middle,
+                       .eyes = list_eyes(context->scene, eyes, eye_count, &scratch),
+                       .eye_count = eye_count,
+                       .part_m2 = measure_parts(context->scene, &scratch),
+                       .pieces = pieces,
+                       .rooms = rooms};
     wavelengths_sample(0.5f, &middle);
     list_targets(&work, &scratch);
     work.arenas = ARENA_NEW(&scratch, Arena, threads);

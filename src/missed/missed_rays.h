@@ -6,7 +6,11 @@
  *          any number.
  */
 #pragma once
-#include "missed/missed_light.h"
+#include "missed/missed_eye.h"
+#include "path/connected.h"
+
+#define MISSED_EVENTS 8 /* smooth boundaries on a way, two a solid */
+#define MISSED_COMPACT_SR 1e-3f
 
 #define MISSED_SIDE 16 /* tiles of a camera's picture, across and down */
 
@@ -43,8 +47,7 @@ static inline double area_list_m2(const AreaList *list) {
 /* The triangle at so many square metres. */
 uint32_t area_list_at(const AreaList *list, double m2);
 
-/* Of a part, or of all triangles that show a display. */
-AreaList area_list_of_part(const Scene *scene, int part_id, Arena *arena);
+/* Of all triangles that show a display. */
 AreaList area_list_of_display(const Scene *scene, int display_id, Arena *arena);
 
 MissedFinds missed_rays_send(const PathContext *context, const MissedEye *eyes, int eye_count,
