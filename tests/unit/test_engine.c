@@ -42,7 +42,7 @@ static bool run_request(Heard *heard, const char *unfinished, Arena *arena, Revi
                         Error *err) {
     Problems problems = problems_start(arena);
     ReviewRequest request;
-    const Profile *profile;
+    const Profile *profile = NULL;
     Error fault = {0};
     if (!review_request_read(in_folder("r.json"), NULL, arena, &problems, &request, &fault) ||
         !profile_load(request.profile, arena, &profile, &fault))

@@ -46,8 +46,8 @@ TEST(its_words_say_what_is_forbidden) {
         "must not be read, but can be: visual security 0.17",
         "must not be read, and surely cannot be: visual security 1.49",
         "must not be read, and perhaps can be: visual security 1.0",
-        "must not be read, and surely cannot be: nothing of it is seen: wheel <rim> (leather) "
-        "hides 75 %"};
+        ("must not be read, and surely cannot be: nothing of it is seen: wheel <rim> (leather) "
+         "hides 75 %")};
     static const int PLACES[] = {0, 1, 2, 20};
     static const Verdict VERDICTS[] = {VERDICT_FAIL, VERDICT_PASS, VERDICT_TOO_CLOSE, VERDICT_PASS};
     Review review = private_review();

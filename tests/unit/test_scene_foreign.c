@@ -312,8 +312,8 @@ static void put_file(const char *folder, const char *name) {
 /* Each kind of file that a scene names; %s is the uri. */
 static const char *const NAMERS[] = {
     "'buffers':[{'byteLength':4,'uri':'%s'}]",
-    "'images':[{'uri':'%s'}],'textures':[{'source':0}],'materials':[{'emissiveTexture':{"
-    "'index':0}}],'meshes':[{'primitives':[{'attributes':{},'material':0}]}]",
+    ("'images':[{'uri':'%s'}],'textures':[{'source':0}],'materials':[{'emissiveTexture':{"
+     "'index':0}}],'meshes':[{'primitives':[{'attributes':{},'material':0}]}]"),
     "'materials':[{'name':'m','extensions':{'PARHELION_display':{'panel':'%s'}}}]",
     "'materials':[{'extensions':{'PARHELION_spectrum':{'baseColor':'%s'}}}]",
     "'scene':0,'scenes':[{'extensions':{'PARHELION_environment':{'type':'hdri','uri':'%s'}}}]",

@@ -296,7 +296,7 @@ static inline Review fixture_odd_review(Arena *arena) {
          .contrast_ratio = NAN,
          .level = NAN,
          .then = {WILD_NAME, "glare", WILD_NAME, WILD_NAME, 2, false, false, false, NAN, NAN, NAN,
-                  NAN, VERDICT_UNJUDGED},
+                  NAN, VERDICT_UNJUDGED, 0, NULL},
          .verdict = VERDICT_UNJUDGED},
         {.what = "", .contrast_ratio = 3, .level = 4}};
     static ReviewResponse responses[] = {{WILD_NAME, WILD_NAME, 0, 0, NAN}};
