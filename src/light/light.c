@@ -90,18 +90,26 @@ int lights_lamp_count(const Lights *lights) {
     return lights->punctual.count;
 }
 
+int lights_lamp_id(const Lights *lights, int which) {
+    return lights->punctual.order[which];
+}
+
 /* ---- all sets ---------------------------------------------------------------------------- */
+
+static void take_lamp(const PunctualSample *lamp, LightSample *sample) {
+    sample->wi = lamp->wi;
+    sample->distance = lamp->distance;
+    sample->light_id = lamp->light_id;
+    sample->scale = lamp->scale;
+    sample->pdf = 1;
+    sample->is_delta = true;
+}
 
 static bool sample_punctual(const Lights *lights, const PunctualKnown *known, const LitPoint *point,
                             const float u[3], LightSample *sample) {
     PunctualSample lamp;
     if (!punctual_sample(&lights->punctual, known, point, u, &lamp)) return false;
-    sample->wi = lamp.wi;
-    sample->distance = lamp.distance;
-    sample->light_id = lamp.light_id;
-    sample->scale = lamp.scale;
-    sample->pdf = 1;
-    sample->is_delta = true;
+    take_lamp(&lamp, sample);
     return true;
 }
 
@@ -197,6 +205,20 @@ bool lights_sample_known(const Lights *lights, const PunctualKnown *known, LitPo
                          const float u[3], LightSample *sample) {
     sample_of(LIGHTS_PUNCTUAL, sample);
     return sample_punctual(lights, known, &point, u, sample);
+}
+
+PunctualPoint lights_lamp_point(const Lights *lights, int light_id, const float u[4]) {
+    return punctual_point(&lights->scene->lights[light_id], light_id, u);
+}
+
+bool lights_lamp_towards(const Lights *lights, const PunctualPoint *point, Vec3 place,
+                         LightSample *sample) {
+    PunctualSample lamp;
+    const PunctualLight *light = &lights->scene->lights[point->light_id];
+    if (!punctual_towards(light, point, place, &lamp)) return false;
+    sample_of(LIGHTS_PUNCTUAL, sample);
+    take_lamp(&lamp, sample);
+    return true;
 }
 
 void lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSample *sample) {

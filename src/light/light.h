@@ -60,6 +60,9 @@ Vec3 lights_sun_direction(const Lights *lights);
 /* Number of punctual lights that give any light. */
 int lights_lamp_count(const Lights *lights);
 
+/* The scene's id of the lamp `which`, in [0, lights_lamp_count). */
+int lights_lamp_id(const Lights *lights, int which);
+
 typedef struct LightSample {
     LightSet set;
     Vec3 wi;         /* unit, from the surface to the light */
@@ -87,6 +90,12 @@ bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const flo
 /* The same of LIGHTS_PUNCTUAL, where it is known which of them light the point. */
 bool lights_sample_known(const Lights *lights, const PunctualKnown *known, LitPoint point,
                          const float u[3], LightSample *sample);
+
+/* A place where the light of a lamp of LIGHTS_PUNCTUAL starts, u in [0,1)^4; and how it lights a
+ * place, as if the sample had been chosen with certainty (punctual.h). False: not at all. */
+PunctualPoint lights_lamp_point(const Lights *lights, int light_id, const float u[4]);
+bool lights_lamp_towards(const Lights *lights, const PunctualPoint *point, Vec3 place,
+                         LightSample *sample);
 
 /* As if LIGHTS_SKY's sample had chosen this direction, where there is a sky; its pdf may be
  * 0. */

@@ -83,24 +83,50 @@ static float share_towards(OpeningShape shape, Vec3 n, Vec3 e) {
     return seen > 0 ? seen / opening_unit_area(shape, e) : 0;
 }
 
-/* Drawn as seen from infinity in the direction of `from`, weighed as seen from there. A point
- * visible from near by faces that direction too, since the middle lies below its plane. */
-Vec3 opening_sample(const LuminousOpening *opening, Vec3 from, const float u[2], float *weight) {
+/* Drawn as seen from infinity in direction e of the unit body, any length. */
+static OpeningPoint draw(const LuminousOpening *opening, Vec3 e, const float u[2]) {
     OpeningShape shape = opening->shape;
-    Vec3 half = opening_half(opening), x = opening_turned(opening, from);
-    *weight = 1;
-    if (shape == OPENING_POINT) return vec3(0, 0, 0);
+    Vec3 half = opening_half(opening);
+    OpeningPoint out = {.at = vec3(0, 0, 0), .drawn = 1};
+    if (shape == OPENING_POINT) return out;
     if (opening->is_flat) {
         Vec3 at = flat_point(shape, u);
-        return opening_turned_back(opening, vec3(half.x * at.x, half.y * at.y, 0));
+        out.at = opening_turned_back(opening, vec3(half.x * at.x, half.y * at.y, 0));
+        return out;
     }
-    Vec3 e = opening_stretched(half, x);
-    *weight = 0;
-    if (!(vec3_dot(e, e) > 0)) return vec3(0, 0, 0);
+    out.drawn = 0;
+    if (!(vec3_dot(e, e) > 0)) return out;
     BodyPoint point = body_point(shape, e, u);
     Vec3 at = vec3(half.x * point.at.x, half.y * point.at.y, half.z * point.at.z);
-    Vec3 seen_by = opening_stretched(half, vec3_sub(x, at));
-    float drawn = share_towards(shape, point.normal, e);
-    if (drawn > 0) *weight = share_towards(shape, point.normal, seen_by) / drawn;
-    return opening_turned_back(opening, at);
+    out.at = opening_turned_back(opening, at);
+    out.normal = point.normal;
+    out.drawn = share_towards(shape, point.normal, e);
+    return out;
+}
+
+float opening_share(const LuminousOpening *opening, const OpeningPoint *point, Vec3 from) {
+    if (opening->shape == OPENING_POINT || opening->is_flat) return 1;
+    if (!(point->drawn > 0)) return 0;
+    Vec3 seen_by = opening_stretched(opening_half(opening),
+                                     opening_turned(opening, vec3_sub(from, point->at)));
+    return share_towards(opening->shape, point->normal, seen_by) / point->drawn;
+}
+
+/* By a random direction; of these half do not see a point. */
+OpeningPoint opening_point(const LuminousOpening *opening, const float u[4]) {
+    float z = 1 - 2 * u[2], r = safe_sqrtf(1 - z * z), sine, cosine;
+    sincos_turns(u[3], &sine, &cosine);
+    OpeningPoint out = draw(opening, vec3(r * cosine, r * sine, z), u);
+    bool is_body = opening->shape != OPENING_POINT && !opening->is_flat;
+    if (is_body) out.drawn *= 0.5f;
+    return out;
+}
+
+/* A point visible from near by faces the direction of `from` too, since the middle lies below
+ * its plane. */
+Vec3 opening_sample(const LuminousOpening *opening, Vec3 from, const float u[2], float *weight) {
+    Vec3 e = opening_stretched(opening_half(opening), opening_turned(opening, from));
+    OpeningPoint point = draw(opening, e, u);
+    *weight = opening_share(opening, &point, from);
+    return point.at;
 }

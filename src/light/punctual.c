@@ -72,6 +72,33 @@ static float opening_geometry(const PunctualLight *light, Vec3 position, const f
                                 : 0;
 }
 
+PunctualPoint punctual_point(const PunctualLight *light, int light_id, const float u[4]) {
+    PunctualPoint out = {.light_id = light_id, .is_distant = light->kind == LIGHT_DIRECTIONAL};
+    out.at = out.is_distant ? vec3_neg(light->direction) : light->position;
+    if (!has_opening(light)) return out;
+    out.opening = opening_point(&light->opening, u);
+    out.at = vec3_add(out.at, world_from_lamp(light, out.opening.at));
+    return out;
+}
+
+bool punctual_towards(const PunctualLight *light, const PunctualPoint *point, Vec3 place,
+                      PunctualSample *sample) {
+    sample->light_id = point->light_id;
+    if (!has_opening(light)) {
+        sample->scale = point_geometry(light, place, sample);
+        return sample->scale > 0;
+    }
+    Vec3 from = lamp_from_world(light, vec3_sub(place, light->position));
+    Vec3 away = vec3_sub(from, point->opening.at);
+    float d2 = vec3_dot(away, away);
+    if (!(d2 > 0)) return false;
+    sample->distance = sqrtf(d2);
+    sample->wi = vec3_normalize(vec3_neg(world_from_lamp(light, away)));
+    sample->scale = opening_share(&light->opening, &point->opening, from) *
+                    intensity_web_at(light->web, vec3_normalize(away)) / d2;
+    return sample->scale > 0;
+}
+
 /* The cosine at the point, of light that comes from `height` above its plane at `distance` and
  * from `radius` around; kept above 0 where anything can come. */
 static float cosine_above(float height, float distance, float radius) {

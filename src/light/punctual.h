@@ -12,6 +12,7 @@
  */
 #pragma once
 #include "light/lit_point.h"
+#include "light/opening.h"
 #include "scene/scene.h"
 #include "spectrum/spectrum.h"
 
@@ -79,3 +80,19 @@ float punctual_falloff(const PunctualLight *light, Vec3 from_light);
 
 /* How far its opening reaches from its position, m; 0 of a point. */
 float punctual_radius(const PunctualLight *light);
+
+/* A place where a lamp's light starts, whoever it lights. */
+typedef struct PunctualPoint {
+    int light_id;
+    bool is_distant;
+    Vec3 at;              /* m, scene; is_distant: unit, towards it */
+    OpeningPoint opening; /* in the luminaire's frame, from its position */
+} PunctualPoint;
+
+/* u in [0,1)^4 */
+PunctualPoint punctual_point(const PunctualLight *light, int light_id, const float u[4]);
+
+/* How it lights a place; over u the samples' mean is all of the lamp's light. False: nothing
+ * goes there. */
+bool punctual_towards(const PunctualLight *light, const PunctualPoint *point, Vec3 place,
+                      PunctualSample *sample);

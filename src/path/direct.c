@@ -4,6 +4,7 @@
 
 #include "scene/point/ray_ends.h"
 #include "path/emitted.h"
+#include "path/mirror_share.h"
 
 /* ---- solids ------------------------------------------------------------------------------ */
 
@@ -88,121 +89,7 @@ bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo)
            (vec3_dot(wi, surface->ng) * vec3_dot(wo, surface->ng) > 0);
 }
 
-/* ---- mirrors ----------------------------------------------------------------------------
- *
- * BSDF samples find light that goes sun, mirror (src/mirror), scattering surface only where
- * they hit the sun's image: rare and very bright samples. Here all points of mirrors that turn
- * one direction of the sun's disc to the surface count as lights of that direction; BSDF
- * samples then leave the sun in these mirrors out (mirror_is_known).
- *
- * Not known: what passes a second mirror on its way or is refracted, mirrors seen from within
- * a solid, mirrors bent by a normal map, rough ones above GLINT_ALPHA. */
-
-/* A lit position in air, and one direction of the sun. */
-typedef struct SunMirrorQuery {
-    const Scene *scene;
-    const SurfaceTables *tables;
-    const Wavelengths *wavelengths;
-    Vec3 from; /* m, world */
-    LightSample sun;
-    Spectrum radiance; /* of the sun there */
-    bool is_rough;     /* by facets of rough mirrors; else by smooth ones */
-} SunMirrorQuery;
-
-/* Squared: a normal that was bent towards the eye has moved by more. */
-#define UNBENT2 1e-8f
-
-/* Is the mirror's normal the interpolated one, and light in front of it in air? */
-static bool is_plain(const Scene *scene, const Surface *mirror, Vec3 wo) {
-    Vec3 ns = mirror->point.ns, z = mirror->frame.z;
-    Vec3 apart = vec3_sub(z, vec3_dot(ns, z) < 0 ? vec3_neg(ns) : ns);
-    bool is_outside =
-        !scene->materials[mirror->material_id].is_solid || vec3_dot(wo, mirror->ng) > 0;
-    return is_outside && vec3_dot(apart, apart) < UNBENT2;
-}
-
-/* Did the pair's part sample the sun that a ray in air, which came along -wo, finds behind
- * this mirror? The pair's triangle is the mirror's. */
-static bool mirror_is_known(const Scene *scene, const Mirrors *mirrors, MirrorPair pair,
-                            const Surface *mirror, Vec3 wo) {
-    if (mirror->material_id == NO_ID) return false;
-    bool may_be = !pair.is_rough || mirrors_rough_alpha(&scene->materials[mirror->material_id]) > 0;
-    return may_be && mirrors_have(mirrors, pair) && is_plain(scene, mirror, wo);
-}
-
-/* Sunlight by a point that mirrors_find reported; mirror->t is not used. False: none comes by
- * it. Occlusion is not tested.
- *
- * Light that leaves the solid angle dw around wo reached it from dw / spread around the sun's
- * direction: radiance is kept but for what the mirror takes, and the density of directions is
- * that of the sun's divided by the spread. Facets of a rough mirror send f cos of the light on,
- * and their directions have the density of their slopes divided by the spread. */
-static bool mirror_at(const SunMirrorQuery *query, const Hit *mirror, float spread,
-                      SunMirror *out) {
-    const Scene *scene = query->scene;
-    const LightSample *sun = &query->sun;
-    TrianglePoint place = triangle_point(scene, mirror->triangle, mirror->u, mirror->v);
-    Vec3 to = vec3_sub(place.position, query->from);
-    float distance = vec3_length(to);
-    Vec3 wi = vec3_scale(to, 1 / distance), wo = vec3_neg(wi);
-    Hit hit = {distance, mirror->u, mirror->v, mirror->triangle};
-    Surface *surface = &out->surface;
-    if (!(distance > 0)) return false;
-    surface_at(scene, query->tables, &hit, wo, query->wavelengths, surface);
-    Vec3 local_wo = surface->local_wo;
-    if (!(surface->alpha > 0) || !is_plain(scene, surface, wo) || !(local_wo.z > 0) ||
-        !(vec3_dot(sun->wi, surface->frame.z) > 0) ||
-        !(vec3_dot(wo, surface->ng) * vec3_dot(sun->wi, surface->ng) > 0))
-        return false;
-    Vec3 local_sun = frame_to_local(&surface->frame, sun->wi);
-    out->radiance = query->is_rough ? bsdf_glint(&surface->bsdf, local_wo, local_sun) *
-                                          spectrum_all(local_sun.z)
-                                    : bsdf_mirror(&surface->bsdf, local_wo);
-    out->radiance *= query->radiance * spectrum_all(surface->alpha * spread / sun->pdf);
-    out->light = (LightSample){.wi = wi,
-                               .distance = distance,
-                               .pdf = 1,
-                               .is_emitter = true,
-                               .triangle = mirror->triangle,
-                               .point = place};
-    return !spectrum_is_zero(out->radiance);
-}
-
-/* The rest of f = bsdf_eval at a rough mirror that was sampled: left to sun samples and
- * chance. */
-static Spectrum mirror_left(const Bsdf *mirror, Vec3 local_wo, Vec3 local_wi, Spectrum f) {
-    return spectrum_max(f - bsdf_glint(mirror, local_wo, local_wi), spectrum_all(0));
-}
-
-/* The same as a share of what a BSDF sample there carries; 0 by the smooth boundary. */
-static Spectrum mirror_share(const Bsdf *mirror, Vec3 local_wo, const BsdfSample *next) {
-    float pdf;
-    if (next->is_delta) return spectrum_all(0);
-    Spectrum f = bsdf_eval(mirror, local_wo, next->wi, &pdf);
-    return mirror_left(mirror, local_wo, next->wi, f) / spectrum_max(f, spectrum_all(1e-30f));
-}
-
 /* ---- light samples ----------------------------------------------------------------------- */
-
-static bool samples_mirrors(const PathContext *context) {
-    return context->beams.mirrors && context->strategy != PATH_BSDF_ONLY &&
-           lights_has(context->lights, LIGHTS_SUN);
-}
-
-/* Did the vertex before sample the sun in this mirror, smooth or rough? */
-static bool mirror_was_sampled(const PathState *path, const Surface *surface, Vec3 wo,
-                               bool is_rough) {
-    MirrorPair pair = {path->last.part_id, is_rough, surface->triangle};
-    return samples_mirrors(path->context) && !path->last.is_delta && path->medium_id == NO_ID &&
-           mirror_is_known(path->context->scene, path->context->beams.mirrors, pair, surface, wo);
-}
-
-Spectrum direct_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
-                          const BsdfSample *next) {
-    if (!(next->wi.z > 0) || !mirror_was_sampled(path, surface, wo, !next->is_delta))
-        return spectrum_all(1);
-    return mirror_share(&surface->bsdf, surface->local_wo, next);
-}
 
 static int source_of(const PathState *path, const LightSample *light) {
     const Scene *scene = path->context->scene;
@@ -257,8 +144,7 @@ static void add_arriving(PathState *path, const Surface *surface, Vec3 wo, const
     guiding_weigh_light(guiding, context->lights, emitted_lit_point(path, surface), light);
     float bsdf_pdf;
     Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
-    if (light->set == LIGHTS_SUN && mirror_was_sampled(path, surface, wo, true))
-        f = mirror_left(&surface->bsdf, local_wo, local_wi, f);
+    f = mirrored_left(path, surface, wo, light, local_wi, f);
     Spectrum share = path->throughput * f *
                      lights_radiance(context->lights, light, path->wavelengths) *
                      spectrum_all(fabsf(local_wi.z) / (light->pdf * prob));
@@ -283,8 +169,7 @@ void direct_add_sun(PathState *path, const Surface *surface, Vec3 wo, const Ligh
     Spectrum passed = direct_visibility(path, surface, &taken.light, &ray);
     if (spectrum_is_zero(passed)) return;
     Spectrum f = bsdf_eval(&surface->bsdf, surface->local_wo, taken.local_wi, &bsdf_pdf);
-    if (mirror_was_sampled(path, surface, wo, true))
-        f = mirror_left(&surface->bsdf, surface->local_wo, taken.local_wi, f);
+    f = mirrored_left(path, surface, wo, sun, taken.local_wi, f);
     find_sample(path, surface, wo, &taken, &ray,
                 path->throughput * f * passed *
                     lights_radiance(context->lights, sun, path->wavelengths) *
@@ -310,108 +195,9 @@ static void add_light_sample(PathState *path, const Surface *surface, Vec3 wo,
     add_arriving(path, surface, wo, guiding, &taken);
 }
 
-/* ---- the sun via one mirror -------------------------------------------------------------- */
-
-/* A lit surface that samples its mirrors one by one. */
-typedef struct MirrorWalk {
-    PathState *path;
-    const Surface *surface;
-    Vec3 wo;
-    SunMirrorQuery mirror_query;
-} MirrorWalk;
-
-/* The two shadow rays of light via a mirror. */
-typedef struct MirrorRays {
-    ShadowRay to_mirror, to_sun;
-} MirrorRays;
-
-static void find_mirrored(const MirrorWalk *walk, const SunMirror *mirror, Vec3 local_wi,
-                          const MirrorRays *rays, Spectrum radiance) {
-    PathState *path = walk->path;
-    Vec3 to_sun = walk->mirror_query.sun.wi;
-    if (!collect_takes_sample(path)) {
-        path->gathered.radiance += radiance;
-        return;
-    }
-    PathFound found = {.set = LIGHTS_SUN,
-                       .from = to_sun,
-                       .is_distant = true,
-                       .way = vec3_neg(to_sun),
-                       .radiance = radiance,
-                       .by = walk->surface,
-                       .wo = walk->wo,
-                       .local_wi = local_wi,
-                       .shadow = &rays->to_mirror,
-                       .mirror = mirror,
-                       .beyond = &rays->to_sun,
-                       .by_rough = walk->mirror_query.is_rough};
-    path_gather(path, &found);
-}
-
-static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoint *point) {
-    MirrorWalk *walk = user;
-    const Surface *surface = walk->surface;
-    PathState *path = walk->path;
-    MirrorRays rays;
-    SunMirror mirror;
-    Hit place = {0, point->u, point->v, triangle};
-    float pdf;
-    if (!mirror_at(&walk->mirror_query, &place, point->spread, &mirror)) return;
-    Vec3 local_wi = frame_to_local(&surface->frame, mirror.light.wi);
-    if (!direct_sides_agree(surface, local_wi, mirror.light.wi, walk->wo)) return;
-    Spectrum share = path->throughput * mirror.radiance *
-                     bsdf_eval(&surface->bsdf, surface->local_wo, local_wi, &pdf) *
-                     spectrum_all(fabsf(local_wi.z));
-    if (spectrum_is_zero(share)) return;
-    share *= direct_visibility(path, &mirror.surface, &walk->mirror_query.sun, &rays.to_sun);
-    if (spectrum_is_zero(share)) return;
-    share *= direct_visibility(path, surface, &mirror.light, &rays.to_mirror);
-    find_mirrored(walk, &mirror, local_wi, &rays, share);
-}
-
-/* u: chooses the direction on the sun's disc. */
-static void sample_mirrors(PathState *path, const Surface *surface, Vec3 wo, const float u[4],
-                           float prob) {
-    const PathContext *context = path->context;
-    MirrorWalk walk = {path,
-                       surface,
-                       wo,
-                       {.scene = context->scene,
-                        .tables = context->tables,
-                        .wavelengths = path->wavelengths,
-                        .from = surface->position}};
-    LitPoint point = {surface->position, surface->frame.z, true}; /* from any side */
-    LightSample *sun = &walk.mirror_query.sun;
-    if (!lights_sample(context->lights, LIGHTS_SUN, point, u, sun)) return;
-    walk.mirror_query.radiance = lights_radiance(context->lights, sun, path->wavelengths);
-    sun->pdf *= prob;
-    MirrorQuery query = {surface->part_id, false, surface->position, {sun->wi, false}, {0, 0}};
-    mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &walk);
-    query.is_rough = walk.mirror_query.is_rough = true;
-    query.u = sampler_2d(path->sampler);
-    mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &walk);
-}
-
-/* The mirror is one more vertex: none is sampled where the path would end before it. */
-static void add_mirrored_suns(PathState *path, const Surface *surface, Vec3 wo) {
-    const PathContext *context = path->context;
-    if (!samples_mirrors(context) || path->medium_id != NO_ID ||
-        path->bounce + 1 >= context->max_bounces)
-        return;
-    float prob = mirror_beams_prob(&context->beams, surface->part_id, vec3_dot(wo, surface->ng) < 0,
-                                   surface->position);
-    for (int i = 0; i < path->bounce && i < DEEP_BOUNCE; i++) prob *= DEEP_SHARE;
-    if (!(prob > 0)) return;
-    float u[4];
-    numbers_for(path, NUMBERS_MIRRORS);
-    sampler_4d(path->sampler, u);
-    if (unit_choose(&u[0], prob)) sample_mirrors(path, surface, wo, u, prob);
-}
-
 void direct_add(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding) {
     if (!bsdf_scatters(&surface->bsdf)) return;
     for (int set = 0; set < LIGHT_SETS; set++)
         if (lights_has(path->context->lights, (LightSet)set))
             add_light_sample(path, surface, wo, guiding, (LightSet)set);
-    add_mirrored_suns(path, surface, wo);
 }

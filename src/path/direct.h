@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* direct.h -- light that a vertex samples: every set of lights, and the sun via
- * the mirrors about. HOT.
+/* direct.h -- light that a vertex samples: every set of lights. HOT.
  */
 #pragma once
 #include "path/path_collector.h"
@@ -19,10 +18,6 @@ bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo)
 /* Share of the light sample that arrives at the surface; *ray: the sheets that it passed. */
 Spectrum direct_visibility(PathState *path, const Surface *surface, const LightSample *light,
                            ShadowRay *ray);
-
-/* Share of the sun, if the path meets it by `next`, that the vertex before did not sample. */
-Spectrum direct_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
-                          const BsdfSample *next);
 
 /* Beer's law inside a solid: the material's colour is what is left after its distance. */
 void direct_absorb(const PathState *path, int medium_id, float distance, Spectrum *light);

@@ -5,6 +5,7 @@
 
 #include "base/mathf.h"
 #include "base/parallel.h"
+#include "base/sampler.h"
 #include "scene/point/ray_ends.h"
 #include "mirror/mirrors_build.h"
 #include "path/sheets.h"
@@ -20,16 +21,19 @@
 #define CUBES 128        /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f /* of other light */
+#define ANY_LAMP 0.15f /* of the choices, that go to all lamps alike */
 
-/* Where a ray of the sun lands behind a mirror. */
+/* Where a ray of the light lands behind a mirror. */
 typedef struct Glint {
     GlintPlace place;
     float lm;
+    int light_id; /* of a lamp */
 } Glint;
 
 /* Finds of some of the rays; other threads may follow others. */
 typedef struct Beams {
     const BeamTools *tools;
+    BeamSet set;
     Arena *arena; /* nothing else allocates from it meanwhile */
     MirrorPair *pairs;
     uint32_t count, room;
@@ -39,12 +43,13 @@ typedef struct Beams {
     const Wavelengths *wavelengths; /* of all rays: what they bring is an estimate */
 } Beams;
 
-/* One ray of the sun behind its mirror. */
+/* One ray of the light behind its mirror. */
 typedef struct Beam {
     Ray ray;
     uint32_t triangle;
     bool is_rough;
     float lm;
+    int light_id; /* of a lamp */
 } Beam;
 
 /* Rays of one mirror come one after the other. */
@@ -68,7 +73,7 @@ static void add_glint(Beams *beams, Glint glint) {
     beams->glints[beams->glint_count++] = glint;
 }
 
-/* A part that scatters more narrowly than a rough mirror finds the sun in it by itself. */
+/* A part that scatters more narrowly than a rough mirror finds the light in it by itself. */
 static bool is_asked_of(const Scene *scene, int part_id, const Beam *beam) {
     const Material *m = &scene->materials[scene->parts[part_id].material_id];
     return !beam->is_rough || m->roughness * m->roughness > 2 * GLINT_ALPHA;
@@ -78,7 +83,8 @@ static bool is_asked_of(const Scene *scene, int part_id, const Beam *beam) {
 static void follow(Beams *beams, Beam beam) {
     const Scene *scene = beams->tools->scene;
     Hit hit;
-    add_pair(beams, (MirrorPair){NO_ID, beam.is_rough, beam.triangle});
+    if (beams->set == BEAMS_OF_SUN)
+        add_pair(beams, (MirrorPair){NO_ID, beam.is_rough, beam.triangle});
     for (int i = 0; i < SHEETS_PASSED && bvh_intersect(beams->tools->bvh, beam.ray, 0, &hit); i++) {
         TrianglePoint point = triangle_point(scene, hit.triangle, hit.u, hit.v);
         int part_id = (int)scene->triangles[hit.triangle].part_id;
@@ -86,21 +92,22 @@ static void follow(Beams *beams, Beam beam) {
             add_pair(beams, (MirrorPair){part_id, beam.is_rough, beam.triangle});
             const BeamSide *side =
                 &beams->sides[2 * part_id + (vec3_dot(point.ng, beam.ray.direction) > 0)];
-            add_glint(beams, (Glint){{side->row, side->edge_m, point.position}, beam.lm});
+            add_glint(beams,
+                      (Glint){{side->row, side->edge_m, point.position}, beam.lm, beam.light_id});
         }
         if (hit.triangle < scene->opaque_count) return;
         beam.ray.origin = ray_start(&point, beam.ray.direction);
     }
 }
 
-/* Luminous flux that the sun's ray takes on, per m2 of the mirror; of a rough one about. */
-static double reflected_lx(const Lights *lights, const Surface *mirror, const LightSample *sun,
+/* Luminous flux that the light's ray takes on, per m2 of the mirror; of a rough one about. */
+static double reflected_lx(const Lights *lights, const Surface *mirror, const LightSample *light,
                            Vec3 local_wo, const Wavelengths *wavelengths) {
     float xyz[3] = {0};
     Spectrum smooth = bsdf_mirror(&mirror->bsdf, local_wo);
     Spectrum share = spectrum_is_zero(smooth) ? bsdf_albedo(&mirror->bsdf, local_wo) : smooth;
-    share *= spectrum_all(fabsf(vec3_dot(mirror->ng, sun->wi)) / sun->pdf);
-    spectrum_add_xyz(wavelengths, share * lights_radiance(lights, sun, wavelengths), xyz);
+    share *= spectrum_all(fabsf(vec3_dot(mirror->ng, light->wi)) / light->pdf);
+    spectrum_add_xyz(wavelengths, share * lights_radiance(lights, light, wavelengths), xyz);
     return isfinite(xyz[1]) ? (double)xyz[1] : 0;
 }
 
@@ -119,35 +126,38 @@ typedef struct Aim {
     double ray_m2; /* that one ray stands for */
 } Aim;
 
-/* The sampler's numbers in turn: two for nothing, place, direction, facet. False: no sun comes
- * to the mirror there, or it goes nowhere. */
+/* The sampler's numbers in turn: which lamp and a second for nothing, place, direction or place
+ * of the lamp, facet. False: no light comes to the mirror there, or it goes nowhere. */
 static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler) {
     const BeamTools *tools = beams->tools;
     Surface mirror;
-    LightSample sun;
+    LightSample light;
+    bool is_sun = beams->set == BEAMS_OF_SUN;
     float first[4], last[4];
     sampler_4d(&sampler, first);
     sampler_4d(&sampler, last);
     Vec2 at = {first[2], first[3]}, lean = {last[2], last[3]};
-    const float u[3] = {last[0], last[1], 0};
+    const float u[3] = {is_sun ? last[0] : first[0], is_sun ? last[1] : last[0], last[1]};
     if (at.x + at.y > 1) at = (Vec2){1 - at.x, 1 - at.y};
     Hit hit = {0, at.x, at.y, aim->triangle};
     TrianglePoint point = triangle_point(tools->scene, aim->triangle, at.x, at.y);
     LitPoint place = {point.position, point.ns, true};
-    if (!lights_sample(tools->lights, LIGHTS_SUN, place, u, &sun)) return false;
+    LightSet set = is_sun ? LIGHTS_SUN : LIGHTS_PUNCTUAL;
+    if (!lights_sample(tools->lights, set, place, u, &light)) return false;
     Vec3 n = aim->alpha > 0 ? facet_normal(point.ns, aim->alpha, lean) : point.ns;
-    Vec3 r = vec3_sub(vec3_scale(n, 2 * vec3_dot(n, sun.wi)), sun.wi);
-    if (!(vec3_dot(point.ng, r) * vec3_dot(point.ng, sun.wi) > 0)) return false;
+    Vec3 r = vec3_sub(vec3_scale(n, 2 * vec3_dot(n, light.wi)), light.wi);
+    if (!(vec3_dot(point.ng, r) * vec3_dot(point.ng, light.wi) > 0)) return false;
     Vec3 origin = ray_start(&point, r);
-    if (bvh_occluded(tools->bvh, (Ray){origin, sun.wi, 0, INFINITY}, sheets_let_pass, NULL))
-        return false;
+    if (bvh_occluded(tools->bvh, lights_ray(origin, &light), sheets_let_pass, NULL)) return false;
     surface_at(tools->scene, tools->tables, &hit, r, beams->wavelengths, &mirror);
-    double lx = reflected_lx(tools->lights, &mirror, &sun, frame_to_local(&mirror.frame, r),
+    double lx = reflected_lx(tools->lights, &mirror, &light, frame_to_local(&mirror.frame, r),
                              beams->wavelengths);
     if (!(lx > 0)) return false;
-    follow(
-        beams,
-        (Beam){{origin, r, 0, INFINITY}, aim->triangle, aim->alpha > 0, (float)(lx * aim->ray_m2)});
+    follow(beams, (Beam){{origin, r, 0, INFINITY},
+                         aim->triangle,
+                         aim->alpha > 0,
+                         (float)(lx * aim->ray_m2),
+                         is_sun ? 0 : light.light_id});
     return true;
 }
 
@@ -207,16 +217,32 @@ static void send_piece(void *user, int item, int worker) {
     for (int i = first; i < end; i++) send_rays(&work->pieces[item], work->aims[i], work->all_m2);
 }
 
-/* Joins the pieces in order: the result is that of a single thread. */
-static void join_pieces(const Beams *pieces, Beams *out, GlintMap *map, Arena *arena) {
-    for (int p = 0; p < PIECES; p++) out->count += pieces[p].count;
-    out->pairs = ARENA_NEW(arena, MirrorPair, out->count);
+/* Of lamps: every mirror is sampled where nothing is known (mirror_beams.h). */
+static uint32_t add_all_mirrors(const Scene *scene, const RayWork *work, MirrorPair *pairs) {
     uint32_t count = 0;
+    for (int i = 0; i < work->count; i++)
+        if (!(work->aims[i].alpha > 0) && area_m2(scene, work->aims[i].triangle) > 0)
+            pairs[count++] = (MirrorPair){NO_ID, false, work->aims[i].triangle};
+    return count;
+}
+
+/* Joins the pieces in order: the result is that of a single thread. */
+static void join_pieces(const Beams *pieces, const RayWork *work, Beams *out, GlintMap *map,
+                        Arena *arena) {
+    bool has_all = out->set != BEAMS_OF_SUN;
+    for (int p = 0; p < PIECES; p++) out->count += pieces[p].count;
+    for (int p = 0; p < PIECES; p++) out->glint_count += pieces[p].glint_count;
+    out->pairs = ARENA_NEW(arena, MirrorPair, out->count + (has_all ? (uint32_t)work->count : 0));
+    out->glints = ARENA_NEW(arena, Glint, out->glint_count);
+    uint32_t count = has_all ? add_all_mirrors(out->tools->scene, work, out->pairs) : 0, glint = 0;
     for (int p = 0; p < PIECES; p++)
         for (uint32_t i = 0; i < pieces[p].count; i++) out->pairs[count++] = pieces[p].pairs[i];
     for (int p = 0; p < PIECES; p++)
-        for (uint32_t i = 0; i < pieces[p].glint_count; i++)
+        for (uint32_t i = 0; i < pieces[p].glint_count; i++) {
+            out->glints[glint++] = pieces[p].glints[i];
             glint_map_add(map, &pieces[p].glints[i].place, pieces[p].glints[i].lm, arena);
+        }
+    out->count = count;
 }
 
 static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena) {
@@ -228,10 +254,12 @@ static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena) {
     for (int i = 0; i < threads; i++) work.arenas[i] = arena_reserve(WORKER_BYTES);
     work.aims = list_aims(beams->tools->scene, &work.count, &work.all_m2, &scratch);
     for (int p = 0; p < PIECES; p++)
-        pieces[p] = (Beams){
-            .tools = beams->tools, .sides = beams->sides, .wavelengths = beams->wavelengths};
+        pieces[p] = (Beams){.tools = beams->tools,
+                            .set = beams->set,
+                            .sides = beams->sides,
+                            .wavelengths = beams->wavelengths};
     parallel_for(threads, PIECES, send_piece, &work);
-    join_pieces(pieces, beams, map, arena);
+    join_pieces(pieces, &work, beams, map, arena);
     for (int i = 0; i < threads; i++) arena_release(&work.arenas[i]);
     arena_release(&scratch);
 }
@@ -279,22 +307,91 @@ static void weigh_sides(const Beams *beams, const LightSelection *selection, Bea
     }
 }
 
-MirrorBeams mirror_beams_build(const BeamTools *tools, const LightSelection *selection,
+/* ---- which lamp -------------------------------------------------------------------------- */
+
+/* Luminous flux of a lamp that landed in a row. */
+typedef struct LampGlint {
+    uint32_t row;
+    int light_id;
+    float lm;
+} LampGlint;
+
+static int compare_lamp_glints(const void *a, const void *b) {
+    const LampGlint *x = a, *y = b;
+    if (x->row != y->row) return x->row < y->row ? -1 : 1;
+    if (x->light_id != y->light_id) return x->light_id < y->light_id ? -1 : 1;
+    return (x->lm > y->lm) - (x->lm < y->lm); /* so that sums do not depend on the order */
+}
+
+/* Every row's lamps, each with its share of the row's flux. */
+static void list_lamps(const Beams *beams, MirrorBeams *out, Arena *arena) {
+    int rows = 2 * beams->tools->scene->part_count;
+    uint32_t *first = ARENA_NEW(arena, uint32_t, rows + 1), count = 0, at = 0;
+    BeamLamp *lamps = ARENA_NEW(arena, BeamLamp, beams->glint_count + 1);
+    Arena scratch = *arena;
+    LampGlint *glints = ARENA_NEW(&scratch, LampGlint, beams->glint_count + 1);
+    for (uint32_t i = 0; i < beams->glint_count; i++) {
+        const Glint *g = &beams->glints[i];
+        glints[i] = (LampGlint){g->place.row, g->light_id, g->lm};
+    }
+    qsort(glints, beams->glint_count, sizeof *glints, compare_lamp_glints);
+    for (int row = 0; row < rows; row++) {
+        double all = 0;
+        first[row] = count;
+        for (; at < beams->glint_count && glints[at].row == (uint32_t)row; at++) {
+            bool is_new = count == first[row] || lamps[count - 1].light_id != glints[at].light_id;
+            if (is_new) lamps[count++] = (BeamLamp){glints[at].light_id, 0};
+            lamps[count - 1].prob += glints[at].lm;
+            all += (double)glints[at].lm;
+        }
+        for (uint32_t i = first[row]; i < count; i++) lamps[i].prob /= (float)all;
+    }
+    first[rows] = count;
+    out->lamps = lamps;
+    out->first_lamp = first;
+}
+
+int mirror_beams_lamp(const MirrorBeams *beams, const Lights *lights, int part_id, bool is_back,
+                      float pick, float *prob) {
+    uint32_t row = part_id == NO_ID ? 0 : beams->sides[2 * part_id + is_back].row;
+    uint32_t first = beams->first_lamp[row], end = beams->first_lamp[row + 1];
+    int count = lights_lamp_count(lights), id;
+    float any = part_id == NO_ID || first == end ? 1 : ANY_LAMP, own = 0;
+    if (unit_choose(&pick, any)) {
+        int which = (int)(pick * (float)count);
+        id = lights_lamp_id(lights, which < count ? which : count - 1);
+        for (uint32_t i = first; any < 1 && i < end; i++)
+            if (beams->lamps[i].light_id == id) own = beams->lamps[i].prob;
+    } else {
+        uint32_t i = first;
+        for (; i + 1 < end && pick >= beams->lamps[i].prob; i++) pick -= beams->lamps[i].prob;
+        own = beams->lamps[i].prob;
+        id = beams->lamps[i].light_id;
+    }
+    *prob = any / (float)count + (1 - any) * own;
+    return id;
+}
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
+MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightSelection *selection,
                                Arena *arena) {
-    if (!lights_has(tools->lights, LIGHTS_SUN)) return (MirrorBeams){.mirrors = NULL};
+    MirrorBeams none = {.set = set};
+    if (!lights_has(tools->lights, set == BEAMS_OF_SUN ? LIGHTS_SUN : LIGHTS_PUNCTUAL)) return none;
     BeamSide *sides = ARENA_NEW(arena, BeamSide, 2 * ((size_t)tools->scene->part_count + 1));
     Wavelengths middle;
-    Beams beams = {.tools = tools, .sides = sides, .wavelengths = &middle};
-    GlintMap map = {0};
+    Beams beams = {.tools = tools, .set = set, .sides = sides, .wavelengths = &middle};
+    MirrorBeams out = {.set = set, .sides = sides};
     wavelengths_sample(0.5f, &middle);
     measure_sides(tools->scene, sides);
-    send_all_rays(&beams, &map, arena);
-    if (!beams.count) return (MirrorBeams){.mirrors = NULL};
+    send_all_rays(&beams, &out.map, arena);
+    if (!beams.count) return none;
+    if (set == BEAMS_OF_LAMPS) list_lamps(&beams, &out, arena);
     qsort(beams.pairs, beams.count, sizeof *beams.pairs, mirrors_compare_pairs);
     weigh_sides(&beams, selection, sides, *arena);
-    return (MirrorBeams){
-        mirrors_build(tools->scene, beams.pairs, beams.count, bvh_threads(tools->bvh), arena),
-        sides, map};
+    out.mirrors =
+        mirrors_build(tools->scene, beams.pairs, beams.count, bvh_threads(tools->bvh), arena);
+    return out;
 }
 
 float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position) {

@@ -4,6 +4,8 @@
 #include "scene/point/ray_ends.h"
 #include "path/direct.h"
 #include "path/emitted.h"
+#include "path/mirror_share.h"
+#include "path/mirrored.h"
 #include "path/path_collector.h"
 #include "path/sunlit.h"
 #include "sunlit/sunlit_build.h"
@@ -62,7 +64,7 @@ static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
     if (!direct_sides_agree(surface, next->wi, wi, wo)) return STEP_ENDED;
     if (next->along == 0) start = ray_start(&surface->point, wi);
     else if (!pane_image_start(path, surface, wi, next->along, &start)) return STEP_ENDED;
-    Spectrum sun = direct_sun_share(path, surface, wo, next);
+    Spectrum sun = mirrored_sun_share(path, surface, wo, next);
     bool samples_map = !next->is_delta && sunlit_is_sampled(path, surface);
     SunlitPair before = {.prob = 0};
     if (path->last.samples_map && !next->is_delta) before = emitted_pair(path, surface);
@@ -156,6 +158,7 @@ static Step shade(PathState *path, const Surface *surface, const Hit *hit, Vec3 
     bool is_done = collect_vertex(path, surface, wo, guiding);
     if (!is_done && path->bounce < path->context->max_bounces) {
         direct_add(path, surface, wo, guiding);
+        mirrored_add(path, surface, wo);
         sunlit_add(path, surface, wo, guiding);
     }
     return scatter(path, surface, wo);
@@ -245,7 +248,8 @@ PathContext path_context_relight(const PathContext *before, const Lights *lights
     const SunlitTools sun = {context.scene, context.bvh, lights};
     context.sunlit = sunlit_build(&sun, arena);
     context.selection = light_selection_build(&sun, &context.sunlit, arena);
-    context.beams = mirror_beams_build(&tools, &context.selection, arena);
+    for (int set = 0; set < BEAM_SETS; set++)
+        context.beams[set] = mirror_beams_build(&tools, (BeamSet)set, &context.selection, arena);
     return context;
 }
 
@@ -323,6 +327,7 @@ void path_from_point(const PathStart *start, LitPoint point, float xyz_lx[3]) {
     guiding_none(path.context, path.spare);
     if (!collect_vertex(&path, &head, point.ns, path.spare)) {
         direct_add(&path, &head, point.ns, path.spare);
+        mirrored_add(&path, &head, point.ns);
         sunlit_add(&path, &head, point.ns, path.spare);
     }
     if (scatter(&path, &head, point.ns) == STEP_SCATTERED) {

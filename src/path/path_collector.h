@@ -25,12 +25,13 @@ typedef struct ShadowRay {
     Hit recent[SHADOW_HITS]; /* the last ones: number i at i % SHADOW_HITS; unordered */
 } ShadowRay;
 
-/* Sunlight by one point of a mirror. */
-typedef struct SunMirror {
-    LightSample light; /* the mirror's point as a light */
-    Spectrum radiance; /* that it sends, divided by the density of its direction */
-    Surface surface;   /* the mirror's; light and sun are in front of it */
-} SunMirror;
+/* Light by one point of a mirror. */
+typedef struct MirrorLight {
+    LightSample light;  /* the mirror's point as a light */
+    LightSample source; /* the light that shines on it */
+    Spectrum radiance;  /* that it sends, divided by the density of its direction */
+    Surface surface;    /* the mirror's; both lie in front of it */
+} MirrorLight;
 
 /* Light that a path has found, and how. */
 typedef struct PathFound {
@@ -48,10 +49,10 @@ typedef struct PathFound {
     const TrianglePoint *point; /* on the emitter; NULL: no emitter */
     const Surface *by;          /* the surface that scatters a light sample towards wo; else NULL */
     Vec3 wo, local_wi;
-    const ShadowRay *shadow; /* from `by` to the light, or to the mirror */
-    const SunMirror *mirror; /* NULL: it came directly */
-    const ShadowRay *beyond; /* from the mirror to the sun */
-    bool by_rough;           /* reflected by facets of a rough mirror */
+    const ShadowRay *shadow;   /* from `by` to the light, or to the mirror */
+    const MirrorLight *mirror; /* NULL: it came directly */
+    const ShadowRay *beyond;   /* from the mirror to the light */
+    bool by_rough;             /* reflected by facets of a rough mirror */
 } PathFound;
 
 typedef struct PathCollector PathCollector;

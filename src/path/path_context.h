@@ -21,8 +21,9 @@ typedef struct PathContext {
     const Bvh *bvh;
     const Lights *lights;
     const SurfaceTables *tables;
-    MirrorBeams beams; /* without mirrors: the sun in them is left to chance */
-    SunlitMap sunlit;  /* without nodes: what the sun lights is left to chance */
+    MirrorBeams beams[BEAM_SETS]; /* without mirrors: the sun in them is left to chance, lamps
+                                     in them are left out */
+    SunlitMap sunlit;             /* without nodes: what the sun lights is left to chance */
     LightSelection selection;
     int max_bounces; /* 0: emission only, 1: plus direct light */
     PathStrategy strategy;

@@ -60,6 +60,7 @@ enum {
     NUMBERS_STEP
 };
 #define NUMBERS_MAP 4   /* a step's own, behind those of all steps: of the sunlit map */
+#define NUMBERS_LAMPS 8 /* and again: of lamps in mirrors */
 #define NUMBERS_FIRST 2 /* before them: the place in the pixel, the wavelengths */
 #define STEPS_FAR 4096  /* more than a path meets */
 #define SPLITS 2        /* thin sheets along an eye's ray that are followed both ways */
@@ -141,6 +142,10 @@ static inline void numbers_for(PathState *path, int purpose) {
 
 static inline void numbers_for_map(PathState *path) {
     path->sampler->dimension = 0x40000000u + (uint32_t)path->steps * NUMBERS_MAP;
+}
+
+static inline void numbers_for_lamps(PathState *path) {
+    path->sampler->dimension = 0x60000000u + (uint32_t)path->steps * NUMBERS_LAMPS;
 }
 
 /* The surface's share of the light, per lane, on the path's way. */

@@ -180,3 +180,22 @@ static inline void builder_sphere(Scene *scene, Vec3 centre, float radius, int r
                 builder_triangle(scene, a + 1, inside ? b + 1 : b, inside ? b : b + 1);
         }
 }
+
+/* A piece of the unit sphere, 0.1 radians wide, about n. */
+static inline void builder_cap(Scene *scene, Vec3 n) {
+    enum { SIDE = 64 };
+    Frame frame = frame_from_z(n);
+    uint32_t first = scene->vertex_count;
+    for (int j = 0; j <= SIDE; j++)
+        for (int i = 0; i <= SIDE; i++) {
+            Vec3 local = vec3(0.1f * ((float)i / SIDE - 0.5f), 0.1f * ((float)j / SIDE - 0.5f), 1);
+            Vec3 at = vec3_normalize(frame_to_world(&frame, local));
+            builder_vertex(scene, at, at, 0, 0);
+        }
+    for (uint32_t j = 0; j < SIDE; j++)
+        for (uint32_t i = 0; i < SIDE; i++) {
+            uint32_t a = first + j * (SIDE + 1) + i, b = a + SIDE + 1;
+            builder_triangle(scene, a, a + 1, b + 1);
+            builder_triangle(scene, a, b + 1, b);
+        }
+}

@@ -239,25 +239,6 @@ TEST(a_concave_cylinder_focuses_as_the_mirror_equation_says) {
         }
 }
 
-/* A piece of the unit sphere, 0.1 radians wide, about n. */
-static void cap(Scene *scene, Vec3 n) {
-    enum { SIDE = 64 };
-    Frame frame = frame_from_z(n);
-    uint32_t first = scene->vertex_count;
-    for (int j = 0; j <= SIDE; j++)
-        for (int i = 0; i <= SIDE; i++) {
-            Vec3 local = vec3(0.1f * ((float)i / SIDE - 0.5f), 0.1f * ((float)j / SIDE - 0.5f), 1);
-            Vec3 at = vec3_normalize(frame_to_world(&frame, local));
-            builder_vertex(scene, at, at, 0, 0);
-        }
-    for (uint32_t j = 0; j < SIDE; j++)
-        for (uint32_t i = 0; i < SIDE; i++) {
-            uint32_t a = first + j * (SIDE + 1) + i, b = a + SIDE + 1;
-            builder_triangle(scene, a, a + 1, b + 1);
-            builder_triangle(scene, a, b + 1, b);
-        }
-}
-
 /* A sphere of radius 1 spreads a beam that meets it at incidence t, after l, by 1 + 2 l / cos t
  * across the plane's line and by 1 + 2 l cos t across the plane. */
 TEST(a_convex_sphere_spreads_as_the_mirror_equation_says) {
@@ -268,7 +249,7 @@ TEST(a_convex_sphere_spreads_as_the_mirror_equation_says) {
         double t = 0.18 * i, turn = 0.7 * i;
         Vec3 n = vec3((float)(sin(t) * cos(turn)), (float)(sin(t) * sin(turn)), (float)cos(t));
         builder_part(scene, builder_mirror(1));
-        cap(scene, n);
+        builder_cap(scene, n);
         const Mirrors *mirrors = all_mirrors(scene, &arena);
         for (int k = 0; k < 4; k++) {
             double l = 0.3 * (1 << k);
@@ -290,7 +271,7 @@ TEST(a_convex_sphere_spreads_a_near_light_as_the_mirror_equation_says) {
         Vec3 n = vec3((float)(sin(t) * cos(turn)), (float)(sin(t) * sin(turn)), (float)cos(t));
         Vec3 towards = vec3(0, 0, 1), out = vec3_sub(vec3_scale(n, 2 * n.z), towards);
         builder_part(scene, builder_mirror(1));
-        cap(scene, n);
+        builder_cap(scene, n);
         const Mirrors *mirrors = all_mirrors(scene, &arena);
         for (int k = 0; k < 12; k++) {
             double l = 0.3 * (1 << k % 4), s = 0.4 * (1 + k / 4 * 3);

@@ -79,10 +79,10 @@ TEST(asking_mirrors_leaves_the_mean_as_it_is) {
         builder_quad(world.scene, vec3(0, 1, -1.5f), vec3(1, 0, 0), vec3(0, 1, 0.3f));
         set_sun(&world, 40, i < 4 ? 6 : 3);
         world_ready(&world, 16);
-        assert_non_null(world.context.beams.mirrors);
+        assert_non_null(world.context.beams[BEAMS_OF_SUN].mirrors);
         Vec3 eye = vec3(0.3f, 1.5f, 2), to = vec3(-0.2f, 0, 0.2f);
         WorldMean asked = luminance(&world, eye, to, 0.4f, 1, 200000);
-        world.context.beams.mirrors = NULL;
+        world.context.beams[BEAMS_OF_SUN].mirrors = NULL;
         WorldMean chance = luminance(&world, eye, to, 0.4f, 2, i == 4 || i == 5 ? 1000000 : 400000);
         double sigma = sqrt(asked.sigma * asked.sigma + chance.sigma * chance.sigma);
         if (!(fabs(asked.mean - chance.mean) < 3 * sigma) || !(sigma < 0.01 * chance.mean))
@@ -114,7 +114,7 @@ TEST(a_rings_caustic_takes_a_thirtieth_of_the_samples) {
     ENDS_BY(world_end) World world = ring_world(0.26645);
     Vec3 eye = vec3(0, 2, 1), to = vec3(0.1f, 0, -0.8f);
     WorldMean asked = luminance(&world, eye, to, 0.01f, 1, 20000);
-    world.context.beams.mirrors = NULL;
+    world.context.beams[BEAMS_OF_SUN].mirrors = NULL;
     WorldMean chance = luminance(&world, eye, to, 0.01f, 2, 2000000);
     double per_sample = pow(asked.sigma, 2) * 20000, by_chance = pow(chance.sigma, 2) * 2000000;
     print_message("[          ] variance a sample: %.3g asked, %.3g by chance, %.0f times; "
@@ -128,7 +128,7 @@ TEST(a_rings_caustic_takes_a_thirtieth_of_the_samples) {
 /* Inside the ring the table lies in its light; outside and below nothing comes. */
 TEST(mirrors_are_asked_where_their_light_falls) {
     ENDS_BY(world_end) World world = ring_world(0.26645);
-    const MirrorBeams *beams = &world.context.beams;
+    const MirrorBeams *beams = &world.context.beams[BEAMS_OF_SUN];
     float least = mirror_beams_prob(beams, 0, false, vec3(1.7f, 0, 1.7f));
     assert_true(least > 0 && least < 0.025f);
     for (int i = 0; i < 10; i++) {

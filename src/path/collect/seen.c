@@ -70,7 +70,7 @@ static void pass_panes(const ShadowRay *ray, Vec3 direction, Polarised *light) {
 
 /* Follows a light sample's way once more, for what surface, panes and mirror do to it. */
 static void go_again(const PathFound *found, Polarised *light) {
-    const SunMirror *mirror = found->mirror;
+    const MirrorLight *mirror = found->mirror;
     Vec3 to_light = vec3_neg(found->way);
     Vec3 first = mirror ? mirror->light.wi : to_light;
     BsdfSample out = {.wi = found->local_wi};

@@ -138,7 +138,15 @@ static void read_chunk(void *user, int item, int worker) {
 typedef struct PupilSums {
     const EyePaths *paths;
     double sun_veil, lamp_veil, sun_lx, lamp_lx;
+    double image_veil; /* of lamps without a surface in mirrors; their lux are lamps' */
 } PupilSums;
+
+/* Comes light to the pupil by itself, or by one mirror from a lamp that no path could meet? */
+static bool is_seen_by_itself(const PathHistory *history) {
+    if (history->source == LIGHTS_SKY) return false;
+    return !history->count || (history->count == 1 && history->source == LIGHTS_PUNCTUAL &&
+                               history->step[0].event == PATH_REFLECTS);
+}
 
 static double veil_of(const EyePaths *paths, Vec3 towards, double lux) {
     double degrees = degrees_between(towards, paths->gaze);
@@ -158,10 +166,12 @@ static double veil_at_age(const EyePaths *paths, Vec3 towards, double lux, doubl
 static void add_to_pupil(void *user, const PathHistory *history, const float xyz[3]) {
     PupilSums *sums = user;
     bool is_sun = history->source == LIGHTS_SUN;
-    if (history->count || history->source == LIGHTS_SKY) return;
+    if (!is_seen_by_itself(history)) return;
     *(is_sun ? &sums->sun_lx : &sums->lamp_lx) += (double)xyz[1];
     if (history->source == LIGHTS_EMITTERS && is_close(sums->paths, history->towards)) return;
-    *(is_sun ? &sums->sun_veil : &sums->lamp_veil) +=
+    *(is_sun           ? &sums->sun_veil
+      : history->count ? &sums->image_veil
+                       : &sums->lamp_veil) +=
         veil_of(sums->paths, history->towards, (double)xyz[1]);
 }
 
@@ -185,8 +195,18 @@ static void read_pupil_chunk(void *user, int item, int worker) {
 static void add_pupil(PupilSums *to, const PupilSums *sums) {
     to->sun_veil += sums->sun_veil / PATHS;
     to->lamp_veil += sums->lamp_veil / PATHS;
+    to->image_veil += sums->image_veil / PATHS;
     to->sun_lx += sums->sun_lx / PATHS;
     to->lamp_lx += sums->lamp_lx / PATHS;
+}
+
+/* Light samples alone, and of mirrors what lamps without a surface send by one. */
+static PathContext pupil_context(const Setup *setup) {
+    PathContext context = setup->context;
+    context.strategy = PATH_LIGHTS_ONLY;
+    context.beams[BEAMS_OF_SUN].mirrors = NULL;
+    context.max_bounces = context.beams[BEAMS_OF_LAMPS].mirrors ? 2 : 1;
+    return context;
 }
 
 /* Lamps, displays and the sun's disc: light samples alone find them here. One a round. */
@@ -195,13 +215,11 @@ static PupilSums *read_pupil(const EyePaths *paths, Arena *arena) {
     PupilSums *all = ARENA_NEW(arena, PupilSums, rounds);
     Arena scratch = *arena;
     LitPoint pupil = {paths->aim.eye, paths->gaze, false};
-    PathContext lights_only = paths->setup->context;
+    PathContext lights_only = pupil_context(paths->setup);
     uint32_t seed = review_seed(paths->setup->request, SEED + 1);
     PupilWork work = {{.context = &lights_only, .meter = &pupil, .seed = seed},
                       paths,
                       ARENA_NEW(&scratch, PupilSums, chunks)};
-    lights_only.strategy = PATH_LIGHTS_ONLY;
-    lights_only.max_bounces = 1;
     parallel_for(paths->setup->tools.threads, chunks, read_pupil_chunk, &work);
     for (int i = 0; i < chunks; i++) add_pupil(&all[i / (PATHS / CHUNK)], &work.sums[i]);
     return all;
@@ -304,6 +322,7 @@ static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *
     for (int r = 0; r < rounds; r++) {
         add_veil(paths, r, EYE_SUN, pupils[r].sun_veil, sums);
         add_veil(paths, r, EYE_LAMPS, pupils[r].lamp_veil, sums);
+        add_veil(paths, r, EYE_GLINTS, pupils[r].image_veil, sums);
         sums->reading.vertical_lx += (pupils[r].sun_lx + pupils[r].lamp_lx) / rounds;
     }
 }
@@ -325,7 +344,7 @@ static void add_to_road(void *user, const PathHistory *history, const float xyz[
                          .lx = (double)xyz[1],
                          .part_id =
                              history->source == LIGHTS_EMITTERS ? history->source_id : NO_ID};
-    if (history->count || history->source == LIGHTS_SKY) return;
+    if (!is_seen_by_itself(history)) return;
     road_veils_add_sample(pupil->paths->road, pupil->chunk, &sample);
 }
 
@@ -343,11 +362,9 @@ static void read_road_chunk(void *user, int item, int worker) {
 static void read_road_pupil(const EyePaths *paths, Arena scratch) {
     int chunks = paths->count / CHUNK;
     LitPoint pupil = {paths->aim.eye, paths->gaze, false};
-    PathContext lights_only = paths->setup->context;
+    PathContext lights_only = pupil_context(paths->setup);
     uint32_t seed = review_seed(paths->setup->request, ROAD_SEED);
     RoadPupil work = {paths, {.context = &lights_only, .meter = &pupil, .seed = seed}, 0};
-    lights_only.strategy = PATH_LIGHTS_ONLY;
-    lights_only.max_bounces = 1;
     road_veils_expect_samples(paths->road, chunks, &scratch);
     parallel_for(paths->setup->tools.threads, chunks, read_road_chunk, &work);
     road_veils_add_chunks(paths->road, 1.0 / ((double)paths->count * ROAD_TIMES));

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* mirror_share.h -- light in a mirror counts once: what a vertex sampled there (mirrored.h) its
+ * paths leave out. HOT.
+ */
+#pragma once
+#include "path/path_state.h"
+
+/* Are lights of the set sampled in mirrors at all? */
+bool mirrors_are_sampled(const PathContext *context, BeamSet set);
+
+/* Is the mirror's normal the interpolated one, and what wo points to in front of it in air? */
+bool mirror_is_plain(const Scene *scene, const Surface *mirror, Vec3 wo);
+
+/* Share of the sun, if the path meets it by `next`, that the vertex before did not sample. */
+Spectrum mirrored_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
+                            const BsdfSample *next);
+
+/* What of f, the surface's bsdf_eval for a light sample, the vertex before did not sample in it
+ * as in a rough mirror. */
+Spectrum mirrored_left(const PathState *path, const Surface *surface, Vec3 wo,
+                       const LightSample *light, Vec3 local_wi, Spectrum f);

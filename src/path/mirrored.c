@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* HOT: no allocation, no lock, no libm. */
+#include "path/mirrored.h"
+
+#include "path/direct.h"
+#include "path/mirror_share.h"
+
+#define ELSEWHERE 0.02f /* of a vertex' samples that search all mirrors for lamps */
+
+/* ---- one point of a mirror --------------------------------------------------------------- */
+
+/* A lit surface in air that samples its mirrors one by one, and the light that it looks for. */
+typedef struct MirrorWalk {
+    PathState *path;
+    const Surface *surface;
+    Vec3 wo;
+    LightSample sun;       /* its direction, with all that is the same for all mirrors */
+    Spectrum sun_radiance; /* of it, over its density */
+    PunctualPoint lamp;
+    const MirrorBeams *beams; /* is_elsewhere: mirrors that the part samples anyway are left */
+    bool is_of_lamp, is_rough, is_elsewhere;
+    float prob; /* of all choices before */
+} MirrorWalk;
+
+/* The two shadow rays of light via a mirror. */
+typedef struct MirrorRays {
+    ShadowRay to_mirror, to_light;
+} MirrorRays;
+
+/* Light on the mirror's point; irradiance of what faces it, or of a lamp nearby intensity. */
+static bool light_at(const MirrorWalk *walk, Vec3 place, LightSample *light, Spectrum *strength) {
+    const PathContext *context = walk->path->context;
+    if (!walk->is_of_lamp) {
+        *light = walk->sun;
+        *strength = walk->sun_radiance;
+        return true;
+    }
+    if (!lights_lamp_towards(context->lights, &walk->lamp, place, light)) return false;
+    *strength = lights_radiance(context->lights, light, walk->path->wavelengths);
+    if (!walk->lamp.is_distant && !walk->is_rough)
+        *strength *= spectrum_all(light->distance * light->distance);
+    return true;
+}
+
+/* Light by a point that mirrors_find reported; hit->t is not used. False: none comes by it.
+ * Occlusion is not tested.
+ *
+ * The sun's light that leaves the solid angle dw around wo reached the mirror from dw / spread
+ * around the sun's direction: radiance is kept but for what the mirror takes, and the density
+ * of directions is that of the sun's divided by the spread. Of a lamp nearby, spread is what a
+ * candela gives. Facets of a rough mirror send f cos of the light on, and their directions have
+ * the density of their slopes divided by the spread. */
+static bool mirror_at(const MirrorWalk *walk, const Hit *at, float spread, MirrorLight *out) {
+    const PathContext *context = walk->path->context;
+    const Scene *scene = context->scene;
+    TrianglePoint place = triangle_point(scene, at->triangle, at->u, at->v);
+    Vec3 to = vec3_sub(place.position, walk->surface->position);
+    float distance = vec3_length(to);
+    Vec3 wi = vec3_scale(to, 1 / distance), wo = vec3_neg(wi);
+    Hit hit = {distance, at->u, at->v, at->triangle};
+    Surface *mirror = &out->surface;
+    LightSample *source = &out->source;
+    Spectrum strength;
+    if (!(distance > 0) || !light_at(walk, place.position, source, &strength)) return false;
+    surface_at(scene, context->tables, &hit, wo, walk->path->wavelengths, mirror);
+    Vec3 local_wo = mirror->local_wo;
+    if (!(mirror->alpha > 0) || !mirror_is_plain(scene, mirror, wo) || !(local_wo.z > 0) ||
+        !(vec3_dot(source->wi, mirror->frame.z) > 0) ||
+        !(vec3_dot(wo, mirror->ng) * vec3_dot(source->wi, mirror->ng) > 0))
+        return false;
+    Vec3 local_light = frame_to_local(&mirror->frame, source->wi);
+    out->radiance = walk->is_rough ? bsdf_glint(&mirror->bsdf, local_wo, local_light) *
+                                         spectrum_all(local_light.z)
+                                   : bsdf_mirror(&mirror->bsdf, local_wo);
+    out->radiance *= strength * spectrum_all(mirror->alpha * spread / walk->prob);
+    out->light = (LightSample){.wi = wi,
+                               .distance = distance,
+                               .pdf = 1,
+                               .is_emitter = true,
+                               .triangle = at->triangle,
+                               .point = place};
+    return !spectrum_is_zero(out->radiance);
+}
+
+/* ---- all points -------------------------------------------------------------------------- */
+
+static void find_mirrored(const MirrorWalk *walk, const MirrorLight *mirror, Vec3 local_wi,
+                          const MirrorRays *rays, Spectrum radiance) {
+    PathState *path = walk->path;
+    const LightSample *source = &mirror->source;
+    bool is_distant = !isfinite(source->distance);
+    if (!collect_takes_sample(path)) {
+        path->gathered.radiance += radiance;
+        return;
+    }
+    PathFound found = {.set = source->set,
+                       .source_id = walk->is_of_lamp ? source->light_id : 0,
+                       .from = is_distant ? source->wi : walk->lamp.at,
+                       .is_distant = is_distant,
+                       .way = vec3_neg(source->wi),
+                       .radiance = radiance,
+                       .by = walk->surface,
+                       .wo = walk->wo,
+                       .local_wi = local_wi,
+                       .shadow = &rays->to_mirror,
+                       .mirror = mirror,
+                       .beyond = &rays->to_light,
+                       .by_rough = walk->is_rough};
+    path_gather(path, &found);
+}
+
+static void add_point(void *user, uint32_t triangle, const ReflectionPoint *point) {
+    MirrorWalk *walk = user;
+    const Surface *surface = walk->surface;
+    PathState *path = walk->path;
+    MirrorRays rays;
+    MirrorLight mirror;
+    Hit place = {0, point->u, point->v, triangle};
+    MirrorPair own = {surface->part_id, false, triangle};
+    float pdf;
+    if (walk->is_elsewhere && mirrors_have(walk->beams->mirrors, own)) return;
+    if (!mirror_at(walk, &place, point->spread, &mirror)) return;
+    Vec3 local_wi = frame_to_local(&surface->frame, mirror.light.wi);
+    if (!direct_sides_agree(surface, local_wi, mirror.light.wi, walk->wo)) return;
+    Spectrum share = path->throughput * mirror.radiance *
+                     bsdf_eval(&surface->bsdf, surface->local_wo, local_wi, &pdf) *
+                     spectrum_all(fabsf(local_wi.z));
+    if (spectrum_is_zero(share)) return;
+    share *= direct_visibility(path, &mirror.surface, &mirror.source, &rays.to_light);
+    if (spectrum_is_zero(share)) return;
+    share *= direct_visibility(path, surface, &mirror.light, &rays.to_mirror);
+    find_mirrored(walk, &mirror, local_wi, &rays, share);
+}
+
+static void find(MirrorWalk *walk, MirrorQuery *query) {
+    mirrors_find(walk->beams->mirrors, query, add_point, walk);
+}
+
+/* How much rarer mirrors are sampled at later vertices. */
+static float by_depth(const PathState *path) {
+    float prob = 1;
+    for (int i = 0; i < path->bounce && i < DEEP_BOUNCE; i++) prob *= DEEP_SHARE;
+    return prob;
+}
+
+static void add_suns(PathState *path, const Surface *surface, Vec3 wo) {
+    const PathContext *context = path->context;
+    const MirrorBeams *beams = &context->beams[BEAMS_OF_SUN];
+    float prob = mirror_beams_prob(beams, surface->part_id, vec3_dot(wo, surface->ng) < 0,
+                                   surface->position);
+    prob *= by_depth(path);
+    if (!(prob > 0)) return;
+    float u[4];
+    numbers_for(path, NUMBERS_MIRRORS);
+    sampler_4d(path->sampler, u);
+    if (!unit_choose(&u[0], prob)) return;
+    MirrorWalk walk = {.path = path, .surface = surface, .wo = wo, .beams = beams, .prob = prob};
+    LitPoint point = {surface->position, surface->frame.z, true}; /* from any side */
+    if (!lights_sample(context->lights, LIGHTS_SUN, point, u, &walk.sun)) return;
+    walk.sun_radiance =
+        lights_radiance(context->lights, &walk.sun, path->wavelengths) / spectrum_all(walk.sun.pdf);
+    MirrorQuery query = {surface->part_id, false, surface->position, {walk.sun.wi, false}, {0, 0}};
+    find(&walk, &query);
+    query.is_rough = walk.is_rough = true;
+    query.u = sampler_2d(path->sampler);
+    find(&walk, &query);
+}
+
+/* What a vertex draws for lamps in mirrors. */
+typedef struct LampNumbers {
+    float search[4]; /* the part's mirrors? all others? which lamp, of either */
+    float place[4];  /* of the lamp */
+    Vec2 facet;      /* of rough mirrors */
+} LampNumbers;
+
+/* One lamp in the part's mirrors; is_elsewhere: in all others. */
+static void add_lamp(MirrorWalk walk, const LampNumbers *u) {
+    const Surface *surface = walk.surface;
+    const Lights *lights = walk.path->context->lights;
+    float chosen;
+    int id =
+        mirror_beams_lamp(walk.beams, lights, surface->part_id, vec3_dot(walk.wo, surface->ng) < 0,
+                          u->search[2 + walk.is_elsewhere], &chosen);
+    walk.lamp = lights_lamp_point(lights, id, u->place);
+    walk.prob *= chosen;
+    MirrorQuery query = {walk.is_elsewhere ? NO_ID : surface->part_id,
+                         false,
+                         surface->position,
+                         {walk.lamp.at, !walk.lamp.is_distant},
+                         u->facet};
+    find(&walk, &query);
+    if (walk.is_elsewhere) return;
+    query.is_rough = walk.is_rough = true;
+    find(&walk, &query);
+}
+
+static void add_lamps(PathState *path, const Surface *surface, Vec3 wo) {
+    const MirrorBeams *beams = &path->context->beams[BEAMS_OF_LAMPS];
+    float prob = mirror_beams_prob(beams, surface->part_id, vec3_dot(wo, surface->ng) < 0,
+                                   surface->position);
+    float deep = by_depth(path);
+    LampNumbers u;
+    MirrorWalk walk = {
+        .path = path, .surface = surface, .wo = wo, .beams = beams, .is_of_lamp = true};
+    numbers_for_lamps(path);
+    sampler_4d(path->sampler, u.search);
+    sampler_4d(path->sampler, u.place);
+    u.facet = sampler_2d(path->sampler);
+    walk.prob = prob * deep;
+    if (walk.prob > 0 && u.search[0] < walk.prob) add_lamp(walk, &u);
+    walk.prob = ELSEWHERE * deep;
+    walk.is_elsewhere = true;
+    if (surface->part_id != NO_ID && u.search[1] < walk.prob) add_lamp(walk, &u);
+}
+
+/* The mirror is one more vertex: none is sampled where the path would end before it. */
+void mirrored_add(PathState *path, const Surface *surface, Vec3 wo) {
+    const PathContext *context = path->context;
+    if (!bsdf_scatters(&surface->bsdf) || path->medium_id != NO_ID ||
+        path->bounce + 1 >= context->max_bounces)
+        return;
+    if (mirrors_are_sampled(context, BEAMS_OF_SUN)) add_suns(path, surface, wo);
+    if (mirrors_are_sampled(context, BEAMS_OF_LAMPS)) add_lamps(path, surface, wo);
+}
