@@ -384,9 +384,9 @@ def main():
         check_plan(work)
         check_damage(work, wanted)
         if given.all:
+            check_reuse(work, wanted)
             check_next(work, wanted)
             check_strangers(work)
-            check_reuse(work, wanted)
             check_full_disk(work, wanted)
             check_stop(work, wanted)
             check_prompt(work)
