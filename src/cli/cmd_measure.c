@@ -219,7 +219,12 @@ static void print_text(const FrameMeasurement *m, bool is_display) {
 /* What render found out about the frame. */
 static void print_missed(const FrameImage *frame) {
     const char *missed = frame_string(frame, "parhelion:mayMiss");
+    const ExrAttribute *rare = frame_attribute(frame, "parhelion:rareError");
+    char error[32];
     if (missed) print("%-12s light: %s\n", "may miss", missed);
+    if (rare)
+        print("%-12s " RARE_WORDS "\n", "of the frame",
+              cli_relative_error(rare->values[0], error, sizeof error));
 }
 
 static void print_lights(const LightShares *lights, bool is_display) {
@@ -335,6 +340,8 @@ static bool print_json(const MeasureWords *typed, const FrameImage *frame,
         json_object_set_new(answer, "lights", json_lights(lights));
         json_object_set_new(answer, "lights_pixels", json_integer(lights->pixels));
     }
+    const ExrAttribute *rare = frame_attribute(frame, "parhelion:rareError");
+    json_object_set_new(answer, "rare_error", rare ? json_real(rare->values[0]) : json_null());
     json_object_set_new(answer, "may_miss",
                         json_text_or_null(frame_string(frame, "parhelion:mayMiss")));
     json_object_set_new(answer, "missing_layers", missing(m));

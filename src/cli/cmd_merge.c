@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion merge: parts of a frame become the frame, with the bits of one run. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,6 +21,7 @@
 #include "image/frame_view.h"
 #include "print/print.h"
 #include "render/identity.h"
+#include "render/noise_stop.h"
 #include "text/json_text.h"
 #include "text/text.h"
 
@@ -39,6 +41,7 @@ typedef struct MergeRun {
     FrameImage common;    /* attributes that all parts have; no channels */
     Film *film;
     FilmError error;
+    double rare_error; /* film.h's; or NaN */
     double seconds;
 } MergeRun;
 
@@ -87,11 +90,11 @@ static void set_attribute(FrameImage *frame, const ExrAttribute *a, Arena *arena
     else frame_set_values(frame, a->name, a->kind, a->values, arena);
 }
 
-/* Time is not the parts', but that of the merge. */
+/* Time is not the parts', but that of the merge; nor is their error. */
 static bool is_of_the_run(const char *name) {
     return !strcmp(name, "capDate") || !strcmp(name, "utcOffset") ||
            !strcmp(name, "parhelion:commandLine") || !strcmp(name, "parhelion:parts") ||
-           !strcmp(name, DEALT_PART_ATTRIBUTE);
+           !strcmp(name, "parhelion:rareError") || !strcmp(name, DEALT_PART_ATTRIBUTE);
 }
 
 /* The attribute of that name; files keep them sorted, so that it mostly stands at *place,
@@ -248,6 +251,9 @@ static bool add_all(MergeRun *work, Error *err) {
     progress_end(&progress, done);
     work->seconds = monotonic_seconds() - progress.begun_s;
     work->error = film_relative_error(work->film);
+    work->rare_error = (double)NAN;
+    if (work->whole.end_sample - work->whole.first_sample >= NOISE_LEAST_SAMPLES)
+        work->rare_error = film_rare_error(work->film, work->error.frame);
     return true;
 }
 
@@ -302,6 +308,7 @@ static bool write_frame(MergeRun *work, Error *err) {
                                   .end_sample = whole->end_sample,
                                   .complete = true,
                                   .relative_error = work->error.frame,
+                                  .rare_error = work->rare_error,
                                   .dropped_samples = film_dropped(work->film).count};
     FrameImage frame = film_to_frame(work->film, work->common.attribute_count + 8, arena);
     for (int i = 0; i < work->common.attribute_count; i++)
@@ -326,6 +333,7 @@ static bool print_json(const MergeRun *work, Error *err) {
         (json_int_t)(whole->end_sample - whole->first_sample), "seconds", work->seconds,
         "nonfinite_samples", (json_int_t)whole->dropped.count, "relative_error",
         json_figure(work->error.frame), "complete", true, "is_part", work->keeps_sums);
+    json_object_set_new(answer, "rare_error", json_figure(work->rare_error));
     json_object_set_new(
         answer, "rays",
         json_integer((json_int_t)(whole->camera_rays + whole->bounce_rays + whole->shadow_rays)));
@@ -342,6 +350,9 @@ static void print_line(const MergeRun *work) {
           crop->y1, whole->width, whole->height, whole->first_sample, whole->end_sample,
           cli_relative_error(work->error.frame, error, sizeof error),
           work->keeps_sums ? ", with its sums" : "");
+    if (!isnan(work->rare_error))
+        print("%s: " RARE_WORDS "\n", work->output,
+              cli_relative_error(work->rare_error, error, sizeof error));
 }
 
 static bool check_dropped(const MergeRun *work, Error *err) {

@@ -362,6 +362,12 @@ FilmSpikes film_area_spikes(const Film *film, FilmArea area) {
                         mean_of(film, area, lowest, pixel_spike_square)};
 }
 
+double film_rare_error(const Film *film, double error) {
+    FilmSpikes spikes = film_area_spikes(film, (FilmArea){film->crop, FILM_ALL_PIXELS});
+    double may_be = sqrt(error * error + spikes.square) / (1 + spikes.mean);
+    return may_be > FILM_RARE * error ? may_be : (double)NAN;
+}
+
 FilmError film_relative_error(const Film *film) {
     double lowest = lowest_luminance(film);
     return (FilmError){.frame = mean_error(film, (FilmArea){film->crop, FILM_ALL_PIXELS}, lowest),

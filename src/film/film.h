@@ -98,6 +98,12 @@ typedef struct FilmSpikes {
 
 FilmSpikes film_area_spikes(const Film *film, FilmArea area);
 
+/* The frame's relative error, if what its spikes brought is everywhere, where that is more than
+ * FILM_RARE times `error`, the measured one: light is rare then, and pixels that have had no such
+ * sample show no noise. Else NaN. */
+#define FILM_RARE 2
+double film_rare_error(const Film *film, double error);
+
 /* One pixel's share in it. One sigma of few halves is itself uncertain: the worst of a million
  * pixels of equal noise is some seven times their mean by chance. */
 typedef struct FilmWorst {

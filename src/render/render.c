@@ -134,6 +134,8 @@ static void run_passes(Run *run) {
     progress_end(&run->progress, (double)atomic_load(&run->paths_done));
     finish_result(run);
     run->result.error = film_relative_error(run->result.film);
+    if (run->result.samples >= NOISE_LEAST_SAMPLES)
+        run->result.rare_error = film_rare_error(run->result.film, run->result.error.frame);
     if (options->noise > 0) judge_noise(options, &run->result);
 }
 
@@ -289,6 +291,7 @@ static NoiseStop find_stop(const RenderSetup *setup, const RenderOptions *option
 bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Arena *arena,
                      RenderResult *out, Error *err) {
     RenderResult result = {.kernel = setup->kernel,
+                           .rare_error = (double)NAN,
                            .build_seconds = setup->build_seconds,
                            .build_peak_bytes = setup->build_peak_bytes,
                            .field_hash = setup->field_hash,

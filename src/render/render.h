@@ -86,6 +86,7 @@ struct RenderResult {
     NoiseStop stop;     /* of options' noise; */
     double noise;       /* the error over its area in the end; NaN where it is empty */
     double noise_doubt; /* the error that there may be, if light is rare; or NaN */
+    double rare_error;  /* of the frame in the end (film.h), from NOISE_LEAST_SAMPLES on; or NaN */
     bool complete;      /* all samples, or those that leave the noise */
     int stopped_by;     /* SIGINT, SIGTERM, SIGHUP or 0 */
 };

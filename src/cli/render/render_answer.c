@@ -103,6 +103,7 @@ static void set_sampling(FrameImage *frame, const RenderRequest *request,
                                   .end_sample = options->first_sample + result->samples,
                                   .complete = result->complete,
                                   .relative_error = result->error.frame,
+                                  .rare_error = result->rare_error,
                                   .dropped_samples = film_dropped(result->film).count};
     frame_set_outcome(frame, &outcome, arena);
     if (request->part.count)
@@ -281,6 +282,7 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
                         json_string(render_projection_name(&request->camera)));
     json_object_set_new(answer, "for", favour_document(request, result));
     json_object_set_new(answer, "noise", noise_document(request, result));
+    json_object_set_new(answer, "rare_error", json_figure(result->rare_error));
     json_object_set_new(answer, "may_miss", missed_document(request));
     json_object_set_new(answer, "isa", json_string(result->kernel->isa));
     json_object_set_new(answer, "training", training_document(result));
@@ -343,6 +345,14 @@ static void print_noise(const RenderRequest *request, const RenderResult *result
           render_noise_is_rare(result) ? "; rare light: not yet known" : "");
 }
 
+/* Where --noise has not said so. */
+static void print_rare(const RenderRequest *request, const RenderResult *result) {
+    char error[32];
+    if (isnan(result->rare_error) || render_noise_is_rare(result)) return;
+    print("%s: " RARE_WORDS "\n", request->output,
+          cli_relative_error(result->rare_error, error, sizeof error));
+}
+
 static void print_missed(const RenderRequest *request) {
     Arena scratch = arena_reserve(WORDS_BYTES);
     const char *words = missed_text(request, &scratch);
@@ -369,6 +379,7 @@ static void print_line(const RenderRequest *request, const RenderResult *result)
               "0.065 B); its codes are right within 0.4 %%, layers are only in .exr\n",
               request->output);
     print_worst(request, result);
+    print_rare(request, result);
     print_missed(request);
 }
 
@@ -475,6 +486,8 @@ void frame_set_outcome(FrameImage *frame, const FrameOutcome *outcome, Arena *ar
                      arena);
     frame_set_whole(frame, "parhelion:complete", outcome->complete, arena);
     frame_set_number(frame, "parhelion:relativeError", outcome->relative_error, arena);
+    if (!isnan(outcome->rare_error))
+        frame_set_number(frame, "parhelion:rareError", outcome->rare_error, arena);
     frame_set_number(frame, "parhelion:droppedSamples", (double)outcome->dropped_samples, arena);
     set_time(frame, arena);
 }

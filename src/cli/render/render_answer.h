@@ -24,13 +24,14 @@ typedef struct FrameOutcome {
     uint32_t first_sample, end_sample; /* half-open, of the frame */
     bool complete;                     /* all samples that were requested, or the requested noise */
     double relative_error;             /* film.h's, of the frame */
+    double rare_error;                 /* likewise; or NaN */
     uint64_t dropped_samples;
 } FrameOutcome;
 
-/* Sets "parhelion:samples", "parhelion:complete", "parhelion:relativeError" and
- * "parhelion:droppedSamples"; and the time, "capDate" with "utcOffset", when SOURCE_DATE_EPOCH
- * gives one (reproducible-builds.org). It is left out otherwise, so that the same render gives
- * the same file. */
+/* Sets "parhelion:samples", "parhelion:complete", "parhelion:relativeError",
+ * "parhelion:rareError" where there is one, and "parhelion:droppedSamples"; and the time, "capDate"
+ * with "utcOffset", when SOURCE_DATE_EPOCH gives one (reproducible-builds.org). It is left out
+ * otherwise, so that the same render gives the same file. */
 void frame_set_outcome(FrameImage *frame, const FrameOutcome *outcome, Arena *arena);
 
 /* What is to be said of samples that the film does not hold; NULL: it holds them all. line: the
