@@ -23,6 +23,7 @@ static inline bool chain_is_connected(const PathContext *context, const LightCha
     if (chain->others) return false;
     if (chain->from == CHAIN_EMITTER) return !chain->mirrors && !chain->plates;
     if (!chain->mirrors) return true;
-    if (chain->from == CHAIN_SUN && !context->beams[BEAMS_OF_SUN].mirrors) return false; /* --no-mirrors */
+    if (chain->from == CHAIN_SUN && !context->beams[BEAMS_OF_SUN].mirrors)
+        return false; /* --no-mirrors */
     return chain->mirrors == 1 && !chain->plates;
 }

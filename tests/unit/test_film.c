@@ -258,6 +258,25 @@ ARENA_TEST(relative_error_judges_shadows_against_half_the_key) {
     assert_close(film_relative_error(film).frame, 0.1 / (key / 2) / 6, 1e-3);
 }
 
+/* One sample of one pixel is some hundred times as bright as all others. */
+ARENA_TEST(one_bright_sample_makes_the_error_doubtful) {
+    for (int is_rare = 0; is_rare < 2; is_rare++) {
+        Film *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
+        for (uint32_t i = 0; i < 64; i++)
+            for (int p = 0; p < WIDTH * HEIGHT; p++)
+                add_grey(film, p % WIDTH, p / WIDTH, i,
+                         is_rare && !p && i == 20 ? 640
+                         : (i / 16 + i) % 2       ? 0.9f
+                                                  : 1.1f);
+        double told = film_relative_error(film).frame, may_be = film_rare_error(film, told);
+        if (!is_rare) {
+            assert_true(isnan(may_be));
+            continue;
+        }
+        assert_true(may_be > FILM_RARE * told);
+    }
+}
+
 ARENA_TEST(relative_error_of_displays_counts_their_pixels_only) {
     enum { SIDE = 100 };
     FilmRect square = {0, 0, SIDE, SIDE};
