@@ -51,6 +51,17 @@ int mirrors_compare_pairs(const void *a, const void *b) {
     return x->triangle < y->triangle ? -1 : x->triangle > y->triangle;
 }
 
+MirrorTriangle mirror_triangle(const Scene *scene, uint32_t id) {
+    MirrorTriangle out;
+    const Vec3 *normals = scene_part(scene, id)->normals;
+    for (int i = 0; i < 3; i++) out.position[i] = scene_corner(scene, id, i);
+    Vec3 flat = vec3_normalize(vec3_cross(vec3_sub(out.position[1], out.position[0]),
+                                          vec3_sub(out.position[2], out.position[0])));
+    for (int i = 0; i < 3; i++)
+        out.normal[i] = normals ? normals[scene_corner_place(scene, id, i)] : flat;
+    return out;
+}
+
 bool mirrors_have(const Mirrors *mirrors, MirrorPair pair) {
     uint32_t low = 0, high = mirrors->pair_count;
     while (low < high) {
@@ -154,6 +165,11 @@ static void find_on_patch(const MirrorPatch *patch, const MirrorSearch *asking) 
         points[i].v = w * uv[0].y + u * uv[1].y + v * uv[2].y;
         if (points[i].spread < 1e30f) asking->found(asking->user, patch->id, &points[i]);
     }
+}
+
+float mirror_spread_at(const Scene *scene, uint32_t triangle, Vec3 from, Vec3 light, Vec3 point) {
+    MirrorTriangle corners = mirror_triangle(scene, triangle);
+    return reflection_spread(&corners, from, &(ReflectionLight){light, true}, point);
 }
 
 uint32_t mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFound *found,

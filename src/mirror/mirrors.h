@@ -67,7 +67,14 @@ float mirrors_rough_alpha(const Material *material);
 /* The order in which pairs stand: negative, zero or positive, for qsort. */
 int mirrors_compare_pairs(const void *a, const void *b);
 
+/* A triangle of the scene as a mirror. */
+MirrorTriangle mirror_triangle(const Scene *scene, uint32_t id);
+
 bool mirrors_have(const Mirrors *mirrors, MirrorPair pair);
+
+/* The spread (reflection_point.h) of a near light at a point of a scene's triangle that turns
+ * its light to `from`. */
+float mirror_spread_at(const Scene *scene, uint32_t triangle, Vec3 from, Vec3 light, Vec3 point);
 
 typedef struct MirrorQuery {
     int part_id;

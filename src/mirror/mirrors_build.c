@@ -26,14 +26,11 @@ static Vec3 edges_cross(const MirrorTriangle *t) {
 }
 
 static MirrorPatch whole_triangle(const Scene *scene, uint32_t id) {
-    MirrorPatch patch = {.uv = {{0, 0}, {1, 0}, {0, 1}}, .id = id};
-    const Vec3 *normals = scene_part(scene, id)->normals;
-    patch.alpha = mirrors_rough_alpha(&scene->materials[scene_part(scene, id)->material_id]);
-    for (int i = 0; i < 3; i++) patch.corners.position[i] = scene_corner(scene, id, i);
-    for (int i = 0; i < 3; i++)
-        patch.corners.normal[i] = normals ? normals[scene_corner_place(scene, id, i)]
-                                          : vec3_normalize(edges_cross(&patch.corners));
-    return patch;
+    const Material *material = &scene->materials[scene_part(scene, id)->material_id];
+    return (MirrorPatch){.corners = mirror_triangle(scene, id),
+                         .uv = {{0, 0}, {1, 0}, {0, 1}},
+                         .id = id,
+                         .alpha = mirrors_rough_alpha(material)};
 }
 
 static Vec3 halfway(Vec3 a, Vec3 b) {

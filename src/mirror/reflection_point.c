@@ -288,18 +288,23 @@ static double length(D3 a) {
     return sqrt(d3_dot(a, a));
 }
 
+/* At a point of the whole triangle. */
+static double spread_at(const Search *search, const Value *at) {
+    const PatchCorner *whole = search->whole.corner;
+    Slope slope = slope_at(search, &search->whole, at);
+    D3 edges = d3_cross(d3_sub(whole[1].d, whole[0].d), d3_sub(whole[2].d, whole[0].d));
+    double det = fabs(determinant(&slope)), ahead = fabs(d3_dot(at->e, search->towards));
+    if (search->is_near)
+        return fabs(d3_dot(edges, at->e)) * at->nn * at->nn * ahead / (d3_dot(at->e, at->e) * det);
+    return fabs(d3_dot(edges, at->d)) * at->nn * at->nn / (length(at->d) * det);
+}
+
 static void keep(Search *search, const Patch *patch, double u, double v) {
     const PatchCorner *c = patch->corner, *whole = search->whole.corner;
     double at_u = c[0].u + u * (c[1].u - c[0].u) + v * (c[2].u - c[0].u);
     double at_v = c[0].v + u * (c[1].v - c[0].v) + v * (c[2].v - c[0].v);
     Value at = value_at(search, &search->whole, at_u, at_v);
-    Slope slope = slope_at(search, &search->whole, &at);
-    D3 edges = d3_cross(d3_sub(whole[1].d, whole[0].d), d3_sub(whole[2].d, whole[0].d));
-    double det = fabs(determinant(&slope)), spread;
-    double ahead = fabs(d3_dot(at.e, search->towards));
-    if (search->is_near)
-        spread = fabs(d3_dot(edges, at.e)) * at.nn * at.nn * ahead / (d3_dot(at.e, at.e) * det);
-    else spread = fabs(d3_dot(edges, at.d)) * at.nn * at.nn / (length(at.d) * det);
+    double spread = spread_at(search, &at);
     if (!(at.nn > NO_NORMAL * d3_dot(whole[0].n, whole[0].n)) ||
         !(d3_dot(at.f, at.e) > ALONG * length(at.f) * length(at.e)) || !(spread < 1e30) ||
         search->count == REFLECTION_POINTS_MAX)
@@ -354,9 +359,8 @@ static void search_patch(Search *search, const Patch *patch, int depth) {
     if (newton(search, patch, &u, &v)) keep(search, patch, u, v);
 }
 
-int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, const ReflectionLight *light,
-                           ReflectionPoint out[REFLECTION_POINTS_MAX]) {
-    Search search = {.is_near = light->is_near, .out = out};
+static Search search_of(const MirrorTriangle *triangle, Vec3 from, const ReflectionLight *light) {
+    Search search = {.is_near = light->is_near};
     D3 origin = d3_of(from), at = d3_of(light->at);
     for (int i = 0; i < 3; i++) {
         D3 position = d3_of(triangle->position[i]);
@@ -369,9 +373,29 @@ int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, const Refl
         search.across[0] = d3_of(frame.x);
         search.across[1] = d3_of(frame.y);
     }
+    return search;
+}
+
+int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, const ReflectionLight *light,
+                           ReflectionPoint out[REFLECTION_POINTS_MAX]) {
+    Search search = search_of(triangle, from, light);
     Patch whole = search.whole;
+    search.out = out;
     search_patch(&search, &whole, 0);
     return search.count;
+}
+
+float reflection_spread(const MirrorTriangle *triangle, Vec3 from, const ReflectionLight *light,
+                        Vec3 point) {
+    Search search = search_of(triangle, from, light);
+    const PatchCorner *c = search.whole.corner;
+    D3 a = d3_sub(c[1].d, c[0].d), b = d3_sub(c[2].d, c[0].d), n = d3_cross(a, b);
+    D3 p = d3_sub(d3_sub(d3_of(point), d3_of(from)), c[0].d);
+    double nn = d3_dot(n, n);
+    if (search.is_near) set_axes(&search, &search.whole);
+    Value at = value_at(&search, &search.whole, d3_dot(d3_cross(p, b), n) / nn,
+                        d3_dot(d3_cross(a, p), n) / nn);
+    return (float)spread_at(&search, &at);
 }
 
 /* ---- rough mirrors ---------------------------------------------------------------------- */

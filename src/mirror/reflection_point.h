@@ -40,6 +40,10 @@ typedef struct ReflectionPoint {
 int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, const ReflectionLight *light,
                            ReflectionPoint out[REFLECTION_POINTS_MAX]);
 
+/* The spread at a point of it, m, that is known to turn the light. */
+float reflection_spread(const MirrorTriangle *triangle, Vec3 from, const ReflectionLight *light,
+                        Vec3 point);
+
 /* ---- rough mirrors: facets lean from the normal, by slopes along a frame of the triangle - */
 
 /* The triangle of facets that lean so: their normals are the interpolated ones plus slope.x and

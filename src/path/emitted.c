@@ -2,6 +2,7 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "path/emitted.h"
 
+#include "path/mirror_share.h"
 #include "path/path_collector.h"
 #include "sunlit/sunlit_way.h"
 
@@ -124,16 +125,33 @@ static float emitter_pdf(const PathState *path, const Surface *surface, const Hi
                               surface->ng);
 }
 
+/* Of a compact emitter in a mirror the vertex before that samples it, too. */
+static float weight_in_mirror(const PathState *path, const Surface *surface, Vec3 wo) {
+    if (!(path->way.prob > 0)) return 1;
+    MirrorDensity by = mirrored_density(path, surface->part_id, surface->position,
+                                        fabsf(vec3_dot(surface->ng, wo)));
+    if (!(by.sampled > 0)) return 1;
+    return path->context->strategy == PATH_LIGHTS_ONLY ? 0 : mis_weight(by.chance, by.sampled);
+}
+
+/* Has an eye's pupil sampled it in its mirror? */
+static bool is_sampled_by_pupils(const PathState *path, const Surface *surface) {
+    const CompactEmitters *compact = &path->context->beams[BEAMS_OF_EMITTERS].emitters;
+    return path->way.is_of_eye && compact->of_part[surface->part_id] != NO_ID;
+}
+
 void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo) {
     if (!surface->emits) return;
     const Scene *scene = path->context->scene;
-    float weight = emission_weight(path, LIGHTS_EMITTERS, emitter_pdf(path, surface, hit));
+    float weight = emission_weight(path, LIGHTS_EMITTERS, emitter_pdf(path, surface, hit)) *
+                   weight_in_mirror(path, surface, wo);
     if (!(weight > 0)) return;
     if (surface_is_display(scene, surface) && path->is_grey) {
         add_display_xyz(path, surface, hit, wo, weight);
         return;
     }
     PathFound found = found_on(surface, hit, wo, weight);
+    found.is_sampled = is_sampled_by_pupils(path, surface);
     found.radiance =
         path->throughput * spectrum_all(weight) *
         triangle_emission(scene, hit->triangle, &surface->point, wo, path->wavelengths);

@@ -20,14 +20,14 @@
 #define LEAST 0.0075f    /* probability where no ray came */
 #define CUBES 128        /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
-#define LEAST_LX 1e-6f /* of other light */
-#define ANY_LAMP 0.15f /* of the choices, that go to all lamps alike */
+#define LEAST_LX 1e-6f   /* of other light */
+#define ANY_SOURCE 0.15f /* of the choices, that go to all alike */
 
 /* Where a ray of the light lands behind a mirror. */
 typedef struct Glint {
     GlintPlace place;
     float lm;
-    int light_id; /* of a lamp */
+    int source_id; /* as BeamSource */
 } Glint;
 
 /* Finds of some of the rays; other threads may follow others. */
@@ -41,6 +41,7 @@ typedef struct Beams {
     uint32_t glint_count, glint_room;
     const BeamSide *sides;          /* as in MirrorBeams */
     const Wavelengths *wavelengths; /* of all rays: what they bring is an estimate */
+    const CompactEmitters *emitters;
 } Beams;
 
 /* One ray of the light behind its mirror. */
@@ -49,7 +50,7 @@ typedef struct Beam {
     uint32_t triangle;
     bool is_rough;
     float lm;
-    int light_id; /* of a lamp */
+    int source_id; /* as BeamSource */
 } Beam;
 
 /* Rays of one mirror come one after the other. */
@@ -93,7 +94,7 @@ static void follow(Beams *beams, Beam beam) {
             const BeamSide *side =
                 &beams->sides[2 * part_id + (vec3_dot(point.ng, beam.ray.direction) > 0)];
             add_glint(beams,
-                      (Glint){{side->row, side->edge_m, point.position}, beam.lm, beam.light_id});
+                      (Glint){{side->row, side->edge_m, point.position}, beam.lm, beam.source_id});
         }
         if (hit.triangle < scene->opaque_count) return;
         beam.ray.origin = ray_start(&point, beam.ray.direction);
@@ -126,24 +127,49 @@ typedef struct Aim {
     double ray_m2; /* that one ray stands for */
 } Aim;
 
+/* Light for a place of a mirror, to be counted so many times. Compact emitters are chosen
+ * evenly. */
+static bool choose_source(const Beams *beams, LitPoint place, const float first[4],
+                          const float last[4], LightSample *light, int *source_id, float *times) {
+    const Lights *lights = beams->tools->lights;
+    const Scene *scene = beams->tools->scene;
+    const float u[3] = {first[0], last[0], last[1]};
+    *source_id = 0;
+    *times = 1;
+    if (beams->set == BEAMS_OF_SUN) return lights_sample(lights, LIGHTS_SUN, place, last, light);
+    if (beams->set == BEAMS_OF_LAMPS) {
+        bool is_lit = lights_sample(lights, LIGHTS_PUNCTUAL, place, u, light);
+        if (is_lit) *source_id = light->light_id;
+        return is_lit;
+    }
+    int count = beams->emitters->count, which = (int)(first[0] * (float)count);
+    *source_id = which < count ? which : count - 1;
+    const CompactEmitter *emitter = &beams->emitters->list[*source_id];
+    const float v[3] = {first[1], last[0], last[1]};
+    CompactPoint point = compact_emitter_point(scene, emitter, v);
+    float m2;
+    if (!compact_emitter_towards(scene, emitter, &point, place.position, light, &m2)) return false;
+    *times = (float)count * m2 / (light->distance * light->distance);
+    return true;
+}
+
 /* The sampler's numbers in turn: which lamp and a second for nothing, place, direction or place
  * of the lamp, facet. False: no light comes to the mirror there, or it goes nowhere. */
 static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler) {
     const BeamTools *tools = beams->tools;
     Surface mirror;
     LightSample light;
-    bool is_sun = beams->set == BEAMS_OF_SUN;
     float first[4], last[4];
     sampler_4d(&sampler, first);
     sampler_4d(&sampler, last);
     Vec2 at = {first[2], first[3]}, lean = {last[2], last[3]};
-    const float u[3] = {is_sun ? last[0] : first[0], is_sun ? last[1] : last[0], last[1]};
     if (at.x + at.y > 1) at = (Vec2){1 - at.x, 1 - at.y};
     Hit hit = {0, at.x, at.y, aim->triangle};
     TrianglePoint point = triangle_point(tools->scene, aim->triangle, at.x, at.y);
     LitPoint place = {point.position, point.ns, true};
-    LightSet set = is_sun ? LIGHTS_SUN : LIGHTS_PUNCTUAL;
-    if (!lights_sample(tools->lights, set, place, u, &light)) return false;
+    int source_id;
+    float times;
+    if (!choose_source(beams, place, first, last, &light, &source_id, &times)) return false;
     Vec3 n = aim->alpha > 0 ? facet_normal(point.ns, aim->alpha, lean) : point.ns;
     Vec3 r = vec3_sub(vec3_scale(n, 2 * vec3_dot(n, light.wi)), light.wi);
     if (!(vec3_dot(point.ng, r) * vec3_dot(point.ng, light.wi) > 0)) return false;
@@ -156,8 +182,8 @@ static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler) {
     follow(beams, (Beam){{origin, r, 0, INFINITY},
                          aim->triangle,
                          aim->alpha > 0,
-                         (float)(lx * aim->ray_m2),
-                         is_sun ? 0 : light.light_id});
+                         (float)(lx * aim->ray_m2) * times,
+                         source_id});
     return true;
 }
 
@@ -217,7 +243,7 @@ static void send_piece(void *user, int item, int worker) {
     for (int i = first; i < end; i++) send_rays(&work->pieces[item], work->aims[i], work->all_m2);
 }
 
-/* Of lamps: every mirror is sampled where nothing is known (mirror_beams.h). */
+/* Every mirror is sampled where no part is known (mirror_beams.h). */
 static uint32_t add_all_mirrors(const Scene *scene, const RayWork *work, MirrorPair *pairs) {
     uint32_t count = 0;
     for (int i = 0; i < work->count; i++)
@@ -257,7 +283,8 @@ static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena) {
         pieces[p] = (Beams){.tools = beams->tools,
                             .set = beams->set,
                             .sides = beams->sides,
-                            .wavelengths = beams->wavelengths};
+                            .wavelengths = beams->wavelengths,
+                            .emitters = beams->emitters};
     parallel_for(threads, PIECES, send_piece, &work);
     join_pieces(pieces, &work, beams, map, arena);
     for (int i = 0; i < threads; i++) arena_release(&work.arenas[i]);
@@ -307,88 +334,121 @@ static void weigh_sides(const Beams *beams, const LightSelection *selection, Bea
     }
 }
 
-/* ---- which lamp -------------------------------------------------------------------------- */
+/* ---- which source ------------------------------------------------------------------------ */
 
-/* Luminous flux of a lamp that landed in a row. */
-typedef struct LampGlint {
+/* Luminous flux of a source that landed in a row. */
+typedef struct SourceGlint {
     uint32_t row;
-    int light_id;
+    int id;
     float lm;
-} LampGlint;
+} SourceGlint;
 
-static int compare_lamp_glints(const void *a, const void *b) {
-    const LampGlint *x = a, *y = b;
+static int compare_source_glints(const void *a, const void *b) {
+    const SourceGlint *x = a, *y = b;
     if (x->row != y->row) return x->row < y->row ? -1 : 1;
-    if (x->light_id != y->light_id) return x->light_id < y->light_id ? -1 : 1;
+    if (x->id != y->id) return x->id < y->id ? -1 : 1;
     return (x->lm > y->lm) - (x->lm < y->lm); /* so that sums do not depend on the order */
 }
 
-/* Every row's lamps, each with its share of the row's flux. */
-static void list_lamps(const Beams *beams, MirrorBeams *out, Arena *arena) {
+/* Every row's sources, each with its share of the row's flux. */
+static void list_sources(const Beams *beams, MirrorBeams *out, Arena *arena) {
     int rows = 2 * beams->tools->scene->part_count;
     uint32_t *first = ARENA_NEW(arena, uint32_t, rows + 1), count = 0, at = 0;
-    BeamLamp *lamps = ARENA_NEW(arena, BeamLamp, beams->glint_count + 1);
+    BeamSource *sources = ARENA_NEW(arena, BeamSource, beams->glint_count + 1);
     Arena scratch = *arena;
-    LampGlint *glints = ARENA_NEW(&scratch, LampGlint, beams->glint_count + 1);
+    SourceGlint *glints = ARENA_NEW(&scratch, SourceGlint, beams->glint_count + 1);
     for (uint32_t i = 0; i < beams->glint_count; i++) {
         const Glint *g = &beams->glints[i];
-        glints[i] = (LampGlint){g->place.row, g->light_id, g->lm};
+        glints[i] = (SourceGlint){g->place.row, g->source_id, g->lm};
     }
-    qsort(glints, beams->glint_count, sizeof *glints, compare_lamp_glints);
+    qsort(glints, beams->glint_count, sizeof *glints, compare_source_glints);
     for (int row = 0; row < rows; row++) {
         double all = 0;
         first[row] = count;
         for (; at < beams->glint_count && glints[at].row == (uint32_t)row; at++) {
-            bool is_new = count == first[row] || lamps[count - 1].light_id != glints[at].light_id;
-            if (is_new) lamps[count++] = (BeamLamp){glints[at].light_id, 0};
-            lamps[count - 1].prob += glints[at].lm;
+            bool is_new = count == first[row] || sources[count - 1].id != glints[at].id;
+            if (is_new) sources[count++] = (BeamSource){glints[at].id, 0};
+            sources[count - 1].prob += glints[at].lm;
             all += (double)glints[at].lm;
         }
-        for (uint32_t i = first[row]; i < count; i++) lamps[i].prob /= (float)all;
+        for (uint32_t i = first[row]; i < count; i++) sources[i].prob /= (float)all;
     }
     first[rows] = count;
-    out->lamps = lamps;
-    out->first_lamp = first;
+    out->sources = sources;
+    out->first = first;
 }
 
-int mirror_beams_lamp(const MirrorBeams *beams, const Lights *lights, int part_id, bool is_back,
-                      float pick, float *prob) {
-    uint32_t row = part_id == NO_ID ? 0 : beams->sides[2 * part_id + is_back].row;
-    uint32_t first = beams->first_lamp[row], end = beams->first_lamp[row + 1];
-    int count = lights_lamp_count(lights), id;
-    float any = part_id == NO_ID || first == end ? 1 : ANY_LAMP, own = 0;
-    if (unit_choose(&pick, any)) {
+/* A row's sources; any: share of the choices that go to all there are alike. */
+typedef struct RowSources {
+    const BeamSource *list;
+    int count;
+    float any;
+} RowSources;
+
+static RowSources sources_of(const MirrorBeams *beams, int part_id, bool is_back) {
+    if (part_id == NO_ID) return (RowSources){.any = 1};
+    uint32_t row = beams->sides[2 * part_id + is_back].row, first = beams->first[row];
+    int count = (int)(beams->first[row + 1] - first);
+    return (RowSources){beams->sources + first, count, count ? ANY_SOURCE : 1};
+}
+
+static float prob_of(const RowSources *row, int id, int count) {
+    float own = 0;
+    for (int i = 0; i < row->count; i++)
+        if (row->list[i].id == id) own = row->list[i].prob;
+    return row->any / (float)count + (1 - row->any) * own;
+}
+
+int mirror_beams_source(const MirrorBeams *beams, const Lights *lights, int part_id, bool is_back,
+                        float pick, float *prob) {
+    RowSources row = sources_of(beams, part_id, is_back);
+    bool is_lamp = beams->set == BEAMS_OF_LAMPS;
+    int count = is_lamp ? lights_lamp_count(lights) : beams->emitters.count, id;
+    if (unit_choose(&pick, row.any)) {
         int which = (int)(pick * (float)count);
-        id = lights_lamp_id(lights, which < count ? which : count - 1);
-        for (uint32_t i = first; any < 1 && i < end; i++)
-            if (beams->lamps[i].light_id == id) own = beams->lamps[i].prob;
+        which = which < count ? which : count - 1;
+        id = is_lamp ? lights_lamp_id(lights, which) : which;
     } else {
-        uint32_t i = first;
-        for (; i + 1 < end && pick >= beams->lamps[i].prob; i++) pick -= beams->lamps[i].prob;
-        own = beams->lamps[i].prob;
-        id = beams->lamps[i].light_id;
+        int i = 0;
+        for (; i + 1 < row.count && pick >= row.list[i].prob; i++) pick -= row.list[i].prob;
+        id = row.list[i].id;
     }
-    *prob = any / (float)count + (1 - any) * own;
+    *prob = prob_of(&row, id, count);
     return id;
+}
+
+float mirror_beams_source_prob(const MirrorBeams *beams, int part_id, bool is_back, int id) {
+    RowSources row = sources_of(beams, part_id, is_back);
+    return prob_of(&row, id, beams->emitters.count);
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
+static bool has_lights(const Lights *lights, const MirrorBeams *beams) {
+    if (beams->set == BEAMS_OF_EMITTERS) return beams->emitters.count > 0;
+    return lights_has(lights, beams->set == BEAMS_OF_SUN ? LIGHTS_SUN : LIGHTS_PUNCTUAL);
+}
+
 MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightSelection *selection,
                                Arena *arena) {
-    MirrorBeams none = {.set = set};
-    if (!lights_has(tools->lights, set == BEAMS_OF_SUN ? LIGHTS_SUN : LIGHTS_PUNCTUAL)) return none;
+    MirrorBeams out = {.set = set};
+    if (set == BEAMS_OF_EMITTERS) out.emitters = compact_emitters_build(tools->scene, arena);
+    if (!has_lights(tools->lights, &out)) return out;
     BeamSide *sides = ARENA_NEW(arena, BeamSide, 2 * ((size_t)tools->scene->part_count + 1));
     Wavelengths middle;
-    Beams beams = {.tools = tools, .set = set, .sides = sides, .wavelengths = &middle};
-    MirrorBeams out = {.set = set, .sides = sides};
+    Beams beams = {.tools = tools,
+                   .set = set,
+                   .sides = sides,
+                   .wavelengths = &middle,
+                   .emitters = &out.emitters};
     wavelengths_sample(0.5f, &middle);
     measure_sides(tools->scene, sides);
     send_all_rays(&beams, &out.map, arena);
-    if (!beams.count) return none;
-    if (set == BEAMS_OF_LAMPS) list_lamps(&beams, &out, arena);
+    if (!beams.count) return out;
+    if (set != BEAMS_OF_SUN) list_sources(&beams, &out, arena);
     qsort(beams.pairs, beams.count, sizeof *beams.pairs, mirrors_compare_pairs);
     weigh_sides(&beams, selection, sides, *arena);
+    out.sides = sides;
     out.mirrors =
         mirrors_build(tools->scene, beams.pairs, beams.count, bvh_threads(tools->bvh), arena);
     return out;

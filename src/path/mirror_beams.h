@@ -2,22 +2,23 @@
 /* mirror_beams.h -- which mirrors send the sun, or lamps, to which part of the scene, and how
  * much.
  *
- * Before the first path some rays of the sun, and of lamps without a surface, are followed to
- * every mirror, and by it to what they light. A part samples those mirrors whose rays came to
- * it. The sun by other mirrors is left to chance; lamps, which chance never finds, are sampled
- * there, too, but rarely. Where these rays bring a place little light beside the lights
+ * Before the first path some rays of the sun, of lamps without a surface and of compact emitters
+ * are followed to every mirror, and by it to what they light. A part samples those mirrors whose
+ * rays came to it. Other mirrors are left to chance; lamps, which chance never finds, are
+ * sampled there, too, but rarely. Where these rays bring a place little light beside the lights
  * themselves, mirrors are sampled less often there, and count more when they are.
  *
  * Memory   from the arena. Threads: const after mirror_beams_build.
  */
 #pragma once
 #include "mirror/mirrors.h"
+#include "path/compact_emitters.h"
 #include "path/glint_map.h"
 #include "path/light_selection.h"
 #include "path/surface.h"
 
 /* Sets of lights that are sampled in mirrors. */
-typedef enum BeamSet { BEAMS_OF_SUN, BEAMS_OF_LAMPS, BEAM_SETS } BeamSet;
+typedef enum BeamSet { BEAMS_OF_SUN, BEAMS_OF_LAMPS, BEAMS_OF_EMITTERS, BEAM_SETS } BeamSet;
 
 /* How often one side of a part samples its mirrors. */
 typedef struct BeamSide {
@@ -27,20 +28,21 @@ typedef struct BeamSide {
     float by_root; /* more of it by the root of what the rays bring, lx */
 } BeamSide;
 
-/* A lamp whose rays came to a row by mirrors. */
-typedef struct BeamLamp {
-    int light_id;
+/* A lamp, or a compact emitter, whose rays came to a row by mirrors. */
+typedef struct BeamSource {
+    int id;     /* of the scene's light, or which compact emitter */
     float prob; /* of its choice among the row's */
-} BeamLamp;
+} BeamSource;
 
 typedef struct MirrorBeams {
     BeamSet set;
-    const Mirrors *mirrors; /* NULL: none sends light of the set anywhere. Those of lamps have all
-                               there are at NO_ID */
+    const Mirrors *mirrors; /* NULL: none sends light of the set anywhere. Of all but the sun's all
+                               there are stand at NO_ID */
     const BeamSide *sides;  /* rows as LightSelection's */
     GlintMap map;           /* where the rays came */
-    const BeamLamp *lamps;  /* of lamps: a row's are [first_lamp[row], first_lamp[row + 1]), by */
-    const uint32_t *first_lamp; /* light_id */
+    const BeamSource *sources; /* but of the sun: a row's are [first[row], first[row + 1]), by id */
+    const uint32_t *first;
+    CompactEmitters emitters; /* of BEAMS_OF_EMITTERS */
 } MirrorBeams;
 
 typedef struct BeamTools {
@@ -58,7 +60,10 @@ MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightS
  * light_selection_of_side; 0: it has none. */
 float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position);
 
-/* HOT. The id of a lamp that a side of a part, or NO_ID, samples in mirrors; pick in [0, 1).
+/* HOT. The id of a source that a side of a part, or NO_ID, samples in mirrors; pick in [0, 1).
  * *prob: of the choice, above 0. */
-int mirror_beams_lamp(const MirrorBeams *beams, const Lights *lights, int part_id, bool is_back,
-                      float pick, float *prob);
+int mirror_beams_source(const MirrorBeams *beams, const Lights *lights, int part_id, bool is_back,
+                        float pick, float *prob);
+
+/* HOT. Probability of that choice of BEAMS_OF_EMITTERS. */
+float mirror_beams_source_prob(const MirrorBeams *beams, int part_id, bool is_back, int id);

@@ -15,7 +15,19 @@ bool mirror_is_plain(const Scene *scene, const Surface *mirror, Vec3 wo) {
 
 bool mirrors_are_sampled(const PathContext *context, BeamSet set) {
     return context->beams[set].mirrors && context->strategy != PATH_BSDF_ONLY &&
-           lights_has(context->lights, set == BEAMS_OF_SUN ? LIGHTS_SUN : LIGHTS_PUNCTUAL);
+           (set == BEAMS_OF_EMITTERS ||
+            lights_has(context->lights, set == BEAMS_OF_SUN ? LIGHTS_SUN : LIGHTS_PUNCTUAL));
+}
+
+float mirrored_prob(const PathState *path, const Surface *surface, Vec3 wo, BeamSet set) {
+    const PathContext *context = path->context;
+    if (!mirrors_are_sampled(context, set) || path->medium_id != NO_ID ||
+        path->bounce + 1 >= context->max_bounces)
+        return 0;
+    float prob = mirror_beams_prob(&context->beams[set], surface->part_id,
+                                   vec3_dot(wo, surface->ng) < 0, surface->position);
+    for (int i = 0; i < path->bounce && i < DEEP_BOUNCE; i++) prob *= DEEP_SHARE;
+    return prob;
 }
 
 /* Did the vertex before, to which wo leads, sample the set's lights in this mirror, smooth or
@@ -55,4 +67,45 @@ Spectrum mirrored_sun_share(const PathState *path, const Surface *surface, Vec3 
     if (next->is_delta) return spectrum_all(0);
     Spectrum f = bsdf_eval(bsdf, surface->local_wo, next->wi, &pdf);
     return left_of(bsdf, surface->local_wo, next->wi, f) / spectrum_max(f, spectrum_all(1e-30f));
+}
+
+/* ---- compact emitters -------------------------------------------------------------------- */
+
+MirrorWay mirrored_way(const PathState *path, const Surface *surface, Vec3 wo,
+                       const BsdfSample *next) {
+    const PathContext *context = path->context;
+    const PathVertex *last = &path->last;
+    const Mirrors *mirrors = context->beams[BEAMS_OF_EMITTERS].mirrors;
+    MirrorWay way = {.prob = 0};
+    bool is_eye = !path->bounce && last->is_delta;
+    MirrorPair pair = {is_eye ? NO_ID : last->part_id, false, surface->triangle};
+    if (!mirrors || !next->is_delta || !(next->wi.z > 0) || next->along != 0 ||
+        (!is_eye && (last->is_delta || !(last->mirrors > 0))) || path->medium_id != NO_ID ||
+        !mirrors_have(mirrors, pair) || !mirror_is_plain(context->scene, surface, wo))
+        return way;
+    way = (MirrorWay){.pdf =
+                          last->pdf * spectrum_mean(bsdf_mirror(&surface->bsdf, surface->local_wo)),
+                      .prob = is_eye ? 0 : last->mirrors,
+                      .is_of_eye = is_eye,
+                      .is_back = last->is_back,
+                      .part_id = last->part_id,
+                      .from = last->at.position,
+                      .triangle = surface->triangle,
+                      .at = surface->position};
+    return way;
+}
+
+MirrorDensity mirrored_density(const PathState *path, int part_id, Vec3 point, float cosine) {
+    const MirrorWay *way = &path->way;
+    const PathContext *context = path->context;
+    const MirrorBeams *beams = &context->beams[BEAMS_OF_EMITTERS];
+    MirrorDensity out = {0, 0};
+    if (!(way->prob > 0) || context->strategy == PATH_BSDF_ONLY) return out;
+    int which = beams->emitters.of_part[part_id];
+    if (which == NO_ID) return out;
+    float spread = mirror_spread_at(context->scene, way->triangle, way->from, point, way->at);
+    out.chance = way->pdf * spread * cosine;
+    out.sampled = way->prob / beams->emitters.list[which].area_m2 *
+                  mirror_beams_source_prob(beams, way->part_id, way->is_back, which);
+    return out;
 }

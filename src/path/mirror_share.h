@@ -15,6 +15,24 @@ bool mirror_is_plain(const Scene *scene, const Surface *mirror, Vec3 wo);
 Spectrum mirrored_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
                             const BsdfSample *next);
 
+/* Probability with which the surface, which the path reached against wo, samples the set's
+ * mirrors (mirrored.h). */
+float mirrored_prob(const PathState *path, const Surface *surface, Vec3 wo, BeamSet set);
+
+/* The path is about to be turned by `next`: which mirror that is for path->way, and whether
+ * compact emitters in it are sampled. */
+MirrorWay mirrored_way(const PathState *path, const Surface *surface, Vec3 wo,
+                       const BsdfSample *next);
+
+/* The density by area, m^-2, with which a vertex samples a compact emitter's point in a mirror;
+ * 0: not. chance: that of finding it so by chance. */
+typedef struct MirrorDensity {
+    float sampled, chance;
+} MirrorDensity;
+
+/* Of the point that the path, which left path->way, met on an emitter; cosine: of its way there. */
+MirrorDensity mirrored_density(const PathState *path, int part_id, Vec3 point, float cosine);
+
 /* What of f, the surface's bsdf_eval for a light sample, the vertex before did not sample in it
  * as in a rough mirror. */
 Spectrum mirrored_left(const PathState *path, const Surface *surface, Vec3 wo,

@@ -17,8 +17,11 @@ typedef struct MirrorWalk {
     LightSample sun;       /* its direction, with all that is the same for all mirrors */
     Spectrum sun_radiance; /* of it, over its density */
     PunctualPoint lamp;
+    const CompactEmitter *emitter;
+    CompactPoint at; /* on the emitter */
+    const Guiding *guiding;
     const MirrorBeams *beams; /* is_elsewhere: mirrors that the part samples anyway are left */
-    bool is_of_lamp, is_rough, is_elsewhere;
+    bool is_rough, is_elsewhere;
     float prob; /* of all choices before */
 } MirrorWalk;
 
@@ -27,18 +30,27 @@ typedef struct MirrorRays {
     ShadowRay to_mirror, to_light;
 } MirrorRays;
 
-/* Light on the mirror's point; irradiance of what faces it, or of a lamp nearby intensity. */
+/* Light on the mirror's point: irradiance of what faces it, or of a near light intensity. */
 static bool light_at(const MirrorWalk *walk, Vec3 place, LightSample *light, Spectrum *strength) {
     const PathContext *context = walk->path->context;
-    if (!walk->is_of_lamp) {
+    float times = 1;
+    switch (walk->beams->set) {
+    case BEAMS_OF_LAMPS:
+        if (!lights_lamp_towards(context->lights, &walk->lamp, place, light)) return false;
+        if (!walk->lamp.is_distant && !walk->is_rough) times = light->distance * light->distance;
+        break;
+    case BEAMS_OF_EMITTERS:
+        if (!compact_emitter_towards(context->scene, walk->emitter, &walk->at, place, light,
+                                     &times))
+            return false;
+        break;
+    default:
         *light = walk->sun;
         *strength = walk->sun_radiance;
         return true;
     }
-    if (!lights_lamp_towards(context->lights, &walk->lamp, place, light)) return false;
-    *strength = lights_radiance(context->lights, light, walk->path->wavelengths);
-    if (!walk->lamp.is_distant && !walk->is_rough)
-        *strength *= spectrum_all(light->distance * light->distance);
+    *strength =
+        lights_radiance(context->lights, light, walk->path->wavelengths) * spectrum_all(times);
     return true;
 }
 
@@ -72,6 +84,7 @@ static bool mirror_at(const MirrorWalk *walk, const Hit *at, float spread, Mirro
     out->radiance = walk->is_rough ? bsdf_glint(&mirror->bsdf, local_wo, local_light) *
                                          spectrum_all(local_light.z)
                                    : bsdf_mirror(&mirror->bsdf, local_wo);
+    out->share = spectrum_mean(out->radiance);
     out->radiance *= strength * spectrum_all(mirror->alpha * spread / walk->prob);
     out->light = (LightSample){.wi = wi,
                                .distance = distance,
@@ -94,9 +107,8 @@ static void find_mirrored(const MirrorWalk *walk, const MirrorLight *mirror, Vec
         return;
     }
     PathFound found = {.set = source->set,
-                       .source_id = walk->is_of_lamp ? source->light_id : 0,
-                       .from = is_distant ? source->wi : walk->lamp.at,
                        .is_distant = is_distant,
+                       .from = is_distant ? source->wi : walk->lamp.at,
                        .way = vec3_neg(source->wi),
                        .radiance = radiance,
                        .by = walk->surface,
@@ -106,7 +118,24 @@ static void find_mirrored(const MirrorWalk *walk, const MirrorLight *mirror, Vec
                        .mirror = mirror,
                        .beyond = &rays->to_light,
                        .by_rough = walk->is_rough};
+    if (source->set == LIGHTS_PUNCTUAL) found.source_id = source->light_id;
+    if (source->set == LIGHTS_EMITTERS) {
+        found.source_id = walk->emitter->part_id;
+        found.from = source->point.position;
+        found.triangle = source->triangle;
+        found.point = &source->point;
+    }
     path_gather(path, &found);
+}
+
+/* The power heuristic of an emitter's point that chance finds, too (mirror_share.h). */
+static float heuristic(const MirrorWalk *walk, const MirrorLight *mirror, float spread,
+                       float bsdf_pdf) {
+    if (walk->beams->set != BEAMS_OF_EMITTERS || walk->path->context->strategy != PATH_MIS)
+        return 1;
+    float cosine = fabsf(vec3_dot(walk->at.point.ng, mirror->source.wi));
+    float chance = guiding_pdf(walk->guiding, mirror->light.wi, bsdf_pdf) * mirror->share;
+    return mis_weight(walk->prob / walk->emitter->area_m2, chance * spread * cosine);
 }
 
 static void add_point(void *user, uint32_t triangle, const ReflectionPoint *point) {
@@ -125,6 +154,7 @@ static void add_point(void *user, uint32_t triangle, const ReflectionPoint *poin
     Spectrum share = path->throughput * mirror.radiance *
                      bsdf_eval(&surface->bsdf, surface->local_wo, local_wi, &pdf) *
                      spectrum_all(fabsf(local_wi.z));
+    share *= spectrum_all(heuristic(walk, &mirror, point->spread, pdf));
     if (spectrum_is_zero(share)) return;
     share *= direct_visibility(path, &mirror.surface, &mirror.source, &rays.to_light);
     if (spectrum_is_zero(share)) return;
@@ -136,29 +166,20 @@ static void find(MirrorWalk *walk, MirrorQuery *query) {
     mirrors_find(walk->beams->mirrors, query, add_point, walk);
 }
 
-/* How much rarer mirrors are sampled at later vertices. */
-static float by_depth(const PathState *path) {
-    float prob = 1;
-    for (int i = 0; i < path->bounce && i < DEEP_BOUNCE; i++) prob *= DEEP_SHARE;
-    return prob;
-}
-
-static void add_suns(PathState *path, const Surface *surface, Vec3 wo) {
-    const PathContext *context = path->context;
-    const MirrorBeams *beams = &context->beams[BEAMS_OF_SUN];
-    float prob = mirror_beams_prob(beams, surface->part_id, vec3_dot(wo, surface->ng) < 0,
-                                   surface->position);
-    prob *= by_depth(path);
-    if (!(prob > 0)) return;
+static void add_suns(MirrorWalk walk) {
+    PathState *path = walk.path;
+    const Surface *surface = walk.surface;
+    const Lights *lights = path->context->lights;
     float u[4];
+    walk.prob = mirrored_prob(path, surface, walk.wo, BEAMS_OF_SUN);
+    if (!(walk.prob > 0)) return;
     numbers_for(path, NUMBERS_MIRRORS);
     sampler_4d(path->sampler, u);
-    if (!unit_choose(&u[0], prob)) return;
-    MirrorWalk walk = {.path = path, .surface = surface, .wo = wo, .beams = beams, .prob = prob};
+    if (!unit_choose(&u[0], walk.prob)) return;
     LitPoint point = {surface->position, surface->frame.z, true}; /* from any side */
-    if (!lights_sample(context->lights, LIGHTS_SUN, point, u, &walk.sun)) return;
+    if (!lights_sample(lights, LIGHTS_SUN, point, u, &walk.sun)) return;
     walk.sun_radiance =
-        lights_radiance(context->lights, &walk.sun, path->wavelengths) / spectrum_all(walk.sun.pdf);
+        lights_radiance(lights, &walk.sun, path->wavelengths) / spectrum_all(walk.sun.pdf);
     MirrorQuery query = {surface->part_id, false, surface->position, {walk.sun.wi, false}, {0, 0}};
     find(&walk, &query);
     query.is_rough = walk.is_rough = true;
@@ -166,59 +187,72 @@ static void add_suns(PathState *path, const Surface *surface, Vec3 wo) {
     find(&walk, &query);
 }
 
-/* What a vertex draws for lamps in mirrors. */
-typedef struct LampNumbers {
-    float search[4]; /* the part's mirrors? all others? which lamp, of either */
-    float place[4];  /* of the lamp */
+/* What a vertex draws for near lights in mirrors. */
+typedef struct NearNumbers {
+    float search[4]; /* the part's mirrors? all others? which source, of either */
+    float place[4];  /* of the source */
     Vec2 facet;      /* of rough mirrors */
-} LampNumbers;
+} NearNumbers;
 
-/* One lamp in the part's mirrors; is_elsewhere: in all others. */
-static void add_lamp(MirrorWalk walk, const LampNumbers *u) {
+/* One source in the part's mirrors; is_elsewhere: in all others. */
+static void add_source(MirrorWalk walk, const NearNumbers *u) {
     const Surface *surface = walk.surface;
-    const Lights *lights = walk.path->context->lights;
+    const PathContext *context = walk.path->context;
+    bool is_of_lamp = walk.beams->set == BEAMS_OF_LAMPS;
+    MirrorQuery query = {.part_id = walk.is_elsewhere ? NO_ID : surface->part_id,
+                         .from = surface->position,
+                         .u = u->facet};
     float chosen;
-    int id =
-        mirror_beams_lamp(walk.beams, lights, surface->part_id, vec3_dot(walk.wo, surface->ng) < 0,
-                          u->search[2 + walk.is_elsewhere], &chosen);
-    walk.lamp = lights_lamp_point(lights, id, u->place);
+    int id = mirror_beams_source(walk.beams, context->lights, surface->part_id,
+                                 vec3_dot(walk.wo, surface->ng) < 0,
+                                 u->search[2 + walk.is_elsewhere], &chosen);
     walk.prob *= chosen;
-    MirrorQuery query = {walk.is_elsewhere ? NO_ID : surface->part_id,
-                         false,
-                         surface->position,
-                         {walk.lamp.at, !walk.lamp.is_distant},
-                         u->facet};
+    if (is_of_lamp) {
+        walk.lamp = lights_lamp_point(context->lights, id, u->place);
+        query.light = (ReflectionLight){walk.lamp.at, !walk.lamp.is_distant};
+    } else {
+        walk.emitter = &walk.beams->emitters.list[id];
+        walk.at = compact_emitter_point(context->scene, walk.emitter, u->place);
+        query.light = (ReflectionLight){walk.at.point.position, true};
+    }
     find(&walk, &query);
-    if (walk.is_elsewhere) return;
+    if (walk.is_elsewhere || !is_of_lamp) return;
     query.is_rough = walk.is_rough = true;
     find(&walk, &query);
 }
 
-static void add_lamps(PathState *path, const Surface *surface, Vec3 wo) {
-    const MirrorBeams *beams = &path->context->beams[BEAMS_OF_LAMPS];
-    float prob = mirror_beams_prob(beams, surface->part_id, vec3_dot(wo, surface->ng) < 0,
-                                   surface->position);
-    float deep = by_depth(path);
-    LampNumbers u;
-    MirrorWalk walk = {
-        .path = path, .surface = surface, .wo = wo, .beams = beams, .is_of_lamp = true};
-    numbers_for_lamps(path);
+static void add_near(MirrorWalk walk) {
+    PathState *path = walk.path;
+    const Surface *surface = walk.surface;
+    BeamSet set = walk.beams->set;
+    NearNumbers u;
+    numbers_for_near(path, set);
     sampler_4d(path->sampler, u.search);
     sampler_4d(path->sampler, u.place);
     u.facet = sampler_2d(path->sampler);
-    walk.prob = prob * deep;
-    if (walk.prob > 0 && u.search[0] < walk.prob) add_lamp(walk, &u);
-    walk.prob = ELSEWHERE * deep;
+    walk.prob = mirrored_prob(path, surface, walk.wo, set);
+    if (walk.prob > 0 && u.search[0] < walk.prob) add_source(walk, &u);
+    if (set != BEAMS_OF_LAMPS || surface->part_id == NO_ID) return;
+    walk.prob = ELSEWHERE;
+    for (int i = 0; i < path->bounce && i < DEEP_BOUNCE; i++) walk.prob *= DEEP_SHARE;
     walk.is_elsewhere = true;
-    if (surface->part_id != NO_ID && u.search[1] < walk.prob) add_lamp(walk, &u);
+    if (u.search[1] < walk.prob) add_source(walk, &u);
 }
 
 /* The mirror is one more vertex: none is sampled where the path would end before it. */
-void mirrored_add(PathState *path, const Surface *surface, Vec3 wo) {
+void mirrored_add(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding) {
     const PathContext *context = path->context;
     if (!bsdf_scatters(&surface->bsdf) || path->medium_id != NO_ID ||
         path->bounce + 1 >= context->max_bounces)
         return;
-    if (mirrors_are_sampled(context, BEAMS_OF_SUN)) add_suns(path, surface, wo);
-    if (mirrors_are_sampled(context, BEAMS_OF_LAMPS)) add_lamps(path, surface, wo);
+    for (int set = 0; set < BEAM_SETS; set++) {
+        MirrorWalk walk = {.path = path,
+                           .surface = surface,
+                           .wo = wo,
+                           .guiding = guiding,
+                           .beams = &context->beams[set]};
+        if (!mirrors_are_sampled(context, (BeamSet)set)) continue;
+        if (set == BEAMS_OF_SUN) add_suns(walk);
+        else add_near(walk);
+    }
 }

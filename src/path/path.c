@@ -69,14 +69,18 @@ static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
     SunlitPair before = {.prob = 0};
     if (path->last.samples_map && !next->is_delta) before = emitted_pair(path, surface);
     if (next->wi.z * surface->local_wo.z < 0) cross(path, surface, next->wi, wi);
+    path->way = mirrored_way(path, surface, wo, next);
     collect_turn(path, surface, wo, next);
-    path->last = (PathVertex){emitted_lit_point(path, surface),
-                              surface->part_id,
-                              next->pdf,
-                              next->is_delta,
-                              samples_map,
-                              before,
-                              sun};
+    path->last = (PathVertex){
+        .at = emitted_lit_point(path, surface),
+        .part_id = surface->part_id,
+        .pdf = next->pdf,
+        .is_delta = next->is_delta,
+        .is_back = vec3_dot(wo, surface->ng) < 0,
+        .mirrors = next->is_delta ? 0 : mirrored_prob(path, surface, wo, BEAMS_OF_EMITTERS),
+        .samples_map = samples_map,
+        .before = before,
+        .sun_share = sun};
     path->straight = path->sheets_from = 0;
     sheets_none(path->stack);
     note_mirror(path, surface, next);
@@ -158,7 +162,7 @@ static Step shade(PathState *path, const Surface *surface, const Hit *hit, Vec3 
     bool is_done = collect_vertex(path, surface, wo, guiding);
     if (!is_done && path->bounce < path->context->max_bounces) {
         direct_add(path, surface, wo, guiding);
-        mirrored_add(path, surface, wo);
+        mirrored_add(path, surface, wo, guiding);
         sunlit_add(path, surface, wo, guiding);
     }
     return scatter(path, surface, wo);
@@ -327,7 +331,7 @@ void path_from_point(const PathStart *start, LitPoint point, float xyz_lx[3]) {
     guiding_none(path.context, path.spare);
     if (!collect_vertex(&path, &head, point.ns, path.spare)) {
         direct_add(&path, &head, point.ns, path.spare);
-        mirrored_add(&path, &head, point.ns);
+        mirrored_add(&path, &head, point.ns, path.spare);
         sunlit_add(&path, &head, point.ns, path.spare);
     }
     if (scatter(&path, &head, point.ns) == STEP_SCATTERED) {

@@ -30,6 +30,7 @@ typedef struct MirrorLight {
     LightSample light;  /* the mirror's point as a light */
     LightSample source; /* the light that shines on it */
     Spectrum radiance;  /* that it sends, divided by the density of its direction */
+    float share;        /* of a smooth mirror: of light that it turns, the lanes' mean */
     Surface surface;    /* the mirror's; both lie in front of it */
 } MirrorLight;
 
@@ -53,6 +54,7 @@ typedef struct PathFound {
     const MirrorLight *mirror; /* NULL: it came directly */
     const ShadowRay *beyond;   /* from the mirror to the light */
     bool by_rough;             /* reflected by facets of a rough mirror */
+    bool is_sampled;           /* an eye met it, in a mirror in which pupils sample it */
 } PathFound;
 
 typedef struct PathCollector PathCollector;

@@ -60,7 +60,7 @@ enum {
     NUMBERS_STEP
 };
 #define NUMBERS_MAP 4   /* a step's own, behind those of all steps: of the sunlit map */
-#define NUMBERS_LAMPS 8 /* and again: of lamps in mirrors */
+#define NUMBERS_NEAR 8  /* and again: of each set of near lights in mirrors */
 #define NUMBERS_FIRST 2 /* before them: the place in the pixel, the wavelengths */
 #define STEPS_FAR 4096  /* more than a path meets */
 #define SPLITS 2        /* thin sheets along an eye's ray that are followed both ways */
@@ -81,10 +81,25 @@ typedef struct PathVertex {
     int part_id;        /* NO_ID: an eye or a luxmeter */
     float pdf;          /* with which the direction was chosen, sr^-1 */
     bool is_delta;      /* no light sample could have found what comes now */
+    bool is_back;       /* of its part's side, as light_selection_of_side has it */
+    float mirrors;      /* probability with which it sampled compact emitters in mirrors */
     bool samples_map;   /* where it could (sunlit.h) */
     SunlitPair before;  /* it and the vertex before it */
     Spectrum sun_share; /* of the sun, if met next; the vertex before sampled the rest */
 } PathVertex;
+
+/* The smooth mirror that the path left last, for emitters that the vertex before it, or the
+ * eye, sampled in it. */
+typedef struct MirrorWay {
+    float pdf;      /* with which chance chose the way at that vertex and at the mirror, sr^-1 */
+    float prob;     /* with which the vertex samples its mirrors; 0: it does not */
+    bool is_of_eye; /* an eye looks into a mirror that pupils sample */
+    bool is_back;
+    int part_id; /* the vertex's */
+    Vec3 from;   /* where it lies, m, scene */
+    uint32_t triangle;
+    Vec3 at; /* of the mirror, m, scene */
+} MirrorWay;
 
 /* The first surface that an eye sees: windows passed and holes do not count. */
 typedef struct PathFirst {
@@ -121,6 +136,7 @@ typedef struct PathState {
     PathLight gathered;  /* found so far */
     PathFirst first;
     PathVertex last;
+    MirrorWay way;
     Guiding *guiding; /* the last vertex's; and room for the next one's */
     Guiding *spare;
     float straight;    /* m since the last vertex (windows do not scatter) */
@@ -144,8 +160,9 @@ static inline void numbers_for_map(PathState *path) {
     path->sampler->dimension = 0x40000000u + (uint32_t)path->steps * NUMBERS_MAP;
 }
 
-static inline void numbers_for_lamps(PathState *path) {
-    path->sampler->dimension = 0x60000000u + (uint32_t)path->steps * NUMBERS_LAMPS;
+static inline void numbers_for_near(PathState *path, BeamSet set) {
+    path->sampler->dimension =
+        0x60000000u + ((uint32_t)path->steps * BEAM_SETS + (uint32_t)set) * NUMBERS_NEAR;
 }
 
 /* The surface's share of the light, per lane, on the path's way. */

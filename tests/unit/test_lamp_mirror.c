@@ -163,4 +163,40 @@ TEST(a_floor_beside_a_mirror_is_lit_by_the_lamps_image) {
         fail_msg("%g +- %g cd/m2, expected %g", found.mean, found.sigma, 0.5 / PI * lx);
 }
 
+/* A ball of 6 cm beside a mirror and a bent one: what is sampled and what chance finds share its
+ * light, and add up to what chance alone finds. */
+TEST(small_emitters_in_mirrors_keep_their_mean) {
+    for (int i = 0; i < 3; i++) {
+        SCOPED_WORLD world = world_start();
+        Material floor = builder_material(0.5f), pane = builder_pane(1.5f);
+        floor.specular = pane.specular = 1;
+        floor.roughness = 0.4f;
+        builder_part(world.scene, floor);
+        builder_quad(world.scene, vec3(0, 0, 0), vec3(2, 0, 0), vec3(0, 0, -2));
+        builder_part(world.scene, i == 2 ? pane : builder_mirror(0.8f));
+        if (i == 1) builder_sphere(world.scene, vec3(0, 0.5f, -0.6f), 0.4f, 16, 0);
+        else builder_quad(world.scene, vec3(0, 1, -1), vec3(2, 0, 0), vec3(0, 1, 0));
+        builder_part(world.scene, builder_lamp(20000));
+        builder_sphere(world.scene, vec3(0.3f, 0.6f, 0.1f), 0.03f, 6, 0);
+        world_ready(&world, 4);
+        assert_int_equal(world.context.beams[BEAMS_OF_EMITTERS].emitters.count, 1);
+        Gauge eye = {vec3(0.2f, 1.2f, 1.4f), vec3(-0.1f, -1.2f, -1.4f), 0.05f, false};
+        for (int head = 0; head < 2; head++) {
+            eye.is_luxmeter = head;
+            if (head) eye = (Gauge){vec3(0.1f, 0.02f, 0), vec3(0, 0.2f, -1), 0, true};
+            WorldMean both = world_measure(&world, eye, 1, 40000);
+            const Mirrors *mirrors = world.context.beams[BEAMS_OF_EMITTERS].mirrors;
+            world.context.beams[BEAMS_OF_EMITTERS].mirrors = NULL;
+            WorldMean chance = world_measure(&world, eye, 2, 600000);
+            world.context.beams[BEAMS_OF_EMITTERS].mirrors = mirrors;
+            double sigma = sqrt(both.sigma * both.sigma + chance.sigma * chance.sigma);
+            if (!(fabs(both.mean - chance.mean) < 3.5 * sigma) || !(sigma < 0.03 * chance.mean))
+                fail_msg("kind %d, head %d: %g +- %g, by chance %g +- %g", i, head, both.mean,
+                         both.sigma, chance.mean, chance.sigma);
+            print_message("[          ] %g +- %g, by chance %g +- %g\n", both.mean, both.sigma,
+                          chance.mean, chance.sigma);
+        }
+    }
+}
+
 TEST_PROGRAM(NULL, NULL)

@@ -57,6 +57,7 @@ static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3
              : is_across     ? PATH_TRANSMITS
                              : PATH_REFLECTS);
     history->pane_id = NO_ID;
+    history->is_sampled = path->way.is_of_eye;
     if (listener && listener->on_mirror && next->is_delta && !is_across)
         listener->on_mirror(listener->user, history, frame_to_world(&surface->frame, next->wi),
                             spectrum_max_lane(path->throughput));
@@ -119,6 +120,7 @@ static void on_light(PathCollector *c, PathState *path, const PathFound *found) 
     history.source_id = found->source_id;
     history.from = found->from;
     history.is_distant = found->is_distant;
+    history.is_sampled = found->is_sampled || found->mirror != NULL;
     history.lanes = found->xyz && !listener->with_lanes ? NULL : (const float *)&lanes;
     history.wavelengths = path->wavelengths;
     path_light_to_xyz(&light, path->wavelengths, xyz);

@@ -34,6 +34,8 @@ typedef struct PathHistory {
     Vec3 from;      /* where it began, m, scene; is_distant: the unit direction
                        towards it */
     bool is_distant;
+    bool is_sampled;                /* by one mirror, in which pupils sample lamps and compact
+                                       emitters (mirrored.h); in on_mirror: the mirror is such */
     bool is_extrapolated;           /* the first step sent it on as its panel extrapolates it
                                        (bsdf_is_extrapolated); only where that is requested */
     const float *lanes;             /* its radiance, W m^-2 sr^-1 nm^-1 per lane; of a display

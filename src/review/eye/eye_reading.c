@@ -31,6 +31,7 @@ typedef struct EyePath {
     int lamp;                  /* part that was met by mirrors; NO_ID: none */
     float share;               /* that its last mirror lets the eye see of what lies there: */
     Ray image;                 /* (0: it met none) */
+    bool is_first;             /* the first mirror, in which compact emitters are sampled */
 } EyePath;
 
 /* Angles are drawn evenly in their logarithm: f cos theta sin theta is about as 1 / theta;
@@ -99,14 +100,14 @@ typedef struct EyeListener {
 static void add_found(void *user, const PathHistory *history, const float xyz[3]) {
     const EyeListener *listener = user;
     EyePath *path = listener->path;
-    bool is_direct = history->count == 0;
+    bool is_direct = history->count == 0 || (history->count == 1 && history->is_sampled);
     if (is_direct && history->source == LIGHTS_SUN) return;
     if (listener->road && (!is_direct || history->source == LIGHTS_SKY))
         road_light_add(listener->road, listener->id, history, (double)xyz[1]);
     if (!is_direct || history->source == LIGHTS_SKY)
         path->apart[source_of(history)] += (double)xyz[1];
     if (is_direct && history->source == LIGHTS_EMITTERS) path->shown += (double)xyz[1];
-    if (source_of(history) != EYE_GLINTS) return;
+    if (is_direct || source_of(history) != EYE_GLINTS) return;
     if (history->source == LIGHTS_SUN) path->images += (double)xyz[1];
     if (history->source == LIGHTS_EMITTERS) path->lamp = history->source_id;
 }
@@ -117,6 +118,7 @@ static void note_mirror(void *user, const PathHistory *history, Vec3 towards, fl
     for (int i = 0; i < history->count; i++)
         if (history->step[i].event == PATH_SCATTERS) return;
     path->share = share;
+    path->is_first = history->is_sampled;
     path->image = (Ray){history->step[history->count - 1].position, towards, 0, INFINITY};
 }
 
@@ -138,14 +140,14 @@ static void read_chunk(void *user, int item, int worker) {
 typedef struct PupilSums {
     const EyePaths *paths;
     double sun_veil, lamp_veil, sun_lx, lamp_lx;
-    double image_veil; /* of lamps without a surface in mirrors; their lux are lamps' */
+    double image_veil; /* of lamps and small emitters in mirrors; their lux are lamps' */
 } PupilSums;
 
-/* Comes light to the pupil by itself, or by one mirror from a lamp that no path could meet? */
+/* Comes light to the pupil by itself, or by one mirror from a lamp or a small emitter? */
 static bool is_seen_by_itself(const PathHistory *history) {
     if (history->source == LIGHTS_SKY) return false;
-    return !history->count || (history->count == 1 && history->source == LIGHTS_PUNCTUAL &&
-                               history->step[0].event == PATH_REFLECTS);
+    return !history->count ||
+           (history->count == 1 && history->source != LIGHTS_SUN && history->is_sampled);
 }
 
 static double veil_of(const EyePaths *paths, Vec3 towards, double lux) {
@@ -200,12 +202,14 @@ static void add_pupil(PupilSums *to, const PupilSums *sums) {
     to->lamp_lx += sums->lamp_lx / PATHS;
 }
 
-/* Light samples alone, and of mirrors what lamps without a surface send by one. */
+/* Light samples alone, and of mirrors what lamps and small emitters send by one. */
 static PathContext pupil_context(const Setup *setup) {
     PathContext context = setup->context;
     context.strategy = PATH_LIGHTS_ONLY;
     context.beams[BEAMS_OF_SUN].mirrors = NULL;
-    context.max_bounces = context.beams[BEAMS_OF_LAMPS].mirrors ? 2 : 1;
+    bool has_images =
+        context.beams[BEAMS_OF_LAMPS].mirrors || context.beams[BEAMS_OF_EMITTERS].mirrors;
+    context.max_bounces = has_images ? 2 : 1;
     return context;
 }
 
@@ -410,7 +414,8 @@ static double unmet_veil(const EyePaths *paths, double age, Arena scratch) {
         int i = images[k].path;
         double apart = IMAGES_APART * sqrt(paths->solid_angles[i]);
         if (images[k].veil * lamps.list[0].cd_m2 <= most) break;
-        most = fmax(most, images[k].veil * lamps_brightest(&lamps, paths->found[i].image, apart));
+        most = fmax(most, images[k].veil * lamps_brightest(&lamps, paths->found[i].image, apart,
+                                                           paths->found[i].is_first));
     }
     return estimate_unmet(most * paths->count, paths->count);
 }

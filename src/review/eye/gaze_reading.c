@@ -175,13 +175,13 @@ static double unmet(const GazePaths *paths, GazeFigure figure, Arena scratch) {
         for (int i = 0; i < parts; i++) met[i] |= paths->batches[b].met[figure][i];
     UnmetLamps lamps = lamps_unmet(setup, met, &scratch);
     if (figure == GAZE_THROUGH)
-        most = lamps_brightest(&lamps, (Ray){paths->eye, paths->frame.z, 0, INFINITY}, half);
+        most = lamps_brightest(&lamps, (Ray){paths->eye, paths->frame.z, 0, INFINITY}, half, false);
     for (int i = 0; i < ESTIMATE_BATCHES * 2 * GAZE_IMAGES; i++) {
         const GazeBatch *batch = &paths->batches[i / 2 / GAZE_IMAGES];
         int again = i / GAZE_IMAGES % 2, k = i % GAZE_IMAGES;
         if (k >= batch->images[figure][again]) continue;
         const GazeImage *image = &batch->image[figure][again][k];
-        most = fmax(most, (double)image->share * lamps_brightest(&lamps, image->ray, half));
+        most = fmax(most, (double)image->share * lamps_brightest(&lamps, image->ray, half, false));
     }
     return most;
 }

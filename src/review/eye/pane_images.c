@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "mirror/reflection_point.h"
+#include "mirror/mirrors.h"
 #include "scene/point/ray_ends.h"
 
 #define CELLS 512         /* of a display, or one a triangle if it has more */
@@ -76,18 +76,6 @@ typedef struct PanePoint {
     Vec3 seen_from; /* as PaneCell has it */
 } PanePoint;
 
-static MirrorTriangle mirror_of(const Scene *scene, const Part *part, uint32_t triangle) {
-    MirrorTriangle out;
-    for (int k = 0; k < 3; k++) out.position[k] = scene_corner(scene, triangle, k);
-    Vec3 flat = vec3_cross(vec3_sub(out.position[1], out.position[0]),
-                           vec3_sub(out.position[2], out.position[0]));
-    for (int k = 0; k < 3; k++) {
-        uint32_t vertex = scene->triangles[triangle].vertex[k] - part->first_vertex;
-        out.normal[k] = part->normals ? part->normals[vertex] : flat;
-    }
-    return out;
-}
-
 /* Of a solid the far face shows what its near one lets in. */
 static bool faces_eye(const MirrorTriangle *m, Vec3 eye) {
     Vec3 flat = vec3_cross(vec3_sub(m->position[1], m->position[0]),
@@ -98,7 +86,7 @@ static bool faces_eye(const MirrorTriangle *m, Vec3 eye) {
 static bool point_in(const PaneSearch *search, const Part *part, uint32_t triangle, Vec3 source,
                      PanePoint *out) {
     const Scene *scene = search->context->scene;
-    MirrorTriangle mirror = mirror_of(scene, part, triangle);
+    MirrorTriangle mirror = mirror_triangle(scene, triangle);
     ReflectionPoint at[REFLECTION_POINTS_MAX];
     const ReflectionLight light = {source, true};
     if (scene->materials[part->material_id].is_solid && !faces_eye(&mirror, search->eye))

@@ -41,12 +41,15 @@ UnmetLamps lamps_unmet(const Setup *setup, const bool *met, Arena *arena) {
     for (int i = 0; i < scene->part_count; i++)
         if (!met[i] && part_luminance(scene, &scene->parts[i]) > 0)
             count += (int)scene->parts[i].triangle_count;
+    const CompactEmitters *compact = &setup->context.beams[BEAMS_OF_EMITTERS].emitters;
     UnmetLamps out = {.list = ARENA_NEW(arena, Lamp, count)};
     for (int i = 0; i < scene->part_count; i++) {
         const Part *part = &scene->parts[i];
         double cd_m2 = met[i] ? 0 : part_luminance(scene, part);
-        for (uint32_t t = 0; cd_m2 > 0 && t < part->triangle_count; t++)
-            out.list[out.count++] = lamp_of_triangle(scene, part->first_triangle + t, cd_m2);
+        for (uint32_t t = 0; cd_m2 > 0 && t < part->triangle_count; t++) {
+            out.list[out.count] = lamp_of_triangle(scene, part->first_triangle + t, cd_m2);
+            out.list[out.count++].is_compact = compact->of_part && compact->of_part[i] != NO_ID;
+        }
     }
     if (out.count) qsort(out.list, (size_t)out.count, sizeof *out.list, brightest_first);
     return out;
@@ -63,9 +66,11 @@ static bool may_be_seen(const Lamp *lamp, Ray ray, double half, double cos_half)
     return acos(fmin(fmax(cosine, -1), 1)) <= half + asin(lamp->radius / distance);
 }
 
-double lamps_brightest(const UnmetLamps *lamps, Ray ray, double half) {
+double lamps_brightest(const UnmetLamps *lamps, Ray ray, double half, bool no_compact) {
     double cos_half = cos(half);
     for (int i = 0; i < lamps->count; i++)
-        if (may_be_seen(&lamps->list[i], ray, half, cos_half)) return lamps->list[i].cd_m2;
+        if (!(no_compact && lamps->list[i].is_compact) &&
+            may_be_seen(&lamps->list[i], ray, half, cos_half))
+            return lamps->list[i].cd_m2;
     return 0;
 }

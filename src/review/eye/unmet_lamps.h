@@ -17,6 +17,7 @@
 typedef struct Lamp {
     Vec3 middle;
     double radius, cd_m2;
+    bool is_compact; /* (path/compact_emitters.h): pupils sample it in a first mirror */
 } Lamp;
 
 /* Brightest first. */
@@ -28,5 +29,6 @@ typedef struct UnmetLamps {
 /* Those of parts that are not met ([part]). */
 UnmetLamps lamps_unmet(const Setup *setup, const bool *met, Arena *arena);
 
-/* The brightest that may be seen along the ray or within half an angle of it; 0: none. */
-double lamps_brightest(const UnmetLamps *lamps, Ray ray, double half);
+/* The brightest that may be seen along the ray or within half an angle of it; 0: none.
+ * no_compact: compact ones do not count. */
+double lamps_brightest(const UnmetLamps *lamps, Ray ray, double half, bool no_compact);
