@@ -21,8 +21,7 @@ typedef struct LightChain {
 
 static inline bool chain_is_connected(const PathContext *context, const LightChain *chain) {
     if (chain->others) return false;
-    if (chain->from == CHAIN_EMITTER) return !chain->mirrors && !chain->plates;
-    if (!chain->mirrors) return true;
+    if (!chain->mirrors) return chain->from != CHAIN_EMITTER || !chain->plates;
     if (chain->from == CHAIN_SUN && !context->beams[BEAMS_OF_SUN].mirrors)
         return false; /* --no-mirrors */
     return chain->mirrors == 1 && !chain->plates;

@@ -127,29 +127,36 @@ typedef struct Aim {
     double ray_m2; /* that one ray stands for */
 } Aim;
 
-/* Light for a place of a mirror, to be counted so many times. Compact emitters are chosen
- * evenly. */
-static bool choose_source(const Beams *beams, LitPoint place, const float first[4],
-                          const float last[4], LightSample *light, int *source_id, float *times) {
+/* Light for a place of a mirror, that counts so many times. */
+typedef struct BeamLight {
+    LightSample sample;
+    int source_id;
+    float times;
+} BeamLight;
+
+/* u: two numbers which, two where on it. Compact emitters are chosen evenly. */
+static bool choose_light(const Beams *beams, LitPoint place, const float u[4], BeamLight *out) {
     const Lights *lights = beams->tools->lights;
     const Scene *scene = beams->tools->scene;
-    const float u[3] = {first[0], last[0], last[1]};
-    *source_id = 0;
-    *times = 1;
-    if (beams->set == BEAMS_OF_SUN) return lights_sample(lights, LIGHTS_SUN, place, last, light);
+    const float of_sun[3] = {u[2], u[3], 0}, of_lamp[3] = {u[0], u[2], u[3]};
+    const float on_emitter[3] = {u[1], u[2], u[3]};
+    out->source_id = 0;
+    out->times = 1;
+    if (beams->set == BEAMS_OF_SUN)
+        return lights_sample(lights, LIGHTS_SUN, place, of_sun, &out->sample);
     if (beams->set == BEAMS_OF_LAMPS) {
-        bool is_lit = lights_sample(lights, LIGHTS_PUNCTUAL, place, u, light);
-        if (is_lit) *source_id = light->light_id;
+        bool is_lit = lights_sample(lights, LIGHTS_PUNCTUAL, place, of_lamp, &out->sample);
+        if (is_lit) out->source_id = out->sample.light_id;
         return is_lit;
     }
-    int count = beams->emitters->count, which = (int)(first[0] * (float)count);
-    *source_id = which < count ? which : count - 1;
-    const CompactEmitter *emitter = &beams->emitters->list[*source_id];
-    const float v[3] = {first[1], last[0], last[1]};
-    CompactPoint point = compact_emitter_point(scene, emitter, v);
+    int count = beams->emitters->count, which = (int)(u[0] * (float)count);
+    out->source_id = which < count ? which : count - 1;
+    const CompactEmitter *emitter = &beams->emitters->list[out->source_id];
+    CompactPoint point = compact_emitter_point(scene, emitter, on_emitter);
     float m2;
-    if (!compact_emitter_towards(scene, emitter, &point, place.position, light, &m2)) return false;
-    *times = (float)count * m2 / (light->distance * light->distance);
+    if (!compact_emitter_towards(scene, emitter, &point, place.position, &out->sample, &m2))
+        return false;
+    out->times = (float)count * m2 / (out->sample.distance * out->sample.distance);
     return true;
 }
 
@@ -158,7 +165,8 @@ static bool choose_source(const Beams *beams, LitPoint place, const float first[
 static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler) {
     const BeamTools *tools = beams->tools;
     Surface mirror;
-    LightSample light;
+    BeamLight chosen;
+    const LightSample *light = &chosen.sample;
     float first[4], last[4];
     sampler_4d(&sampler, first);
     sampler_4d(&sampler, last);
@@ -167,23 +175,22 @@ static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler) {
     Hit hit = {0, at.x, at.y, aim->triangle};
     TrianglePoint point = triangle_point(tools->scene, aim->triangle, at.x, at.y);
     LitPoint place = {point.position, point.ns, true};
-    int source_id;
-    float times;
-    if (!choose_source(beams, place, first, last, &light, &source_id, &times)) return false;
+    const float u[4] = {first[0], first[1], last[0], last[1]};
+    if (!choose_light(beams, place, u, &chosen)) return false;
     Vec3 n = aim->alpha > 0 ? facet_normal(point.ns, aim->alpha, lean) : point.ns;
-    Vec3 r = vec3_sub(vec3_scale(n, 2 * vec3_dot(n, light.wi)), light.wi);
-    if (!(vec3_dot(point.ng, r) * vec3_dot(point.ng, light.wi) > 0)) return false;
+    Vec3 r = vec3_sub(vec3_scale(n, 2 * vec3_dot(n, light->wi)), light->wi);
+    if (!(vec3_dot(point.ng, r) * vec3_dot(point.ng, light->wi) > 0)) return false;
     Vec3 origin = ray_start(&point, r);
-    if (bvh_occluded(tools->bvh, lights_ray(origin, &light), sheets_let_pass, NULL)) return false;
+    if (bvh_occluded(tools->bvh, lights_ray(origin, light), sheets_let_pass, NULL)) return false;
     surface_at(tools->scene, tools->tables, &hit, r, beams->wavelengths, &mirror);
-    double lx = reflected_lx(tools->lights, &mirror, &light, frame_to_local(&mirror.frame, r),
+    double lx = reflected_lx(tools->lights, &mirror, light, frame_to_local(&mirror.frame, r),
                              beams->wavelengths);
     if (!(lx > 0)) return false;
     follow(beams, (Beam){{origin, r, 0, INFINITY},
                          aim->triangle,
                          aim->alpha > 0,
-                         (float)(lx * aim->ray_m2) * times,
-                         source_id});
+                         (float)(lx * aim->ray_m2) * chosen.times,
+                         chosen.source_id});
     return true;
 }
 

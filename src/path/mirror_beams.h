@@ -12,8 +12,8 @@
  */
 #pragma once
 #include "mirror/mirrors.h"
-#include "path/compact_emitters.h"
-#include "path/glint_map.h"
+#include "light/compact_emitters.h"
+#include "mirror/glint_map.h"
 #include "path/light_selection.h"
 #include "path/surface.h"
 

@@ -2,7 +2,7 @@
 #include "fixture.h"
 
 #include "base/sampler.h"
-#include "path/glint_map.h"
+#include "mirror/glint_map.h"
 
 #define ROOM (64u << 20)
 

@@ -17,7 +17,7 @@
 typedef struct Lamp {
     Vec3 middle;
     double radius, cd_m2;
-    bool is_compact; /* (path/compact_emitters.h): pupils sample it in a first mirror */
+    bool is_compact; /* (light/compact_emitters.h): pupils sample it in a first mirror */
 } Lamp;
 
 /* Brightest first. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "path/glint_map.h"
+#include "mirror/glint_map.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "path/compact_emitters.h"
+#include "light/compact_emitters.h"
 
 #include <math.h>
 
