@@ -372,7 +372,10 @@ static void send(MissedBeam *beam, LightSet set, const Hit *hit, double m2, Samp
     beam->medium_id = is_inside ? surface.material_id : NO_ID;
     beam->is_plate = false;
     beam->events = 0;
+    const int *compact = c->beams[BEAMS_OF_EMITTERS].emitters.of_part;
     beam->chain = (LightChain){.from = chain_light(set)};
+    if (set == LIGHTS_EMITTERS && compact)
+        beam->chain.is_compact = compact[light_of(c->scene, &light)] != NO_ID;
     beam->find = (MissedFind){.from = beam->chain.from,
                               .light_id = light_of(c->scene, &light),
                               .part_id = is_inside ? surface.part_id : NO_ID,

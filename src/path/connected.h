@@ -17,6 +17,7 @@ typedef struct LightChain {
     int mirrors; /* met in air, about the interpolated normal */
     int plates;  /* solids crossed straight by two flat parallel faces */
     int others;  /* wedges and curved solids, inner reflections, bent normals, ends in a solid */
+    bool is_compact; /* of an emitter (light/compact_emitters.h) */
 } LightChain;
 
 static inline bool chain_is_connected(const PathContext *context, const LightChain *chain) {
@@ -24,5 +25,6 @@ static inline bool chain_is_connected(const PathContext *context, const LightCha
     if (!chain->mirrors) return chain->from != CHAIN_EMITTER || !chain->plates;
     if (chain->from == CHAIN_SUN && !context->beams[BEAMS_OF_SUN].mirrors)
         return false; /* --no-mirrors */
+    if (chain->from == CHAIN_EMITTER && !chain->is_compact) return false;
     return chain->mirrors == 1 && !chain->plates;
 }

@@ -218,10 +218,11 @@ TEST(what_is_connected) {
     const struct {
         LightChain chain;
         bool is_connected;
-    } rows[] = {{{CHAIN_SUN, 0, 0, 0}, true},   {{CHAIN_LAMP, 1, 0, 0}, true},
-                {{CHAIN_LAMP, 0, 3, 0}, true},  {{CHAIN_LAMP, 2, 0, 0}, false},
-                {{CHAIN_LAMP, 1, 1, 0}, false}, {{CHAIN_LAMP, 0, 0, 1}, false},
-                {{CHAIN_SUN, 1, 0, 0}, false},  {{CHAIN_EMITTER, 1, 0, 0}, false}};
+    } rows[] = {{{CHAIN_SUN, 0, 0, 0, false}, true},    {{CHAIN_LAMP, 1, 0, 0, false}, true},
+                {{CHAIN_LAMP, 0, 3, 0, false}, true},   {{CHAIN_LAMP, 2, 0, 0, false}, false},
+                {{CHAIN_LAMP, 1, 1, 0, false}, false},  {{CHAIN_LAMP, 0, 0, 1, false}, false},
+                {{CHAIN_SUN, 1, 0, 0, false}, false},   {{CHAIN_EMITTER, 1, 0, 0, false}, false},
+                {{CHAIN_EMITTER, 1, 0, 0, true}, true}, {{CHAIN_EMITTER, 2, 0, 0, true}, false}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         assert_int_equal(chain_is_connected(&without, &rows[i].chain), rows[i].is_connected);
 }
