@@ -49,6 +49,8 @@ start "a review's pictures are denoised, and nothing else" review-denoised \
 start "a frame's glare beside closed forms" glare python3 tests/image/glare.py $program
 start 'intervals of light that is rare' gaze-intervals \
     python3 tests/image/gaze_intervals.py $program
+start 'intervals of judged parts' judged-parts \
+    python3 tests/image/every_interval.py gradient $program
 start 'variants of a review' variants python3 tests/image/variants.py $program
 start 'a matte finish tried out' finish python3 tests/image/finish.py $program
 start 'the README as written, its review met' guides guides_and_meeting

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/confidence.h"
 #include "base/sort.h"
 
 #define SIGMAS_95 1.959964 /* of the normal distribution */
@@ -14,7 +15,8 @@
 
 /* Sums over the pixels of one half. */
 typedef struct Half {
-    double sum, variance, noise; /* variance: of the sum; noise: edges included */
+    double sum, noise;   /* noise: of all pixels, edges included */
+    BrightSamples alone; /* each pixel's standard error as one bright sample's light */
     long pixels, counted;
 } Half;
 
@@ -96,7 +98,8 @@ static void add_pixel(const ContentPixels *pixels, size_t i, bool counts, Half *
     if (!counts) return;
     half->counted++;
     half->sum += (double)pixels->luminance[i];
-    half->variance += variance;
+    half->alone.squares += variance;
+    half->alone.fourths += variance * variance;
 }
 
 static void add_halves(const ContentPixels *pixels, double threshold, bool only_inside,
@@ -114,9 +117,9 @@ static void add_halves(const ContentPixels *pixels, double threshold, bool only_
 /* ---- figures ----------------------------------------------------------------------------- */
 
 static Measured mean_of(const Half *half, bool has_variance) {
-    double n = (double)half->counted;
-    return measured_about(half->sum / n,
-                          has_variance ? SIGMAS_95 * sqrt(half->variance) / n : (double)NAN);
+    double n = (double)half->counted, mean = half->sum / n;
+    double width = has_variance ? SIGMAS_95 * sqrt(half->alone.squares) / n : (double)NAN;
+    return (Measured){mean, mean - width, mean + width + bright_missing(&half->alone, 1, 1) / n};
 }
 
 /* First order: the halves' errors are independent. */

@@ -266,8 +266,10 @@ static Measured about(double value, double half_width, const FrameMeasurement *o
     return measured_about(value, half_width < least ? least : half_width);
 }
 
-/* First-order propagation of the channels' variances, the slopes by central differences. */
-static void measure_colour(const double rgb[3], const double variance[3], FrameMeasurement *out) {
+/* First-order propagation of the channels' variances, the slopes by central differences. wider:
+ * by bright samples that may be missing, of colours as those that were found. */
+static void measure_colour(const double rgb[3], const double variance[3], double wider,
+                           FrameMeasurement *out) {
     double mean[4], spread[4] = {0, 0, 0, 0}, unused[3];
     Measured *figures[4] = {&out->x, &out->y, &out->u, &out->v};
     double scale = fabs(rgb[0]) + fabs(rgb[1]) + fabs(rgb[2]);
@@ -285,7 +287,8 @@ static void measure_colour(const double rgb[3], const double variance[3], FrameM
             spread[k] += slope * slope * variance[c];
         }
     }
-    for (int k = 0; k < 4; k++) *figures[k] = about(mean[k], SIGMAS_95 * sqrt(spread[k]), out);
+    for (int k = 0; k < 4; k++)
+        *figures[k] = about(mean[k], wider * SIGMAS_95 * sqrt(spread[k]), out);
 }
 
 static double contrast_with(double white, double black, double reflected) {
@@ -383,8 +386,9 @@ static FrameMeasurement figures_of(const RegionPlanes *planes, const Sums *sums)
         rgb[c] = sums->rgb[c] / n;
         variance[c] = sums->noise.rgb[c] / (n * n);
     }
-    measure_colour(rgb, variance, &out);
-    out.luminance = about(out.xyz[1], SIGMAS_95 * sqrt(sums->noise.luminance) / n, &out);
+    double half = SIGMAS_95 * sqrt(sums->noise.luminance);
+    measure_colour(rgb, variance, half > 0 ? 1 + sums->missing / half : 1, &out);
+    out.luminance = about(out.xyz[1], half / n, &out);
     out.luminance.high += sums->missing / n;
     measure_display(planes, sums, &out);
     return out;

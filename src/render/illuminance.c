@@ -70,7 +70,8 @@ static Illuminance add_batches(const Meter *meter, int point) {
                       .paths = meter->options->samples,
                       .piece = 1,
                       .share = 1,
-                      .unmet = sky_unmet(meter, point)};
+                      .unmet = sky_unmet(meter, point),
+                      .unseen = PI * (double)sunlit_map_unseen(&meter->context->sunlit)};
     for (int i = 0; i < y.batches; i++) {
         const IlluminanceSums *sums = &meter->sums[point][i];
         for (int k = 0; k < 3; k++) total.xyz_lx[k] += sums->xyz[k] / samples;

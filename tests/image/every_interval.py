@@ -6,6 +6,8 @@ prints holds the truth: of `review` (gazes, eyes, symbols, causes, limits, varia
 
 Answers are searched for members whose names end with "interval": one for which a room knows no
 truth fails. Rooms, each with few samples, as people have them:
+    gradient   displays below a wall that a lamp beside them lights: of the part that a review
+               names, and of all of the symbol
     patch      a display in a black box that a small hole lights (black_box.py)
     glint      a gaze by a pane that mirrors a tiny lamp (gaze_intervals.py)
     frame      frames of the patch's display
@@ -23,15 +25,17 @@ import sys
 import tempfile
 
 import black_box
+import contrast
 import gaze_intervals
 import glare
 import reflection
+import worst_part
 from gltf import Scene, cross, dot, sub, unit
-from review import PANEL, Report, Reviewer, moment
+from review import PANEL, Report, Reviewer, moment, request
 
 SHARE, ONCE_IN = 0.93, 20
 SEEDS, ALL_SEEDS = 3, 200
-FEWER = {"patch": 2, "frame": 2}  # of the first
+FEWER = {"patch": 2, "frame": 2, "gradient": 15}  # of the first
 ROUNDING = 1e-9  # of a mean over many
 OF_SEEDS = "of seeds"  # a truth that is the mean over seeds of the figure beside the interval
 
@@ -201,6 +205,84 @@ def patch(reviewer, tally, seeds):
                 tally.add("patch, diff", json.load(file), {"/contrast_interval": ratio})
 
 
+# ---- displays below a wall that a lamp beside them lights ------------------------------------
+
+DISPLAYS_X, SPOT_X, SPOT_SIDE, SPOT = (-0.5, -0.2, 0.1, 0.4), -0.9, 0.1, 1e4
+CEILING, CEILING_Z, CEILING_HALF = 0.8, 0.6, 2.5  # its reflectance; m
+
+
+def ceiling_light():
+    """(place, luminance times area) of the wall's cells: all in one plane is lit by it alone."""
+    side, cells = 0.05, []
+    steps = round(2 * CEILING_HALF / side)
+    for i in range(steps):
+        for j in range(steps):
+            x, y = (-CEILING_HALF + (k + 0.5) * side for k in (i, j))
+            lux = 0
+            for u in (-0.25, 0.25):
+                for v in (-0.25, 0.25):
+                    square = ((x - SPOT_X - u * SPOT_SIDE) ** 2 + (y - v * SPOT_SIDE) ** 2 +
+                              CEILING_Z ** 2)
+                    lux += SPOT * (SPOT_SIDE / 2) ** 2 * CEILING_Z ** 2 / square ** 2
+            cells.append((x, y, CEILING * lux / math.pi * side ** 2))
+    return cells
+
+
+def gradient_lux(at, cells):
+    return sum(light * CEILING_Z ** 2 /
+               ((x - at[0]) ** 2 + (y - at[1]) ** 2 + CEILING_Z ** 2) ** 2
+               for x, y, light in cells)
+
+
+def gradient_light(cells, x, uv, points=3):
+    """Mean luminance that a box of the display at x reflects."""
+    left, top, right, bottom = uv
+    places = [(left + (i + 0.5) / points * (right - left), top + (j + 0.5) / points *
+               (bottom - top)) for i in range(points) for j in range(points)]
+    size = 1e-3 * worst_part.WIDE, 1e-3 * worst_part.HIGH
+    return contrast.RHO / math.pi / len(places) * sum(
+        gradient_lux([x + (u - 0.5) * size[0], (0.5 - v) * size[1]], cells) for u, v in places)
+
+
+def gradient_scene():
+    scene = Scene()
+    picture = scene.image("image/png", worst_part.content())
+    wide, high = 1e-3 * worst_part.WIDE, 1e-3 * worst_part.HIGH
+    for i, x in enumerate(DISPLAYS_X):
+        screen = scene.material(f"screen{i}", extensions={"PARHELION_display": {
+            "panel": "closed.panel", "content": {"index": picture}, "level": 1e-3}})
+        scene.quad(screen, [x - wide / 2, -high / 2, 0], [wide, 0, 0], [0, high, 0])
+    scene.facing_quad(scene.emitter(SPOT), [SPOT_X, 0, 0], [0, 0, 1], SPOT_SIDE)
+    scene.facing_quad(scene.lambert(CEILING), [0, 0, CEILING_Z], [0, 0, -1], 2 * CEILING_HALF)
+    scene.view("eye", [0, 0, 0.5], [0, 0, -1], 90)
+    return scene
+
+
+def gradient(reviewer, tally, seeds):
+    """The place is given: another may be worse by less than the paths that chose it show."""
+    contrast.write_set(reviewer.folder)
+    assert reviewer.run("panel", "fit", "MANIFEST.json", "-o", "closed.panel").returncode == 0
+    gradient_scene().write(os.path.join(reviewer.folder, "dash.gltf"))
+    edges = worst_part.BOX
+    box = [edges[k] / (worst_part.WIDE, worst_part.HIGH)[k % 2] for k in range(4)]
+    truths, cells = {}, ceiling_light()
+    for seed in range(1, seeds + 1):
+        review = reviewer.review(request(
+            symbols={f"s{i}": {"display": f"screen{i}", "uv": [0.02, 0.02, 0.98, 0.98]}
+                     for i in range(len(DISPLAYS_X))},
+            conditions=[moment("lamp", type="constant", luminance=1e-6)],
+            precision={"seed": seed}), "out")[1]
+        for case, x in zip(review["cases"], DISPLAYS_X):
+            part = [case["judged_part_uv"][side] for side in ("left", "top", "right", "bottom")]
+            for uv in (part, box):
+                if (x, str(uv)) not in truths:
+                    truths[x, str(uv)] = gradient_light(cells, x, uv)
+            tally.add("gradient", {k: case[k] for k in (
+                "reflected_interval", "luminance_cd_m2", "symbol_mean")}, {
+                    "/reflected_interval": truths[x, str(part)],
+                    "symbol_mean/reflected_interval": truths[x, str(box)]})
+
+
 # ---- frames of it ---------------------------------------------------------------------------
 
 NEAR_DEG, SIZE, SAMPLES = 2, "48x32", "16"
@@ -271,6 +353,7 @@ def glint(reviewer, tally, seeds):
 # ---- a lamp and its image on a wall ---------------------------------------------------------
 
 WALL, HALF = 0.5, 0.2     # reflectance; m, half of what the camera sees
+CHROME = 0.9
 LAMP, LAMP_AT, MIRROR_X = 1e4, [0.3, 0.2, 1.0], -1.0
 LAMP_SIDES = (0.1, 0.25)  # m: a frame's samples meet it in the mirror 5 or 30 times
 D65_XY, D65_UV = [0.31272, 0.32903], [0.19783, 0.46833]
@@ -323,7 +406,8 @@ def wall(reviewer, tally, seeds):
             tally.add(name, told, {"/illuminance_interval": wall_lux(at, side)})
 
 
-ROOMS = {"patch": patch, "frame": frame, "fisheye": fisheye, "glint": glint, "wall": wall}
+ROOMS = {"gradient": gradient, "patch": patch, "frame": frame, "fisheye": fisheye,
+         "glint": glint, "wall": wall}
 
 
 def main(words):

@@ -249,11 +249,13 @@ static Reading read_part(const CaseLook *look, WorstPart *part, ReviewCase *c, V
     const Setup *setup = args->tools->setup;
     args->direct = direct_sun(setup, &part->aim, *arena);
     Reading reading = read_symbol(look, &part->aim, args, *arena);
-    if (worst_part_is_better(&part->whole, reading.interval, c->must_not_be_read)) {
+    if (!part->is_all &&
+        worst_part_is_better(&part->whole, reading.interval, c->must_not_be_read)) {
         worst_part_take_all(look->symbol, part, arena);
         args->direct = direct_sun(setup, &part->aim, *arena);
         reading = read_symbol(look, &part->aim, args, *arena);
     }
+    if (part->is_all && !look->is_coarse) worst_part_set_mean(&part->whole, &reading);
     c->whole = part->whole;
     set_mean(args->tools->profile, c);
     return reading;

@@ -7,6 +7,7 @@
 #include <xxhash.h>
 
 #include "base/file.h"
+#include "base/sampler.h"
 #include "base/units.h"
 #include "panel/query/panel_stated.h"
 #include "render/identity.h"
@@ -284,7 +285,10 @@ void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeA
 #define FIELD_PATHS 2048       /* where the direct sun tells parts apart; else */
 #define SHADE_PATHS 8192       /* they show a rise of about 15 % in the shipped car, by day */
 #define FIELD_SEED 0x6669656cu /* whatever the review's: all seeds judge the same part */
-#define LIT_POINTS 4096        /* that show the share in the sun: within half a percent */
+#define MEAN_SEED \
+    0x6d65616eu         /* with the review's: what chose the part says no more of the mean \
+                         */
+#define LIT_POINTS 4096 /* that show the share in the sun: within half a percent */
 
 /* The direct sun of each cell that is seen, and its mean by the display's mirror. */
 static double add_sun(const Setup *setup, const LightParts *parts, double *known, Arena scratch) {
@@ -302,8 +306,14 @@ static bool is_shade(const double *known, int targets) {
     return true;
 }
 
-/* The part, and the mean of all that paths find. The sun's image is not known by itself as a
- * polariser sees it: paths find it then. */
+void worst_part_set_mean(CaseWhole *whole, const Reading *reading) {
+    whole->reflected = reading->reflected;
+    whole->reflected_range = reading->interval;
+}
+
+/* The part, and the mean of all that paths find: of others, by the review's own seed, where a
+ * part was chosen; else the judge's reading is one of it. The sun's image is not known by itself
+ * as a polariser sees it: paths find it then. */
 static int read_all(const Setup *setup, const LightParts *parts, CaseWhole *whole, Arena scratch) {
     int targets = parts->aim.target_count;
     double *known = ARENA_NEW(&scratch, double, targets);
@@ -317,9 +327,14 @@ static int read_all(const Setup *setup, const LightParts *parts, CaseWhole *whol
     aim.seed = FIELD_SEED;
     long paths = is_shade(known, targets) ? SHADE_PATHS : FIELD_PATHS;
     Reading mean = reading_field(&aim, paths, mirror, &setup->tools, found, scratch);
-    whole->reflected = mean.reflected;
-    whole->reflected_range = mean.interval;
-    return light_parts_choose(parts, found, known, scratch);
+    int part = light_parts_choose(parts, found, known, scratch);
+    if (part != LIGHT_PARTS_ALL) {
+        ReadingGoal goal = {.most = paths, .known = mirror};
+        aim.seed = hash_combine(hash_u32(parts->aim.seed), MEAN_SEED);
+        mean = reading_take(&aim, &goal, &setup->tools, scratch);
+    }
+    worst_part_set_mean(whole, &mean);
+    return part;
 }
 
 static int part_by_sun(const Setup *setup, const LightParts *parts, Arena scratch) {
@@ -364,12 +379,13 @@ static bool aim_at_box(const SymbolSurface *all, const double uv[4], WorstPart *
 
 static void aim_at_all(const SymbolSurface *all, WorstPart *out, Arena *arena) {
     memcpy(&out->whole.part, all->uv, sizeof out->whole.part);
+    out->is_all = true;
     aim_at(all, &out->aim, arena);
 }
 
 WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena) {
     const SymbolSurface *all = &args->symbol->surface;
-    WorstPart out = {*args->aim, case_whole_unknown()};
+    WorstPart out = {*args->aim, case_whole_unknown(), true};
     Arena scratch = arena_reserve((size_t)1 << 28);
     double uv[4];
     LightParts parts = symbol_parts(args->symbol, args->aim, CELLS_MOST, &scratch);
@@ -378,7 +394,8 @@ WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena
     if (parts.aim.target_count) {
         int part = args->is_coarse ? part_by_sun(setup, &parts, scratch)
                                    : read_all(setup, &parts, &out.whole, scratch);
-        if (part != LIGHT_PARTS_ALL) symbol_part_box(args->symbol, &parts, part, uv);
+        out.is_all = part == LIGHT_PARTS_ALL;
+        if (!out.is_all) symbol_part_box(args->symbol, &parts, part, uv);
         if (!args->is_coarse) out.whole.lit_share = lit_share(setup, args, scratch);
     }
     arena_release(&scratch);

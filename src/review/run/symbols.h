@@ -60,8 +60,10 @@ void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeA
  * read the one from which least is.
  *
  * It is found by the direct sun, which is known for every place, and by paths to all of the
- * symbol, whose mean is the symbol's. That is a selection: who judges the part reads it by
- * paths of other seeds, as of the aim that is set here. Where light is even within what the
+ * symbol, the same whatever the review's seed. That is a selection: who judges the part, and who
+ * reads the mean, does so by paths of other seeds, as of the aim that is set here. The interval
+ * of such a reading is that of the part which is named; it knows nothing of a part that is
+ * worse by less than what the paths that chose show. Where light is even within what the
  * paths show, chance may select a part that reflects less than the mean: worst_part_is_better
  * says so of a reading, and all of the symbol is judged then.
  *
@@ -80,9 +82,13 @@ typedef struct PartArgs {
 typedef struct WorstPart {
     ProbeAim aim;    /* at what is seen of it; no targets: nothing of the symbol is */
     CaseWhole whole; /* without its contrast */
+    bool is_all;     /* no part stands out: it is all of the symbol */
 } WorstPart;
 
 WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena);
+
+/* The mean is that reading of all of the symbol. */
+void worst_part_set_mean(CaseWhole *whole, const Reading *reading);
 
 /* Does a part of that reading reflect less than the mean, beyond both intervals? Or more, where
  * the least was sought? */

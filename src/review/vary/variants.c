@@ -44,6 +44,16 @@ static double image_half(const ReviewCase *of) {
     return limit && limit->by_pane ? 0.5 * (limit->high - limit->low) / limit->value : 0;
 }
 
+/* By how much bright light that paths may have missed moves a margin: what the upper end of the
+ * reflected light has more than the lower. Where one case lacks it so does the other. */
+static double margin_of_bright(const ReviewCase *of, const Profile *profile, Arena scratch) {
+    double light = of->luminance_cd_m2.reflected;
+    double bright = of->reflected_range.high + of->reflected_range.low - 2 * light;
+    if (!(bright > 0)) return 0;
+    return margin_with(of, light + bright, profile, scratch) -
+           margin_with(of, light, profile, scratch);
+}
+
 static void set_difference(const Profile *profile, ReviewDifference *of, Arena scratch) {
     double each[CASE_BATCHES], mean = 0, squares = 0;
     of->margin = of->after->margin - of->before->margin;
@@ -57,7 +67,10 @@ static void set_difference(const Profile *profile, ReviewDifference *of, Arena s
     double half = student_quantile(CASE_BATCHES - 1) * error;
     double images = hypot_d(image_half(of->before), image_half(of->after));
     if (images > 0) half = hypot_d(half, images);
-    of->margin_range = (MeanInterval){of->margin - half, of->margin + half};
+    double bright = margin_of_bright(of->after, profile, scratch) -
+                    margin_of_bright(of->before, profile, scratch);
+    of->margin_range =
+        (MeanInterval){of->margin - half + fmin(bright, 0), of->margin + half + fmax(bright, 0)};
 }
 
 /* The margin of one case less that of another. */

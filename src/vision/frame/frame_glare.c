@@ -413,10 +413,16 @@ static DgiSlopes dgi_slopes(const GlareSums *sums, Arena *arena) {
 
 /* ---- intervals --------------------------------------------------------------------------- */
 
-/* GlareSums over pixels of a figure's variance and of its square. */
+/* GlareSums over pixels of a figure's variance and of its square: of pixels whose light raises
+ * it, and of those whose light lowers it. */
 typedef struct FigureNoise {
-    double squares[FIGURES], fourths[FIGURES];
+    BrightSamples of[2][FIGURES];
 } FigureNoise;
+
+/* Half an interval's width, and what bright samples that are missing may add to its ends. */
+typedef struct FigureWidth {
+    double half, above, below;
+} FigureWidth;
 
 typedef struct SlopeTable {
     Slopes of[FIGURES];
@@ -465,25 +471,32 @@ static void pixel_slopes(const Pixels *pixels, const FrameGlare *found, const Sl
 static void add_noise(const double slopes[FIGURES], double variance, FigureNoise *to) {
     for (int f = 0; f < FIGURES; f++) {
         double square = slopes[f] * slopes[f] * variance;
-        to->squares[f] += square;
-        to->fourths[f] += square * square;
+        BrightSamples *of = &to->of[slopes[f] < 0][f];
+        of->squares += square;
+        of->fourths += square * square;
     }
 }
 
 #define HALVES_FREEDOM 16 /* of the halves' squares, at least */
 
-/* Half an interval's width: by halves where they are enough, else by the samples' spread. */
-static double width_of(const FigureNoise *halves, const FigureNoise *spread, Figure f) {
-    double square = halves->squares[f];
-    double freedom = halves->fourths[f] > 0 ? 3 * square * square / halves->fourths[f] : 0;
-    if (freedom >= HALVES_FREEDOM) return student_quantile(freedom) * sqrt(square);
-    return NORMAL_QUANTILE * sqrt(spread->squares[f]);
+/* By halves where they are enough, else by the samples' spread. Half the difference of a
+ * pixel's halves, or the root of its variance, is what one bright sample makes of it
+ * (measure/measure.c). */
+static FigureWidth width_of(const FigureNoise *halves, const FigureNoise *spread, Figure f) {
+    double square = halves->of[0][f].squares + halves->of[1][f].squares;
+    double fourth = halves->of[0][f].fourths + halves->of[1][f].fourths;
+    double freedom = fourth > 0 ? 3 * square * square / fourth : 0;
+    const FigureNoise *by = freedom >= HALVES_FREEDOM ? halves : spread;
+    double all = spread->of[0][f].squares + spread->of[1][f].squares;
+    return (FigureWidth){by == halves ? student_quantile(freedom) * sqrt(square)
+                                      : NORMAL_QUANTILE * sqrt(all),
+                         bright_missing(&by->of[0][f], 1, 1), bright_missing(&by->of[1][f], 1, 1)};
 }
 
 /* widths: NaN where the frame has no word of its noise. */
 static void find_widths(const Pixels *pixels, const FrameGlare *found, const SlopeTable *table,
-                        double widths[FIGURES]) {
-    FigureNoise halves = {.squares = {0}}, spread = {.squares = {0}};
+                        FigureWidth widths[FIGURES]) {
+    FigureNoise halves = {.of = {{{0}}}}, spread = {.of = {{{0}}}};
     for (size_t i = 0; i < count_of(pixels); i++) {
         double slopes[FIGURES];
         if (!(pixels->projected_sr[i] > 0)) continue;
@@ -515,14 +528,16 @@ static bool check_seen(const GlareRequest *request, const FrameGlare *found, Err
                      100 * found->seen);
 }
 
-static Measured figure_of(double value, double width, bool is_given) {
-    return measured_about(value, is_given ? (double)NAN : width);
+static Measured figure_of(double value, FigureWidth width, bool is_given) {
+    if (is_given) return measured_about(value, (double)NAN);
+    return (Measured){value, value - width.half - width.below, value + width.half + width.above};
 }
 
-static void set_figures(const GlareFigures *f, const GlareSums *sums, const double widths[FIGURES],
-                        const GlareRequest *request, FrameGlare *out) {
+static void set_figures(const GlareFigures *f, const GlareSums *sums,
+                        const FigureWidth widths[FIGURES], const GlareRequest *request,
+                        FrameGlare *out) {
     out->none = f->none;
-    out->has_intervals = !isnan(widths[FIGURE_BACKGROUND]);
+    out->has_intervals = !isnan(widths[FIGURE_BACKGROUND].half);
     out->vertical_lx = figure_of(sums->lux, widths[FIGURE_LUX], request->has_lux);
     out->background_cd_m2 = figure_of(f->background_cd_m2, widths[FIGURE_BACKGROUND], false);
     out->ugr = figure_of(f->ugr, widths[FIGURE_UGR], false);
@@ -536,7 +551,7 @@ bool frame_glare_measure(const FrameImage *frame, const GlareRequest *request, A
     FrameGlare found = {.task_cd_m2 = (double)NAN};
     Pixels pixels = {.width = 0};
     GlareSums sums;
-    double widths[FIGURES];
+    FigureWidth widths[FIGURES];
     if (!find_pixels(frame, arena, &pixels, err)) return false;
     find_solid_angles(&pixels, &found);
     if (!check_seen(request, &found, err)) return false;
