@@ -12,6 +12,7 @@
 #pragma once
 #include "shaders/bsdf_model.h"
 #include "shaders/solid_facet.h"
+#include "shaders/solid_pane.h"
 #include "shaders/thin_window.h"
 #include "shaders/display.h"
 #include "shaders/glazing.h"
@@ -24,6 +25,7 @@
     MODEL(THIN_WINDOW, thin_window, ThinWindow) \
     MODEL(GLAZED_WINDOW, glazed_window, GlazedWindow) \
     MODEL(DIELECTRIC, dielectric, Dielectric) \
+    MODEL(SOLID_PANE, solid_pane, SolidPane) \
     MODEL(DISPLAY, display, DisplaySurface)
 
 #define BSDF_KIND(KIND, name, Parameters) BSDF_##KIND,

@@ -106,6 +106,9 @@ static void try_sunlit(const PathContext *context, const Guiding *guiding, LitPo
 void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell, Sampler *sampler,
                      LightFinds *finds) {
     Guiding guiding;
+    Wavelengths middle;
+    PlateView plates = plate_view(context, &middle);
+    wavelengths_sample(0.5f, &middle);
     guiding_of_white(context, cell, point.ns, &guiding);
     finds->points++;
     for (int set = 0; set < LIGHT_SETS; set++) {
@@ -115,7 +118,7 @@ void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell, 
         sampler_4d(sampler, u);
         if (!guiding_choose_light(&guiding, context->lights, (LightSet)set, point, u, &light))
             continue;
-        bool arrives = light_selection_arrives(context->bvh, point, &light);
+        bool arrives = light_selection_arrives(&plates, point, &light);
         if (set == LIGHTS_PUNCTUAL) note_lamp(context, point, &light, u[3], arrives, finds);
         if (!arrives) continue;
         guiding_weigh_light(&guiding, context->lights, point, &light);

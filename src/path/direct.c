@@ -5,6 +5,7 @@
 #include "scene/point/ray_ends.h"
 #include "path/emitted.h"
 #include "path/mirror_share.h"
+#include "path/plates.h"
 
 /* ---- solids ------------------------------------------------------------------------------ */
 
@@ -28,8 +29,10 @@ static void absorb_sample(const PathState *path, const Surface *surface, const L
 /* ---- shadow rays ------------------------------------------------------------------------- */
 
 /* A ray through the edge that two triangles share meets both: that is one sheet, not two. */
-static bool was_met(ShadowRay *ray, const Hit *hit) {
+static bool was_met(ShadowRay *ray, const Hit *met) {
     const Scene *scene = ray->path->context->scene;
+    Hit own = *met, *hit = &own;
+    own.t += ray->plates.from;
     for (int i = 0; i < ray->hit_count && i < SHADOW_HITS; i++)
         if (fabsf(hit->t - ray->recent[i].t) <= 2e-6f * hit->t + ray->step &&
             sheets_are_one(scene, hit->triangle, ray->recent[i].triangle))
@@ -77,11 +80,33 @@ Spectrum direct_visibility(PathState *path, const Surface *surface, const LightS
     ray->light = light;
     ray->passed = spectrum_all(1);
     ray->step = ray_step(&surface->point);
-    ray->hit_count = 0;
+    ray->hit_count = ray->plates.count = 0;
+    ray->plates.from = 0;
     path->statistics->shadow_rays++;
     if (bvh_occluded(bvh, to_light, passes, ray)) return spectrum_all(0);
     if (light->is_emitter && bvh_has_sheets(bvh)) find_sheets_at_emitter(bvh, to_light, ray);
     return ray->passed;
+}
+
+/* The share of light that comes along a ray which something stops, through plates. */
+static Spectrum passed_by_plates(PathState *path, Ray to_light, ShadowRay *ray) {
+    ray->plates.view = plate_view(path->context, path->wavelengths);
+    ray->plates.passes = passes;
+    ray->plates.user = ray;
+    ray->passed = spectrum_all(1);
+    ray->hit_count = 0;
+    if (!plates_follow(&ray->plates, to_light)) return spectrum_all(0);
+    ray->passed *= ray->plates.passed;
+    return ray->passed;
+}
+
+Spectrum direct_arrival(PathState *path, const Surface *surface, const LightSample *light,
+                        ShadowRay *ray) {
+    Spectrum passed = direct_visibility(path, surface, light, ray);
+    if (!path->context->plates.count || isfinite(light->distance) || !spectrum_is_zero(passed))
+        return passed;
+    Ray to_light = {ray_start(&surface->point, light->wi), light->wi, 0, INFINITY};
+    return passed_by_plates(path, to_light, ray);
 }
 
 bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo) {
@@ -130,21 +155,20 @@ static void find_sample(PathState *path, const Surface *surface, Vec3 wo, const 
 }
 
 /* Most samples end in shadow: radiance and BSDF are evaluated once the ray has arrived. */
-static void add_arriving(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding,
-                         TakenLight *taken) {
+static void add_arrived(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding,
+                        TakenLight *taken, const ShadowRay *ray) {
     const PathContext *context = path->context;
     LightSample *light = &taken->light;
-    ShadowRay ray;
     Vec3 local_wo = surface->local_wo, local_wi = taken->local_wi;
     float prob = taken->prob;
-    Spectrum passed = direct_visibility(path, surface, light, &ray);
-    if (spectrum_is_zero(passed)) return;
+    Spectrum passed = ray->passed;
     path->statistics->sky_finds += light->set == LIGHTS_SKY;
     absorb_sample(path, surface, light, &passed);
     guiding_weigh_light(guiding, context->lights, emitted_lit_point(path, surface), light);
     float bsdf_pdf;
     Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
-    f = mirrored_left(path, surface, wo, light, local_wi, f);
+    if (!ray->plates.count || !isfinite(light->distance))
+        f = mirrored_left(path, surface, wo, light, local_wi, f);
     Spectrum share = path->throughput * f *
                      lights_radiance(context->lights, light, path->wavelengths) *
                      spectrum_all(fabsf(local_wi.z) / (light->pdf * prob));
@@ -155,18 +179,95 @@ static void add_arriving(PathState *path, const Surface *surface, Vec3 wo, const
         SunlitPair pair = emitted_pair(path, surface);
         share *= spectrum_all(emitted_chance(context, &pair, light->wi));
     }
-    find_sample(path, surface, wo, taken, &ray, share * passed);
+    find_sample(path, surface, wo, taken, ray, share * passed);
+}
+
+/* Can the surface send light of the sample to wo? Sets its local direction. */
+static bool can_take(const Surface *surface, Vec3 wo, TakenLight *taken) {
+    taken->local_wi = frame_to_local(&surface->frame, taken->light.wi);
+    return direct_sides_agree(surface, taken->local_wi, taken->light.wi, wo) &&
+           bsdf_reaches(&surface->bsdf, surface->local_wo, taken->local_wi);
+}
+
+/* ---- lamps behind plates ----------------------------------------------------------------- */
+
+/* What a lens may make of light at the place that is looked at. Over all others it adds none. */
+#define LENS_MOST 100
+
+/* What may come of the lamp through solids that no way is known through, by what would come if
+ * nothing stood there. */
+static void count_lost(PathState *path, const Surface *surface, const TakenLight *taken) {
+    float pdf, xyz[3] = {0};
+    Spectrum light = path->throughput *
+                     lights_radiance(path->context->lights, &taken->light, path->wavelengths) *
+                     bsdf_eval(&surface->bsdf, surface->local_wo, taken->local_wi, &pdf) *
+                     spectrum_all(fabsf(taken->local_wi.z) / (taken->light.pdf * taken->prob));
+    spectrum_add_xyz(path->wavelengths, light, xyz);
+    if (isfinite(xyz[1]))
+        path->statistics->lost_behind_solids += (path->bounce ? 1 : LENS_MOST) * (double)xyz[1];
+}
+
+/* A way of the lamp's light as a sample of its own. */
+static LightSample lamp_by_way(const PathContext *context, const LightSample *light,
+                               const PlateLampWay *way) {
+    const PunctualLight *lamp = &context->scene->lights[light->light_id];
+    LightSample by = *light;
+    float sent = punctual_falloff(lamp, vec3_neg(light->wi));
+    float turned = punctual_falloff(lamp, vec3_neg(way->wi));
+    by.wi = way->wi;
+    by.scale *= sent > 0 ? turned / sent : 0;
+    by.scale *= way->per_d2 * light->distance * light->distance * way->share;
+    return by;
+}
+
+/* Light of a lamp that stands behind plates, by all ways that it takes: they are free if the
+ * first is. */
+static void add_by_plates(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding,
+                          const TakenLight *taken) {
+    const PathContext *context = path->context;
+    const LightSample *light = &taken->light;
+    PlateView view = plate_view(context, path->wavelengths);
+    PlateLamp lamp = {.from = surface->position,
+                      .lamp = vec3_along(surface->position, light->wi, light->distance)};
+    PlateLampWay ways[PLATE_ORDERS];
+    ShadowRay ray;
+    plate_lamp_look(&view, ray_start(&surface->point, light->wi), &lamp);
+    if (lamp.is_lost && !lamp.is_blocked) count_lost(path, surface, taken);
+    int count = plate_lamp_ways(&lamp, ways);
+    if (!count) return;
+    ray.path = path;
+    ray.light = light;
+    ray.step = ray_step(&surface->point);
+    LightSample first = lamp_by_way(context, light, &ways[0]);
+    first.distance = ways[0].length;
+    Ray to_lamp = lights_ray(ray_start(&surface->point, first.wi), &first);
+    if (spectrum_is_zero(passed_by_plates(path, to_lamp, &ray)) || ray.plates.count != lamp.count)
+        return;
+    for (int i = 0; i < count; i++) {
+        TakenLight by = {.light = lamp_by_way(context, light, &ways[i]), .prob = taken->prob};
+        if (can_take(surface, wo, &by)) add_arrived(path, surface, wo, guiding, &by, &ray);
+    }
+}
+
+static void add_arriving(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding,
+                         TakenLight *taken) {
+    const LightSample *light = &taken->light;
+    ShadowRay ray;
+    Ray straight = {surface->position, light->wi, 0, light->distance};
+    if (!spectrum_is_zero(direct_arrival(path, surface, light, &ray)))
+        add_arrived(path, surface, wo, guiding, taken, &ray);
+    else if (light->set == LIGHTS_PUNCTUAL && isfinite(light->distance) &&
+             plate_boxes_meet(&path->context->plates, straight))
+        add_by_plates(path, surface, wo, guiding, taken);
 }
 
 void direct_add_sun(PathState *path, const Surface *surface, Vec3 wo, const LightSample *sun) {
     const PathContext *context = path->context;
-    TakenLight taken = {*sun, frame_to_local(&surface->frame, sun->wi), 1};
+    TakenLight taken = {.light = *sun, .prob = 1};
     ShadowRay ray;
     float bsdf_pdf;
-    if (!direct_sides_agree(surface, taken.local_wi, sun->wi, wo) ||
-        !bsdf_reaches(&surface->bsdf, surface->local_wo, taken.local_wi))
-        return;
-    Spectrum passed = direct_visibility(path, surface, &taken.light, &ray);
+    if (!can_take(surface, wo, &taken)) return;
+    Spectrum passed = direct_arrival(path, surface, &taken.light, &ray);
     if (spectrum_is_zero(passed)) return;
     Spectrum f = bsdf_eval(&surface->bsdf, surface->local_wo, taken.local_wi, &bsdf_pdf);
     f = mirrored_left(path, surface, wo, sun, taken.local_wi, f);
@@ -189,10 +290,7 @@ static void add_light_sample(PathState *path, const Surface *surface, Vec3 wo,
     LitPoint point = emitted_lit_point(path, surface);
     if (!guiding_choose_light(guiding, context->lights, set, point, u, light)) return;
     if (!light->is_delta && context->strategy == PATH_BSDF_ONLY) return;
-    taken.local_wi = frame_to_local(&surface->frame, light->wi);
-    if (!direct_sides_agree(surface, taken.local_wi, light->wi, wo)) return;
-    if (!bsdf_reaches(&surface->bsdf, surface->local_wo, taken.local_wi)) return;
-    add_arriving(path, surface, wo, guiding, &taken);
+    if (can_take(surface, wo, &taken)) add_arriving(path, surface, wo, guiding, &taken);
 }
 
 void direct_add(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding) {

@@ -19,5 +19,9 @@ bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo)
 Spectrum direct_visibility(PathState *path, const Surface *surface, const LightSample *light,
                            ShadowRay *ray);
 
+/* The same of light from infinity, which keeps its direction through plates. */
+Spectrum direct_arrival(PathState *path, const Surface *surface, const LightSample *light,
+                        ShadowRay *ray);
+
 /* Beer's law inside a solid: the material's colour is what is left after its distance. */
 void direct_absorb(const PathState *path, int medium_id, float distance, Spectrum *light);

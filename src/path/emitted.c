@@ -10,7 +10,9 @@
  * light samples, which find the same light with density light_pdf. */
 static float emission_weight(const PathState *path, LightSet set, float light_pdf) {
     const PathContext *context = path->context;
-    if (path->last.is_delta || context->strategy == PATH_BSDF_ONLY) return 1;
+    if (path->last.is_delta || context->strategy == PATH_BSDF_ONLY ||
+        (set == LIGHTS_EMITTERS && path->by_plates))
+        return 1;
     if (context->strategy == PATH_LIGHTS_ONLY) return 0;
     float prob = path->guiding->asked[set] * path->guiding->often;
     if (set == LIGHTS_SKY)
@@ -32,8 +34,8 @@ SunlitPair emitted_pair(const PathState *path, const Surface *surface) {
     const PathContext *context = path->context;
     const Scene *scene = context->scene;
     SunlitPair pair = {.prob = 0};
-    if (!path->last.samples_map || path->medium_id != NO_ID || surface->part_id == NO_ID ||
-        surface->triangle >= scene->opaque_count)
+    if (!path->last.samples_map || path->by_plates || path->medium_id != NO_ID ||
+        surface->part_id == NO_ID || surface->triangle >= scene->opaque_count)
         return pair;
     float cosine = fabsf(vec3_dot(surface->ng, path->ray.direction));
     pair.prob = path->guiding->asked[LIGHTS_SUNLIT] * path->guiding->often;

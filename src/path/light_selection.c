@@ -15,14 +15,17 @@
 #define TOGETHER 16     /* parts that a thread takes at once */
 #define SKY_SAMPLES 256
 
-bool light_selection_arrives(const Bvh *bvh, LitPoint point, const LightSample *light) {
-    return vec3_dot(point.ns, light->wi) > 0 &&
-           !bvh_occluded(bvh, lights_ray(point.position, light), sheets_let_pass, NULL);
+bool light_selection_arrives(const PlateView *plates, LitPoint point, const LightSample *light) {
+    Ray ray = lights_ray(point.position, light);
+    if (!(vec3_dot(point.ns, light->wi) > 0)) return false;
+    if (!bvh_occluded(plates->bvh, ray, sheets_let_pass, NULL)) return true;
+    PlateWay way = {.view = *plates, .passes = sheets_let_pass};
+    return !light->is_emitter && plates_follow(&way, ray);
 }
 
 typedef struct Weighing {
     const Scene *scene;
-    const Bvh *bvh;
+    const PlateView *plates;
     const Lights *lights;
     const SunlitTools *tools;
     const SunlitMap *sunlit;
@@ -36,7 +39,7 @@ static double sample_illuminance(const Weighing *w, LightSet set, LitPoint point
     float u[4];
     sampler_4d(sampler, u);
     if (!lights_sample(w->lights, set, point, u, &light)) return 0;
-    if (!light_selection_arrives(w->bvh, point, &light)) return 0;
+    if (!light_selection_arrives(w->plates, point, &light)) return 0;
     return lights_sample_lx(w->lights, point, &light, u[3]);
 }
 
@@ -132,11 +135,11 @@ static float open_sky(const Lights *lights) {
 }
 
 LightSelection light_selection_build(const SunlitTools *tools, const SunlitMap *sunlit,
-                                     Arena *arena) {
+                                     const PlateView *plates, Arena *arena) {
     int parts = tools->scene->part_count;
     size_t rows = 2 * ((size_t)parts + 1);
     Weighing work = {.scene = tools->scene,
-                     .bvh = tools->bvh,
+                     .plates = plates,
                      .lights = tools->lights,
                      .tools = tools,
                      .sunlit = sunlit};

@@ -10,6 +10,7 @@
  */
 #pragma once
 #include "sunlit/sunlit_land.h"
+#include "path/plates.h"
 #include "sunlit/sunlit_map.h"
 
 typedef struct LightSelection {
@@ -22,10 +23,10 @@ typedef struct LightSelection {
 
 /* The same for any number of threads and on every machine whose rays hit the same. */
 LightSelection light_selection_build(const SunlitTools *tools, const SunlitMap *sunlit,
-                                     Arena *arena);
+                                     const PlateView *plates, Arena *arena);
 
-/* Does the light sample arrive at a point that faces point.ns? */
-bool light_selection_arrives(const Bvh *bvh, LitPoint point, const LightSample *light);
+/* Does the light sample arrive at a point that faces point.ns? Of a lamp behind plates, about. */
+bool light_selection_arrives(const PlateView *plates, LitPoint point, const LightSample *light);
 
 /* part_id may be NO_ID. is_back: seen from the side that the triangle's normal points away
  * from. The row lives as long as the selection. */

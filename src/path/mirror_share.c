@@ -37,8 +37,8 @@ static bool was_sampled(const PathState *path, const Surface *mirror, Vec3 wo, B
     const PathContext *context = path->context;
     const Scene *scene = context->scene;
     MirrorPair pair = {path->last.part_id, is_rough, mirror->triangle};
-    if (!mirrors_are_sampled(context, set) || path->last.is_delta || path->medium_id != NO_ID ||
-        mirror->material_id == NO_ID)
+    if (!mirrors_are_sampled(context, set) || path->last.is_delta || path->by_plates ||
+        path->medium_id != NO_ID || mirror->material_id == NO_ID)
         return false;
     bool may_be = !is_rough || mirrors_rough_alpha(&scene->materials[mirror->material_id]) > 0;
     return may_be && mirrors_have(context->beams[set].mirrors, pair) &&

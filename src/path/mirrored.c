@@ -4,6 +4,7 @@
 
 #include "path/direct.h"
 #include "path/mirror_share.h"
+#include "path/windows.h"
 
 #define ELSEWHERE 0.02f /* of a vertex' samples that search all mirrors for lamps */
 
@@ -73,8 +74,11 @@ static bool mirror_at(const MirrorWalk *walk, const Hit *at, float spread, Mirro
     Surface *mirror = &out->surface;
     LightSample *source = &out->source;
     Spectrum strength;
+    Plate plate;
     if (!(distance > 0) || !light_at(walk, place.position, source, &strength)) return false;
     surface_at(scene, context->tables, &hit, wo, walk->path->wavelengths, mirror);
+    if (context->plates.count) plate_meet(walk->path, &hit, wi, mirror, &plate);
+    mirror->plate = NULL; /* it turns light back: what lies behind it does not count */
     Vec3 local_wo = mirror->local_wo;
     if (!(mirror->alpha > 0) || !mirror_is_plain(scene, mirror, wo) || !(local_wo.z > 0) ||
         !(vec3_dot(source->wi, mirror->frame.z) > 0) ||
@@ -156,7 +160,7 @@ static void add_point(void *user, uint32_t triangle, const ReflectionPoint *poin
                      spectrum_all(fabsf(local_wi.z));
     share *= spectrum_all(heuristic(walk, &mirror, point->spread, pdf));
     if (spectrum_is_zero(share)) return;
-    share *= direct_visibility(path, &mirror.surface, &mirror.source, &rays.to_light);
+    share *= direct_arrival(path, &mirror.surface, &mirror.source, &rays.to_light);
     if (spectrum_is_zero(share)) return;
     share *= direct_visibility(path, surface, &mirror.light, &rays.to_mirror);
     find_mirrored(walk, &mirror, local_wi, &rays, share);

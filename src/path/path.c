@@ -82,6 +82,7 @@ static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
         .before = before,
         .sun_share = sun};
     path->straight = path->sheets_from = 0;
+    path->by_plates = false;
     sheets_none(path->stack);
     note_mirror(path, surface, next);
     if (!path->bounce && asks_the_first(path, surface))
@@ -199,6 +200,7 @@ static void walk(PathState *path) {
     const PathContext *context = path->context;
     for (int steps = 0; steps < PASSES_MAX + context->max_bounces; steps++) {
         Hit hit;
+        Plate plate;
         Surface surface;
         if (!next_hit(path, &hit)) {
             emitted_distant(path);
@@ -208,6 +210,7 @@ static void walk(PathState *path) {
         float distance = path->straight;
         path->steps++;
         surface_at(context->scene, context->tables, &hit, wo, path->wavelengths, &surface);
+        if (context->plates.count) plate_meet(path, &hit, path->ray.direction, &surface, &plate);
         bsdf_carry(&surface.bsdf, &path->throughput);
         collect_meet(path);
         if (sheet_is_followed(path, &surface)) {
@@ -240,6 +243,7 @@ PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights 
                            .bvh = bvh,
                            .max_bounces = max_bounces,
                            .tables = surface_tables_build(scene, false, arena),
+                           .plates = plate_boxes_build(scene, arena),
                            .strategy = PATH_MIS};
     return path_context_relight(&context, lights, arena);
 }
@@ -251,7 +255,10 @@ PathContext path_context_relight(const PathContext *before, const Lights *lights
     context.guide = NULL;
     const SunlitTools sun = {context.scene, context.bvh, lights};
     context.sunlit = sunlit_build(&sun, arena);
-    context.selection = light_selection_build(&sun, &context.sunlit, arena);
+    Wavelengths middle;
+    wavelengths_sample(0.5f, &middle);
+    PlateView plates = plate_view(&context, &middle);
+    context.selection = light_selection_build(&sun, &context.sunlit, &plates, arena);
     for (int set = 0; set < BEAM_SETS; set++)
         context.beams[set] = mirror_beams_build(&tools, (BeamSet)set, &context.selection, arena);
     return context;

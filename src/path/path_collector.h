@@ -10,10 +10,11 @@
  */
 #pragma once
 #include "path/path_state.h"
+#include "path/plates.h"
 
 #define SHADOW_HITS 16 /* that a shadow ray keeps */
 
-/* A ray from a surface to what lights it, and the sheets that it passed. */
+/* A ray from a surface to what lights it, and the sheets and plates that it passed. */
 typedef struct ShadowRay {
     const PathState *path;
     const LightSample *light;
@@ -23,6 +24,7 @@ typedef struct ShadowRay {
     float rounding;          /* uncertainty of `end`, m across the emitter's plane */
     int hit_count;           /* sheets met; may exceed SHADOW_HITS */
     Hit recent[SHADOW_HITS]; /* the last ones: number i at i % SHADOW_HITS; unordered */
+    PlateWay plates;         /* its count and `from` are set always, the rest if it met any */
 } ShadowRay;
 
 /* Light by one point of a mirror. */

@@ -9,6 +9,7 @@
 #include "light/light.h"
 #include "path/light_selection.h"
 #include "path/mirror_beams.h"
+#include "path/plates.h"
 #include "path/polarised.h"
 #include "sunlit/sunlit_map.h"
 #include "path/surface.h"
@@ -21,6 +22,7 @@ typedef struct PathContext {
     const Bvh *bvh;
     const Lights *lights;
     const SurfaceTables *tables;
+    PlateBoxes plates;            /* without boxes: nothing is asked of plates */
     MirrorBeams beams[BEAM_SETS]; /* without mirrors: the sun in them is left to chance, lamps
                                      in them are left out */
     SunlitMap sunlit;             /* without nodes: what the sun lights is left to chance */
@@ -34,6 +36,11 @@ typedef struct PathContext {
                                   compares with the throughput behind it; in a frame only behind displays */
     const PolarisedEye *eye;   /* rays from it carry how light is polarised; NULL: unpolarised */
 } PathContext;
+
+static inline PlateView plate_view(const PathContext *context, const Wavelengths *wavelengths) {
+    return (PlateView){context->scene, context->bvh, context->tables, &context->plates,
+                       wavelengths};
+}
 
 /* Is there anything that this choice may sample? */
 static inline bool path_context_has(const PathContext *context, int choice) {

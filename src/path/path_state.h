@@ -42,9 +42,12 @@ static inline void path_light_to_xyz(const PathLight *gathered, const Wavelength
 typedef struct PathStatistics {
     uint64_t samples;
     uint64_t camera_rays, bounce_rays, shadow_rays;
-    uint64_t sky_finds; /* ways on which light of the sky reached a vertex */
-    double sent_on;     /* of a probe's paths: the share of the light from where they go that
-                           their first vertex sends to the eye, a sum */
+    uint64_t sky_finds;        /* ways on which light of the sky reached a vertex */
+    double lost_behind_solids; /* light of lamps without a surface that may come through clear
+                                  solids, but by no way that is known: a bound, cd m^-2 or lx, a
+                                  sum */
+    double sent_on;            /* of a probe's paths: the share of the light from where they go that
+                                  their first vertex sends to the eye, a sum */
 } PathStatistics;
 
 /* The sampler's numbers by their purpose: every surface that a path meets has its own, so that
@@ -140,6 +143,8 @@ typedef struct PathState {
     Guiding *guiding; /* the last vertex's; and room for the next one's */
     Guiding *spare;
     float straight;    /* m since the last vertex (windows do not scatter) */
+    bool by_plates;    /* solid plates were passed since then: emitters beyond are sampled by
+                          chance alone */
     float bright;      /* the throughput that roulette takes as full; not 1 behind a probe's
                           first surface or a display */
     int bounce;        /* scattering vertices so far */

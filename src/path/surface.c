@@ -455,6 +455,7 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     out->part_id = part_id;
     out->triangle = hit->triangle;
     out->material_id = scene->parts[part_id].material_id;
+    out->plate = NULL;
     out->is_grey = tables->is_grey[out->material_id];
     out->emits = triangle_emits_to(scene, hit->triangle, &out->point, wo);
     coverage_texel(scene, m, hit, &out->point, texel);

@@ -17,6 +17,8 @@ typedef struct SurfaceTables SurfaceTables;
  * comes from the arena. */
 const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised, Arena *arena);
 
+struct Plate;
+
 typedef struct Surface {
     Vec3 position; /* m, scene */
     Vec3 ng;       /* unit geometric normal of the front */
@@ -28,6 +30,8 @@ typedef struct Surface {
     bool emits;        /* towards wo */
     bool is_grey;      /* treats all wavelengths alike, by its material's data */
     TrianglePoint point;
+    const struct Plate *plate; /* it stands for a plate of which it is the near face (plates.h),
+                                  and goes on behind that; NULL: it does not */
     Bsdf bsdf;
 } Surface;
 

@@ -48,11 +48,24 @@ void sheet_go_behind(PathState *path, const Surface *surface) {
     Vec3 direction = path->ray.direction, ng = surface->ng;
     float cosine = fabsf(vec3_dot(ng, direction));
     if (path->stack->next < path->stack->count) return;
+    if (surface->plate) {
+        path->ray = (Ray){surface->plate->start, direction, 0, INFINITY};
+        path->straight += surface->plate->inside;
+        path->sheets_from = 0;
+        path->by_plates = true;
+        return;
+    }
     path->sheets_from =
         path->stack->count ? 2 * ray_step(&surface->point) / fmaxf(cosine, 1e-6f) : 0;
     Vec3 side = path->stack->count ? vec3_neg(direction) : direction;
     path->ray = (Ray){ray_start(&surface->point, side), direction, 0, INFINITY};
     if (!path->bounce && !path->stack->count) start_behind_pane(path, surface);
+}
+
+void plate_meet(const PathState *path, const Hit *hit, Vec3 way, Surface *surface, Plate *plate) {
+    PlateView view = plate_view(path->context, path->wavelengths);
+    if (path->medium_id == NO_ID && plate_at(&view, surface, hit, way, plate))
+        plate_be_pane(plate, surface);
 }
 
 /* ---- both ways --------------------------------------------------------------------------- */

@@ -32,6 +32,10 @@ bool pane_shows_itself(const Surface *surface, Surface *pane);
 /* The path itself is followed straight through. */
 void sheet_pass(PathState *path, const Surface *surface, Vec3 wo);
 
+/* Where a ray along `way` enters a plate of clear solid glass, the surface becomes that thick
+ * pane, which refers to *plate. */
+void plate_meet(const PathState *path, const Hit *hit, Vec3 way, Surface *surface, Plate *plate);
+
 /* Goes straight on behind the surface, a hole or a window: first to what else lies in its
  * plane, then past it, from where an opaque surface in the same plane is still met. */
 void sheet_go_behind(PathState *path, const Surface *surface);

@@ -15,6 +15,7 @@ typedef struct IlluminanceSums {
     double xyz[3];
     BrightSamples bright;
     uint64_t sky_finds; /* PathStatistics' */
+    double lost;        /* PathStatistics' lost_behind_solids */
 } IlluminanceSums;
 
 typedef struct Meter {
@@ -52,6 +53,7 @@ static void measure_batch(void *user, int item, int worker) {
         bright_add(&sums->bright, (double)xyz[1]);
     }
     sums->sky_finds = statistics.sky_finds;
+    sums->lost = statistics.lost_behind_solids;
 }
 
 /* What comes of the sky by openings that no sample met (review/light/reading.c), lx. */
@@ -74,6 +76,7 @@ static Illuminance add_batches(const Meter *meter, int point) {
                       .unseen = PI * (double)sunlit_map_unseen(&meter->context->sunlit)};
     for (int i = 0; i < y.batches; i++) {
         const IlluminanceSums *sums = &meter->sums[point][i];
+        y.unseen += sums->lost / samples;
         for (int k = 0; k < 3; k++) total.xyz_lx[k] += sums->xyz[k] / samples;
         y.batch[i] = sums->xyz[1];
         y.bright.squares += sums->bright.squares;

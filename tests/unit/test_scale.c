@@ -145,7 +145,9 @@ static LightSelection selection_of(const Scene *scene, int threads, Arena *arena
     assert_int_equal(bvh_threads(bvh), threads);
     const SunlitTools tools = {scene, bvh, lights};
     const SunlitMap none = {.nodes = NULL};
-    LightSelection selection = light_selection_build(&tools, &none, arena);
+    const PlateBoxes no_boxes = {0};
+    const PlateView plates = {.scene = scene, .bvh = bvh, .boxes = &no_boxes};
+    LightSelection selection = light_selection_build(&tools, &none, &plates, arena);
     bvh_destroy(bvh);
     return selection;
 }

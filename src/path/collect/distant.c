@@ -92,7 +92,7 @@ static void sample_all(const DistantCollector *questions, PathState *path, const
         float pdf;
         if (!direct_sides_agree(surface, local_wi, light.wi, wo)) continue;
         if (!bsdf_reaches(&surface->bsdf, local_wo, local_wi)) continue;
-        Spectrum passed = direct_visibility(path, surface, &light, &ray);
+        Spectrum passed = direct_arrival(path, surface, &light, &ray);
         if (spectrum_is_zero(passed)) continue;
         Spectrum share = path->throughput * passed *
                          bsdf_eval(&surface->bsdf, local_wo, local_wi, &pdf) *

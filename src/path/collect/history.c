@@ -80,8 +80,10 @@ static bool refuse_beyond(PathCollector *c, PathState *path, const Surface *surf
 /* The last sheet that a shadow ray passed. */
 static int last_pane(const ShadowRay *ray) {
     const Scene *scene = ray->path->context->scene;
-    if (!ray->hit_count) return NO_ID;
-    const Hit *hit = &ray->recent[(ray->hit_count - 1) % SHADOW_HITS];
+    int plates = ray->plates.count;
+    if (!ray->hit_count && !plates) return NO_ID;
+    const Hit *hit = ray->hit_count ? &ray->recent[(ray->hit_count - 1) % SHADOW_HITS]
+                                    : &ray->plates.plate[plates - 1].hit;
     return (int)scene->triangles[hit->triangle].part_id;
 }
 

@@ -49,7 +49,7 @@ static void see(PathCollector *c, PathState *path, const Surface *surface, Vec3 
 }
 
 /* A shadow ray's sheets, along its direction: the nearest first; of more than it remembers,
- * some. */
+ * some. Then its plates. */
 static void pass_panes(const ShadowRay *ray, Vec3 direction, Polarised *light) {
     const PathState *path = ray->path;
     const PathContext *context = path->context;
@@ -64,6 +64,14 @@ static void pass_panes(const ShadowRay *ray, Vec3 direction, Polarised *light) {
         Surface pane;
         Vec3 wo = vec3_neg(direction);
         surface_at(context->scene, context->tables, &hit[i], wo, path->wavelengths, &pane);
+        polarised_pass(light, &pane, wo);
+    }
+    for (int i = 0; i < ray->plates.count; i++) {
+        const Plate *plate = &ray->plates.plate[i];
+        Surface pane;
+        Vec3 wo = vec3_neg(direction);
+        surface_at(context->scene, context->tables, &plate->hit, wo, path->wavelengths, &pane);
+        plate_be_pane(plate, &pane);
         polarised_pass(light, &pane, wo);
     }
 }

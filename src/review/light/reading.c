@@ -65,7 +65,8 @@ uint64_t reading_aim_hash(const ProbeAim *aim) {
 typedef struct Batch {
     double reflected, mirror;
     long found;
-    long sky_finds; /* PathStatistics' */
+    long sky_finds; /* PathStatistics', */
+    double lost;    /* its lost_behind_solids too */
     double sent_on;
     BrightSamples bright;
 } Batch;
@@ -118,6 +119,7 @@ static void read_batch(void *user, int item, int worker) {
     }
     stream->batches[item].sky_finds += (long)statistics.sky_finds;
     stream->batches[item].sent_on += statistics.sent_on;
+    stream->batches[item].lost += statistics.lost_behind_solids;
 }
 
 /* Where no ray of the sun was seen to come in, a beam as wide as the map's pixels may. */
@@ -125,13 +127,13 @@ static double unseen_by(const ProbeAim *aim) {
     return (double)sunlit_map_unseen(&aim->context->sunlit);
 }
 
-static Estimate estimate_in(const Reading *reading, const ProbeAim *aim, double known) {
+static Estimate estimate_in(const Reading *reading, double known) {
     return (Estimate){.mean = reading->reflected,
                       .sigma = reading->sigma,
                       .interval = reading->interval,
                       .bright = reading->bright,
                       .counted = (double)reading->paths * reading->found_share,
-                      .unseen = unseen_by(aim),
+                      .unseen = reading->unseen,
                       .known_sigma = RESPONSE_MIRROR_ERROR * known};
 }
 
@@ -159,12 +161,13 @@ static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int
                           double known) {
     EstimateSums sums = {
         .batches = BATCHES, .paths = (long)paths * BATCHES, .piece = 1, .unseen = unseen_by(aim)};
-    Reading reading = {.paths = sums.paths};
-    double mirror = 0, found = 0;
+    Reading reading = {.paths = sums.paths, .unseen = sums.unseen};
+    double mirror = 0, found = 0, lost = 0;
     for (int i = 0; i < BATCHES; i++) {
         sums.batch[i] = batches[i].reflected;
         mirror += batches[i].mirror;
         found += (double)batches[i].found;
+        lost += batches[i].lost;
         sums.bright.squares += batches[i].bright.squares;
         sums.bright.fourths += batches[i].bright.fourths;
     }
@@ -172,6 +175,7 @@ static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int
     if (!(found > 0)) return reading;
     sums.share = reading.found_share = found / (double)reading.paths;
     sums.unmet += sky_unmet(aim, batches, found);
+    reading.unseen = sums.unseen += lost / found;
     Estimate estimate = estimate_of(&sums);
     estimate_add_known(&estimate, known, RESPONSE_MIRROR_ERROR * known);
     put_estimate(&estimate, &reading);
@@ -236,7 +240,7 @@ static void read_pilot(void *user, long paths) {
 
 static bool will_do(void *user, long pilot, long paths) {
     PilotWork *work = user;
-    Estimate now = estimate_in(&work->reading, &work->stream.aim, work->goal->known);
+    Estimate now = estimate_in(&work->reading, work->goal->known);
     Estimate then = estimate_expected(&now, (double)paths / (double)pilot);
     Reading fresh = work->reading;
     put_estimate(&then, &fresh);

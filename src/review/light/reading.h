@@ -61,6 +61,7 @@ typedef struct Reading {
     double sigma;                    /* its standard error */
     MeanInterval interval;           /* 95 %, whether there was a question or not */
     double mirror;                   /* part via the display's mirror */
+    double unseen;                   /* EstimateSums's */
     double found_share;              /* paths whose first surface was a display */
     BrightSamples bright;            /* its paths, by the light that each found */
     double batches[READING_BATCHES]; /* of each batch by itself; their mean is `reflected` */

@@ -73,9 +73,23 @@ static Ray look_at(const Scene *scene, const SymbolPoint *point, Vec3 eye) {
     return ray_to(eye, &at, vec3_sub(eye, point->position));
 }
 
-static bool is_hidden(const Ray *look, SightQuestion *question) {
-    question->direction = look->direction;
-    return bvh_occluded(question->context->bvh, *look, passes, question);
+/* Solid plates shift a look: it goes back from its end, where it must be exact, and misses the
+ * eye by about a third of their thickness. */
+static bool is_stopped(const Ray *ray, SightQuestion *question) {
+    const PathContext *context = question->context;
+    question->direction = ray->direction;
+    if (!bvh_occluded(context->bvh, *ray, passes, question)) return false;
+    PlateWay way = {
+        .view = plate_view(context, question->wavelengths), .passes = passes, .user = question};
+    Ray back = *ray;
+    if (isfinite(ray->t_max))
+        back = (Ray){vec3_along(ray->origin, ray->direction, ray->t_max), vec3_neg(ray->direction),
+                     0, ray->t_max};
+    question->direction = back.direction;
+    question->passed = spectrum_all(1);
+    if (!plates_follow(&way, back)) return true;
+    question->passed *= way.passed;
+    return luminous(question->wavelengths, &question->passed) < HIDES_BELOW;
 }
 
 /* The share of light that comes from the point to the eye; 0: it is hidden, or seen from
@@ -85,7 +99,7 @@ static float passed_from(const SymbolPoint *point, const PathContext *context,
     SightQuestion question = {
         .context = context, .wavelengths = wavelengths, .passed = spectrum_all(1)};
     Ray look = look_at(context->scene, point, eye);
-    if (!faces(point, eye) || is_hidden(&look, &question)) return 0;
+    if (!faces(point, eye) || is_stopped(&look, &question)) return 0;
     return luminous(wavelengths, &question.passed);
 }
 
@@ -112,9 +126,17 @@ static uint32_t hiding_part(Ray look, SightQuestion *question) {
     Hit hit;
     question->passed = spectrum_all(1);
     while (bvh_intersect(question->context->bvh, look, 0, &hit)) {
+        PlateView view = plate_view(question->context, question->wavelengths);
+        Surface face;
+        Plate plate;
         part = scene->triangles[hit.triangle].part_id;
-        if (hit.triangle < scene->opaque_count || !passes(question, &hit)) break;
-        look = ray_behind(scene, look, &hit);
+        surface_at(scene, view.tables, &hit, vec3_neg(look.direction), view.wavelengths, &face);
+        bool is_plate = plate_at(&view, &face, &hit, look.direction, &plate);
+        if (is_plate) question->passed *= plate.pane.passed;
+        if (is_plate ? luminous(view.wavelengths, &question->passed) < HIDES_BELOW
+                     : hit.triangle < scene->opaque_count || !passes(question, &hit))
+            break;
+        look = is_plate ? ray_from_plate(look, &plate) : ray_behind(scene, look, &hit);
     }
     return part;
 }
@@ -132,7 +154,8 @@ SymbolHiding symbol_hiding(const SymbolSurface *surface, const PathContext *cont
             .context = context, .wavelengths = &wavelengths, .passed = spectrum_all(1)};
         Ray look = look_at(scene, point, eye);
         if (!faces(point, eye)) hiding.turned_away += share;
-        else if (is_hidden(&look, &question)) hiding.by_part[hiding_part(look, &question)] += share;
+        else if (is_stopped(&look, &question))
+            hiding.by_part[hiding_part(look, &question)] += share;
     }
     return hiding;
 }
@@ -178,12 +201,10 @@ bool symbol_box_seen(const SymbolSurface *surface, const double uv[4], const Pat
 
 static bool is_lit(const SymbolPoint *point, const PathContext *context,
                    const Wavelengths *wavelengths, Vec3 towards) {
-    SightQuestion question = {.context = context,
-                              .wavelengths = wavelengths,
-                              .direction = towards,
-                              .passed = spectrum_all(1)};
+    SightQuestion question = {
+        .context = context, .wavelengths = wavelengths, .passed = spectrum_all(1)};
     Ray ray = {symbol_point_start(context->scene, point), towards, 0, INFINITY};
-    return vec3_dot(towards, point->ng) > 0 && !bvh_occluded(context->bvh, ray, passes, &question);
+    return vec3_dot(towards, point->ng) > 0 && !is_stopped(&ray, &question);
 }
 
 double symbol_lit_share(const SymbolSurface *surface, const bool *is_visible,
@@ -293,12 +314,16 @@ static double polarised_at(const SymbolPoint *point, const PathContext *context,
     Polarised light;
     Hit hit;
     wavelengths_sample(0.5f, &wavelengths);
+    PlateView view = plate_view(context, &wavelengths);
     polarised_start(polariser, look.direction, &light);
-    while (bvh_intersect(context->bvh, look, 0, &hit)) {
+    while (bvh_intersect(context->bvh, look, 0, &hit) && hit.triangle != point->triangle) {
         Surface pane;
+        Plate plate;
         surface_at(scene, context->tables, &hit, wo, &wavelengths, &pane);
+        bool is_plate = plate_at(&view, &pane, &hit, look.direction, &plate);
+        if (is_plate) plate_be_pane(&plate, &pane);
         polarised_pass(&light, &pane, wo);
-        look = ray_behind(scene, look, &hit);
+        look = is_plate ? ray_from_plate(look, &plate) : ray_behind(scene, look, &hit);
     }
     TrianglePoint at = triangle_point(scene, point->triangle, point->u, point->v);
     PolarisedLight from;
