@@ -5,7 +5,7 @@
 #include "scene/point/ray_ends.h"
 #include "path/emitted.h"
 #include "path/mirror_share.h"
-#include "path/plates.h"
+#include "surface/plates.h"
 
 /* ---- solids ------------------------------------------------------------------------------ */
 

@@ -10,7 +10,7 @@
  */
 #pragma once
 #include "sunlit/sunlit_land.h"
-#include "path/plates.h"
+#include "surface/plates.h"
 #include "sunlit/sunlit_map.h"
 
 typedef struct LightSelection {

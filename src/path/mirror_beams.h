@@ -15,7 +15,7 @@
 #include "light/compact_emitters.h"
 #include "mirror/glint_map.h"
 #include "path/light_selection.h"
-#include "path/surface.h"
+#include "surface/surface.h"
 
 /* Sets of lights that are sampled in mirrors. */
 typedef enum BeamSet { BEAMS_OF_SUN, BEAMS_OF_LAMPS, BEAMS_OF_EMITTERS, BEAM_SETS } BeamSet;

@@ -10,7 +10,7 @@
  */
 #pragma once
 #include "path/path_state.h"
-#include "path/plates.h"
+#include "surface/plates.h"
 
 #define SHADOW_HITS 16 /* that a shadow ray keeps */
 

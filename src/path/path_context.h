@@ -9,10 +9,10 @@
 #include "light/light.h"
 #include "path/light_selection.h"
 #include "path/mirror_beams.h"
-#include "path/plates.h"
+#include "surface/plates.h"
 #include "path/polarised.h"
 #include "sunlit/sunlit_map.h"
-#include "path/surface.h"
+#include "surface/surface.h"
 
 /* Which estimators reach the light; all three agree in the mean (a test). */
 typedef enum PathStrategy { PATH_MIS, PATH_LIGHTS_ONLY, PATH_BSDF_ONLY } PathStrategy;

@@ -14,7 +14,7 @@
  * Threads  plain values.
  */
 #pragma once
-#include "path/surface.h"
+#include "surface/surface.h"
 
 #define POLARISED_ROWS 4
 

@@ -31,7 +31,7 @@ EXERCISES = {
          ("shaders/bsdf.h", "    MODEL(DISPLAY, display,",
           "    MODEL(DUST, dust, Dust)" + " " * 68 + "\\\n"),
          ("CMakeLists.txt", "glazing.c metallic_roughness.c", "dust.c "),
-         ("src/path/surface.c", "    } else {\n        set_metallic_roughness(site, surface);",
+         ("src/surface/surface.c", "    } else {\n        set_metallic_roughness(site, surface);",
           "    } else if (m->specular <= 0 && site->metallic <= 0 && site->alpha >= 1)"
           " {\n"
           "        bsdf_be_dust(&surface->bsdf)->grain = spectrum_all(0.3f) * "
@@ -63,7 +63,7 @@ EXERCISES = {
          ("src/scene/check/material_layers.c", '    {LAYER("KHR_materials_sheen", NULL,',
           '    {LAYER("KHR_materials_soot", NULL,\n'
           '           {"sootFactor", RULE_NUMBER, .max = 1, OF(Material, soot, 0)})},\n'),
-         ("src/path/surface.c", "    if (m->overlay) set_overlay(site, surface, model);",
+         ("src/surface/surface.c", "    if (m->overlay) set_overlay(site, surface, model);",
           "    model->base_color *= spectrum_all(1 - m->soot);\n")],
         ["test_scene_errors", "path"], ["test_scene_errors"]),
     # The width of an eye's pupil.

@@ -7,7 +7,7 @@ import sys
 
 from report import Report, read, sources
 
-MAKER = "src/path/surface.c"
+MAKER = "src/surface/surface.c"
 LIST = "shaders/bsdf.h"
 
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "path/surface_coatings.h"
+#include "surface/surface_coatings.h"
 
 #include <string.h>
 

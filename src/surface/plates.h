@@ -11,7 +11,7 @@
  */
 #pragma once
 #include "bvh/bvh.h"
-#include "path/surface.h"
+#include "surface/surface.h"
 
 /* Boxes about the parts whose material may be clear, smooth and solid. */
 typedef struct PlateBoxes {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "path/plates.h"
+#include "surface/plates.h"
 
 #include "scene/point/ray_ends.h"
 #include "shaders/facets/microfacet.h"

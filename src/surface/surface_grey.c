@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "path/surface_grey.h"
+#include "surface/surface_grey.h"
 
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"

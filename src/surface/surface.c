@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "path/surface.h"
+#include "surface/surface.h"
 
 #include "scene/point/coverage.h"
 #include "scene/point/texture_slot.h"
 #include "scene/point/ray_ends.h"
-#include "path/surface_coatings.h"
-#include "path/surface_grey.h"
+#include "surface/surface_coatings.h"
+#include "surface/surface_grey.h"
 #include "shaders/facets/index_tables.h"
 #include "shaders/facets/microfacet.h"
 #include "shaders/layers/overlay.h"
