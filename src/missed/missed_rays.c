@@ -296,10 +296,12 @@ static bool turn(MissedBeam *beam, const Surface *surface, Vec3 wo, const float 
     Vec3 wi = frame_to_world(&surface->frame, next.wi);
     if (!direct_sides_agree(surface, next.wi, wi, wo)) return false;
     bool crosses = next.wi.z * surface->local_wo.z < 0;
-    float before = beam->medium_id == NO_ID ? 1 : surface->bsdf.dielectric.ior;
+    const Dielectric *solid = surface_clear_solid(surface);
+    float index = solid ? solid->ior : 1;
+    float before = beam->medium_id == NO_ID ? 1 : index;
     note_event(beam, surface, crosses);
     /* the weight is of radiance, which a denser medium squeezes; the flux is not */
-    float after = beam->medium_id == NO_ID ? 1 : surface->bsdf.dielectric.ior;
+    float after = beam->medium_id == NO_ID ? 1 : index;
     float squeezed = crosses ? after / before : 1;
     beam->power *= next.weight * spectrum_all(squeezed * squeezed * surface->alpha);
     beam->ray = (Ray){ray_start(&surface->point, wi), vec3_normalize(wi), 0, INFINITY};

@@ -71,15 +71,15 @@ static bool is_parallel(Vec3 a, Vec3 b) {
 
 /* Is the surface a flat face of a clear smooth solid? */
 static bool is_face(const Scene *scene, const Surface *surface) {
-    return surface->bsdf.kind == BSDF_DIELECTRIC && !bsdf_scatters(&surface->bsdf) &&
-           surface->triangle < scene->opaque_count && !surface->emits &&
-           surface->bsdf.dielectric.ior > 0 && is_parallel(surface->frame.z, surface->ng);
+    const Dielectric *solid = surface_clear_solid(surface);
+    return solid && solid->ior > 0 && surface->triangle < scene->opaque_count && !surface->emits &&
+           is_parallel(surface->frame.z, surface->ng);
 }
 
 /* What a plate of that thickness does to light which meets its face. */
 static void set_pane(const PlateView *view, const Surface *face, float sideways, Plate *out) {
     const Material *m = &view->scene->materials[face->material_id];
-    SolidPlate plate = {.face = &face->bsdf.dielectric,
+    SolidPlate plate = {.face = surface_clear_solid(face),
                         .cosine = fminf(face->local_wo.z, 1),
                         .left = spectrum_all(1),
                         .sideways = sideways};
@@ -94,7 +94,7 @@ bool plate_at(const PlateView *view, const Surface *face, const Hit *hit, Vec3 w
     const Scene *scene = view->scene;
     float cosine = face->local_wo.z;
     if (!is_face(scene, face) || !(cosine > 0)) return false;
-    float index = solid_pane_index(&face->bsdf.dielectric);
+    float index = solid_pane_index(surface_clear_solid(face));
     float behind2 = 1 - (1 - cosine * cosine) / (index * index);
     if (!(behind2 > 0)) return false;
     float behind = sqrtf(behind2);
@@ -121,7 +121,7 @@ bool plate_at(const PlateView *view, const Surface *face, const Hit *hit, Vec3 w
 }
 
 void plate_be_pane(const Plate *plate, Surface *face) {
-    *bsdf_be_solid_pane(&face->bsdf) = plate->pane;
+    surface_be_thick(&plate->pane, face);
     face->plate = plate;
 }
 
@@ -172,11 +172,6 @@ bool plates_follow(PlateWay *way, Ray ray) {
 #define THINGS_MAX 64 /* on the straight line */
 #define STEPS_MAX 30  /* of Newton: they come near by squares */
 
-/* A clear smooth boundary of a solid, flat or not. */
-static bool is_clear(const Surface *surface) {
-    return surface->bsdf.kind == BSDF_DIELECTRIC && !bsdf_scatters(&surface->bsdf);
-}
-
 /* Opaque things are looked through: light that is bent may pass beside them, and what comes
  * through is tested along its own way. */
 void plate_lamp_look(const PlateView *view, Vec3 start, PlateLamp *out) {
@@ -194,7 +189,7 @@ void plate_lamp_look(const PlateView *view, Vec3 start, PlateLamp *out) {
         TrianglePoint point = triangle_point(scene, hit.triangle, hit.u, hit.v);
         at = ray_start(&point, ray.direction);
         surface_at(scene, view->tables, &hit, vec3_neg(ray.direction), view->wavelengths, &face);
-        if (!is_clear(&face)) {
+        if (!surface_clear_solid(&face)) {
             out->is_blocked |= hit.triangle < scene->opaque_count;
             continue;
         }

@@ -483,6 +483,15 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     out->local_wo = frame_to_local(&out->frame, wo);
 }
 
+const Dielectric *surface_clear_solid(const Surface *surface) {
+    bool is_clear = surface->bsdf.kind == BSDF_DIELECTRIC && !bsdf_scatters(&surface->bsdf);
+    return is_clear ? &surface->bsdf.dielectric : NULL;
+}
+
+void surface_be_thick(const SolidPane *pane, Surface *surface) {
+    *bsdf_be_solid_pane(&surface->bsdf) = *pane;
+}
+
 /* A head may be put on a surface: its rays start off that. */
 #define HEAD_OFF_M 2e-5f
 

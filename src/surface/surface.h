@@ -44,6 +44,12 @@ static inline bool surface_is_display(const Scene *scene, const Surface *surface
 void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit, Vec3 wo,
                 const Wavelengths *wavelengths, Surface *out);
 
+/* The boundary of a clear smooth solid that the surface is; NULL: it is none. */
+const Dielectric *surface_clear_solid(const Surface *surface);
+
+/* The surface becomes that thick pane. */
+void surface_be_thick(const SolidPane *pane, Surface *surface);
+
 /* A white Lambert point that faces `normal` (unit, world): a luxmeter's head. */
 void surface_white(const SurfaceTables *tables, Vec3 position, Vec3 normal, Surface *out);
 
