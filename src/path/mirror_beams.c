@@ -11,13 +11,15 @@
 #include "path/sheets.h"
 #include "shaders/facets/microfacet.h"
 
-#define LEAST_RAYS 8 /* to every mirror's triangle, and by its share of all their area: */
+#define LEAST_RAYS 8 /* to every mirror's triangle, half as many of near lights, and by its
+                        share of all their area: */
 #define RAYS_BY_AREA 25000
 #define DARK_RAYS 2      /* that do not get through, of a small mirror: it is left alone */
 #define FIRST_ROOM 1024  /* of pairs, of glints */
 #define SHEETS_PASSED 16 /* by one ray behind its mirror */
 #define GENEROSITY 0.2f  /* times the root of mirrored over other light, of one mirror */
 #define LEAST 0.0075f    /* probability where no ray came */
+#define OF_NEAR 0.5f     /* times both: searching for a near light takes twice the time */
 #define CUBES 128        /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f   /* of other light */
@@ -204,9 +206,10 @@ static double area_m2(const Scene *scene, uint32_t triangle) {
  * left alone. all_m2: area of all mirrors. */
 static void send_rays(Beams *beams, Aim aim, double all_m2) {
     double own = area_m2(beams->tools->scene, aim.triangle);
-    uint32_t rays = LEAST_RAYS + (uint32_t)(RAYS_BY_AREA * own / all_m2), sent = 0;
+    uint32_t least = beams->set == BEAMS_OF_SUN ? LEAST_RAYS : LEAST_RAYS / 2;
+    uint32_t rays = least + (uint32_t)(RAYS_BY_AREA * own / all_m2), sent = 0;
     aim.ray_m2 = own / rays;
-    for (uint32_t k = 0; k < rays && (sent || k < DARK_RAYS || rays > 2 * LEAST_RAYS); k++)
+    for (uint32_t k = 0; k < rays && (sent || k < DARK_RAYS || rays > 2 * least); k++)
         sent += send_ray(beams, &aim, sampler_start(aim.alpha > 0, (int)aim.triangle, 0, k));
 }
 
@@ -262,7 +265,7 @@ static uint32_t add_all_mirrors(const Scene *scene, const RayWork *work, MirrorP
 /* Joins the pieces in order: the result is that of a single thread. */
 static void join_pieces(const Beams *pieces, const RayWork *work, Beams *out, GlintMap *map,
                         Arena *arena) {
-    bool has_all = out->set != BEAMS_OF_SUN;
+    bool has_all = out->set != BEAMS_OF_SUN && !out->tools->is_of_frame;
     for (int p = 0; p < PIECES; p++) out->count += pieces[p].count;
     for (int p = 0; p < PIECES; p++) out->glint_count += pieces[p].glint_count;
     out->pairs = ARENA_NEW(arena, MirrorPair, out->count + (has_all ? (uint32_t)work->count : 0));
@@ -336,8 +339,9 @@ static void weigh_sides(const Beams *beams, const LightSelection *selection, Bea
         BeamSide *side = &sides[row];
         float time = sqrtf(sqrtf((float)mirrors[row / 2]));
         if (!mirrors[row / 2]) continue;
-        side->least = LEAST;
-        side->by_root = GENEROSITY / (time * sqrtf(fmaxf(selection->lx[row], LEAST_LX)));
+        float share = beams->set == BEAMS_OF_SUN ? 1 : OF_NEAR;
+        side->least = share * LEAST;
+        side->by_root = share * GENEROSITY / (time * sqrtf(fmaxf(selection->lx[row], LEAST_LX)));
     }
 }
 

@@ -4,9 +4,10 @@
  *
  * Before the first path some rays of the sun, of lamps without a surface and of compact emitters
  * are followed to every mirror, and by it to what they light. A part samples those mirrors whose
- * rays came to it. Other mirrors are left to chance; lamps, which chance never finds, are
- * sampled there, too, but rarely. Where these rays bring a place little light beside the lights
- * themselves, mirrors are sampled less often there, and count more when they are.
+ * rays came to it. Other mirrors are left to chance; readings sample lamps, which chance never
+ * finds, there, too, but rarely. A frame does without: that would take a third of its time. Where
+ * these rays bring a place little light beside the lights themselves, mirrors are sampled less
+ * often there, and count more when they are.
  *
  * Memory   from the arena. Threads: const after mirror_beams_build.
  */
@@ -50,6 +51,7 @@ typedef struct BeamTools {
     const Bvh *bvh;
     const Lights *lights;
     const SurfaceTables *tables;
+    bool is_of_frame; /* nothing stands at NO_ID but what beams of the sun showed */
 } BeamTools;
 
 /* The same for any number of threads and on every machine whose rays hit the same. */

@@ -6,7 +6,7 @@
 #include "path/mirror_share.h"
 #include "path/windows.h"
 
-#define ELSEWHERE 0.02f /* of a vertex' samples that search all mirrors for lamps */
+#define ELSEWHERE 0.02f /* of first vertices' samples that search all mirrors for lamps */
 
 /* ---- one point of a mirror --------------------------------------------------------------- */
 
@@ -230,17 +230,20 @@ static void add_near(MirrorWalk walk) {
     const Surface *surface = walk.surface;
     BeamSet set = walk.beams->set;
     NearNumbers u;
+    walk.prob = mirrored_prob(path, surface, walk.wo, set);
+    bool is_first = set == BEAMS_OF_LAMPS && surface->part_id != NO_ID && !path->bounce &&
+                    !path->context->is_of_frame;
+    if (!(walk.prob > 0) && !is_first) return;
     numbers_for_near(path, set);
     sampler_4d(path->sampler, u.search);
+    if (u.search[0] >= walk.prob && !(is_first && u.search[1] < ELSEWHERE)) return;
     sampler_4d(path->sampler, u.place);
     u.facet = sampler_2d(path->sampler);
-    walk.prob = mirrored_prob(path, surface, walk.wo, set);
-    if (walk.prob > 0 && u.search[0] < walk.prob) add_source(walk, &u);
-    if (set != BEAMS_OF_LAMPS || surface->part_id == NO_ID) return;
+    if (u.search[0] < walk.prob) add_source(walk, &u);
+    if (!is_first || u.search[1] >= ELSEWHERE) return;
     walk.prob = ELSEWHERE;
-    for (int i = 0; i < path->bounce && i < DEEP_BOUNCE; i++) walk.prob *= DEEP_SHARE;
     walk.is_elsewhere = true;
-    if (u.search[1] < walk.prob) add_source(walk, &u);
+    add_source(walk, &u);
 }
 
 /* The mirror is one more vertex: none is sampled where the path would end before it. */

@@ -237,20 +237,31 @@ void path_follow(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
 
 /* ---- contexts ---------------------------------------------------------------------------- */
 
+static PathContext context_of(const Scene *scene, const Bvh *bvh, int max_bounces, Arena *arena) {
+    return (PathContext){.scene = scene,
+                         .bvh = bvh,
+                         .max_bounces = max_bounces,
+                         .tables = surface_tables_build(scene, false, arena),
+                         .strategy = PATH_MIS};
+}
+
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                int max_bounces, Arena *arena) {
-    PathContext context = {.scene = scene,
-                           .bvh = bvh,
-                           .max_bounces = max_bounces,
-                           .tables = surface_tables_build(scene, false, arena),
-                           .plates = plate_boxes_build(scene, arena),
-                           .strategy = PATH_MIS};
+    PathContext context = context_of(scene, bvh, max_bounces, arena);
+    return path_context_relight(&context, lights, arena);
+}
+
+PathContext path_context_of_frame(const Scene *scene, const Bvh *bvh, const Lights *lights,
+                                  int max_bounces, Arena *arena) {
+    PathContext context = context_of(scene, bvh, max_bounces, arena);
+    context.is_of_frame = true;
     return path_context_relight(&context, lights, arena);
 }
 
 PathContext path_context_relight(const PathContext *before, const Lights *lights, Arena *arena) {
     PathContext context = *before;
-    const BeamTools tools = {context.scene, context.bvh, lights, context.tables};
+    const BeamTools tools = {context.scene, context.bvh, lights, context.tables,
+                             context.is_of_frame};
     context.lights = lights;
     context.guide = NULL;
     const SunlitTools sun = {context.scene, context.bvh, lights};

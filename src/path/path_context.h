@@ -27,7 +27,8 @@ typedef struct PathContext {
                                      in them are left out */
     SunlitMap sunlit;             /* without nodes: what the sun lights is left to chance */
     LightSelection selection;
-    int max_bounces; /* 0: emission only, 1: plus direct light */
+    bool is_of_frame; /* path_context_of_frame */
+    int max_bounces;  /* 0: emission only, 1: plus direct light */
     PathStrategy strategy;
     const LightGuide *guide;   /* guides wide scattering; NULL: the surfaces alone decide */
     bool without_mirrored_sun; /* the sun in the mirror of a display that the eye sees is left
