@@ -11,15 +11,16 @@
 #include "path/sheets.h"
 #include "shaders/facets/microfacet.h"
 
-#define LEAST_RAYS 8 /* to every mirror's triangle, half as many of near lights, and by its
-                        share of all their area: */
+#define LEAST_RAYS \
+    8 /* to every mirror's triangle, half as many of near lights, and by its \
+         share of all their area: */
 #define RAYS_BY_AREA 25000
 #define DARK_RAYS 2      /* that do not get through, of a small mirror: it is left alone */
 #define FIRST_ROOM 1024  /* of pairs, of glints */
 #define SHEETS_PASSED 16 /* by one ray behind its mirror */
 #define GENEROSITY 0.2f  /* times the root of mirrored over other light, of one mirror */
 #define LEAST 0.0075f    /* probability where no ray came */
-#define OF_NEAR 0.5f     /* times both: searching for a near light takes twice the time */
+#define OF_NEAR 0.25f    /* times both of near lights, whose search takes longer */
 #define CUBES 128        /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f   /* of other light */

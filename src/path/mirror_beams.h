@@ -58,6 +58,11 @@ typedef struct BeamTools {
 MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightSelection *selection,
                                Arena *arena);
 
+/* HOT. Has the side of a part mirrors at all? */
+static inline bool mirror_beams_has(const MirrorBeams *beams, int part_id, bool is_back) {
+    return part_id == NO_ID || beams->sides[2 * part_id + is_back].least > 0;
+}
+
 /* HOT. Probability of sampling a part's mirrors, in [0, 1]; is_back: as of
  * light_selection_of_side; 0: it has none. */
 float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position);

@@ -19,15 +19,20 @@ bool mirrors_are_sampled(const PathContext *context, BeamSet set) {
             lights_has(context->lights, set == BEAMS_OF_SUN ? LIGHTS_SUN : LIGHTS_PUNCTUAL));
 }
 
+float mirrored_rarity(const PathState *path) {
+    float share = 1;
+    for (int i = 0; i < path->bounce && i < DEEP_BOUNCE; i++) share *= DEEP_SHARE;
+    return share;
+}
+
 float mirrored_prob(const PathState *path, const Surface *surface, Vec3 wo, BeamSet set) {
     const PathContext *context = path->context;
     if (!mirrors_are_sampled(context, set) || path->medium_id != NO_ID ||
         path->bounce + 1 >= context->max_bounces)
         return 0;
-    float prob = mirror_beams_prob(&context->beams[set], surface->part_id,
-                                   vec3_dot(wo, surface->ng) < 0, surface->position);
-    for (int i = 0; i < path->bounce && i < DEEP_BOUNCE; i++) prob *= DEEP_SHARE;
-    return prob;
+    return mirrored_rarity(path) * mirror_beams_prob(&context->beams[set], surface->part_id,
+                                                     vec3_dot(wo, surface->ng) < 0,
+                                                     surface->position);
 }
 
 /* Did the vertex before, to which wo leads, sample the set's lights in this mirror, smooth or

@@ -15,6 +15,9 @@ bool mirror_is_plain(const Scene *scene, const Surface *mirror, Vec3 wo);
 Spectrum mirrored_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
                             const BsdfSample *next);
 
+/* How much rarer mirrors are sampled at later vertices: mirrored_prob is at most that. */
+float mirrored_rarity(const PathState *path);
+
 /* Probability with which the surface, which the path reached against wo, samples the set's
  * mirrors (mirrored.h). */
 float mirrored_prob(const PathState *path, const Surface *surface, Vec3 wo, BeamSet set);

@@ -175,10 +175,12 @@ static void add_suns(MirrorWalk walk) {
     const Surface *surface = walk.surface;
     const Lights *lights = path->context->lights;
     float u[4];
-    walk.prob = mirrored_prob(path, surface, walk.wo, BEAMS_OF_SUN);
-    if (!(walk.prob > 0)) return;
+    bool is_back = vec3_dot(walk.wo, surface->ng) < 0;
+    if (!mirror_beams_has(walk.beams, surface->part_id, is_back)) return;
     numbers_for(path, NUMBERS_MIRRORS);
     sampler_4d(path->sampler, u);
+    if (u[0] >= mirrored_rarity(path)) return; /* whatever lies in the map, which takes time */
+    walk.prob = mirrored_prob(path, surface, walk.wo, BEAMS_OF_SUN);
     if (!unit_choose(&u[0], walk.prob)) return;
     LitPoint point = {surface->position, surface->frame.z, true}; /* from any side */
     if (!lights_sample(lights, LIGHTS_SUN, point, u, &walk.sun)) return;
@@ -230,12 +232,15 @@ static void add_near(MirrorWalk walk) {
     const Surface *surface = walk.surface;
     BeamSet set = walk.beams->set;
     NearNumbers u;
-    walk.prob = mirrored_prob(path, surface, walk.wo, set);
+    bool has_own =
+        mirror_beams_has(walk.beams, surface->part_id, vec3_dot(walk.wo, surface->ng) < 0);
     bool is_first = set == BEAMS_OF_LAMPS && surface->part_id != NO_ID && !path->bounce &&
                     !path->context->is_of_frame;
-    if (!(walk.prob > 0) && !is_first) return;
+    if (!has_own && !is_first) return;
     numbers_for_near(path, set);
     sampler_4d(path->sampler, u.search);
+    if (u.search[0] >= mirrored_rarity(path)) return; /* never of first vertices */
+    walk.prob = has_own ? mirrored_prob(path, surface, walk.wo, set) : 0;
     if (u.search[0] >= walk.prob && !(is_first && u.search[1] < ELSEWHERE)) return;
     sampler_4d(path->sampler, u.place);
     u.facet = sampler_2d(path->sampler);

@@ -242,6 +242,7 @@ static PathContext context_of(const Scene *scene, const Bvh *bvh, int max_bounce
                          .bvh = bvh,
                          .max_bounces = max_bounces,
                          .tables = surface_tables_build(scene, false, arena),
+                         .plates = plate_boxes_build(scene, arena),
                          .strategy = PATH_MIS};
 }
 
