@@ -83,6 +83,7 @@ MirrorWay mirrored_way(const PathState *path, const Surface *surface, Vec3 wo,
     const Mirrors *mirrors = context->beams[BEAMS_OF_EMITTERS].mirrors;
     MirrorWay way = {.prob = 0};
     bool is_eye = !path->bounce && last->is_delta;
+    if (is_eye && !mirrors) mirrors = context->beams[BEAMS_OF_LAMPS].mirrors; /* the same ones */
     MirrorPair pair = {is_eye ? NO_ID : last->part_id, false, surface->triangle};
     if (!mirrors || !next->is_delta || !(next->wi.z > 0) || next->along != 0 ||
         (!is_eye && (last->is_delta || !(last->mirrors > 0))) || path->medium_id != NO_ID ||

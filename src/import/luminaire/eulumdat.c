@@ -64,7 +64,7 @@ static bool read_heights(LuminaireScan *in, double *largest) {
     static const char what[] = "the height of the luminous area";
     for (int i = 0; i < 4; i++) {
         double height = 0;
-        TextLine line = {0};
+        TextLine line = {.text = ""};
         if (in->line + 1 < in->text.count) line = in->text.line[in->line + 1];
         bool is_empty = !trimmed(line.text, line.text + line.length).length;
         if (is_empty ? !skip_lines(in, what, 1) : !next_number(in, what, 0, 1e6, &height))

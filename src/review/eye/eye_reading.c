@@ -417,6 +417,14 @@ static double unmet_veil(const EyePaths *paths, double age, Arena scratch) {
         most = fmax(most, images[k].veil * lamps_brightest(&lamps, paths->found[i].image, apart,
                                                            paths->found[i].is_first));
     }
+    for (int k = 0; k < count && paths->setup->scene->light_count; k++) {
+        int i = images[k].path;
+        double sr = paths->solid_angles[i];
+        if (!paths->found[i].is_first)
+            most = fmax(most, images[k].veil / sr *
+                                  lamps_point_lx(paths->setup->scene, paths->found[i].image,
+                                                 IMAGES_APART * sqrt(sr)));
+    }
     return estimate_unmet(most * paths->count, paths->count);
 }
 

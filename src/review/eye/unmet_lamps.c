@@ -74,3 +74,17 @@ double lamps_brightest(const UnmetLamps *lamps, Ray ray, double half, bool no_co
             return lamps->list[i].cd_m2;
     return 0;
 }
+
+double lamps_point_lx(const Scene *scene, Ray ray, double half) {
+    double most = 0, cos_half = cos(half);
+    for (int i = 0; i < scene->light_count; i++) {
+        const PunctualLight *light = &scene->lights[i];
+        bool is_distant = light->kind == LIGHT_DIRECTIONAL;
+        Vec3 to = is_distant ? vec3_neg(light->direction) : vec3_sub(light->position, ray.origin);
+        Lamp ball = {.middle = vec3_add(ray.origin, to), .radius = (double)punctual_radius(light)};
+        double d2 = fmax((double)vec3_dot(to, to), ball.radius * ball.radius);
+        double lx = (double)luminance_from_rgb(light->intensity) / (is_distant ? 1 : d2);
+        if (lx > most && may_be_seen(&ball, ray, half, cos_half)) most = lx;
+    }
+    return most;
+}
