@@ -21,6 +21,7 @@
 #define GENEROSITY 0.2f  /* times the root of mirrored over other light, of one mirror */
 #define LEAST 0.0075f    /* probability where no ray came */
 #define OF_NEAR 0.25f    /* times both of near lights, whose search takes longer */
+#define OF_POINTS 0.125f /* probability of points of no part, which search all for near lights */
 #define CUBES 128        /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f   /* of other light */
@@ -467,7 +468,7 @@ MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightS
 }
 
 float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position) {
-    if (part_id == NO_ID) return 1;
+    if (part_id == NO_ID) return beams->set == BEAMS_OF_SUN ? 1 : OF_POINTS;
     const BeamSide *side = &beams->sides[2 * part_id + is_back];
     GlintPlace place = {side->row, side->edge_m, position};
     if (!(side->least > 0)) return 0;
