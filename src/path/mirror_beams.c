@@ -21,8 +21,10 @@
 #define GENEROSITY 0.2f  /* times the root of mirrored over other light, of one mirror */
 #define LEAST 0.0075f    /* probability where no ray came */
 #define OF_NEAR 0.25f    /* times both of near lights, whose search takes longer */
-#define OF_POINTS 0.125f /* probability of points of no part, which search all for near lights */
-#define CUBES 128        /* along the longest edge of a part's box, and at least so large: */
+#define OF_POINTS \
+    0.03125f      /* probability of points of no part, which search all for near lights \
+                   */
+#define CUBES 128 /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f   /* of other light */
 #define ANY_SOURCE 0.15f /* of the choices, that go to all alike */
