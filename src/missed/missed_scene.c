@@ -40,7 +40,7 @@ bool missed_in_scene(const Scene *scene, const MissedRun *run, Arena *arena, Mis
         !lights_has(lights, LIGHTS_EMITTERS))
         return true;
     if (!bvh_build(scene, run->threads, NULL, run->progress, &bvh, err)) return false;
-    PathContext context = path_context_build(scene, bvh, lights, BOUNCES, arena);
+    PathContext context = path_context_of_frame(scene, bvh, lights, BOUNCES, arena);
     MissedEye *eyes = list_eyes(scene, &count, arena);
     *out = missed_light_find(&context, eyes, count, arena);
     bvh_destroy(bvh);

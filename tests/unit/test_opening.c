@@ -56,6 +56,27 @@ TEST(far_away_it_is_the_measured_intensity) {
     }
 }
 
+/* Points that are chosen for no receiver give each the same light. */
+TEST(points_for_nobody_give_what_points_for_a_receiver_give) {
+    uint32_t random = 11;
+    for (int i = 0; i < OPENING_COUNT; i++) {
+        const LuminousOpening *opening = &OPENINGS[i];
+        Vec3 d = direction_of(&random), from = vec3_scale(d, 1.5f);
+        Mean wanted = sampled(opening, from, vec3_neg(d)), mean = {0};
+        for (int k = 0; k < 4 * SAMPLES; k++) {
+            float u[6];
+            random3(&random, u);
+            random3(&random, u + 3);
+            OpeningPoint point = opening_point(opening, u);
+            Vec3 away = vec3_sub(from, point.at), to = vec3_normalize(away);
+            double share = (double)opening_share(opening, &point, from);
+            mean_add(&mean, share * intensity(to) * fmax((double)vec3_dot(to, d), 0) /
+                                (double)vec3_dot(away, away));
+        }
+        assert_close(mean.sum / (double)mean.count, wanted.sum / (double)wanted.count, 1e-2);
+    }
+}
+
 /* A point of the unit body's surface on a grid, with its vector area there. */
 static bool grid_point(OpeningShape shape, int part, const double g[2], double size, Vec3 *at,
                        Vec3 *area) {
