@@ -416,7 +416,7 @@ static void send_piece(void *user, int item, int worker) {
     }
 }
 
-static bool is_smooth_material(const Scene *scene, const Material *m) {
+bool missed_is_smooth(const Scene *scene, const Material *m) {
     bool sends = m->metallic > 0 || m->specular > 0 || m->transmission > 0;
     if (m->unlit || (m->display_id != NO_ID && !mirrors_can_be(scene, m))) return false;
     return mirrors_can_be(scene, m) || (sends && is_smooth(m->roughness * m->roughness)) ||
@@ -429,7 +429,7 @@ static void list_targets(MissedWork *work, Arena *arena) {
     Target *targets = ARENA_NEW(arena, Target, scene->part_count + 1);
     double all = 0;
     for (int i = 0; i < scene->part_count; i++) {
-        if (!is_smooth_material(scene, &scene->materials[scene->parts[i].material_id])) continue;
+        if (!missed_is_smooth(scene, &scene->materials[scene->parts[i].material_id])) continue;
         Target *target = &targets[work->target_count];
         *target = (Target){.part_id = i, .area = area_list_of_part(scene, i, arena)};
         work->target_count += area_list_m2(&target->area) > 0;

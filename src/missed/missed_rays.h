@@ -52,3 +52,6 @@ AreaList area_list_of_display(const Scene *scene, int display_id, Arena *arena);
 
 MissedFinds missed_rays_send(const PathContext *context, const MissedEye *eyes, int eye_count,
                              Arena *arena);
+
+/* Does the material send light on by a smooth boundary, as a mirror or a solid does? */
+bool missed_is_smooth(const Scene *scene, const Material *m);

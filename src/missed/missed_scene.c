@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "missed/missed_scene.h"
 
+#include "missed/missed_rays.h"
 #include "path/path.h"
 
 #define BOUNCES 64
@@ -29,18 +30,26 @@ static MissedEye *list_eyes(const Scene *scene, int *count, Arena *arena) {
     return eyes;
 }
 
+/* Else there is nothing to miss, and surfaces' tables and the ray tracer need not be built. */
+static bool has_smooth_parts(const Scene *scene) {
+    for (int i = 0; i < scene->part_count; i++)
+        if (missed_is_smooth(scene, &scene->materials[scene->parts[i].material_id])) return true;
+    return false;
+}
+
 bool missed_in_scene(const Scene *scene, const MissedRun *run, Arena *arena, MissedLight *out,
                      Error *err) {
     Lights *lights;
     Bvh *bvh;
     int count;
     *out = (MissedLight){.count = 0};
+    if (!has_smooth_parts(scene)) return true;
     if (!lights_build(scene, arena, &lights, err)) return false;
     if (!lights_has(lights, LIGHTS_SUN) && !lights_has(lights, LIGHTS_PUNCTUAL) &&
         !lights_has(lights, LIGHTS_EMITTERS))
         return true;
     if (!bvh_build(scene, run->threads, NULL, run->progress, &bvh, err)) return false;
-    PathContext context = path_context_of_frame(scene, bvh, lights, BOUNCES, arena);
+    PathContext context = path_context_sketch(scene, bvh, lights, BOUNCES, arena);
     MissedEye *eyes = list_eyes(scene, &count, arena);
     *out = missed_light_find(&context, eyes, count, arena);
     bvh_destroy(bvh);

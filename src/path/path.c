@@ -237,24 +237,32 @@ void path_follow(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
 
 /* ---- contexts ---------------------------------------------------------------------------- */
 
-static PathContext context_of(const Scene *scene, const Bvh *bvh, int max_bounces, Arena *arena) {
+static PathContext context_of(const Scene *scene, const Bvh *bvh, int max_bounces,
+                              SurfaceDetail detail, Arena *arena) {
     return (PathContext){.scene = scene,
                          .bvh = bvh,
                          .max_bounces = max_bounces,
-                         .tables = surface_tables_build(scene, false, arena),
+                         .tables = surface_tables_build(scene, detail, arena),
                          .plates = plate_boxes_build(scene, arena),
                          .strategy = PATH_MIS};
 }
 
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                int max_bounces, Arena *arena) {
-    PathContext context = context_of(scene, bvh, max_bounces, arena);
+    PathContext context = context_of(scene, bvh, max_bounces, SURFACE_PLAIN, arena);
     return path_context_relight(&context, lights, arena);
 }
 
 PathContext path_context_of_frame(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                   int max_bounces, Arena *arena) {
-    PathContext context = context_of(scene, bvh, max_bounces, arena);
+    PathContext context = context_of(scene, bvh, max_bounces, SURFACE_PLAIN, arena);
+    context.is_of_frame = true;
+    return path_context_relight(&context, lights, arena);
+}
+
+PathContext path_context_sketch(const Scene *scene, const Bvh *bvh, const Lights *lights,
+                                int max_bounces, Arena *arena) {
+    PathContext context = context_of(scene, bvh, max_bounces, SURFACE_SKETCH, arena);
     context.is_of_frame = true;
     return path_context_relight(&context, lights, arena);
 }

@@ -20,6 +20,11 @@ PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights 
 PathContext path_context_of_frame(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                   int max_bounces, Arena *arena);
 
+/* Likewise for an estimate, built in a moment: rough solids without their tables (SURFACE_SKETCH).
+ */
+PathContext path_context_sketch(const Scene *scene, const Bvh *bvh, const Lights *lights,
+                                int max_bounces, Arena *arena);
+
 /* The same scene under other lights; what surfaces need is shared with `before`. */
 PathContext path_context_relight(const PathContext *before, const Lights *lights, Arena *arena);
 

@@ -246,7 +246,8 @@ bool render_prepare(const Scene *scene, const SceneCamera *camera, const RenderO
     if (options->no_mirrors) setup.context.beams[BEAMS_OF_SUN].mirrors = NULL;
     setup.camera = camera_from_scene(camera, options->width, options->height);
     setup.context.eye = place_eye(options->eye, &setup.camera, arena);
-    if (setup.context.eye) setup.context.tables = surface_tables_build(scene, true, arena);
+    if (setup.context.eye)
+        setup.context.tables = surface_tables_build(scene, SURFACE_POLARISED, arena);
     setup.build_seconds = monotonic_seconds() - begun_s;
     setup.build_peak_bytes = machine_peak_bytes();
     if (!options->no_guiding && !find_field(&setup, options, arena, err)) {

@@ -62,6 +62,21 @@ static const SolidEnergy *energy_of(const Material *m, float ior, bool has_facet
                : energy;
 }
 
+static bool are_brushed_alike(const Brushing *a, const Brushing *b) {
+    if (!a || !b) return a == b;
+    return a->strength == b->strength &&
+           (a->texture.texture_id == NO_ID) == (b->texture.texture_id == NO_ID);
+}
+
+/* All that a solid's tables depend on. */
+static bool share_solid_tables(const Material *a, const Material *b) {
+    return is_rough_solid(a) == is_rough_solid(b) && a->ior == b->ior && a->index == b->index &&
+           a->roughness == b->roughness && a->coating == b->coating && a->film == b->film &&
+           (a->metallic_roughness_texture.texture_id == NO_ID) ==
+               (b->metallic_roughness_texture.texture_id == NO_ID) &&
+           are_brushed_alike(a->brushing, b->brushing);
+}
+
 static SolidTables solid_tables(const Material *m, Arena *arena) {
     float low = m->index ? m->index->value[0] : m->ior, high = low;
     if (!is_rough_solid(m)) return (SolidTables){NULL, NULL};
@@ -85,7 +100,7 @@ static const CoatTable *coat_on(const Scene *scene, int material_id, const Surfa
     return coat_table_build(tables->of_material[material_id], tables->of_coat, arena);
 }
 
-const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised, Arena *arena) {
+const SurfaceTables *surface_tables_build(const Scene *scene, SurfaceDetail detail, Arena *arena) {
     SurfaceTables *tables = ARENA_NEW(arena, SurfaceTables, 1);
     tables->of_material = ARENA_NEW(arena, const EnergyTable *, scene->material_count + 1);
     tables->on_material = ARENA_NEW(arena, const CoatTable *, scene->material_count + 1);
@@ -93,7 +108,7 @@ const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised,
     tables->of_coat = &common_energy_table;
     tables->solids = solids;
     tables->is_grey = surface_grey_build(scene, arena);
-    tables->coatings = surface_coatings_build(scene, is_polarised, arena);
+    tables->coatings = surface_coatings_build(scene, detail == SURFACE_POLARISED, arena);
     for (int i = 0; i < scene->material_count; i++) {
         float ior = scene->materials[i].ior;
         const EnergyTable *table = NULL;
@@ -101,7 +116,11 @@ const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised,
             if (scene->materials[j].ior == ior) table = tables->of_material[j];
         tables->of_material[i] = table ? table : energy_table_of(ior, arena);
         tables->on_material[i] = coat_on(scene, i, tables, arena);
-        solids[i] = solid_tables(&scene->materials[i], arena);
+        if (detail == SURFACE_SKETCH) continue;
+        int same = 0;
+        while (same < i && !share_solid_tables(&scene->materials[same], &scene->materials[i]))
+            same++;
+        solids[i] = same < i ? solids[same] : solid_tables(&scene->materials[i], arena);
     }
     return tables;
 }

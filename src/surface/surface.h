@@ -13,9 +13,14 @@
 /* Energy tables of the scene's indices of refraction. */
 typedef struct SurfaceTables SurfaceTables;
 
-/* is_polarised: with the tables of coatings and metals that polarised light needs. Everything
- * comes from the arena. */
-const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised, Arena *arena);
+typedef enum SurfaceDetail {
+    SURFACE_PLAIN,
+    SURFACE_POLARISED, /* with the tables of coatings and metals that polarised light needs */
+    SURFACE_SKETCH     /* rough solids lose what turns among facets more than once: no tables */
+} SurfaceDetail;
+
+/* Everything comes from the arena. */
+const SurfaceTables *surface_tables_build(const Scene *scene, SurfaceDetail detail, Arena *arena);
 
 struct Plate;
 

@@ -206,7 +206,7 @@ static void prepare_suns(Brute *b, Arena *arena) {
     set_levels(b, 0);
     if (!lights_build(b->setup.scene, arena, &lights, &err)) stop(&err);
     b->by_sun = path_context_build(b->setup.scene, b->setup.bvh, lights, SETUP_BOUNCES, arena);
-    b->by_sun.beams = (MirrorBeams){0};
+    memset(b->by_sun.beams, 0, sizeof b->by_sun.beams);
 }
 
 /* Readings of the same sun with its own spectrum and with a black body's. */
