@@ -9,21 +9,8 @@
 
 static bool is_compact(const Scene *scene, const Part *part) {
     const Material *m = &scene->materials[part->material_id];
-    Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
-    if (!m->is_emitter || m->display_id != NO_ID) return false;
-    for (uint32_t i = 0; i < 3 * part->triangle_count; i++) {
-        Vec3 p = scene_corner(scene, part->first_triangle + i / 3, (int)(i % 3));
-        low = vec3(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
-        high = vec3(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
-    }
-    Vec3 size = vec3_sub(high, low);
-    return fmaxf(fmaxf(size.x, size.y), size.z) <= LONGEST_M;
-}
-
-static double area_m2(const Scene *scene, uint32_t triangle) {
-    Vec3 p[3];
-    for (int i = 0; i < 3; i++) p[i] = scene_corner(scene, triangle, i);
-    return 0.5 * (double)vec3_length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
+    return m->is_emitter && m->display_id == NO_ID &&
+           scene_part_longest_m(scene, part) <= LONGEST_M;
 }
 
 CompactEmitters compact_emitters_build(const Scene *scene, Arena *arena) {
@@ -37,7 +24,7 @@ CompactEmitters compact_emitters_build(const Scene *scene, Arena *arena) {
         float *share_to = ARENA_NEW(arena, float, part->triangle_count);
         double area = 0;
         for (uint32_t i = 0; i < part->triangle_count; i++) {
-            area += area_m2(scene, part->first_triangle + i);
+            area += scene_triangle_m2(scene, part->first_triangle + i);
             share_to[i] = (float)area;
         }
         if (!(area > 0)) continue;

@@ -109,13 +109,6 @@ static double sum_squares(const EmissionReader *reader, const PointList *at, int
     return sum_emissive(reader, at, points);
 }
 
-static double triangle_area(const Scene *scene, uint32_t triangle) {
-    Vec3 a = scene_corner(scene, triangle, 0);
-    Vec3 cross = vec3_cross(vec3_sub(scene_corner(scene, triangle, 1), a),
-                            vec3_sub(scene_corner(scene, triangle, 2), a));
-    return 0.5 * (double)vec3_length(cross);
-}
-
 /* ---- cells ------------------------------------------------------------------------------- */
 
 /* Texture coordinates of a triangle's point are linear in its barycentric weights. */
@@ -210,14 +203,14 @@ static void cut_part(const Scene *scene, int part_id, Emitters *emitters) {
     double cells = is_picture ? CELLS_OF_PICTURE : is_display ? CELLS_OF_DISPLAY : CELLS_OF_PLAIN;
     double total = 0;
     for (uint32_t i = 0; i < part->triangle_count; i++)
-        total += triangle_area(scene, part->first_triangle + i);
+        total += scene_triangle_m2(scene, part->first_triangle + i);
     for (uint32_t i = 0; i < part->triangle_count; i++) {
         uint32_t triangle = part->first_triangle + i;
-        double share = total > 0 ? triangle_area(scene, triangle) / total : 0;
+        double share = total > 0 ? scene_triangle_m2(scene, triangle) / total : 0;
         int side = (int)fmin(SIDE_MAX, fmax(1, sqrt(cells * share)));
         emitters->emitters[emitters->first_of_part[part_id] + (int)i] =
             (Emitter){triangle, emitters->cell_count, side,
-                      (float)(triangle_area(scene, triangle) / ((double)side * side))};
+                      (float)(scene_triangle_m2(scene, triangle) / ((double)side * side))};
         emitters->cell_count += (uint32_t)(side * side);
     }
 }
@@ -232,7 +225,7 @@ static void read_part(const Scene *scene, int part_id, const PointList *lattice,
     double sum = 0, total = 0;
     for (uint32_t t = 0; t < part->triangle_count; t++) {
         const Emitter *e = &first[t];
-        double area = triangle_area(scene, e->triangle) / ((double)e->side * e->side);
+        double area = scene_triangle_m2(scene, e->triangle) / ((double)e->side * e->side);
         read_emitter(&reader, e, weight + e->first_cell);
         for (int c = 0; c < e->side * e->side; c++) {
             sum += weight[e->first_cell + (uint32_t)c] * area;
@@ -242,7 +235,7 @@ static void read_part(const Scene *scene, int part_id, const PointList *lattice,
     double floor = FLOOR_SHARE * (sum > 0 ? sum / total : 1); /* light where no point fell */
     for (uint32_t t = 0; t < part->triangle_count; t++) {
         const Emitter *e = &first[t];
-        double area = triangle_area(scene, e->triangle) / ((double)e->side * e->side);
+        double area = scene_triangle_m2(scene, e->triangle) / ((double)e->side * e->side);
         for (int c = 0; c < e->side * e->side; c++) {
             double *w = &weight[e->first_cell + (uint32_t)c];
             *w = (*w + floor) * area * (both_sides ? 2 : 1);

@@ -200,16 +200,10 @@ static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler) {
     return true;
 }
 
-static double area_m2(const Scene *scene, uint32_t triangle) {
-    Vec3 p[3];
-    for (int i = 0; i < 3; i++) p[i] = scene_corner(scene, triangle, i);
-    return 0.5 * (double)vec3_length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
-}
-
 /* Sends more rays to large triangles; a small one that is dark at two well spread places is
  * left alone. all_m2: area of all mirrors. */
 static void send_rays(Beams *beams, Aim aim, double all_m2) {
-    double own = area_m2(beams->tools->scene, aim.triangle);
+    double own = scene_triangle_m2(beams->tools->scene, aim.triangle);
     uint32_t least = beams->set == BEAMS_OF_SUN ? LEAST_RAYS : LEAST_RAYS / 2;
     uint32_t rays = least + (uint32_t)(RAYS_BY_AREA * own / all_m2), sent = 0;
     aim.ray_m2 = own / rays;
@@ -234,7 +228,7 @@ static Aim *list_aims(const Scene *scene, int *count, double *all_m2, Arena *are
     for (uint32_t i = 0; i < scene->triangle_count; i++) {
         int id = scene_part(scene, i)->material_id;
         float alpha = mirrors_rough_alpha(&scene->materials[id]);
-        if (is_smooth_one[id] || alpha > 0) *all_m2 += area_m2(scene, i);
+        if (is_smooth_one[id] || alpha > 0) *all_m2 += scene_triangle_m2(scene, i);
         if (is_smooth_one[id]) aims[(*count)++] = (Aim){i, 0, 0};
         if (alpha > 0) aims[(*count)++] = (Aim){i, alpha, 0};
     }
@@ -261,7 +255,7 @@ static void send_piece(void *user, int item, int worker) {
 static uint32_t add_all_mirrors(const Scene *scene, const RayWork *work, MirrorPair *pairs) {
     uint32_t count = 0;
     for (int i = 0; i < work->count; i++)
-        if (!(work->aims[i].alpha > 0) && area_m2(scene, work->aims[i].triangle) > 0)
+        if (!(work->aims[i].alpha > 0) && scene_triangle_m2(scene, work->aims[i].triangle) > 0)
             pairs[count++] = (MirrorPair){NO_ID, false, work->aims[i].triangle};
     return count;
 }
@@ -305,24 +299,12 @@ static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena) {
     arena_release(&scratch);
 }
 
-/* The longest edge of the box about a part. */
-static float longest_edge(const Scene *scene, const Part *part) {
-    Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
-    for (uint32_t i = 0; i < 3 * part->triangle_count; i++) {
-        Vec3 p = scene_corner(scene, part->first_triangle + i / 3, (int)(i % 3));
-        low = vec3(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
-        high = vec3(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
-    }
-    Vec3 size = vec3_sub(high, low);
-    return fmaxf(fmaxf(size.x, size.y), size.z);
-}
-
 /* The two sides of a part that lets light through share a row: it is lit from both. */
 static void measure_sides(const Scene *scene, BeamSide *sides) {
     for (int id = 0; id < scene->part_count; id++) {
         const Part *part = &scene->parts[id];
         bool is_sheet = material_sends_through(&scene->materials[part->material_id]);
-        float edge = fmaxf(longest_edge(scene, part) / CUBES, LEAST_EDGE_M);
+        float edge = fmaxf(scene_part_longest_m(scene, part) / CUBES, LEAST_EDGE_M);
         for (int k = 0; k < 2; k++)
             sides[2 * id + k] =
                 (BeamSide){.row = (uint32_t)(2 * id + (is_sheet ? 0 : k)), .edge_m = edge};

@@ -413,6 +413,32 @@ static inline Vec3 scene_corner(const Scene *scene, uint32_t triangle, int corne
     return scene->positions[scene->triangles[triangle].vertex[corner]];
 }
 
+static inline double scene_triangle_m2(const Scene *scene, uint32_t triangle) {
+    Vec3 a = scene_corner(scene, triangle, 0);
+    Vec3 twice = vec3_cross(vec3_sub(scene_corner(scene, triangle, 1), a),
+                            vec3_sub(scene_corner(scene, triangle, 2), a));
+    return 0.5 * (double)vec3_length(twice);
+}
+
+/* The box about a part. */
+static inline void scene_part_box(const Scene *scene, const Part *part, Vec3 *low, Vec3 *high) {
+    *low = vec3(INFINITY, INFINITY, INFINITY);
+    *high = vec3_neg(*low);
+    for (uint32_t i = 0; i < 3 * part->triangle_count; i++) {
+        Vec3 p = scene_corner(scene, part->first_triangle + i / 3, (int)(i % 3));
+        *low = vec3(fminf(low->x, p.x), fminf(low->y, p.y), fminf(low->z, p.z));
+        *high = vec3(fmaxf(high->x, p.x), fmaxf(high->y, p.y), fmaxf(high->z, p.z));
+    }
+}
+
+/* The longest edge of that box, m. */
+static inline float scene_part_longest_m(const Scene *scene, const Part *part) {
+    Vec3 low, high;
+    scene_part_box(scene, part, &low, &high);
+    Vec3 size = vec3_sub(high, low);
+    return fmaxf(fmaxf(size.x, size.y), size.z);
+}
+
 static inline const Part *scene_part(const Scene *scene, uint32_t triangle) {
     return &scene->parts[scene->triangles[triangle].part_id];
 }

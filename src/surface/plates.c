@@ -21,15 +21,9 @@ PlateBoxes plate_boxes_build(const Scene *scene, Arena *arena) {
     boxes.box = arena_alloc(arena, sizeof *boxes.box, _Alignof(Vec3), (size_t)scene->part_count);
     for (int id = 0; id < scene->part_count; id++) {
         const Part *part = &scene->parts[id];
-        Vec3 *low = boxes.box[boxes.count], *high = low + 1;
+        Vec3 *box = boxes.box[boxes.count];
         if (!part->triangle_count || !may_be_plate(&scene->materials[part->material_id])) continue;
-        *low = vec3(INFINITY, INFINITY, INFINITY);
-        *high = vec3_neg(*low);
-        for (uint32_t i = 0; i < 3 * part->triangle_count; i++) {
-            Vec3 p = scene_corner(scene, part->first_triangle + i / 3, (int)(i % 3));
-            *low = vec3(fminf(low->x, p.x), fminf(low->y, p.y), fminf(low->z, p.z));
-            *high = vec3(fmaxf(high->x, p.x), fmaxf(high->y, p.y), fmaxf(high->z, p.z));
-        }
+        scene_part_box(scene, part, &box[0], &box[1]);
         boxes.count++;
     }
     return boxes;

@@ -336,13 +336,6 @@ static void set_outline(PaneImage *image, Arena *arena) {
 
 /* ---- all of them ------------------------------------------------------------------------- */
 
-static double area_of(const Scene *scene, uint32_t triangle) {
-    Vec3 a = scene_corner(scene, triangle, 0);
-    Vec3 e1 = vec3_sub(scene_corner(scene, triangle, 1), a);
-    Vec3 e2 = vec3_sub(scene_corner(scene, triangle, 2), a);
-    return 0.5 * (double)vec3_length(vec3_cross(e1, e2));
-}
-
 static int side_of(const Part *part) {
     int each = CELLS / (int)part->triangle_count, side = 1;
     while (side < SIDE_MOST && (side + 1) * (side + 1) <= each) side++;
@@ -388,10 +381,11 @@ static void find_one(void *user, int item, int worker) {
                            .covered = covered,
                            .hint = pane->first_triangle};
     for (uint32_t t = 0; t < part->triangle_count; t++)
-        area += area_of(scene, part->first_triangle + t);
+        area += scene_triangle_m2(scene, part->first_triangle + t);
     for (uint32_t t = 0; t < part->triangle_count; t++) {
         lattice.triangle = part->first_triangle + t;
-        lattice.area = area_of(scene, lattice.triangle) / area / (lattice.side * lattice.side);
+        lattice.area =
+            scene_triangle_m2(scene, lattice.triangle) / area / (lattice.side * lattice.side);
         add_triangle(&lattice, image);
     }
     set_covered_by(scene, covered, image);

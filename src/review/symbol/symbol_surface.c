@@ -16,13 +16,6 @@ static const TextureSlot *content_slot(const Scene *scene, int display_id) {
     return &scene->displays[display_id].content;
 }
 
-static double world_area(const Scene *scene, uint32_t triangle) {
-    Vec3 a = scene_corner(scene, triangle, 0);
-    Vec3 cross = vec3_cross(vec3_sub(scene_corner(scene, triangle, 1), a),
-                            vec3_sub(scene_corner(scene, triangle, 2), a));
-    return 0.5 * (double)vec3_length(cross);
-}
-
 /* False: all of its corners show points of one line. */
 static bool set_up(const Scene *scene, const TextureSlot *slot, uint32_t triangle,
                    SymbolTriangle *out) {
@@ -36,7 +29,7 @@ static bool set_up(const Scene *scene, const TextureSlot *slot, uint32_t triangl
     *out = (SymbolTriangle){triangle,
                             {(double)a.x, (double)a.y},
                             {{c_v / det, -c_u / det}, {-b_v / det, b_u / det}},
-                            world_area(scene, triangle) / (0.5 * fabs(det))};
+                            scene_triangle_m2(scene, triangle) / (0.5 * fabs(det))};
     return true;
 }
 
