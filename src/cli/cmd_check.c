@@ -12,8 +12,7 @@
 #include "cli/options/scene_warnings.h"
 #include "cli/options/missed_answer.h"
 #include "cli/options/scene_options.h"
-#include "missed/missed_scene.h"
-#include "missed/missed_words.h"
+#include "missed/missed.h"
 #include "scene/check/display_frame.h"
 #include "scene/load/scene_load.h"
 #include "spectrum/photometry.h"
@@ -374,13 +373,9 @@ static bool find_missed(const Scene *scene, const MissedRun *run, Arena *arena, 
     *missed = (MissedLight){.count = 0};
     if (problems->error_count) return true;
     if (!missed_in_scene(scene, run, arena, missed, err)) return false;
-    for (int i = 0; i < missed->count && i < MISSED_LINES; i++)
-        problems_add(problems, SEVERITY_WARNING, file, "", "%s",
-                     missed_pair_words(scene, missed, i, arena));
-    if (missed->count > MISSED_LINES)
-        problems_add(problems, SEVERITY_WARNING, file, "",
-                     "and %d more lights by mirrors or through solids that are not followed",
-                     missed->count - MISSED_LINES);
+    const char *line;
+    for (int i = 0; (line = missed_line(scene, missed, i, arena)); i++)
+        problems_add(problems, SEVERITY_WARNING, file, "", "%s", line);
     return true;
 }
 

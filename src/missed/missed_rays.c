@@ -3,11 +3,11 @@
 
 #include <math.h>
 
-#include "base/mathf.h"
 #include "base/parallel.h"
-#include "missed/missed_eye.h"
+#include "base/units.h"
 #include "mirror/mirrors.h"
 #include "path/direct.h"
+#include "path/mirror_share.h"
 #include "scene/point/ray_ends.h"
 #include "shaders/facets/microfacet.h"
 
@@ -16,116 +16,78 @@
 #define RAYS_BY_AREA 16384
 #define SHEETS_PASSED 16
 #define DIM 1e-3f                      /* of a ray's light at its start: less is not followed */
-#define PARALLEL 1e-3f                 /* sine of the angle between a plate's faces, at most */
-#define PIECES 64                      /* of the rays; the same for any number of threads */
+#define PIECES 64                      /* of the rays */
 #define WORKER_BYTES ((size_t)1 << 30) /* address space */
 #define FIRST_ROOM 256
 #define SEED 0x6d697373u
 
 /* ---- areas ------------------------------------------------------------------------------- */
 
-static void add_area(const Scene *scene, AreaList *list, uint32_t triangle) {
-    Vec3 a = scene_corner(scene, triangle, 0);
-    Vec3 normal = vec3_cross(vec3_sub(scene_corner(scene, triangle, 1), a),
-                             vec3_sub(scene_corner(scene, triangle, 2), a));
-    double before = area_list_m2(list);
-    list->triangle[list->count] = triangle;
-    list->until[list->count++] = before + 0.5 * (double)vec3_length(normal);
+const double *areas_measure(const Scene *scene, Arena *arena) {
+    double *m2 = ARENA_NEW(arena, double, scene->triangle_count + 1);
+    for (int id = 0; id < scene->part_count; id++) {
+        const Part *part = &scene->parts[id];
+        double sum = 0;
+        for (uint32_t i = 0; i < part->triangle_count; i++)
+            m2[part->first_triangle + i] = sum +=
+                scene_triangle_m2(scene, part->first_triangle + i);
+    }
+    return m2;
 }
 
-static AreaList area_list_start(size_t room, Arena *arena) {
-    return (AreaList){ARENA_NEW(arena, uint32_t, room), ARENA_NEW(arena, double, room), 0};
-}
-
-static AreaList area_list_of_part(const Scene *scene, int part_id, Arena *arena) {
+Hit areas_point(const Scene *scene, const double *areas, int part_id, double m2, Vec2 at) {
     const Part *part = &scene->parts[part_id];
-    AreaList list = area_list_start(part->triangle_count + 1, arena);
-    for (uint32_t i = 0; i < part->triangle_count; i++)
-        add_area(scene, &list, part->first_triangle + i);
-    return list;
-}
-
-static int display_of(const Scene *scene, uint32_t triangle) {
-    return scene->materials[scene_part(scene, triangle)->material_id].display_id;
-}
-
-AreaList area_list_of_display(const Scene *scene, int display_id, Arena *arena) {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < scene->triangle_count; i++)
-        count += display_of(scene, i) == display_id;
-    AreaList list = area_list_start(count + 1, arena);
-    for (uint32_t i = 0; i < scene->triangle_count; i++)
-        if (display_of(scene, i) == display_id) add_area(scene, &list, i);
-    return list;
-}
-
-uint32_t area_list_at(const AreaList *list, double m2) {
-    int low = 0, high = list->count - 1;
+    uint32_t low = part->first_triangle, high = low + part->triangle_count - 1;
     while (low < high) {
-        int middle = (low + high) / 2;
-        if (list->until[middle] > m2) high = middle;
+        uint32_t middle = low + (high - low) / 2;
+        if (areas[middle] > m2) high = middle;
         else low = middle + 1;
     }
-    return list->triangle[low];
+    if (at.x + at.y > 1) at = (Vec2){1 - at.x, 1 - at.y};
+    return (Hit){0, at.x, at.y, low};
 }
 
 /* ---- what all rays share, and one ray ---------------------------------------------------- */
 
-typedef struct EyeTiles {
-    const MissedEye *eye;
-    int first_tile;
-    double m2; /* of a display */
-} EyeTiles;
-
-/* A part with smooth surfaces, to which so many rays go. */
-typedef struct Target {
-    int part_id;
-    AreaList area;
-    uint32_t rays, before; /* before: to the targets in front of it */
-} Target;
+/* Finds of one worker. */
+typedef struct FindList {
+    MissedFind *list;
+    uint32_t count, room;
+    Arena arena;
+} FindList;
 
 typedef struct MissedWork {
     const PathContext *context;
     const Wavelengths *wavelengths; /* of all rays: what they bring is an estimate */
     const EyeTiles *eyes;
     int eye_count;
-    const double *part_m2;
-    const Target *targets;
-    int target_count;
-    uint32_t rays;
-    MissedFinds *pieces;
-    uint32_t *rooms;
-    Arena *arenas; /* one a worker */
+    const double *areas;
+    double smooth_m2; /* of the parts with smooth surfaces, to which rays go */
+    int smooth_count;
+    FindList *lists; /* one a worker */
 } MissedWork;
 
 typedef struct MissedBeam {
     const MissedWork *work;
-    MissedFinds *finds;
-    uint32_t *room;
-    Arena *arena;
+    FindList *finds;
     Ray ray;
     Spectrum power; /* of all wavelengths, W m^-2 sr^-1 nm^-1 times m^2 sr: becomes lm */
     float start;    /* the brightest lane at the start */
     float length;   /* m, from the light on */
     int medium_id;
-    bool is_plate; /* in a solid that it came into by a flat face, without reflections since; */
-    Vec3 face;     /* that face's normal */
-    int events;
+    bool is_scattered;
     LightChain chain;
-    MissedFind find; /* whose light, by which parts */
+    MissedWay way;
 } MissedBeam;
 
-static void add_find(MissedBeam *beam, int tile, float light) {
-    MissedFinds *finds = beam->finds;
+static void add_find(const MissedBeam *beam, int tile, float light) {
+    FindList *to = beam->finds;
     if (!(light > 0) || !isfinite(light)) return;
-    if (finds->count == *beam->room) {
-        *beam->room = *beam->room ? 2 * *beam->room : FIRST_ROOM;
-        finds->list = ARENA_GROW(beam->arena, MissedFind, finds->list, finds->count, *beam->room);
+    if (to->count == to->room) {
+        to->room = to->room ? 2 * to->room : FIRST_ROOM;
+        to->list = ARENA_GROW(&to->arena, MissedFind, to->list, to->count, to->room);
     }
-    MissedFind *find = &finds->list[finds->count++];
-    *find = beam->find;
-    find->tile = tile;
-    find->light = light;
+    to->list[to->count++] = (MissedFind){beam->way, tile, light};
 }
 
 /* Share of the light that goes along the ray to its end. */
@@ -148,13 +110,58 @@ static float luminous(const MissedWork *work, Spectrum power) {
     return xyz[1];
 }
 
+/* ---- where a camera's picture shows a place ---------------------------------------------- */
+
+/* The picture's area is A, in the units of half_width; a solid angle dw at the camera is dA of
+ * it. A piece dS of a surface at the distance r fills dw = dS cos / r^2, and has the luminance
+ * f lm / dS: its share of the mean over A is f lm cos (dA / dw) / (A r^2). */
+
+/* dA / dw, and the place, of a direction in the camera's axes. False: out of view. */
+static bool place_of_direction(const Camera *camera, Vec3 d, Vec2 *place, float *density) {
+    if (!(d.z < 0)) return false;
+    if (!camera->fisheye) {
+        *place = (Vec2){d.x / -d.z, d.y / -d.z};
+        *density = 1 / (-d.z * d.z * d.z);
+        return true;
+    }
+    float angle = acosf(fminf(-d.z, 1)), sine = fmaxf(sinf(angle), 1e-6f);
+    bool is_equisolid = camera->fisheye == FISHEYE_EQUISOLID;
+    float r = is_equisolid ? sqrtf(1 + d.z) : 2 * INV_PI_F * angle;
+    *place = (Vec2){r * d.x / sine, r * d.y / sine};
+    *density = is_equisolid ? 0.5f : 2 * INV_PI_F * r / sine;
+    return true;
+}
+
+bool eye_place_of(const Camera *camera, Vec3 position, EyePlace *out) {
+    const Transform *world = &camera->world_from_camera;
+    Vec3 away = vec3_sub(position, world->origin);
+    Vec3 local = vec3(vec3_dot(away, world->x), vec3_dot(away, world->y), vec3_dot(away, world->z));
+    float distance = vec3_length(away), density = 1;
+    Vec2 place = {local.x, local.y};
+    if (camera->is_perspective) {
+        if (!(distance > 0) ||
+            !place_of_direction(camera, vec3_scale(local, 1 / distance), &place, &density))
+            return false;
+        density /= distance * distance;
+        out->ray = (Ray){position, vec3_scale(away, -1 / distance), 0, distance};
+    } else {
+        if (!(local.z < 0)) return false;
+        out->ray = (Ray){position, world->z, 0, -local.z};
+    }
+    out->x = 0.5f * (place.x / camera->half_width + 1);
+    out->y = 0.5f * (1 - place.y / camera->half_height);
+    out->per_flux = density / (4 * camera->half_width * camera->half_height);
+    return out->x >= 0 && out->x < 1 && out->y >= 0 && out->y < 1;
+}
+
 /* ---- what an eye has of it --------------------------------------------------------------- */
 
 /* wo: unit, from the place to where the light comes from. */
-static void show_camera(MissedBeam *beam, const EyeTiles *tiles, const Surface *surface, Vec3 wo) {
+static void show_camera(const MissedBeam *beam, const EyeTiles *eye, const Surface *surface,
+                        Vec3 wo) {
     EyePlace place;
     float pdf;
-    if (!eye_place_of(tiles->eye->camera, surface->position, &place)) return;
+    if (!eye_place_of(eye->eye->camera, surface->position, &place)) return;
     Vec3 to = place.ray.direction, local = frame_to_local(&surface->frame, to);
     if (!direct_sides_agree(surface, local, to, wo)) return;
     Spectrum f = bsdf_eval(&surface->bsdf, surface->local_wo, local, &pdf);
@@ -162,117 +169,84 @@ static void show_camera(MissedBeam *beam, const EyeTiles *tiles, const Surface *
     place.ray.origin = ray_start(&surface->point, to);
     f *= beam->power * spectrum_all(fabsf(local.z) * place.per_flux * surface->alpha);
     int column = (int)(place.x * MISSED_SIDE), row = (int)(place.y * MISSED_SIDE);
-    add_find(beam, tiles->first_tile + row * MISSED_SIDE + column,
-             MISSED_SIDE * MISSED_SIDE *
-                 luminous(beam->work, f * share_along(beam->work, place.ray)));
+    float light = luminous(beam->work, f * share_along(beam->work, place.ray));
+    add_find(beam, eye->first + row * MISSED_SIDE + column, (float)eye->count * light);
 }
 
-static void show(MissedBeam *beam, const Surface *surface, Vec3 wo) {
+static void show(const MissedBeam *beam, const Surface *surface, Vec3 wo) {
     const MissedWork *work = beam->work;
+    int display_id = work->context->scene->materials[surface->material_id].display_id;
     for (int i = 0; i < work->eye_count; i++) {
-        const EyeTiles *tiles = &work->eyes[i];
-        if (tiles->eye->camera) show_camera(beam, tiles, surface, wo);
-        else if (display_of(work->context->scene, surface->triangle) == tiles->eye->display_id &&
-                 vec3_dot(wo, surface->ng) > 0 && tiles->m2 > 0)
-            add_find(beam, tiles->first_tile, luminous(work, beam->power) / (float)tiles->m2);
+        const EyeTiles *eye = &work->eyes[i];
+        if (eye->eye->camera) show_camera(beam, eye, surface, wo);
+        else if (display_id == eye->eye->display_id && vec3_dot(wo, surface->ng) > 0)
+            add_find(beam, eye->first, luminous(work, beam->power) / (float)eye->m2);
     }
-}
-
-/* Would chance hardly find the light, from a surface at the end of the way? */
-static bool is_compact(const MissedBeam *beam) {
-    if (beam->chain.from != CHAIN_EMITTER) return true;
-    double m2 = beam->work->part_m2[beam->find.light_id];
-    return m2 < (double)(MISSED_COMPACT_SR * beam->length * beam->length);
-}
-
-static bool meet(const MissedWork *work, Ray *ray, Hit *hit, Surface *surface, Spectrum *power) {
-    const PathContext *c = work->context;
-    for (int i = 0; i < SHEETS_PASSED && bvh_intersect(c->bvh, *ray, 0, hit); i++) {
-        surface_at(c->scene, c->tables, hit, vec3_neg(ray->direction), work->wavelengths, surface);
-        bsdf_carry(&surface->bsdf, power);
-        if (surface->alpha > 0 && !bsdf_is(&surface->bsdf, BSDF_IS_SHEET)) return true;
-        *power *= surface_pass(c->scene, c->tables, hit, ray->direction, work->wavelengths);
-        *ray = ray_behind(c->scene, *ray, hit);
-    }
-    return false;
-}
-
-/* On a surface that scatters: what eyes see of it, and of one more that it lights. */
-static void land(const MissedBeam *beam, const Surface *surface, Vec3 wo, const float u[3]) {
-    const PathContext *c = beam->work->context;
-    MissedBeam lit = *beam;
-    LightChain chain = beam->chain;
-    BsdfSample next;
-    Surface other;
-    Hit hit;
-    chain.others += beam->medium_id != NO_ID;
-    if (!bsdf_scatters(&surface->bsdf) || chain_is_connected(c, &chain) || !is_compact(beam))
-        return;
-    show(&lit, surface, wo);
-    if (beam->events + 1 >= c->max_bounces ||
-        !bsdf_sample(&surface->bsdf, surface->local_wo, u, &next) || next.is_delta || next.passes)
-        return;
-    Vec3 wi = frame_to_world(&surface->frame, next.wi);
-    if (!direct_sides_agree(surface, next.wi, wi, wo)) return;
-    lit.power *= next.weight * spectrum_all(surface->alpha);
-    lit.ray = (Ray){ray_start(&surface->point, wi), vec3_normalize(wi), 0, INFINITY};
-    if (meet(beam->work, &lit.ray, &hit, &other, &lit.power) && bsdf_scatters(&other.bsdf))
-        show(&lit, &other, vec3_neg(lit.ray.direction));
 }
 
 /* ---- the way ----------------------------------------------------------------------------- */
 
-static void absorb(const MissedWork *work, int medium_id, float distance, Spectrum *power) {
-    const Material *m = &work->context->scene->materials[medium_id];
-    if (!isfinite(m->attenuation_distance_m)) return;
-    Spectrum left = spectrum_from_rgb(work->wavelengths, m->attenuation_color);
-    for (int i = 0; i < SPECTRUM_LANES; i++)
-        (*power)[i] *= pow_f(left[i], distance / m->attenuation_distance_m);
+/* Does chance hardly find it? */
+static bool is_compact(const MissedBeam *beam) {
+    const MissedWork *work = beam->work;
+    if (beam->way.from != CHAIN_EMITTER) return true;
+    double m2 = areas_of_part(work->context->scene, work->areas, beam->way.light_id);
+    return m2 < (double)(MISSED_COMPACT_SR * beam->length * beam->length);
 }
 
-static bool is_unbent(const Surface *surface) {
-    return fabsf(vec3_dot(surface->point.ns, surface->frame.z)) > 1 - 1e-6f;
+static int events(const MissedBeam *beam) {
+    return beam->chain.mirrors + beam->chain.others;
 }
 
-static bool is_flat(const Surface *surface) {
-    return is_unbent(surface) && vec3_dot(surface->point.ns, surface->ng) > 1 - 1e-6f;
+static void follow(MissedBeam *beam, Hit hit, Sampler *sampler);
+
+static bool leave(MissedBeam *beam, const Surface *surface, Vec3 local, Vec3 wo) {
+    Vec3 wi = frame_to_world(&surface->frame, local);
+    beam->ray = (Ray){ray_start(&surface->point, wi), vec3_normalize(wi), 0, INFINITY};
+    return direct_sides_agree(surface, local, wi, wo);
+}
+
+/* On a surface that scatters: what eyes see of it, and of one more that it lights. */
+static void land(const MissedBeam *beam, const Surface *surface, Vec3 wo, Sampler *sampler) {
+    const PathContext *c = beam->work->context;
+    MissedBeam lit = *beam;
+    BsdfSample next;
+    Hit hit;
+    float u[4];
+    if (!bsdf_scatters(&surface->bsdf) ||
+        (!beam->is_scattered && (chain_is_connected(c, &beam->chain) || !is_compact(beam))))
+        return;
+    show(beam, surface, wo);
+    sampler_4d(sampler, u);
+    if (beam->is_scattered || events(beam) + 1 >= c->max_bounces ||
+        !bsdf_sample(&surface->bsdf, surface->local_wo, u, &next) || next.is_delta || next.passes ||
+        !leave(&lit, surface, next.wi, wo))
+        return;
+    lit.is_scattered = true;
+    lit.power *= next.weight * spectrum_all(surface->alpha);
+    if (bvh_intersect(c->bvh, lit.ray, 0, &hit)) follow(&lit, hit, sampler);
 }
 
 /* The next part on its way, by its mirror or into it. */
-static void name_part(MissedBeam *beam, int part_id, bool is_solid) {
-    MissedFind *find = &beam->find;
-    if (find->part_id == NO_ID) {
-        find->part_id = part_id;
-        find->is_solid = is_solid;
-    } else if (find->then_id == NO_ID) {
-        find->then_id = part_id;
+static void name_part(MissedWay *way, int part_id, bool is_solid) {
+    if (way->part_id == NO_ID) {
+        way->part_id = part_id;
+        way->is_solid = is_solid;
+    } else if (way->then_id == NO_ID) {
+        way->then_id = part_id;
     }
 }
 
-/* Counts what happens at the surface. */
-static void note_event(MissedBeam *beam, const Surface *surface, bool crosses) {
+/* Counts what happens at a surface that is no plate, or reflects. */
+static void note_event(MissedBeam *beam, const Surface *surface, Vec3 wo, bool crosses) {
     const Scene *scene = beam->work->context->scene;
-    LightChain *chain = &beam->chain;
-    beam->events++;
-    if (!crosses && beam->medium_id != NO_ID) {
-        beam->is_plate = false;
-    } else if (!crosses) {
-        bool is_plain = mirrors_can_be(scene, &scene->materials[surface->material_id]);
-        *(is_plain && is_unbent(surface) ? &chain->mirrors : &chain->others) += 1;
-        name_part(beam, surface->part_id, false);
-    } else if (beam->medium_id == NO_ID) {
-        beam->medium_id = surface->material_id;
-        beam->is_plate = is_flat(surface);
-        beam->face = surface->ng;
-        name_part(beam, surface->part_id, true);
-    } else {
-        Vec3 apart = vec3_cross(beam->face, surface->ng);
-        bool is_plate = beam->is_plate && is_flat(surface) &&
-                        vec3_dot(apart, apart) < PARALLEL * PARALLEL &&
-                        beam->medium_id == surface->material_id;
-        *(is_plate ? &chain->plates : &chain->others) += 1;
-        beam->medium_id = NO_ID;
-    }
+    bool is_inside = beam->medium_id != NO_ID;
+    bool is_mirror = !crosses && !is_inside &&
+                     mirrors_can_be(scene, &scene->materials[surface->material_id]) &&
+                     mirror_is_plain(scene, surface, wo);
+    *(is_mirror ? &beam->chain.mirrors : &beam->chain.others) += 1;
+    if (crosses) beam->medium_id = is_inside ? NO_ID : surface->material_id;
+    if (!is_inside) name_part(&beam->way, surface->part_id, crosses);
 }
 
 /* Mirrors send on all that they reflect; whether a solid reflects or refracts, and which way a
@@ -290,51 +264,64 @@ static bool choose(const Surface *surface, const float u[3], BsdfSample *next) {
 /* False: it ends there. wo: unit, to where the light comes from. */
 static bool turn(MissedBeam *beam, const Surface *surface, Vec3 wo, const float u[3]) {
     BsdfSample next;
-    if (beam->events == MISSED_EVENTS || beam->events + 1 >= beam->work->context->max_bounces ||
-        !choose(surface, u, &next))
+    int most = beam->work->context->max_bounces - 1;
+    if (beam->is_scattered || events(beam) >= (most < MISSED_EVENTS ? most : MISSED_EVENTS) ||
+        !choose(surface, u, &next) || !leave(beam, surface, next.wi, wo))
         return false;
-    Vec3 wi = frame_to_world(&surface->frame, next.wi);
-    if (!direct_sides_agree(surface, next.wi, wi, wo)) return false;
     bool crosses = next.wi.z * surface->local_wo.z < 0;
+    note_event(beam, surface, wo, crosses);
     const Dielectric *solid = surface_clear_solid(surface);
-    float index = solid ? solid->ior : 1;
-    float before = beam->medium_id == NO_ID ? 1 : index;
-    note_event(beam, surface, crosses);
     /* the weight is of radiance, which a denser medium squeezes; the flux is not */
-    float after = beam->medium_id == NO_ID ? 1 : index;
-    float squeezed = crosses ? after / before : 1;
+    float squeezed = !crosses || !solid         ? 1
+                     : beam->medium_id != NO_ID ? solid->ior
+                                                : 1 / solid->ior;
     beam->power *= next.weight * spectrum_all(squeezed * squeezed * surface->alpha);
-    beam->ray = (Ray){ray_start(&surface->point, wi), vec3_normalize(wi), 0, INFINITY};
-    return spectrum_max_lane(beam->power) > DIM * beam->start;
+    return true;
 }
 
-/* From a first smooth surface on. */
-static void follow(MissedBeam *beam, Sampler *sampler) {
-    const MissedWork *work = beam->work;
-    const PathContext *c = work->context;
+/* Straight on through a window or a plate. */
+static void pass(MissedBeam *beam, const Surface *surface, const Hit *hit) {
+    const PathContext *c = beam->work->context;
+    const Plate *plate = surface->plate;
+    beam->power *= plate ? plate->pane.passed
+                         : surface_pass(c->scene, c->tables, hit, beam->ray.direction,
+                                        beam->work->wavelengths);
+    beam->ray = plate ? ray_from_plate(beam->ray, plate) : ray_behind(c->scene, beam->ray, hit);
+    if (!plate) return;
+    beam->chain.plates++;
+    name_part(&beam->way, surface->part_id, true);
+}
+
+/* From a hit on: the first one is that of the surface to which it was sent. */
+static void follow(MissedBeam *beam, Hit hit, Sampler *sampler) {
+    const PathContext *c = beam->work->context;
+    const Wavelengths *wavelengths = beam->work->wavelengths;
+    PlateView view = plate_view(c, wavelengths);
     for (int i = 0; i < MISSED_EVENTS + SHEETS_PASSED; i++) {
-        Hit hit;
         Surface surface;
-        float u[4], v[4];
+        Plate plate;
+        float u[4];
         Vec3 wo = vec3_neg(beam->ray.direction);
+        bool is_sent = i == 0 && !beam->is_scattered;
         sampler_4d(sampler, u);
-        sampler_4d(sampler, v);
-        if (!bvh_intersect(c->bvh, beam->ray, 0, &hit)) return;
-        if (beam->medium_id != NO_ID) absorb(work, beam->medium_id, hit.t, &beam->power);
         beam->length += hit.t;
-        surface_at(c->scene, c->tables, &hit, wo, work->wavelengths, &surface);
+        if (beam->medium_id != NO_ID)
+            direct_absorb(c->scene, wavelengths, beam->medium_id, hit.t, &beam->power);
+        surface_at(c->scene, c->tables, &hit, wo, wavelengths, &surface);
+        if (beam->medium_id == NO_ID && c->plates.count &&
+            plate_at(&view, &surface, &hit, beam->ray.direction, &plate))
+            plate_be_pane(&plate, &surface);
         bsdf_carry(&surface.bsdf, &beam->power);
-        land(beam, &surface, wo, v);
-        bool may_pass = hit.triangle >= c->scene->opaque_count;
-        if (may_pass && u[3] < 0.5f) { /* straight on, or by its own boundary */
-            beam->power *= spectrum_all(2) * surface_pass(c->scene, c->tables, &hit,
-                                                          beam->ray.direction, work->wavelengths);
-            beam->ray = ray_behind(c->scene, beam->ray, &hit);
-            if (!(spectrum_max_lane(beam->power) > DIM * beam->start)) return;
-            continue;
-        }
-        if (may_pass) beam->power *= spectrum_all(2);
-        if (!turn(beam, &surface, wo, u)) return;
+        if (!is_sent) land(beam, &surface, wo, sampler);
+        /* straight on, or by its own boundary */
+        bool may_pass = surface.plate || (!is_sent && hit.triangle >= c->scene->opaque_count);
+        bool passes = may_pass && (beam->is_scattered || u[3] < 0.5f);
+        if (may_pass && !beam->is_scattered) beam->power *= spectrum_all(2);
+        if (passes) pass(beam, &surface, &hit);
+        else if (!turn(beam, &surface, wo, u)) return;
+        if (!(spectrum_max_lane(beam->power) > DIM * beam->start) ||
+            !bvh_intersect(c->bvh, beam->ray, 0, &hit))
+            return;
     }
 }
 
@@ -350,69 +337,66 @@ static int light_of(const Scene *scene, const LightSample *light) {
 }
 
 /* From one light to the place, which stands for m2 of its part, and on. */
-static void send(MissedBeam *beam, LightSet set, const Hit *hit, double m2, Sampler *sampler) {
-    const MissedWork *work = beam->work;
+static void send(const MissedWork *work, FindList *finds, LightSet set, const Hit *hit, double m2,
+                 Sampler *sampler) {
     const PathContext *c = work->context;
-    TrianglePoint point = triangle_point(c->scene, hit->triangle, hit->u, hit->v);
-    LitPoint place = {point.position, point.ns, true};
+    const Scene *scene = c->scene;
+    TrianglePoint point = triangle_point(scene, hit->triangle, hit->u, hit->v);
+    const Part *part = scene_part(scene, hit->triangle);
+    const Material *m = &scene->materials[part->material_id];
     LightSample light;
-    Surface surface;
-    float u[4], v[4];
+    float u[4];
     sampler_4d(sampler, u);
-    sampler_4d(sampler, v);
-    if (!lights_has(c->lights, set) || !lights_sample(c->lights, set, place, u, &light)) return;
-    Vec3 wo = light.wi;
-    beam->power = share_along(work, lights_ray(ray_start(&point, wo), &light));
-    if (spectrum_is_zero(beam->power)) return;
-    surface_at(c->scene, c->tables, hit, wo, work->wavelengths, &surface);
-    beam->power *= lights_radiance(c->lights, &light, work->wavelengths) *
-                   spectrum_all(fabsf(vec3_dot(point.ng, wo)) / light.pdf * (float)m2);
-    bsdf_carry(&surface.bsdf, &beam->power);
-    beam->start = spectrum_max_lane(beam->power);
-    beam->length = isfinite(light.distance) ? light.distance : 0;
-    bool is_inside = bsdf_is(&surface.bsdf, BSDF_REFRACTS) && vec3_dot(wo, surface.ng) < 0;
-    beam->medium_id = is_inside ? surface.material_id : NO_ID;
-    beam->is_plate = false;
-    beam->events = 0;
+    if (!lights_has(c->lights, set) ||
+        !lights_sample(c->lights, set, (LitPoint){point.position, point.ns, true}, u, &light))
+        return;
+    bool is_inside = m->is_solid && m->transmission > 0 && vec3_dot(light.wi, point.ng) < 0;
     const int *compact = c->beams[BEAMS_OF_EMITTERS].emitters.of_part;
-    beam->chain = (LightChain){.from = chain_light(set)};
-    if (set == LIGHTS_EMITTERS && compact)
-        beam->chain.is_compact = compact[light_of(c->scene, &light)] != NO_ID;
-    beam->find = (MissedFind){.from = beam->chain.from,
-                              .light_id = light_of(c->scene, &light),
-                              .part_id = is_inside ? surface.part_id : NO_ID,
-                              .is_solid = is_inside,
-                              .then_id = NO_ID};
-    if (turn(beam, &surface, wo, v)) follow(beam, sampler);
+    int light_id = light_of(scene, &light);
+    MissedBeam beam = {
+        .work = work,
+        .finds = finds,
+        .ray = {.direction = vec3_neg(light.wi)},
+        .length = isfinite(light.distance) ? light.distance : 0,
+        .medium_id = is_inside ? part->material_id : NO_ID,
+        .chain = {.from = chain_light(set),
+                  .others = is_inside,
+                  .is_compact = set == LIGHTS_EMITTERS && compact && compact[light_id] != NO_ID},
+        .way = {chain_light(set), light_id, NO_ID, false, NO_ID}};
+    if (is_inside) name_part(&beam.way, (int)(part - scene->parts), true);
+    beam.power = share_along(work, lights_ray(ray_start(&point, light.wi), &light));
+    if (spectrum_is_zero(beam.power)) return;
+    beam.power *= lights_radiance(c->lights, &light, work->wavelengths) *
+                  spectrum_all(fabsf(vec3_dot(point.ng, light.wi)) / light.pdf * (float)m2);
+    beam.start = spectrum_max_lane(beam.power);
+    follow(&beam, *hit, sampler);
 }
 
-static void send_ray(MissedBeam *beam, const Target *target, uint32_t k) {
-    static const LightSet SETS[] = {LIGHTS_SUN, LIGHTS_EMITTERS, LIGHTS_PUNCTUAL};
-    double all = area_list_m2(&target->area);
-    for (int i = 0; i < 3; i++) {
-        Sampler sampler = sampler_start(SEED, target->part_id, (int)SETS[i], k);
-        float u[4];
-        sampler_4d(&sampler, u);
-        Vec2 at = {u[1], u[2]};
-        if (at.x + at.y > 1) at = (Vec2){1 - at.x, 1 - at.y};
-        double m2 = ((double)k + (double)u[0]) / target->rays * all;
-        Hit hit = {0, at.x, at.y, area_list_at(&target->area, m2)};
-        send(beam, SETS[i], &hit, all / target->rays, &sampler);
-    }
+/* Half of the rays go to the parts evenly: a small lens counts as much as a wall of glass. */
+static uint32_t rays_to(const MissedWork *work, double m2) {
+    return LEAST_RAYS + (uint32_t)(RAYS_A_PART / work->smooth_count) +
+           (uint32_t)(RAYS_BY_AREA * m2 / work->smooth_m2);
 }
 
+/* Every PIECES-th ray to each part. */
 static void send_piece(void *user, int item, int worker) {
-    MissedWork *work = user;
-    uint32_t first = (uint32_t)((uint64_t)work->rays * (uint64_t)item / PIECES);
-    uint32_t end = (uint32_t)((uint64_t)work->rays * ((uint64_t)item + 1) / PIECES);
-    MissedBeam beam = {.work = work,
-                       .finds = &work->pieces[item],
-                       .room = &work->rooms[item],
-                       .arena = &work->arenas[worker]};
-    for (int t = 0; t < work->target_count; t++) {
-        const Target *target = &work->targets[t];
-        for (uint32_t k = 0; k < target->rays; k++)
-            if (target->before + k >= first && target->before + k < end) send_ray(&beam, target, k);
+    static const LightSet SETS[] = {LIGHTS_SUN, LIGHTS_EMITTERS, LIGHTS_PUNCTUAL};
+    const MissedWork *work = user;
+    const Scene *scene = work->context->scene;
+    for (int id = 0; id < scene->part_count; id++) {
+        double all = areas_of_part(scene, work->areas, id);
+        if (!(all > 0) || !missed_is_smooth(scene, &scene->materials[scene->parts[id].material_id]))
+            continue;
+        uint32_t rays = rays_to(work, all);
+        for (uint32_t k = (uint32_t)item; k < rays; k += PIECES)
+            for (int i = 0; i < 3; i++) {
+                Sampler sampler = sampler_start(SEED, id, (int)SETS[i], k);
+                float u[4];
+                sampler_4d(&sampler, u);
+                double m2 = ((double)k + (double)u[0]) / rays * all;
+                Hit hit = areas_point(scene, work->areas, id, m2, (Vec2){u[1], u[2]});
+                send(work, &work->lists[worker], SETS[i], &hit, all / rays, &sampler);
+            }
     }
 }
 
@@ -423,76 +407,28 @@ bool missed_is_smooth(const Scene *scene, const Material *m) {
            (m->clearcoat > 0 && is_smooth(m->clearcoat_roughness * m->clearcoat_roughness));
 }
 
-/* Half of the rays go to the parts evenly: a small lens counts as much as a wall of glass. */
-static void list_targets(MissedWork *work, Arena *arena) {
-    const Scene *scene = work->context->scene;
-    Target *targets = ARENA_NEW(arena, Target, scene->part_count + 1);
-    double all = 0;
+MissedFinds missed_rays_send(const PathContext *context, const EyeTiles *eyes, int eye_count,
+                             const double *areas, Arena *arena) {
+    const Scene *scene = context->scene;
+    int threads = bvh_threads(context->bvh);
+    MissedFinds all = {0};
+    Wavelengths middle;
+    MissedWork work = {context, &middle, eyes, eye_count, areas, 0, 0, NULL};
+    wavelengths_sample(0.5f, &middle);
     for (int i = 0; i < scene->part_count; i++) {
         if (!missed_is_smooth(scene, &scene->materials[scene->parts[i].material_id])) continue;
-        Target *target = &targets[work->target_count];
-        *target = (Target){.part_id = i, .area = area_list_of_part(scene, i, arena)};
-        work->target_count += area_list_m2(&target->area) > 0;
-        all += area_list_m2(&target->area);
+        work.smooth_m2 += areas_of_part(scene, areas, i);
+        work.smooth_count++;
     }
-    for (int i = 0; i < work->target_count; i++) {
-        targets[i].before = work->rays;
-        targets[i].rays = LEAST_RAYS + (uint32_t)(RAYS_A_PART / work->target_count) +
-                          (uint32_t)(RAYS_BY_AREA * area_list_m2(&targets[i].area) / all);
-        work->rays += targets[i].rays;
-    }
-    work->targets = targets;
-}
-
-static EyeTiles *list_eyes(const Scene *scene, const MissedEye *eyes, int count, Arena *arena) {
-    EyeTiles *out = ARENA_NEW(arena, EyeTiles, count + 1);
-    int tiles = 0;
-    for (int i = 0; i < count; i++) {
-        out[i] = (EyeTiles){.eye = &eyes[i], .first_tile = tiles};
-        Arena scratch = *arena;
-        AreaList front = {0};
-        if (!eyes[i].camera) front = area_list_of_display(scene, eyes[i].display_id, &scratch);
-        out[i].m2 = area_list_m2(&front);
-        tiles += missed_tiles(&eyes[i]);
-    }
-    return out;
-}
-
-static double *measure_parts(const Scene *scene, Arena *arena) {
-    double *m2 = ARENA_NEW(arena, double, scene->part_count + 1);
-    for (int i = 0; i < scene->part_count; i++) {
-        Arena scratch = *arena;
-        AreaList area = area_list_of_part(scene, i, &scratch);
-        m2[i] = area_list_m2(&area);
-    }
-    return m2;
-}
-
-MissedFinds missed_rays_send(const PathContext *context, const MissedEye *eyes, int eye_count,
-                             Arena *arena) {
-    int threads = bvh_threads(context->bvh);
-    MissedFinds pieces[PIECES] = {{0}}, all = {0};
-    uint32_t rooms[PIECES] = {0};
-    Wavelengths middle;
-    Arena scratch = arena_reserve(WORKER_BYTES);
-    MissedWork work = {.context = context,
-                       .wavelengths = &middle,
-                       .eyes = list_eyes(context->scene, eyes, eye_count, &scratch),
-                       .eye_count = eye_count,
-                       .part_m2 = measure_parts(context->scene, &scratch),
-                       .pieces = pieces,
-                       .rooms = rooms};
-    wavelengths_sample(0.5f, &middle);
-    list_targets(&work, &scratch);
-    work.arenas = ARENA_NEW(&scratch, Arena, threads);
-    for (int i = 0; i < threads; i++) work.arenas[i] = arena_reserve(WORKER_BYTES);
-    if (work.rays) parallel_for(threads, PIECES, send_piece, &work);
-    for (int p = 0; p < PIECES; p++) all.count += pieces[p].count;
+    work.lists = ARENA_NEW(arena, FindList, threads);
+    for (int i = 0; i < threads; i++) work.lists[i].arena = arena_reserve(WORKER_BYTES);
+    parallel_for(threads, PIECES, send_piece, &work);
+    for (int i = 0; i < threads; i++) all.count += work.lists[i].count;
     all.list = ARENA_NEW(arena, MissedFind, all.count + 1);
-    uint32_t count = 0;
-    for (int p = 0; p < PIECES; p++)
-        for (uint32_t i = 0; i < pieces[p].count; i++) all.list[count++] = pieces[p].list[i];
-    for (int i = 0; i < threads; i++) arena_release(&work.arenas[i]);
-    arena_release(&scratch);
+    MissedFind *next = all.list;
+    for (int i = 0; i < threads; i++) {
+        for (uint32_t k = 0; k < work.lists[i].count; k++) *next++ = work.lists[i].list[k];
+        arena_release(&work.lists[i].arena);
+    }
     return all;
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* missed_rays.h -- rays of the lights, followed by smooth surfaces to eyes. Private to
- * missed_light.c.
+/* missed_rays.h -- rays of the lights, followed by smooth surfaces to eyes: the work
+ * of missed.h.
  *
- * Memory   from the arena.  Threads: starts its own; the finds and their order are the same for
- *          any number.
+ * Memory   from the arena.  Threads: starts its own; the finds are the same for any number, their
+ *          order is not.
  */
 #pragma once
-#include "missed/missed_eye.h"
+#include "camera/camera.h"
 #include "path/connected.h"
 
 #define MISSED_EVENTS 8 /* smooth boundaries on a way, two a solid */
@@ -14,12 +14,33 @@
 
 #define MISSED_SIDE 16 /* tiles of a camera's picture, across and down */
 
+/* Who might see it: a camera, or the front of a display. */
+typedef struct MissedEye {
+    const char *name;
+    const Camera *camera; /* NULL: the display */
+    int display_id;
+} MissedEye;
+
+/* Of light of one lamp: by which mirror it goes first, or into which solid. */
+typedef struct MissedWay {
+    ChainLight from;
+    int light_id; /* lamp: of Scene.lights; emitter: of Scene.parts; sun: 0 */
+    int part_id;  /* the mirror or solid */
+    bool is_solid;
+    int then_id; /* the part that most of it comes to next, smooth as well; NO_ID: none */
+} MissedWay;
+
+/* An eye and its tiles, MISSED_SIDE^2 of a camera, one of a display, which stand side by side. */
+typedef struct EyeTiles {
+    const MissedEye *eye;
+    int first, count;
+    double m2; /* of a display */
+} EyeTiles;
+
 /* What one ray brings to a place that an eye sees. */
 typedef struct MissedFind {
-    ChainLight from;
-    int light_id, part_id, then_id;
-    bool is_solid;
-    int tile;    /* of all eyes': missed_tile */
+    MissedWay way;
+    int tile;    /* of all eyes' */
     float light; /* of the tile's mean, cd m^-2 or lx */
 } MissedFind;
 
@@ -28,30 +49,34 @@ typedef struct MissedFinds {
     uint32_t count;
 } MissedFinds;
 
-/* Tiles of an eye, MISSED_SIDE^2 of a camera, one of a display, stand side by side. */
-static inline int missed_tiles(const MissedEye *eye) {
-    return eye->camera ? MISSED_SIDE * MISSED_SIDE : 1;
-}
-
-/* Square metres of a list of triangles, to choose points by area. */
-typedef struct AreaList {
-    uint32_t *triangle;
-    double *until; /* m^2 of it and of those before */
-    int count;
-} AreaList;
-
-static inline double area_list_m2(const AreaList *list) {
-    return list->count ? list->until[list->count - 1] : 0;
-}
-
-/* The triangle at so many square metres. */
-uint32_t area_list_at(const AreaList *list, double m2);
-
-/* Of all triangles that show a display. */
-AreaList area_list_of_display(const Scene *scene, int display_id, Arena *arena);
-
-MissedFinds missed_rays_send(const PathContext *context, const MissedEye *eyes, int eye_count,
-                             Arena *arena);
+/* areas: of areas_measure. */
+MissedFinds missed_rays_send(const PathContext *context, const EyeTiles *eyes, int eye_count,
+                             const double *areas, Arena *arena);
 
 /* Does the material send light on by a smooth boundary, as a mirror or a solid does? */
 bool missed_is_smooth(const Scene *scene, const Material *m);
+
+/* ---- areas ------------------------------------------------------------------------------- */
+
+/* [triangle]: square metres of its part's triangles up to it. */
+const double *areas_measure(const Scene *scene, Arena *arena);
+
+static inline double areas_of_part(const Scene *scene, const double *areas, int part_id) {
+    const Part *part = &scene->parts[part_id];
+    return part->triangle_count ? areas[part->first_triangle + part->triangle_count - 1] : 0;
+}
+
+/* The part's point by so many square metres, and by two numbers in its triangle; t is 0. */
+Hit areas_point(const Scene *scene, const double *areas, int part_id, double m2, Vec2 at);
+
+/* ---- where a camera's picture shows a place ---------------------------------------------- */
+
+typedef struct EyePlace {
+    float x, y;     /* in the picture, [0, 1) from its upper left */
+    Ray ray;        /* from the place to the camera, up to there */
+    float per_flux; /* mean luminance of the whole picture, cd m^-2, by each lm that falls on the
+                       place, times what it scatters to the camera, sr^-1, and the cosine there */
+} EyePlace;
+
+/* False: it lies outside the picture. Occlusion is not tested. */
+bool eye_place_of(const Camera *camera, Vec3 position, EyePlace *out);

@@ -9,10 +9,11 @@
 
 /* ---- solids ------------------------------------------------------------------------------ */
 
-void direct_absorb(const PathState *path, int medium_id, float distance, Spectrum *light) {
-    const Material *m = &path->context->scene->materials[medium_id];
+void direct_absorb(const Scene *scene, const Wavelengths *wavelengths, int medium_id,
+                   float distance, Spectrum *light) {
+    const Material *m = &scene->materials[medium_id];
     if (!isfinite(m->attenuation_distance_m)) return;
-    Spectrum left = spectrum_from_rgb(path->wavelengths, m->attenuation_color);
+    Spectrum left = spectrum_from_rgb(wavelengths, m->attenuation_color);
     for (int i = 0; i < SPECTRUM_LANES; i++)
         (*light)[i] *= pow_f(left[i], distance / m->attenuation_distance_m);
 }
@@ -23,7 +24,8 @@ static void absorb_sample(const PathState *path, const Surface *surface, const L
     if (!isfinite(light->distance) || !bsdf_sends_across(&surface->bsdf)) return;
     const Material *m = &path->context->scene->materials[surface->material_id];
     if (material_is_translucent_solid(m) && vec3_dot(light->wi, surface->ng) < 0)
-        direct_absorb(path, surface->material_id, light->distance, passed);
+        direct_absorb(path->context->scene, path->wavelengths, surface->material_id,
+                      light->distance, passed);
 }
 
 /* ---- shadow rays ------------------------------------------------------------------------- */

@@ -24,4 +24,5 @@ Spectrum direct_arrival(PathState *path, const Surface *surface, const LightSamp
                         ShadowRay *ray);
 
 /* Beer's law inside a solid: the material's colour is what is left after its distance. */
-void direct_absorb(const PathState *path, int medium_id, float distance, Spectrum *light);
+void direct_absorb(const Scene *scene, const Wavelengths *wavelengths, int medium_id,
+                   float distance, Spectrum *light);

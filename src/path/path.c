@@ -130,7 +130,9 @@ static bool next_hit(PathState *path, Hit *hit) {
     *(path->bounce ? &path->statistics->bounce_rays : &path->statistics->camera_rays) += 1;
     if (!bvh_intersect(context->bvh, path->ray, path->sheets_from, hit)) return false;
     path->straight += hit->t;
-    if (path->medium_id != NO_ID) direct_absorb(path, path->medium_id, hit->t, &path->throughput);
+    if (path->medium_id != NO_ID)
+        direct_absorb(path->context->scene, path->wavelengths, path->medium_id, hit->t,
+                      &path->throughput);
     sheets_none(stack);
     if (!bvh_has_sheets(context->bvh) || hit->t < path->sheets_from) return true;
     sheets_at(context->scene, context->bvh, hit, path->ray.direction, stack);

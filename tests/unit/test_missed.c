@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Light that no connection makes: how much of it lands, and whose it is. */
-#include "missed/missed_light.h"
-#include "missed/missed_words.h"
+#include "missed/missed.h"
 #include "world_fixture.h"
 
 /* ---- where a picture shows a place ------------------------------------------------------- */
@@ -131,13 +130,13 @@ TEST(what_two_mirrors_land_is_the_lamp_s_intensity_in_their_solid_angle) {
     MissedLight missed = missed_light_find(&world.context, &EYE, 1, &world.arena);
     assert_int_equal(missed.count, 1);
     const MissedPair *pair = &missed.pairs[0];
-    assert_int_equal(pair->from, CHAIN_LAMP);
-    assert_int_equal(pair->part_id, 0);
-    assert_int_equal(pair->then_id, 1);
-    assert_false(pair->is_solid);
+    assert_int_equal(pair->way.from, CHAIN_LAMP);
+    assert_int_equal(pair->way.part_id, 0);
+    assert_int_equal(pair->way.then_id, 1);
+    assert_false(pair->way.is_solid);
     double lm = (double)CANDELA * (double)RHO * (double)RHO * low_sr();
     assert_near(pair->light * 4 * (double)(HALF * HALF) * PI / (double)WHITE, lm, 0.02 * lm);
-    assert_near(missed.light, pair->light, 1e-9);
+    assert_near(missed.all.light, pair->light, 1e-9);
     Arena scratch = world.arena;
     assert_non_null(missed_words(world.scene, &missed, &scratch));
 }
@@ -163,7 +162,7 @@ TEST(only_an_emitter_that_is_hardly_found_is_missed) {
         world_ready(&world, 16);
         MissedLight missed = missed_light_find(&world.context, &EYE, 1, &world.arena);
         assert_int_equal(missed.count > 0, i == 0);
-        if (i == 0) assert_int_equal(missed.pairs[0].from, CHAIN_EMITTER);
+        if (i == 0) assert_int_equal(missed.pairs[0].way.from, CHAIN_EMITTER);
     }
 }
 
@@ -209,7 +208,7 @@ TEST(a_wedge_s_light_is_missed_a_plate_s_is_connected) {
         world_ready(&world, 16);
         MissedLight missed = missed_light_find(&world.context, &EYE, 1, &world.arena);
         assert_int_equal(missed.count, i);
-        if (i) assert_true(missed.pairs[0].is_solid);
+        if (i) assert_true(missed.pairs[0].way.is_solid);
     }
 }
 

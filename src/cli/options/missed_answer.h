@@ -3,7 +3,7 @@
 #pragma once
 #include <jansson.h>
 
-#include "missed/missed_light.h"
+#include "missed/missed.h"
 
 /* [{"light", "name", "by", "part", "then", "is_lost", "eye", "eye_name", "cd_m2" or
  * "lx", "share"}] of the

@@ -20,7 +20,7 @@
 #include "denoise/denoise.h"
 #include "film/film_frame.h"
 #include "image/light/radiance_picture.h"
-#include "missed/missed_words.h"
+#include "missed/missed.h"
 #include "print/print.h"
 #include "render/signals.h"
 #include "scene/load/scene_load.h"
@@ -233,11 +233,9 @@ static void find_missed(RenderRun *work) {
     work->missed = missed_light_find(&work->setup.context, &work->eye, 1, work->arena);
     work->request.missed = &work->missed;
     work->request.scene_lit = work->scene;
-    for (int i = 0; i < work->missed.count && i < MISSED_LINES; i++)
-        warn(work, missed_pair_words(work->scene, &work->missed, i, work->arena));
-    if (work->missed.count > MISSED_LINES)
-        warn(work, arena_format(work->arena, "and %d more lights that are not followed",
-                                work->missed.count - MISSED_LINES));
+    const char *line;
+    for (int i = 0; (line = missed_line(work->scene, &work->missed, i, work->arena)); i++)
+        warn(work, line);
 }
 
 static void warn_of_noise(RenderRun *work, const RenderResult *result) {

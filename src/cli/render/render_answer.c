@@ -17,7 +17,7 @@
 #include "film/film_frame.h"
 #include "film/film_part.h"
 #include "image/frame_view.h"
-#include "missed/missed_words.h"
+#include "missed/missed.h"
 #include "render/favour.h"
 #include "render/pilot.h"
 #include "scene/load/material_data.h"
@@ -253,10 +253,10 @@ static json_t *missed_document(const RenderRequest *request) {
     const MissedLight *missed = request->missed;
     Arena scratch = arena_reserve(WORDS_BYTES);
     const char *words = missed_text(request, &scratch);
-    json_t *out =
-        words ? json_pack("{s:s, s:f, s:f, s:o}", "words", words, "cd_m2", missed->light, "share",
-                          missed->share, "lights", missed_pairs_json(request->scene_lit, missed))
-              : json_null();
+    json_t *out = words ? json_pack("{s:s, s:f, s:f, s:o}", "words", words, "cd_m2",
+                                    missed->all.light, "share", missed->all.share, "lights",
+                                    missed_pairs_json(request->scene_lit, missed))
+                        : json_null();
     arena_release(&scratch);
     return out;
 }

@@ -12,7 +12,7 @@
 #include "cli/render/noise_goal.h"
 #include "cli/render/render_setup.h"
 #include "image/develop.h"
-#include "missed/missed_light.h"
+#include "missed/missed.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
