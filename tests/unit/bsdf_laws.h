@@ -29,13 +29,13 @@ static void look_and_call(void (*law)(const Model *, Vec3), Model model, Vec3 wo
     law(&model, wo);
 }
 
-/* For every model, on the far side too where there is one, and every third eye, all eyes where
- * all laws are checked: the next model is checked at others. */
+/* For every model, on the far side too where there is one, and every sixth eye, all eyes where
+ * all laws are checked: the next model is checked at another. */
 static void for_all(void (*law)(const Model *, Vec3)) {
     for (int m = 0; m < model_count; m++)
         for (int i = 0; i < EYE_COUNT; i++) {
             Vec3 wo = eye(i);
-            if (!all_laws() && (m + i) % 3) continue;
+            if (!all_laws() && (m + i) % EYE_COUNT) continue;
             look_and_call(law, models[m], wo);
             if (models[m].both_sides) look_and_call(law, models[m], vec3(wo.x, wo.y, -wo.z));
         }

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Lamps without a surface in mirrors: 200 random places of each kind beside closed forms. */
+/* Lamps without a surface in mirrors: random places of each kind beside closed forms. */
 #include "base/units.h"
 #include "world_fixture.h"
 
-enum { PLACES = 200 };
+/* Of each kind. */
+static int places(void) {
+    return all_laws() ? 200 : 24;
+}
 
 static float between(Sampler *sampler, float low, float high) {
     return low + (high - low) * sampler_1d(sampler);
@@ -81,7 +84,7 @@ static double expected_flat(const PunctualLight *light, Vec3 at, Vec3 n, bool is
 
 TEST(a_lamp_in_a_flat_mirror_is_a_lamp_at_its_image) {
     const LightKind kinds[] = {LIGHT_POINT, LIGHT_SPOT, LIGHT_DIRECTIONAL};
-    for (int i = 0; i < 2 * 3 * PLACES; i++) {
+    for (int i = 0; i < 2 * 3 * places(); i++) {
         SCOPED_WORLD world = world_start();
         Sampler sampler = sampler_start(1, i, 0, 0);
         bool is_pane = i % 2;
@@ -111,7 +114,7 @@ TEST(a_lamp_in_a_flat_mirror_is_a_lamp_at_its_image) {
  * says; a hollow mirror's radius counts as negative. */
 TEST(a_lamp_in_a_bent_mirror_is_spread_as_the_mirror_equation_says) {
     int focused = 0;
-    for (int i = 0; i < 2 * PLACES; i++) {
+    for (int i = 0; i < 2 * places(); i++) {
         SCOPED_WORLD world = world_start();
         Sampler sampler = sampler_start(2, i, 0, 0);
         double bend = i % 2 ? -2 : 2, t = (double)between(&sampler, 0.05f, 0.8f);
@@ -138,7 +141,7 @@ TEST(a_lamp_in_a_bent_mirror_is_spread_as_the_mirror_equation_says) {
         if (!(fabs(found - expected) <= 5e-3 * expected))
             fail_msg("place %d: %g lx, expected %g", i, found, expected);
     }
-    assert_true(focused > 20);
+    assert_true(focused > places() / 10);
 }
 
 /* What a matt floor beside a mirror sends to an eye: by the part's own mirrors and by all. */
@@ -182,6 +185,7 @@ TEST(small_emitters_in_mirrors_keep_their_mean) {
         assert_int_equal(world.context.beams[BEAMS_OF_EMITTERS].emitters.count, 1);
         Gauge eye = {vec3(0.2f, 1.2f, 1.4f), vec3(-0.1f, -1.2f, -1.4f), 0.05f, false};
         for (int head = 0; head < 2; head++) {
+            if (!all_laws() && head != i % 2) continue;
             eye.is_luxmeter = head;
             if (head) eye = (Gauge){vec3(0.1f, 0.02f, 0), vec3(0, 0.2f, -1), 0, true};
             WorldMean both = world_measure(&world, eye, 1, 40000);
