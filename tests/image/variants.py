@@ -2,7 +2,8 @@
 """variants.py [--all] PARHELION -- what a review says of its variants is what separate reviews
 of scenes changed by hand say; differences are sharper than values; pictures stand side by
 side, each from where its eye is.
-Without --all two of the variants, each beside one review, and what is refused.
+Without --all two of the variants under two suns instead of six, each beside one review, and what
+is refused.
 """
 import math
 import operator
@@ -46,7 +47,9 @@ def bars(first, last):
 
 
 def asked(level=LEVEL, precision=PRECISION, **members):
-    sun = {"azimuth_deg": [150, 190, 20], "elevation_deg": [20, 40, 20]}
+    whole = precision == PRECISION
+    sun = {"azimuth_deg": [150 if whole else 170, 190, 20],
+           "elevation_deg": [20, 40 if whole else 20, 20]}
     conditions = [dict(moment("grey", type="constant", luminance=3000), level="day"),
                   {"name": "suns", "level": "day", "sweep": {"sun": sun, "sky": "sky"}}]
     return request(conditions=conditions, levels={"day": {"*": level}},
