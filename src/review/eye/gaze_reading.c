@@ -2,67 +2,47 @@
 #include "review/eye/gaze_reading.h"
 
 #include <math.h>
-#include <string.h>
 
-#include "base/count.h"
-#include "base/parallel.h"
-#include "base/sampler.h"
 #include "base/units.h"
-#include "estimate/estimate_plan.h"
-#include "render/signals.h"
 #include "review/eye/unmet_lamps.h"
 #include "review/light/reading.h"
 
-/* One over the root of x^3 = x + 1, and its square: points that fill a square evenly, however
- * many (M. Roberts' sequence). */
-#define STEP_U 0.7548776662466927
-#define STEP_V 0.5698402909980532
-#define SHIFT_U 0x75u
-#define SHIFT_V 0x76u
-#define CHUNK 32 /* paths that are aimed together */
+#define SHIFT_AXIS 0x75u
+#define SEED 0x67617a65u
+#define PILOT_SEED 0x70696c6fu
+#define UNMET 0.1 /* of all light there: what lamps may have that no path met */
 
-/* ---- the cone ---------------------------------------------------------------------------- */
+enum { GAZE_THROUGH, GAZE_MIRRORED, GAZE_FIGURES };
 
-static double fraction(double x) {
-    return x - floor(x);
-}
+/* A ray behind its last mirror, and the share of its light that the eye sees. */
+typedef struct GazeImage {
+    Ray ray;
+    float share;
+} GazeImage;
 
-static double shift_of(uint32_t seed, uint32_t axis) {
-    return hash_combine(hash_u32(seed), axis) * 0x1p-32;
-}
+/* that a batch keeps of a figure: the first ones behind the first mirror, and as many behind
+ * others; they stand for all */
+#define GAZE_IMAGES 2
 
-/* Path i of a batch. Even over the cone's solid angle; each batch's points are shifted as one
- * (Cranley and Patterson 1976), so that batches differ in nothing but chance. */
-static Vec3 target_of(const GazePaths *paths, uint32_t seed, int i) {
-    double u = fraction(shift_of(seed, SHIFT_U) + STEP_U * i);
-    double v = fraction(shift_of(seed, SHIFT_V) + STEP_V * i);
-    double cosine = 1 - (1 - cos(radians_from_degrees(GAZE_CONE_DEG))) * u;
-    double sine = sqrt(1 - cosine * cosine), phi = 2 * PI * v;
-    Vec3 d = vec3((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cosine);
-    return vec3_add(paths->eye, frame_to_world(&paths->frame, d));
-}
+/* What a batch of paths found. */
+typedef struct GazeBatch {
+    GazeImage image[GAZE_FIGURES][2][GAZE_IMAGES];
+    int images[GAZE_FIGURES][2];
+    bool *met[GAZE_FIGURES]; /* [part] emitters, by mirrors alone */
+    double *panes, *shown;   /* mirrored light by scene part: the pane's, and that of the
+                                part it shows; then one for each set of lights */
+} GazeBatch;
 
 /* ---- what paths find --------------------------------------------------------------------- */
 
-static bool is_pane(const Scene *scene, int part_id) {
-    return scene->materials[scene->parts[part_id].material_id].transmission > 0;
-}
-
-/* The step at which a pane mirrors what the eye sees there; NO_ID: none does. */
-static int mirroring_step(const Scene *scene, const PathHistory *history) {
-    int kept = path_steps_kept(history), i = 0;
-    while (i < kept && history->step[i].event == PATH_TRANSMITS) i++;
-    bool mirrors = i < kept && history->step[i].event == PATH_REFLECTS &&
-                   is_pane(scene, history->step[i].part_id);
-    return mirrors ? i : NO_ID;
-}
-
-/* By no more surfaces than are kept: of others nobody knows. */
-static bool is_by_mirrors(const PathHistory *history) {
-    if (history->count > PATH_STEPS_MAX) return false;
-    for (int i = 0; i < history->count; i++)
-        if (history->step[i].event == PATH_SCATTERS) return false;
-    return true;
+/* Even over the cone's solid angle. */
+static Vec3 towards(KindBatch *batch, double u, double v) {
+    const GazeGoal *goal = batch->paths->goal;
+    Frame frame = frame_from_z(vec3_normalize(goal->towards));
+    double cosine = 1 - (1 - cos(radians_from_degrees(GAZE_CONE_DEG))) * u;
+    double sine = sqrt(1 - cosine * cosine), phi = 2 * PI * v;
+    Vec3 d = vec3((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cosine);
+    return frame_to_world(&frame, d);
 }
 
 /* Straight, or through panes with a thickness. */
@@ -74,22 +54,25 @@ static bool is_suns_disc(const PathHistory *history) {
 
 static int place_shown(const Scene *scene, const PathHistory *history, int from) {
     for (int i = from + 1; i < path_steps_kept(history); i++)
-        if (!is_pane(scene, history->step[i].part_id)) return history->step[i].part_id;
+        if (!path_is_pane(scene, history->step[i].part_id)) return history->step[i].part_id;
     return history->source == LIGHTS_EMITTERS ? history->source_id
                                               : scene->part_count + (int)history->source;
 }
 
 static void on_light(void *user, const PathHistory *history, const float xyz[3]) {
-    GazeBatch *batch = user;
-    if (is_suns_disc(history) || is_by_mirrors(history) != batch->by_mirrors) return;
-    int step = mirroring_step(batch->scene, history);
-    GazeFigure figure = step == NO_ID ? GAZE_THROUGH : GAZE_MIRRORED;
+    KindBatch *batch = user;
+    GazeBatch *own = batch->own;
+    const Scene *scene = batch->paths->setup->scene;
+    bool by_mirrors = batch->paths->by_mirrors;
+    if (is_suns_disc(history) || path_is_by_mirrors(history) != by_mirrors) return;
+    int step = path_mirroring_step(scene, history);
+    int figure = step == NO_ID ? GAZE_THROUGH : GAZE_MIRRORED;
     batch->path[figure] += (double)xyz[1];
-    if (batch->by_mirrors && history->source == LIGHTS_EMITTERS)
-        batch->met[figure][history->source_id] = true;
+    if (by_mirrors && history->source == LIGHTS_EMITTERS)
+        own->met[figure][history->source_id] = true;
     if (step == NO_ID) return;
-    batch->panes[history->step[step].part_id] += (double)xyz[1];
-    batch->shown[place_shown(batch->scene, history, step)] += (double)xyz[1];
+    own->panes[history->step[step].part_id] += (double)xyz[1];
+    own->shown[place_shown(scene, history, step)] += (double)xyz[1];
 }
 
 static int mirrors_of(const PathHistory *history) {
@@ -100,84 +83,35 @@ static int mirrors_of(const PathHistory *history) {
 }
 
 static void on_mirror(void *user, const PathHistory *history, Vec3 towards, float share) {
-    GazeBatch *batch = user;
-    bool is_mirrored = mirroring_step(batch->scene, history) != NO_ID;
-    GazeFigure figure = is_mirrored ? GAZE_MIRRORED : GAZE_THROUGH;
+    KindBatch *kind = user;
+    GazeBatch *batch = kind->own;
+    bool is_mirrored = path_mirroring_step(kind->paths->setup->scene, history) != NO_ID;
+    int figure = is_mirrored ? GAZE_MIRRORED : GAZE_THROUGH;
     int again = mirrors_of(history) > 1, *count = &batch->images[figure][again];
     if (history->count > PATH_STEPS_MAX || *count == GAZE_IMAGES) return;
     Vec3 from = history->step[history->count - 1].position;
     batch->image[figure][again][(*count)++] = (GazeImage){(Ray){from, towards, 0, INFINITY}, share};
 }
 
-/* ---- batches ----------------------------------------------------------------------------- */
-
-static void trace_one(const GazePaths *paths, const ProbeAim *aim, int i, GazeBatch *batch) {
-    PathListener listener = {.on_light = on_light,
-                             .on_mirror = on_mirror,
-                             .user = batch,
-                             .reach = paths->by_mirrors ? PATH_BY_MIRRORS : PATH_TO_ITS_END};
-    PathStatistics statistics = {0};
-    batch->path[GAZE_THROUGH] = batch->path[GAZE_MIRRORED] = 0;
-    paths->setup->tools.kernel->trace(aim, i, i + 1, &listener, &statistics);
-    for (int k = 0; k < GAZE_FIGURES; k++) {
-        batch->sum[k] += batch->path[k];
-        bright_add(&batch->bright[k], batch->path[k]);
-    }
-}
-
-static void read_batch(void *user, int item, int worker) {
-    (void)worker;
-    const GazePaths *paths = user;
-    uint32_t seed = hash_combine(hash_u32(paths->seed), (uint32_t)item);
-    Vec3 targets[CHUNK];
-    ProbeAim aim = {.context = &paths->setup->context,
-                    .eye = paths->eye,
-                    .targets = targets,
-                    .target_count = CHUNK,
-                    .seed = seed};
-    for (int i = paths->first; i < paths->end; i++) {
-        if (signals_stop_requested()) return;
-        targets[i % CHUNK] = target_of(paths, seed, i);
-        trace_one(paths, &aim, i, &paths->batches[item]);
-    }
-}
-
-static GazePaths gaze_paths_start(const Setup *setup, const GazeAim *gaze, bool by_mirrors,
-                                  uint32_t seed, Arena *arena) {
-    int parts = setup->scene->part_count;
-    GazePaths paths = {.setup = setup,
-                       .eye = gaze->eye,
-                       .seed = seed,
-                       .frame = frame_from_z(vec3_normalize(gaze->towards)),
-                       .by_mirrors = by_mirrors,
-                       .batches = ARENA_NEW(arena, GazeBatch, ESTIMATE_BATCHES)};
-    for (int b = 0; b < ESTIMATE_BATCHES; b++) {
-        GazeBatch *batch = &paths.batches[b];
-        batch->scene = setup->scene;
-        batch->by_mirrors = by_mirrors;
-        batch->panes = ARENA_NEW(arena, double, parts);
-        batch->shown = ARENA_NEW(arena, double, parts + LIGHT_SETS);
-        for (int k = 0; k < GAZE_FIGURES; k++) batch->met[k] = ARENA_NEW(arena, bool, parts);
-    }
-    return paths;
-}
-
 /* ---- figures ----------------------------------------------------------------------------- */
 
 /* What no path met of lamps that the eye may see there, straight or by the mirrors that paths
  * came by. */
-static double unmet(const GazePaths *paths, GazeFigure figure, Arena scratch) {
+static double unmet(const KindPaths *paths, int figure, Arena scratch) {
+    if (figure >= GAZE_FIGURES) return 0;
     const Setup *setup = paths->setup;
+    Vec3 ahead = frame_from_z(vec3_normalize(((const GazeGoal *)paths->goal)->towards)).z;
     int parts = setup->scene->part_count;
     bool *met = ARENA_NEW(&scratch, bool, parts);
     double most = 0, half = radians_from_degrees(GAZE_CONE_DEG);
     for (int b = 0; b < ESTIMATE_BATCHES; b++)
-        for (int i = 0; i < parts; i++) met[i] |= paths->batches[b].met[figure][i];
+        for (int i = 0; i < parts; i++)
+            met[i] |= ((const GazeBatch *)paths->batch[b].own)->met[figure][i];
     UnmetLamps lamps = lamps_unmet(setup, met, &scratch);
     if (figure == GAZE_THROUGH)
-        most = lamps_brightest(&lamps, (Ray){paths->eye, paths->frame.z, 0, INFINITY}, half, false);
+        most = lamps_brightest(&lamps, (Ray){paths->eye, ahead, 0, INFINITY}, half, false);
     for (int i = 0; i < ESTIMATE_BATCHES * 2 * GAZE_IMAGES; i++) {
-        const GazeBatch *batch = &paths->batches[i / 2 / GAZE_IMAGES];
+        const GazeBatch *batch = paths->batch[i / 2 / GAZE_IMAGES].own;
         int again = i / GAZE_IMAGES % 2, k = i % GAZE_IMAGES;
         if (k >= batch->images[figure][again]) continue;
         const GazeImage *image = &batch->image[figure][again][k];
@@ -186,102 +120,24 @@ static double unmet(const GazePaths *paths, GazeFigure figure, Arena scratch) {
     return most;
 }
 
-/* Goes on to so many paths in all, a multiple of 32. */
-static void gaze_paths_read(GazePaths *paths, long count, Arena scratch) {
-    paths->end = (int)(count / ESTIMATE_BATCHES);
-    parallel_for(paths->setup->tools.threads, ESTIMATE_BATCHES, read_batch, paths);
-    paths->first = paths->end;
-    for (int k = 0; k < GAZE_FIGURES && paths->by_mirrors; k++)
-        paths->unmet[k] = unmet(paths, (GazeFigure)k, scratch);
-}
-
-/* With what lamps may have sent by mirrors that were not met. */
-static EstimateSums gaze_paths_sums(const GazePaths *paths, GazeFigure figure) {
-    EstimateSums sums = {.batches = ESTIMATE_BATCHES,
-                         .piece = 1,
-                         .share = 1,
-                         .paths = (long)paths->end * ESTIMATE_BATCHES};
-    for (int b = 0; b < ESTIMATE_BATCHES; b++) {
-        const GazeBatch *batch = &paths->batches[b];
-        sums.batch[b] = batch->sum[figure];
-        sums.bright.squares += batch->bright[figure].squares;
-        sums.bright.fourths += batch->bright[figure].fourths;
-    }
-    sums.unmet = estimate_unmet(paths->unmet[figure], (double)sums.paths);
-    return sums;
-}
-
-/* Adds where mirrored light came from, each path by `weight`: [part], [part and sets]. */
-static void gaze_paths_places(const GazePaths *paths, double weight, double *panes, double *shown) {
-    int parts = paths->setup->scene->part_count;
-    for (int b = 0; b < ESTIMATE_BATCHES; b++) {
-        const GazeBatch *batch = &paths->batches[b];
-        for (int i = 0; i < parts; i++) panes[i] += weight * batch->panes[i];
-        for (int i = 0; i < parts + LIGHT_SETS; i++) shown[i] += weight * batch->shown[i];
-    }
-}
-
-#define SEED 0x67617a65u
-#define PILOT_SEED 0x70696c6fu
-#define MIRROR_SEED 0x6d697272u
-#define LEAST 2048 /* whole paths */
-#define PILOT 1024
-#define REACH 32 /* estimate_plan.h */
-/* so many times as many by mirrors, at least: they take a third of the time */
-#define MIRRORS 4
-#define UNMET 0.1 /* of all light there: what lamps may have that no path met */
-
-/* Paths of both kinds. */
-typedef struct GazePair {
-    const GazeGoal *goal;
-    GazePaths whole, mirrors;
-    long whole_paths, mirror_paths; /* that will do */
-    Arena scratch;
-} GazePair;
-
-static GazePair start(const Setup *setup, const GazeGoal *goal, uint32_t seed, Arena *scratch) {
-    GazePair pair = {.goal = goal};
-    GazeAim aim = {goal->eye, goal->towards};
-    pair.whole = gaze_paths_start(setup, &aim, false, seed, scratch);
-    pair.mirrors = gaze_paths_start(setup, &aim, true, seed ^ MIRROR_SEED, scratch);
-    pair.scratch = *scratch;
-    return pair;
-}
-
 /* ---- how many ---------------------------------------------------------------------------- */
 
-static void read_mirrors(void *user, long paths) {
-    GazePair *pair = user;
-    gaze_paths_read(&pair->mirrors, paths, pair->scratch);
-}
-
-static void read_whole(void *user, long paths) {
-    GazePair *pair = user;
-    gaze_paths_read(&pair->whole, paths, pair->scratch);
+static double precision_of(const PathKinds *pair) {
+    return ((const GazeGoal *)pair->whole.goal)->precision;
 }
 
 /* Of the variance that may be, by mirrors; the rest is left to whole paths, which cost more. */
 #define MIRRORS_SHARE 0.5
 
-/* One figure of both kinds. */
-typedef struct FigurePair {
-    Estimate whole, mirrors;
-} FigurePair;
-
-static FigurePair found_by(const GazePair *pair, GazeFigure figure) {
-    EstimateSums whole = gaze_paths_sums(&pair->whole, figure);
-    EstimateSums mirrors = gaze_paths_sums(&pair->mirrors, figure);
-    return (FigurePair){estimate_of(&whole), estimate_of(&mirrors)};
-}
-
 static bool mirrors_will_do(void *user, long pilot, long paths) {
-    const GazePair *pair = user;
+    const PathKinds *pair = user;
     double all = 0, unmet = 0;
     for (int k = 0; k < GAZE_FIGURES; k++) {
-        FigurePair found = found_by(pair, (GazeFigure)k);
-        Estimate then = estimate_expected(&found.mirrors, (double)paths / (double)pilot);
-        double mean = found.whole.mean + found.mirrors.mean;
-        if (then.sigma > pair->goal->precision * mean * sqrt(MIRRORS_SHARE)) return false;
+        Estimate whole = path_kind_estimate(&pair->whole, k);
+        Estimate mirrors = path_kind_estimate(&pair->mirrors, k);
+        Estimate then = estimate_expected(&mirrors, (double)paths / (double)pilot);
+        double mean = whole.mean + mirrors.mean;
+        if (then.sigma > precision_of(pair) * mean * sqrt(MIRRORS_SHARE)) return false;
         all += mean;
         unmet = fmax(unmet, then.unmet);
     }
@@ -290,47 +146,29 @@ static bool mirrors_will_do(void *user, long pilot, long paths) {
 
 /* What mirrors are expected to leave unsure is known. */
 static bool whole_will_do(void *user, long pilot, long paths) {
-    const GazePair *pair = user;
+    const PathKinds *pair = user;
     for (int k = 0; k < GAZE_FIGURES; k++) {
-        FigurePair found = found_by(pair, (GazeFigure)k);
-        double mean = found.whole.mean + found.mirrors.mean;
+        Estimate whole = path_kind_estimate(&pair->whole, k);
+        Estimate mirrors = path_kind_estimate(&pair->mirrors, k);
+        double mean = whole.mean + mirrors.mean;
         double times = (double)pair->mirror_paths / (double)(pair->mirrors.end * ESTIMATE_BATCHES);
-        Estimate then = estimate_expected(&found.whole, (double)paths / (double)pilot);
-        Estimate mirrors = estimate_expected(&found.mirrors, times);
-        if (hypot(then.sigma, mirrors.sigma) > pair->goal->precision * mean) return false;
+        Estimate then = estimate_expected(&whole, (double)paths / (double)pilot);
+        if (hypot(then.sigma, estimate_expected(&mirrors, times).sigma) > precision_of(pair) * mean)
+            return false;
     }
     return true;
 }
 
-/* How many of both; by mirrors first. */
-static void plan(GazePair *pilot) {
-    EstimatePlan mirrors = {.pilot = PILOT * MIRRORS,
-                            .least = LEAST * MIRRORS,
-                            .reach = REACH,
-                            .most = pilot->goal->most,
-                            .user = pilot,
-                            .read_pilot = read_mirrors,
-                            .will_do = mirrors_will_do};
-    EstimatePlan whole = {.pilot = PILOT,
-                          .least = LEAST,
-                          .reach = REACH,
-                          .most = pilot->goal->most,
-                          .user = pilot,
-                          .read_pilot = read_whole,
-                          .will_do = whole_will_do};
-    read_whole(pilot, PILOT);
-    pilot->mirror_paths = estimate_plan(&mirrors);
-    pilot->whole_paths = estimate_plan(&whole);
-}
+/* ---- all of it --------------------------------------------------------------------------- */
 
-/* ---- what both kinds of paths found ------------------------------------------------------ */
-
-static GazeFound figure_of(const GazePair *pair, GazeFigure figure) {
-    EstimateSums sums = gaze_paths_sums(&pair->whole, figure);
-    EstimateSums mirrors = gaze_paths_sums(&pair->mirrors, figure);
-    estimate_sums_add(&sums, &mirrors);
-    Estimate estimate = estimate_of(&sums);
-    return (GazeFound){estimate.mean, estimate.sigma, estimate.interval};
+/* Adds where mirrored light came from, each path by `weight`: [part], [part and sets]. */
+static void add_places(const KindPaths *paths, double weight, double *panes, double *shown) {
+    int parts = paths->setup->scene->part_count;
+    for (int b = 0; b < ESTIMATE_BATCHES; b++) {
+        const GazeBatch *batch = paths->batch[b].own;
+        for (int i = 0; i < parts; i++) panes[i] += weight * batch->panes[i];
+        for (int i = 0; i < parts + LIGHT_SETS; i++) shown[i] += weight * batch->shown[i];
+    }
 }
 
 /* NO_ID: all are 0. */
@@ -341,27 +179,50 @@ static int greatest(const double *values, int count) {
     return at;
 }
 
-static GazeMirrored find_mirrored(const GazePair *pair) {
+static GazeMirrored find_mirrored(const PathKinds *pair) {
     Arena scratch = pair->scratch;
     int parts = pair->whole.setup->scene->part_count;
     double *panes = ARENA_NEW(&scratch, double, parts);
     double *shown = ARENA_NEW(&scratch, double, parts + LIGHT_SETS);
-    gaze_paths_places(&pair->whole, 1.0 / pair->whole.end, panes, shown);
-    gaze_paths_places(&pair->mirrors, 1.0 / pair->mirrors.end, panes, shown);
+    add_places(&pair->whole, 1.0 / pair->whole.end, panes, shown);
+    add_places(&pair->mirrors, 1.0 / pair->mirrors.end, panes, shown);
     int most = greatest(shown, parts + LIGHT_SETS);
     return (GazeMirrored){greatest(panes, parts), most < parts ? most : NO_ID,
                           most < parts ? LIGHTS_SUN : (LightSet)(most - parts)};
 }
 
+static void give_batches(KindPaths *paths, Arena *arena) {
+    int parts = paths->setup->scene->part_count;
+    for (int b = 0; b < ESTIMATE_BATCHES; b++) {
+        GazeBatch *batch = paths->batch[b].own = ARENA_NEW(arena, GazeBatch, 1);
+        batch->panes = ARENA_NEW(arena, double, parts);
+        batch->shown = ARENA_NEW(arena, double, parts + LIGHT_SETS);
+        for (int k = 0; k < GAZE_FIGURES; k++) batch->met[k] = ARENA_NEW(arena, bool, parts);
+    }
+}
+
+static PathKinds start(const KindPaths *like, uint32_t seed, Arena *arena) {
+    PathKinds kinds = path_kinds_start(like, seed);
+    give_batches(&kinds.whole, arena);
+    give_batches(&kinds.mirrors, arena);
+    return kinds;
+}
+
 GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch) {
     uint32_t seed = review_seed(setup->request, SEED);
-    uint32_t first = hash_combine(hash_u32(seed), PILOT_SEED);
-    GazePair pilot = start(setup, goal, first, &scratch);
-    GazePair fresh = start(setup, goal, seed, &scratch);
+    KindPaths paths = {.setup = setup,
+                       .context = &setup->context,
+                       .eye = goal->eye,
+                       .goal = goal,
+                       .towards = towards,
+                       .first_axis = SHIFT_AXIS,
+                       .listener = {.on_light = on_light, .on_mirror = on_mirror},
+                       .unmet_of = unmet};
+    PathKinds pilot = start(&paths, hash_combine(hash_u32(seed), PILOT_SEED), &scratch);
+    PathKinds fresh = start(&paths, seed, &scratch);
     pilot.scratch = fresh.scratch = scratch;
-    plan(&pilot);
-    read_whole(&fresh, pilot.whole_paths);
-    read_mirrors(&fresh, pilot.mirror_paths);
-    return (GazeReading){figure_of(&fresh, GAZE_THROUGH), figure_of(&fresh, GAZE_MIRRORED),
-                         find_mirrored(&fresh)};
+    path_kinds_plan(&pilot, goal->most, mirrors_will_do, whole_will_do);
+    path_kinds_read(&fresh, &pilot);
+    return (GazeReading){path_kinds_figure(&fresh, GAZE_THROUGH),
+                         path_kinds_figure(&fresh, GAZE_MIRRORED), find_mirrored(&fresh)};
 }

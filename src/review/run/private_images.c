@@ -18,10 +18,6 @@
 #define PLACES 61
 #define SEARCH_BYTES ((size_t)1 << 32) /* of address space */
 
-/* As gaze_reading.c has them. */
-#define STEP_U 0.7548776662466927
-#define STEP_V 0.5698402909980532
-
 /* ---- the symbol's box -------------------------------------------------------------------- */
 
 /* The point of the display that shows a place of the box, 0..1; false: none does. */
@@ -62,7 +58,7 @@ static double fraction(double x) {
 
 /* A place of a cell, in the box. */
 static void place_of(const PaneCell *cell, int k, double *s, double *t) {
-    double u = fraction(STEP_U * (k + 0.5)), v = fraction(STEP_V * (k + 0.5));
+    double u = fraction(EVEN_STEP_U * (k + 0.5)), v = fraction(EVEN_STEP_V * (k + 0.5));
     int field = cell->id / 2;
     if (u + v > 1) u = 1 - u, v = 1 - v;
     if (cell->id % 2) u = 1 - u, v = 1 - v;
