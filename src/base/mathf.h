@@ -30,6 +30,15 @@ static inline float lerpf(float a, float b, float t) {
     return a + (b - a) * t;
 }
 
+/* The two samples around a place from 0 to 1, and where between their middles. */
+static inline int sample_place(float at, int count, int *next, float *t) {
+    float x = clampf((at > 0 ? at : 0) * (float)count - 0.5f, 0, (float)(count - 1));
+    int i = (int)x;
+    *next = i + 1 < count ? i + 1 : i;
+    *t = x - (float)i;
+    return i;
+}
+
 static inline float safe_sqrtf(float value) {
     return value > 0 ? sqrtf(value) : 0.0f;
 }

@@ -71,6 +71,11 @@ typedef struct TextureSlot {
     float uv_from_uv[6]; /* KHR_texture_transform: u' = a u + b v + c, v' = d u + e v + f */
 } TextureSlot;
 
+static inline Vec2 slot_from_uv(const TextureSlot *slot, Vec2 uv) {
+    const float *m = slot->uv_from_uv;
+    return (Vec2){m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
+}
+
 /* The largest coordinate, in metres, of all that is shown, sees or shines: beyond 4e9 squares
  * of triangles' areas overflow, and light is silently lost; beyond 1.8e18 Embree takes no
  * ray. */

@@ -53,20 +53,11 @@ PanelMix panel_place_reflection(const Panel *panel, const float place[2]) {
 
 /* ---- the map ----------------------------------------------------------------------------- */
 
-/* The two pixels around a coordinate from 0 to 1, and where between their middles. */
-static int pixel_of(float at, int count, int *next, float *t) {
-    float x = clampf((at > 0 ? at : 0) * (float)count - 0.5f, 0, (float)(count - 1));
-    int i = (int)x;
-    *next = i + 1 < count ? i + 1 : i;
-    *t = x - (float)i;
-    return i;
-}
-
 void panel_map_at(const PanelMap *map, const float place[2], float white[3], float black[3]) {
     int right, below;
     float s, t;
-    int x = pixel_of(place[0], map->width, &right, &s);
-    int y = pixel_of(place[1], map->height, &below, &t);
+    int x = sample_place(place[0], map->width, &right, &s);
+    int y = sample_place(place[1], map->height, &below, &t);
     for (int k = 0; k < 2; k++)
         for (int j = 0; j < 3; j++) {
             const uint16_t *top = map->value[k][j] + (size_t)y * (size_t)map->width;

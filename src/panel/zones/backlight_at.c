@@ -4,20 +4,11 @@
 
 #include "base/mathf.h"
 
-/* The two samples around a coordinate from 0 to 1, and where between them. */
-static int sample_of(float at, int count, int *next, float *t) {
-    float x = clampf((at > 0 ? at : 0) * (float)count - 0.5f, 0, (float)(count - 1));
-    int i = (int)x;
-    *next = i + 1 < count ? i + 1 : i;
-    *t = x - (float)i;
-    return i;
-}
-
 float backlight_at(const Backlight *backlight, const float place[2]) {
     int right, below;
     float s, t;
-    int x = sample_of(place[0], backlight->width, &right, &s);
-    int y = sample_of(place[1], backlight->height, &below, &t);
+    int x = sample_place(place[0], backlight->width, &right, &s);
+    int y = sample_place(place[1], backlight->height, &below, &t);
     const float *top = backlight->light + (size_t)y * (size_t)backlight->width;
     const float *low = backlight->light + (size_t)below * (size_t)backlight->width;
     float light = lerpf(lerpf(top[x], top[right], s), lerpf(low[x], low[right], s), t);

@@ -20,11 +20,6 @@ typedef struct FrameSums {
     float box[4]; /* u, then v: least and most */
 } FrameSums;
 
-static Vec2 coordinates(const TextureSlot *slot, Vec2 uv) {
-    const float *m = slot->uv_from_uv;
-    return (Vec2){m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
-}
-
 /* dP/du and dP/dv from the edges e, f and their steps in u and v (Cramer's rule). v counts
  * downwards. */
 static void add_triangle(const Scene *scene, const TextureSlot *slot, uint32_t t, FrameSums *s) {
@@ -32,7 +27,7 @@ static void add_triangle(const Scene *scene, const TextureSlot *slot, uint32_t t
     Vec2 c[3];
     for (int k = 0; k < 3; k++) {
         p[k] = scene_corner(scene, t, k);
-        c[k] = coordinates(slot, scene_corner_uv(scene, t, k, slot->uv_set));
+        c[k] = slot_from_uv(slot, scene_corner_uv(scene, t, k, slot->uv_set));
         s->box[0] = fminf(s->box[0], c[k].x), s->box[1] = fmaxf(s->box[1], c[k].x);
         s->box[2] = fminf(s->box[2], c[k].y), s->box[3] = fmaxf(s->box[3], c[k].y);
     }

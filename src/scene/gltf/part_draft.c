@@ -91,15 +91,10 @@ static uint32_t *weld_vertices(const PartDraft *draft, int uv_set, Arena *scratc
     return weld;
 }
 
-static Vec2 slot_coordinates(const TextureSlot *slot, Vec2 uv) {
-    const float *m = slot->uv_from_uv;
-    return (Vec2){m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
-}
-
 void draft_slot_box(const PartDraft *draft, const TextureSlot *slot, float box[4]) {
     const Vec2 *uv = draft->part.uv[slot->uv_set];
     for (uint32_t i = 0; uv && i < 3 * draft->triangle_count; i++) {
-        Vec2 at = slot_coordinates(slot, uv[draft->indices[i]]);
+        Vec2 at = slot_from_uv(slot, uv[draft->indices[i]]);
         box[0] = fminf(box[0], at.x), box[1] = fmaxf(box[1], at.x);
         box[2] = fminf(box[2], at.y), box[3] = fmaxf(box[3], at.y);
     }
@@ -113,8 +108,8 @@ int draft_triangle_tangent(const PartDraft *draft, uint32_t triangle, const Text
     const Vec3 *p = draft->positions;
     const Vec2 *uv = draft->part.uv[slot->uv_set];
     if (!uv) return 0;
-    Vec2 a = slot_coordinates(slot, uv[index[0]]), b = slot_coordinates(slot, uv[index[1]]),
-         c = slot_coordinates(slot, uv[index[2]]);
+    Vec2 a = slot_from_uv(slot, uv[index[0]]), b = slot_from_uv(slot, uv[index[1]]),
+         c = slot_from_uv(slot, uv[index[2]]);
     Vec3 e = vec3_sub(p[index[1]], p[index[0]]), f = vec3_sub(p[index[2]], p[index[0]]);
     float eu = b.x - a.x, ev = b.y - a.y, fu = c.x - a.x, fv = c.y - a.y;
     float det = eu * fv - fu * ev;

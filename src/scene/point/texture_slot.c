@@ -2,11 +2,6 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "scene/point/texture_slot.h"
 
-static Vec2 slot_from_uv(const TextureSlot *slot, Vec2 uv) {
-    const float *m = slot->uv_from_uv;
-    return (Vec2){m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
-}
-
 Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point) {
     return slot_from_uv(slot, point->uv[slot->uv_set]);
 }
