@@ -104,12 +104,13 @@ def furnace_sphere():
     return Case("furnace: albedo 1/2 and emission 1/2 show 1", scene, [Claim("inside", 1)])
 
 
-def furnace_bright():
+def furnace_bright(*options):
     scene = Scene()
     scene.box_inside(scene.lambert(0.9, 1), [-1, -1, -1], [1, 2, 1])
     scene.view("inside", [0.2, 0.1, -0.3], [1, 0.3, 0.2], 90)
     return Case("furnace: albedo 0.9 and emission 1 show 10", scene, [Claim("inside", 10)],
-                ["--max-bounces", "1000"], size=(32, 32), samples=180)
+                ["--max-bounces", "1000", *options], size=(32, 32),
+                samples=110 if options else 180)
 
 
 def furnace_outside():
@@ -577,9 +578,10 @@ def measured_metal(degrees):
 
 def all_cases(whole):
     """whole: learning where light comes from, which makes an even wall noisier,
-    in the brightest cube too."""
-    bright = (256,) if whole else (200, ["--no-guiding"])
-    cases = [furnace_sphere(), furnace_bright(), furnace_outside(), cube(0.5),
+    in the brightest cube and furnace too."""
+    unguided = [] if whole else ["--no-guiding"]
+    bright = (256 if whole else 200, unguided)
+    cases = [furnace_sphere(), furnace_bright(*unguided), furnace_outside(), cube(0.5),
              cube(0.9, True, *bright), cube(0.05, False), cube(0.95, False), flux(),
              point_light(), small_lambertian_source(), spot_light(), coloured_light(),
              one_sided(), sun(10), sun(35), sun(90), sun_direction(), half_sun(),
