@@ -223,30 +223,10 @@ TEST(a_concave_cylinder_focuses_as_the_mirror_equation_says) {
 }
 
 /* A sphere of radius 1 spreads a beam that meets it at incidence t, after l, by 1 + 2 l / cos t
- * across the plane's line and by 1 + 2 l cos t across the plane. */
+ * across the plane's line and by 1 + 2 l cos t across the plane. Light of a point at s before it
+ * has the vergence 1 / s besides: its pencil is s + l + 2 s l / cos t by s + l + 2 s l cos t wide,
+ * for a steradian. */
 TEST(a_convex_sphere_spreads_as_the_mirror_equation_says) {
-    Vec3 towards = vec3(0, 0, 1);
-    for (int i = 1; i < 8; i++) {
-        ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
-        Scene *scene = builder_scene(&arena);
-        double t = 0.18 * i, turn = 0.7 * i;
-        Vec3 n = vec3((float)(sin(t) * cos(turn)), (float)(sin(t) * sin(turn)), (float)cos(t));
-        builder_part(scene, builder_mirror(1));
-        builder_cap(scene, n);
-        const Mirrors *mirrors = all_mirrors(scene, &arena);
-        for (int k = 0; k < 4; k++) {
-            double l = 0.3 * (1 << k);
-            Vec3 out = vec3_sub(vec3_scale(n, 2 * n.z), towards);
-            Sum sum = ask(scene, mirrors, vec3_along(n, out, (float)l), towards);
-            assert_int_equal(sum.count, 1);
-            assert_close(sum.spread, 1 / ((1 + 2 * l / cos(t)) * (1 + 2 * l * cos(t))), 5e-3);
-        }
-    }
-}
-
-/* Light of a point at s before it has the vergence 1 / s besides: after l its pencil is s + l +
- * 2 s l / cos t by s + l + 2 s l cos t wide, for a steradian. */
-TEST(a_convex_sphere_spreads_a_near_light_as_the_mirror_equation_says) {
     for (int i = 1; i < 8; i++) {
         ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
         Scene *scene = builder_scene(&arena);
@@ -258,10 +238,13 @@ TEST(a_convex_sphere_spreads_a_near_light_as_the_mirror_equation_says) {
         const Mirrors *mirrors = all_mirrors(scene, &arena);
         for (int k = 0; k < 12; k++) {
             double l = 0.3 * (1 << k % 4), s = 0.4 * (1 + k / 4 * 3);
-            Sum sum = ask_near(scene, mirrors, vec3_along(n, out, (float)l),
-                               vec3_along(n, towards, (float)s));
-            assert_int_equal(sum.count, 1);
-            assert_close(sum.spread,
+            Vec3 from = vec3_along(n, out, (float)l);
+            Sum far = ask(scene, mirrors, from, towards);
+            Sum near = ask_near(scene, mirrors, from, vec3_along(n, towards, (float)s));
+            assert_int_equal(far.count, 1);
+            assert_int_equal(near.count, 1);
+            assert_close(far.spread, 1 / ((1 + 2 * l / cos(t)) * (1 + 2 * l * cos(t))), 5e-3);
+            assert_close(near.spread,
                          1 / ((s + l + 2 * s * l / cos(t)) * (s + l + 2 * s * l * cos(t))), 5e-3);
         }
     }
