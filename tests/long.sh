@@ -195,6 +195,9 @@ run 'all variants of a review' variants-long \
     python3 tests/image/variants.py --all $program
 run 'doors, mirrored vehicles, mirrored light' changed-long \
     python3 tests/image/changed.py --all $program
+run 'lamps by every way, 200' lamps-by-every-way-long \
+    python3 tests/image/lamps_by_every_way.py $program
+run "a dark cabin's intervals" cabin-long python3 tests/image/cabin.py $program
 run "another maker's car" other-maker python3 tests/image/other_maker.py $program
 run 'intervals of light that is rare' gaze-intervals-long \
     python3 tests/image/gaze_intervals.py --all $program

@@ -71,6 +71,8 @@ start 'scenes moved and turned' moved python3 tests/image/moved.py $program
 start 'faults and their outcomes' faults python3 tests/hostile/faults.py $program
 start 'closed forms in frames' image python3 tests/image/run.py $program
 start 'frames that were multiplied' multiplied python3 tests/image/multiplied.py $program
+start 'lamps by every way' lamps-by-every-way \
+    python3 tests/image/lamps_by_every_way.py --few $program
 start 'light that no path connects' missed python3 tests/image/missed.py $program
 start 'comparisons' compare python3 tests/hostile/compare.py $program
 start 'same bits, any threads' bits python3 tests/image/bits.py $program

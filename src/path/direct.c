@@ -205,8 +205,7 @@ static void count_lost(PathState *path, const Surface *surface, const TakenLight
                      bsdf_eval(&surface->bsdf, surface->local_wo, taken->local_wi, &pdf) *
                      spectrum_all(fabsf(taken->local_wi.z) / (taken->light.pdf * taken->prob));
     spectrum_add_xyz(path->wavelengths, light, xyz);
-    if (isfinite(xyz[1]))
-        path->statistics->lost_behind_solids += (path->bounce ? 1 : LENS_MOST) * (double)xyz[1];
+    if (isfinite(xyz[1])) path->statistics->lost += (path->bounce ? 1 : LENS_MOST) * (double)xyz[1];
 }
 
 /* A way of the lamp's light as a sample of its own. */

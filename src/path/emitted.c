@@ -4,6 +4,7 @@
 
 #include "path/mirror_share.h"
 #include "path/path_collector.h"
+#include "path/unfollowed.h"
 #include "sunlit/sunlit_way.h"
 
 /* MIS weight of emitted light that the last vertex met by chance: the rest belongs to its
@@ -157,5 +158,6 @@ void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 w
     found.radiance =
         path->throughput * spectrum_all(weight) *
         triangle_emission(scene, hit->triangle, &surface->point, wo, path->wavelengths);
+    if (unfollowed_emitters(path)) unfollowed_found(path, surface->part_id, found.radiance);
     path_gather(path, &found);
 }

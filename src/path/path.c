@@ -8,6 +8,7 @@
 #include "path/mirrored.h"
 #include "path/path_collector.h"
 #include "path/sunlit.h"
+#include "path/unfollowed.h"
 #include "sunlit/sunlit_build.h"
 #include "path/windows.h"
 
@@ -81,6 +82,7 @@ static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
         .samples_map = samples_map,
         .before = before,
         .sun_share = sun};
+    path->smooth = next->is_delta ? path->smooth + 1 + path->by_plates : 0;
     path->straight = path->sheets_from = 0;
     path->by_plates = false;
     sheets_none(path->stack);
@@ -128,7 +130,10 @@ static bool next_hit(PathState *path, Hit *hit) {
         return true;
     }
     *(path->bounce ? &path->statistics->bounce_rays : &path->statistics->camera_rays) += 1;
-    if (!bvh_intersect(context->bvh, path->ray, path->sheets_from, hit)) return false;
+    bool is_met = bvh_intersect(context->bvh, path->ray, path->sheets_from, hit);
+    if (unfollowed_emitters(path))
+        unfollowed_add(path, is_met ? path->straight + hit->t : INFINITY);
+    if (!is_met) return false;
     path->straight += hit->t;
     if (path->medium_id != NO_ID)
         direct_absorb(path->context->scene, path->wavelengths, path->medium_id, hit->t,
@@ -337,11 +342,13 @@ void path_from_ray(const PathStart *start, Ray ray, PathResult *out) {
     PathRoom room;
     PathState path = state_of(start, &room);
     path.ray = ray;
+    path.smooth = -PASSES_MAX; /* what an eye sees of lamps by mirrors is no light of a reading */
     path.first.is_awaited = out != NULL;
     if (start->from) {
         path.last.at = *start->from;
         path.last.is_delta = false;
         path.last.pdf = FROM_PDF;
+        path.smooth = 0;
         path.bounce = 1;
     }
     collect_start(&path);

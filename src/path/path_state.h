@@ -42,12 +42,14 @@ static inline void path_light_to_xyz(const PathLight *gathered, const Wavelength
 typedef struct PathStatistics {
     uint64_t samples;
     uint64_t camera_rays, bounce_rays, shadow_rays;
-    uint64_t sky_finds;        /* ways on which light of the sky reached a vertex */
-    double lost_behind_solids; /* light of lamps without a surface that may come through clear
-                                  solids, but by no way that is known: a bound, cd m^-2 or lx, a
-                                  sum */
-    double sent_on;            /* of a probe's paths: the share of the light from where they go that
-                                  their first vertex sends to the eye, a sum */
+    uint64_t sky_finds; /* ways on which light of the sky reached a vertex */
+    double lost;        /* light of lamps without a surface that may come through clear
+                           solids and by several mirrors, but by no way that is known: a
+                           bound, cd m^-2 or lx, a sum */
+    double rare;        /* the same of compact emitters, which chance alone finds there,
+                           less what it found; below 0 where that is more */
+    double sent_on;     /* of a probe's paths: the share of the light from where they go that
+                           their first vertex sends to the eye, a sum */
 } PathStatistics;
 
 /* The sampler's numbers by their purpose: every surface that a path meets has its own, so that
@@ -151,6 +153,8 @@ typedef struct PathState {
     int first_bounce;  /* at which sheets are followed both ways */
     int steps;         /* surfaces met so far */
     int splits_left;   /* thin sheets that may still be followed both ways */
+    int smooth;        /* smooth boundaries since the last vertex that scattered; plates count one
+                          together, before a mirror; far below 0 where none has scattered yet */
     int medium_id;     /* material of the solid that the ray is in; NO_ID: air */
     SheetStack *stack; /* what else lies where the ray is; empty in scenes without sheets */
     float sheets_from; /* m along the ray: sheets before it were in the stack */

@@ -15,7 +15,7 @@ typedef struct IlluminanceSums {
     double xyz[3];
     BrightSamples bright;
     uint64_t sky_finds; /* PathStatistics' */
-    double lost;        /* PathStatistics' lost_behind_solids */
+    double lost, rare;  /* PathStatistics' */
 } IlluminanceSums;
 
 typedef struct Meter {
@@ -53,7 +53,8 @@ static void measure_batch(void *user, int item, int worker) {
         bright_add(&sums->bright, (double)xyz[1]);
     }
     sums->sky_finds = statistics.sky_finds;
-    sums->lost = statistics.lost_behind_solids;
+    sums->lost = statistics.lost;
+    sums->rare = statistics.rare;
 }
 
 /* What comes of the sky by openings that no sample met (review/light/reading.c), lx. */
@@ -66,7 +67,7 @@ static double sky_unmet(const Meter *meter, int point) {
 
 static Illuminance add_batches(const Meter *meter, int point) {
     Illuminance total = {0};
-    double samples = (double)meter->options->samples;
+    double samples = (double)meter->options->samples, rare = 0;
     EstimateSums y = {.batches = meter->options->samples < BATCHES ? (int)meter->options->samples
                                                                    : BATCHES,
                       .paths = meter->options->samples,
@@ -77,11 +78,13 @@ static Illuminance add_batches(const Meter *meter, int point) {
     for (int i = 0; i < y.batches; i++) {
         const IlluminanceSums *sums = &meter->sums[point][i];
         y.unseen += sums->lost / samples;
+        rare += sums->rare / samples;
         for (int k = 0; k < 3; k++) total.xyz_lx[k] += sums->xyz[k] / samples;
         y.batch[i] = sums->xyz[1];
         y.bright.squares += sums->bright.squares;
         y.bright.fourths += sums->bright.fourths;
     }
+    y.unseen += fmax(rare, 0);
     MeanInterval in = estimate_of(&y).interval;
     total.low_lx = in.low;
     total.high_lx = in.high;

@@ -242,7 +242,8 @@ bool render_prepare(const Scene *scene, const SceneCamera *camera, const RenderO
     if (!lights_build(scene, arena, &lights, err)) return false;
     if (!bvh_build(scene, options->threads, options->isa, options->progress, &setup.bvh, err))
         return false;
-    setup.context = path_context_of_frame(scene, setup.bvh, lights, options->max_bounces, arena);
+    setup.context = (options->is_reading ? path_context_build : path_context_of_frame)(
+        scene, setup.bvh, lights, options->max_bounces, arena);
     if (options->no_mirrors) setup.context.beams[BEAMS_OF_SUN].mirrors = NULL;
     setup.camera = camera_from_scene(camera, options->width, options->height);
     setup.context.eye = place_eye(options->eye, &setup.camera, arena);

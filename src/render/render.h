@@ -35,6 +35,7 @@ typedef struct RenderOptions {
     FilmArea noise_area;               /* whose error decides */
     const FilmArea *favoured;  /* only its pixels take all samples (favour.h); NULL: all do */
     bool favours_noise;        /* pixels take samples as a pilot found noise (pilot.h) */
+    bool is_reading;           /* the context is one of readings (path_context_build) */
     bool no_guiding;           /* does not first train a guide of where light comes from */
     const char *field;         /* the trained guide: read from this file if it is there, else
                                   kept there; NULL: neither */

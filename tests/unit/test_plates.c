@@ -239,7 +239,7 @@ static double lost_behind(void (*add)(Scene *scene)) {
                            .statistics = &statistics};
         path_from_point(&start, (LitPoint){vec3(0, 0, 0), vec3(0, 0, 1), false}, xyz);
     }
-    return statistics.lost_behind_solids / 256;
+    return statistics.lost / 256;
 }
 
 static void add_wedge(Scene *scene) {

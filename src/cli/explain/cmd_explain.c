@@ -132,7 +132,8 @@ static bool explain_loaded(SceneQuestion *question, const Scene *scene, Arena *a
     render->height = question->size[1];
     render->seed = (uint32_t)question->seed;
     render->max_bounces = (int)question->max_bounces;
-    render->no_guiding |= !question->has_pixel;
+    render->is_reading = !question->has_pixel;
+    render->no_guiding |= render->is_reading;
     if (!render_prepare(scene, &camera, render, arena, &setup, err)) return false;
     bool ok = explain_lit(question, &camera, &setup, arena, out, err);
     out->lights = light_groups_build(scene, setup.context.lights, arena, &unsaid);

@@ -58,7 +58,7 @@ static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3
                              : PATH_REFLECTS);
     history->pane_id = NO_ID;
     history->is_sampled = path->way.is_of_eye;
-    if (listener && listener->on_mirror && next->is_delta && !is_across)
+    if (listener && listener->on_mirror && next->is_delta)
         listener->on_mirror(listener->user, history, frame_to_world(&surface->frame, next->wi),
                             spectrum_max_lane(path->throughput));
 }

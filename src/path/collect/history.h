@@ -58,8 +58,8 @@ typedef enum PathReach {
 
 typedef struct PathListener {
     void (*on_light)(void *user, const PathHistory *history, const float xyz[3]);
-    /* A mirror, the last step, turned it towards there (unit); the eye sees this share of what
-     * comes from there, in its brightest lane. NULL: not requested. */
+    /* A smooth boundary, the last step, turned it towards there (unit); the eye sees this share of
+     * what comes from there, in its brightest lane. NULL: not requested. */
     void (*on_mirror)(void *user, const PathHistory *history, Vec3 towards, float share);
     void *user;
     bool with_lanes;        /* displays' lanes are requested, too */

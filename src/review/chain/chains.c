@@ -31,6 +31,7 @@ typedef struct ChainChunk {
     int count;
     double all, mirror, own, reflected;
     BrightSamples bright, bright_reflected; /* as all, as reflected */
+    double lost, rare;                      /* PathStatistics' */
     ChainGroups groups;
     double *by_seat; /* NULL: none is requested */
     uint32_t draws;
@@ -221,6 +222,8 @@ static void trace_chunk(void *user, int item, int worker) {
     }
     search->args->tools->kernel->trace(&aim, place * CHAIN_CHUNK, (place + 1) * CHAIN_CHUNK,
                                        &listener, &statistics);
+    search->sums[item].lost = statistics.lost;
+    search->sums[item].rare = statistics.rare;
 }
 
 /* ---- all chunks -------------------------------------------------------------------------- */
@@ -229,6 +232,7 @@ static void trace_chunk(void *user, int item, int worker) {
 typedef struct FoundSums {
     double sum, by_batch[CHAIN_BATCHES];
     BrightSamples bright;
+    double lost, rare; /* PathStatistics', of sums that may have it */
 } FoundSums;
 
 typedef struct FoundChain {
@@ -292,6 +296,8 @@ static void add_chunk(FoundChains *found, const ChainChunk *sums, int batch, Are
     add_sum(&found->mirror, batch, sums->mirror);
     add_sum(&found->reflected, batch, sums->reflected);
     add_bright(&found->reflected, &sums->bright_reflected);
+    found->all.lost = found->reflected.lost += sums->lost;
+    found->all.rare = found->reflected.rare += sums->rare;
     found->own += sums->own;
     for (int i = 0; i < CHUNK_ROOM; i++) {
         const ChunkChain *from = &sums->table[i];
@@ -357,6 +363,7 @@ static ChainFigure figure_of(const FoundSums *found, const ChainSearch *search) 
                          .paths = (long)search->chunks * CHAIN_CHUNK,
                          .piece = CHAIN_CHUNK,
                          .share = 1};
+    sums.unseen = (found->lost + fmax(found->rare, 0)) / (double)sums.paths;
     for (int i = 0; i < search->batches; i++) sums.batch[i] = found->by_batch[i];
     Estimate estimate = estimate_of(&sums);
     return (ChainFigure){found->sum / (double)sums.paths, estimate.sigma, estimate.interval.low,
@@ -381,7 +388,8 @@ static int by_sureness(const void *a, const void *b) {
 
 /* Light by chains that are not kept. */
 static ChainFigure rest_of(const FoundChains *found, const ChainSearch *search) {
-    FoundSums rest = {.sum = 0, .bright = found->all.bright};
+    FoundSums rest = {
+        .bright = found->all.bright, .lost = found->all.lost, .rare = found->all.rare};
     for (int k = 0; k < search->batches; k++) {
         double left = found->all.by_batch[k];
         for (int i = 0; i < found->count; i++)

@@ -88,7 +88,9 @@ static void on_mirror(void *user, const PathHistory *history, Vec3 towards, floa
     bool is_mirrored = path_mirroring_step(kind->paths->setup->scene, history) != NO_ID;
     int figure = is_mirrored ? GAZE_MIRRORED : GAZE_THROUGH;
     int again = mirrors_of(history) > 1, *count = &batch->images[figure][again];
-    if (history->count > PATH_STEPS_MAX || *count == GAZE_IMAGES) return;
+    if (history->count > PATH_STEPS_MAX || *count == GAZE_IMAGES ||
+        history->step[history->count - 1].event != PATH_REFLECTS)
+        return;
     Vec3 from = history->step[history->count - 1].position;
     batch->image[figure][again][(*count)++] = (GazeImage){(Ray){from, towards, 0, INFINITY}, share};
 }

@@ -65,8 +65,8 @@ uint64_t reading_aim_hash(const ProbeAim *aim) {
 typedef struct Batch {
     double reflected, mirror;
     long found;
-    long sky_finds; /* PathStatistics', */
-    double lost;    /* its lost_behind_solids too */
+    long sky_finds;    /* PathStatistics', */
+    double lost, rare; /* its, too */
     double sent_on;
     BrightSamples bright;
 } Batch;
@@ -119,7 +119,8 @@ static void read_batch(void *user, int item, int worker) {
     }
     stream->batches[item].sky_finds += (long)statistics.sky_finds;
     stream->batches[item].sent_on += statistics.sent_on;
-    stream->batches[item].lost += statistics.lost_behind_solids;
+    stream->batches[item].lost += statistics.lost;
+    stream->batches[item].rare += statistics.rare;
 }
 
 /* Where no ray of the sun was seen to come in, a beam as wide as the map's pixels may. */
@@ -162,12 +163,13 @@ static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int
     EstimateSums sums = {
         .batches = BATCHES, .paths = (long)paths * BATCHES, .piece = 1, .unseen = unseen_by(aim)};
     Reading reading = {.paths = sums.paths, .unseen = sums.unseen};
-    double mirror = 0, found = 0, lost = 0;
+    double mirror = 0, found = 0, lost = 0, rare = 0;
     for (int i = 0; i < BATCHES; i++) {
         sums.batch[i] = batches[i].reflected;
         mirror += batches[i].mirror;
         found += (double)batches[i].found;
         lost += batches[i].lost;
+        rare += batches[i].rare;
         sums.bright.squares += batches[i].bright.squares;
         sums.bright.fourths += batches[i].bright.fourths;
     }
@@ -175,7 +177,7 @@ static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int
     if (!(found > 0)) return reading;
     sums.share = reading.found_share = found / (double)reading.paths;
     sums.unmet += sky_unmet(aim, batches, found);
-    reading.unseen = sums.unseen += lost / found;
+    reading.unseen = sums.unseen += (lost + fmax(rare, 0)) / found;
     Estimate estimate = estimate_of(&sums);
     estimate_add_known(&estimate, known, RESPONSE_MIRROR_ERROR * known);
     put_estimate(&estimate, &reading);
