@@ -33,6 +33,9 @@ def write_scene(path):
     scene.box_inside(scene.lambert(0.7), [-2, 0, -2], [2, 2.5, 2])
     scene.facing_quad(scene.emitter(500), [0, 2.49, 0], [0, -1, 0], 0.8)
     scene.sphere(scene.metal(0.8, 0.3), [-0.7, 0.5, -0.8], 0.5, rings=8)
+    scene.facing_quad(scene.metal(0.9), [-1.5, 0.8, 0.8], [1, 0, 0], 0.8)
+    scene.facing_quad(scene.emitter(50000), [0.5, 0.9, 1], [-1, -0.2, 0], 0.05)
+    scene.light("spot", 500, [0.5, 1, 0.6], [-1, -0.1, 0])
     grey = {"metallicFactor": 0, "baseColorFactor": [0.8, 0.8, 0.8, 1]}
     scene.quad(scene.material("screen", pbrMetallicRoughness=grey), [-1, 0.5, -1.9], [2, 0, 0],
                [0, 1.5, 0])

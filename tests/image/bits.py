@@ -39,7 +39,10 @@ def write_scene(path):
     scene.quad(scene.material(pbrMetallicRoughness={
         "baseColorTexture": {"index": picture}, "roughnessFactor": 0.4, "metallicFactor": 0}),
         [-1, 0.5, -1.9], [2, 0, 0], [0, 1.5, 0])
+    scene.facing_quad(scene.metal(0.9), [-1.5, 0.8, 0.8], [1, 0, 0], 0.8)
+    scene.facing_quad(scene.emitter(50000), [0.5, 0.9, 1], [-1, -0.2, 0], 0.05)
     scene.light("spot", 200, [1, 2.2, 1], [-1, -2, -1])
+    scene.light("spot", 500, [0.5, 1, 0.6], [-1, -0.1, 0])
     scene.view("eye", [0, 1.2, 1.9], [0, -0.1, -1], 60)
     scene.write(path)
 
