@@ -192,11 +192,11 @@ def check_beside(report, reviewer, document, alone):
     report.claim(not scripts, f"left behind: {scripts}")
 
 
-def check_threads(report, reviewer):
+def check_threads(report, reviewer, last):
     gazes = [{"at": "symbols"}, {"name": "wall", "direction": [-1, 0, -0.3]}]
     document = request(precision={"contrast": 0.02}, gaze=gazes, conditions=[
         moment("grey", type="constant", luminance=3000), {
-        "name": "suns", "sweep": {"sun": {"azimuth_deg": [0, 45, 45],
+        "name": "suns", "sweep": {"sun": {"azimuth_deg": [0, last, 45],
                                           "elevation_deg": [30, 30, 1]}, "sky": "sky"}}])
     texts = []
     for threads in (1, 5):
@@ -418,7 +418,7 @@ def main(program, whole):
         check_frame(report, reviewer, *check_figures(report, reviewer))
         check_pictures(report, reviewer)
         check_first_picture(report, reviewer)
-        check_threads(report, reviewer)
+        check_threads(report, reviewer, 90 if whole else 45)
         check_diff(report, reviewer)
         check_start(report, reviewer)
         check_suns(report, reviewer, 5 if whole else 2)
