@@ -51,28 +51,37 @@ static uint64_t cube_key(const GlintPlace *place, float edge_m, float shift) {
            coordinate(p.y, per_m, shift) * MIX_Y + coordinate(p.z, per_m, shift) * MIX_Z;
 }
 
-static void add_lm(GlintTable *table, uint32_t tag, float lm, Arena *arena) {
+static float add_lm(GlintTable *table, uint32_t tag, float lm, Arena *arena) {
     if (4 * (uint64_t)table->count >= 3 * (uint64_t)table->room) grow(table, arena);
     GlintCube *cube = find(table, tag);
     table->count += !cube->tag;
     cube->tag = tag;
     cube->lm += lm;
+    return cube->lm;
 }
 
-void glint_map_add(GlintMap *map, const GlintPlace *place, float lm, Arena *arena) {
+static float lx_of(float lm, float edge) {
+    return lm / (ACROSS_M2 * edge * edge);
+}
+
+float glint_map_add(GlintMap *map, const GlintPlace *place, float lm, Arena *arena) {
+    float most = 0;
     for (int size = 0; size < GLINT_SIZES; size++) {
         float edge = size ? COARSER * place->edge_m : place->edge_m;
         uint64_t lowest = cube_key(place, edge, 0.5f);
         for (int i = 0; i < 8; i++)
-            add_lm(&map->size[size],
-                   tag_of(lowest + (i & 1 ? MIX_X : 0) + (i & 2 ? MIX_Y : 0) + (i & 4 ? MIX_Z : 0)),
-                   lm, arena);
+            most = fmaxf(most, lx_of(add_lm(&map->size[size],
+                                            tag_of(lowest + (i & 1 ? MIX_X : 0) +
+                                                   (i & 2 ? MIX_Y : 0) + (i & 4 ? MIX_Z : 0)),
+                                            lm, arena),
+                                     edge));
     }
+    return most;
 }
 
 static float lx_in(const GlintTable *table, const GlintPlace *place, float edge) {
     if (!table->room) return 0;
-    return find(table, tag_of(cube_key(place, edge, 0)))->lm / (ACROSS_M2 * edge * edge);
+    return lx_of(find(table, tag_of(cube_key(place, edge, 0)))->lm, edge);
 }
 
 /* Where no large cube got light no small one did. */

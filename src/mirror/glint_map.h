@@ -38,7 +38,8 @@ typedef struct GlintPlace {
     Vec3 position; /* m */
 } GlintPlace;
 
-void glint_map_add(GlintMap *map, const GlintPlace *place, float lm, Arena *arena);
+/* The greatest illuminance, lx, that glint_map_lx now has in a cube of those it added to. */
+float glint_map_add(GlintMap *map, const GlintPlace *place, float lm, Arena *arena);
 
 /* HOT. Illuminance there, about, lx: the greater of both sizes; 0 where nothing landed. */
 float glint_map_lx(const GlintMap *map, const GlintPlace *place);

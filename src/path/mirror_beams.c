@@ -21,10 +21,9 @@
 #define GENEROSITY 0.2f  /* times the root of mirrored over other light, of one mirror */
 #define LEAST 0.0075f    /* probability where no ray came */
 #define OF_NEAR 0.25f    /* times both of near lights, whose search takes longer */
-#define OF_POINTS \
-    0.03125f      /* probability of points of no part, which search all for near lights \
-                   */
-#define CUBES 128 /* along the longest edge of a part's box, and at least so large: */
+#define OF_POINTS 0.25f  /* most probability of points of no part to search all for near lights; */
+#define OF_ALL 1.5f      /* so much over the root of their number, about as the search takes time */
+#define CUBES 128        /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f   /* of other light */
 #define ANY_SOURCE 0.15f /* of the choices, that go to all alike */
@@ -43,6 +42,7 @@ typedef struct Beams {
     Arena *arena; /* nothing else allocates from it meanwhile */
     MirrorPair *pairs;
     uint32_t count, room;
+    uint32_t all_count; /* of them all mirrors, for NO_ID */
     Glint *glints;
     uint32_t glint_count, glint_room;
     const BeamSide *sides;          /* as in MirrorBeams */
@@ -260,26 +260,29 @@ static uint32_t add_all_mirrors(const Scene *scene, const RayWork *work, MirrorP
     return count;
 }
 
-/* Joins the pieces in order: the result is that of a single thread. */
+/* Joins the pieces in order: the result is that of a single thread. most_lx: of each row. */
 static void join_pieces(const Beams *pieces, const RayWork *work, Beams *out, GlintMap *map,
-                        Arena *arena) {
+                        float *most_lx, Arena *arena) {
     bool has_all = out->set != BEAMS_OF_SUN && !out->tools->is_of_frame;
     for (int p = 0; p < PIECES; p++) out->count += pieces[p].count;
     for (int p = 0; p < PIECES; p++) out->glint_count += pieces[p].glint_count;
     out->pairs = ARENA_NEW(arena, MirrorPair, out->count + (has_all ? (uint32_t)work->count : 0));
     out->glints = ARENA_NEW(arena, Glint, out->glint_count);
     uint32_t count = has_all ? add_all_mirrors(out->tools->scene, work, out->pairs) : 0, glint = 0;
+    out->all_count = count;
     for (int p = 0; p < PIECES; p++)
         for (uint32_t i = 0; i < pieces[p].count; i++) out->pairs[count++] = pieces[p].pairs[i];
     for (int p = 0; p < PIECES; p++)
         for (uint32_t i = 0; i < pieces[p].glint_count; i++) {
-            out->glints[glint++] = pieces[p].glints[i];
-            glint_map_add(map, &pieces[p].glints[i].place, pieces[p].glints[i].lm, arena);
+            const Glint *g = &pieces[p].glints[i];
+            float *most = &most_lx[g->place.row];
+            out->glints[glint++] = *g;
+            *most = fmaxf(*most, glint_map_add(map, &g->place, g->lm, arena));
         }
     out->count = count;
 }
 
-static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena) {
+static void send_all_rays(Beams *beams, GlintMap *map, float *most_lx, Arena *arena) {
     Beams pieces[PIECES];
     RayWork work = {.pieces = pieces};
     int threads = bvh_threads(beams->tools->bvh);
@@ -294,7 +297,7 @@ static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena) {
                             .wavelengths = beams->wavelengths,
                             .emitters = beams->emitters};
     parallel_for(threads, PIECES, send_piece, &work);
-    join_pieces(pieces, &work, beams, map, arena);
+    join_pieces(pieces, &work, beams, map, most_lx, arena);
     for (int i = 0; i < threads; i++) arena_release(&work.arenas[i]);
     arena_release(&scratch);
 }
@@ -315,8 +318,8 @@ static void measure_sides(const Scene *scene, BeamSide *sides) {
  * times its time: the least of both together has q along c over the root of the time, and the
  * time grows about as the root of the mirrors sampled. Measured over views of both cockpits the
  * root of c does better than c, which is known by a few rays. */
-static void weigh_sides(const Beams *beams, const LightSelection *selection, BeamSide *sides,
-                        Arena scratch) {
+static void weigh_sides(const Beams *beams, const LightSelection *selection, const float *most_lx,
+                        BeamSide *sides, Arena scratch) {
     const Scene *scene = beams->tools->scene;
     uint32_t *mirrors = ARENA_NEW(&scratch, uint32_t, scene->part_count + 1);
     for (uint32_t i = 0; i < beams->count; i++)
@@ -328,6 +331,7 @@ static void weigh_sides(const Beams *beams, const LightSelection *selection, Bea
         float share = beams->set == BEAMS_OF_SUN ? 1 : OF_NEAR;
         side->least = share * LEAST;
         side->by_root = share * GENEROSITY / (time * sqrtf(fmaxf(selection->lx[row], LEAST_LX)));
+        side->most = fminf(side->least + side->by_root * sqrtf(most_lx[side->row]), 1);
     }
 }
 
@@ -440,21 +444,32 @@ MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightS
                    .emitters = &out.emitters};
     wavelengths_sample(0.5f, &middle);
     measure_sides(tools->scene, sides);
-    send_all_rays(&beams, &out.map, arena);
+    float *most_lx = ARENA_NEW(arena, float, 2 * ((size_t)tools->scene->part_count + 1));
+    send_all_rays(&beams, &out.map, most_lx, arena);
     if (!beams.count) return out;
+    out.of_all =
+        set == BEAMS_OF_SUN ? 1 : fminf(OF_POINTS, OF_ALL / sqrtf((float)beams.all_count + 1));
     if (set != BEAMS_OF_SUN) list_sources(&beams, &out, arena);
     qsort(beams.pairs, beams.count, sizeof *beams.pairs, mirrors_compare_pairs);
-    weigh_sides(&beams, selection, sides, *arena);
+    weigh_sides(&beams, selection, most_lx, sides, *arena);
     out.sides = sides;
     out.mirrors =
         mirrors_build(tools->scene, beams.pairs, beams.count, bvh_threads(tools->bvh), arena);
     return out;
 }
 
+float mirror_beams_most(const MirrorBeams *beams, int part_id, bool is_back) {
+    if (part_id == NO_ID) return beams->of_all;
+    return beams->sides[2 * part_id + is_back].most;
+}
+
+/* Parts whose cubes share a tag see each other's light: most holds it down to what rows are told.
+ */
 float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position) {
-    if (part_id == NO_ID) return beams->set == BEAMS_OF_SUN ? 1 : OF_POINTS;
+    if (part_id == NO_ID) return mirror_beams_most(beams, part_id, is_back);
     const BeamSide *side = &beams->sides[2 * part_id + is_back];
     GlintPlace place = {side->row, side->edge_m, position};
     if (!(side->least > 0)) return 0;
-    return fminf(side->least + side->by_root * sqrtf(glint_map_lx(&beams->map, &place)), 1);
+    return fminf(side->least + side->by_root * sqrtf(glint_map_lx(&beams->map, &place)),
+                 side->most);
 }

@@ -27,6 +27,7 @@ typedef struct BeamSide {
     float edge_m;
     float least;   /* probability of sampling where no ray came; 0: it has no mirrors */
     float by_root; /* more of it by the root of what the rays bring, lx */
+    float most;    /* of the probability, wherever on the side */
 } BeamSide;
 
 /* A lamp, or a compact emitter, whose rays came to a row by mirrors. */
@@ -41,6 +42,7 @@ typedef struct MirrorBeams {
                                there are stand at NO_ID */
     const BeamSide *sides;  /* rows as LightSelection's */
     GlintMap map;           /* where the rays came */
+    float of_all;           /* probability with which a point of no part searches all at NO_ID */
     const BeamSource *sources; /* but of the sun: a row's are [first[row], first[row + 1]), by id */
     const uint32_t *first;
     CompactEmitters emitters; /* of BEAMS_OF_EMITTERS */
@@ -62,6 +64,9 @@ MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightS
 static inline bool mirror_beams_has(const MirrorBeams *beams, int part_id, bool is_back) {
     return part_id == NO_ID || beams->sides[2 * part_id + is_back].least > 0;
 }
+
+/* HOT. What mirror_beams_prob is at most on a side of a part: it takes no look at the map. */
+float mirror_beams_most(const MirrorBeams *beams, int part_id, bool is_back);
 
 /* HOT. Probability of sampling a part's mirrors, in [0, 1]; is_back: as of
  * light_selection_of_side; 0: it has none. */

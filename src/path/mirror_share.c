@@ -19,8 +19,12 @@ bool mirrors_are_sampled(const PathContext *context, BeamSet set) {
             lights_has(context->lights, set == BEAMS_OF_SUN ? LIGHTS_SUN : LIGHTS_PUNCTUAL));
 }
 
-float mirrored_rarity(const PathState *path) {
+float mirrored_rarity(const PathState *path, BeamSet set) {
+    const PathContext *context = path->context;
     float share = 1;
+    if (!mirrors_are_sampled(context, set) || path->medium_id != NO_ID ||
+        path->bounce + 1 >= context->max_bounces)
+        return 0;
     for (int i = 0; i < path->bounce && i < DEEP_BOUNCE; i++) share *= DEEP_SHARE;
     return share;
 }
@@ -29,17 +33,24 @@ float mirrored_rarity(const PathState *path) {
  * found by one path in 500, five hundred times as bright, and few paths take it for none. */
 #define LEAST_OF_FIRST 0.05f
 
+float mirrored_least(const PathState *path, const Surface *surface, BeamSet set) {
+    bool is_first = set != BEAMS_OF_SUN && surface->part_id != NO_ID && !path->bounce;
+    return is_first && !path->context->is_of_frame ? LEAST_OF_FIRST : 0;
+}
+
 float mirrored_prob(const PathState *path, const Surface *surface, Vec3 wo, BeamSet set) {
-    const PathContext *context = path->context;
-    bool is_first =
-        set != BEAMS_OF_SUN && surface->part_id != NO_ID && !path->bounce && !context->is_of_frame;
-    if (!mirrors_are_sampled(context, set) || path->medium_id != NO_ID ||
-        path->bounce + 1 >= context->max_bounces)
-        return 0;
-    float prob = mirror_beams_prob(&context->beams[set], surface->part_id,
-                                   vec3_dot(wo, surface->ng) < 0, surface->position);
-    if (is_first && prob > 0) return fmaxf(prob, LEAST_OF_FIRST);
-    return mirrored_rarity(path) * prob;
+    float rarity = mirrored_rarity(path, set), prob;
+    if (!(rarity > 0)) return 0;
+    prob = rarity * mirror_beams_prob(&path->context->beams[set], surface->part_id,
+                                      vec3_dot(wo, surface->ng) < 0, surface->position);
+    return prob > 0 ? fmaxf(prob, mirrored_least(path, surface, set)) : 0;
+}
+
+bool mirrored_is_left(const PathState *path, const Surface *surface, Vec3 wo, BeamSet set,
+                      float u) {
+    float most = mirror_beams_most(&path->context->beams[set], surface->part_id,
+                                   vec3_dot(wo, surface->ng) < 0);
+    return u >= fmaxf(mirrored_rarity(path, set) * most, mirrored_least(path, surface, set));
 }
 
 /* Did the vertex before, to which wo leads, sample the set's lights in this mirror, smooth or
@@ -96,9 +107,14 @@ MirrorWay mirrored_way(const PathState *path, const Surface *surface, Vec3 wo,
         (!is_eye && (last->is_delta || !(last->mirrors > 0))) || path->medium_id != NO_ID ||
         !mirrors_have(mirrors, pair) || !mirror_is_plain(context->scene, surface, wo))
         return way;
+    float prob =
+        is_eye ? 0
+               : last->mirrors * mirror_beams_prob(&context->beams[BEAMS_OF_EMITTERS],
+                                                   last->part_id, last->is_back, last->at.position);
+    if (prob > 0) prob = fmaxf(prob, last->mirrors_least);
     way = (MirrorWay){.pdf =
                           last->pdf * spectrum_mean(bsdf_mirror(&surface->bsdf, surface->local_wo)),
-                      .prob = is_eye ? 0 : last->mirrors,
+                      .prob = prob,
                       .is_of_eye = is_eye,
                       .is_back = last->is_back,
                       .part_id = last->part_id,

@@ -15,8 +15,15 @@ bool mirror_is_plain(const Scene *scene, const Surface *mirror, Vec3 wo);
 Spectrum mirrored_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
                             const BsdfSample *next);
 
-/* How much rarer mirrors are sampled at later vertices: mirrored_prob is at most that. */
-float mirrored_rarity(const PathState *path);
+/* Is a number in [0, 1) too large for mirrored_prob, wherever on the surface's side the path is?
+ * That is known in a moment. */
+bool mirrored_is_left(const PathState *path, const Surface *surface, Vec3 wo, BeamSet set, float u);
+
+/* How much rarer than mirror_beams_prob the surface samples the set's mirrors; 0: it has none. */
+float mirrored_rarity(const PathState *path, BeamSet set);
+
+/* The least of mirrored_prob, where it is above 0. */
+float mirrored_least(const PathState *path, const Surface *surface, BeamSet set);
 
 /* Probability with which the surface, which the path reached against wo, samples the set's
  * mirrors (mirrored.h). */

@@ -6,7 +6,7 @@
 #include "path/mirror_share.h"
 #include "path/windows.h"
 
-#define ELSEWHERE 0.02f /* of first vertices' samples that search all mirrors for lamps */
+#define ELSEWHERE 0.02f /* most of first vertices' samples that search all mirrors for lamps */
 
 /* ---- one point of a mirror --------------------------------------------------------------- */
 
@@ -170,18 +170,19 @@ static void find(MirrorWalk *walk, MirrorQuery *query) {
     mirrors_find(walk->beams->mirrors, query, add_point, walk);
 }
 
-static void add_suns(MirrorWalk walk) {
+/* choice, here and below: a number of the sampler's. Does the vertex sample its mirrors? */
+static void add_suns(MirrorWalk walk, float choice) {
     PathState *path = walk.path;
     const Surface *surface = walk.surface;
     const Lights *lights = path->context->lights;
     float u[4];
     bool is_back = vec3_dot(walk.wo, surface->ng) < 0;
     if (!mirror_beams_has(walk.beams, surface->part_id, is_back)) return;
-    numbers_for(path, NUMBERS_MIRRORS);
-    sampler_4d(path->sampler, u);
-    if (u[0] >= mirrored_rarity(path)) return; /* whatever lies in the map, which takes time */
+    if (mirrored_is_left(path, surface, walk.wo, BEAMS_OF_SUN, choice)) return;
     walk.prob = mirrored_prob(path, surface, walk.wo, BEAMS_OF_SUN);
-    if (!unit_choose(&u[0], walk.prob)) return;
+    if (choice >= walk.prob) return;
+    numbers_for_mirrors(path, BEAMS_OF_SUN);
+    sampler_4d(path->sampler, u);
     LitPoint point = {surface->position, surface->frame.z, true}; /* from any side */
     if (!lights_sample(lights, LIGHTS_SUN, point, u, &walk.sun)) return;
     walk.sun_radiance =
@@ -189,15 +190,15 @@ static void add_suns(MirrorWalk walk) {
     MirrorQuery query = {surface->part_id, false, surface->position, {walk.sun.wi, false}, {0, 0}};
     find(&walk, &query);
     query.is_rough = walk.is_rough = true;
-    query.u = sampler_2d(path->sampler);
+    query.u = (Vec2){u[2], u[3]};
     find(&walk, &query);
 }
 
 /* What a vertex draws for near lights in mirrors. */
 typedef struct NearNumbers {
-    float search[4]; /* the part's mirrors? all others? which source, of either */
-    float place[4];  /* of the source */
-    Vec2 facet;      /* of rough mirrors */
+    float place[4]; /* of the source */
+    Vec2 which;     /* source, in the part's mirrors and in all others */
+    Vec2 facet;     /* of rough mirrors */
 } NearNumbers;
 
 /* One source in the part's mirrors; is_elsewhere: in all others. */
@@ -211,7 +212,7 @@ static void add_source(MirrorWalk walk, const NearNumbers *u) {
     float chosen;
     int id = mirror_beams_source(walk.beams, context->lights, surface->part_id,
                                  vec3_dot(walk.wo, surface->ng) < 0,
-                                 u->search[2 + walk.is_elsewhere], &chosen);
+                                 walk.is_elsewhere ? u->which.y : u->which.x, &chosen);
     walk.prob *= chosen;
     if (is_of_lamp) {
         walk.lamp = lights_lamp_point(context->lights, id, u->place);
@@ -227,26 +228,28 @@ static void add_source(MirrorWalk walk, const NearNumbers *u) {
     find(&walk, &query);
 }
 
-static void add_near(MirrorWalk walk) {
+static void add_near(MirrorWalk walk, float choice, float choice_of_all) {
     PathState *path = walk.path;
     const Surface *surface = walk.surface;
     BeamSet set = walk.beams->set;
-    NearNumbers u;
+    float of_all = fminf(ELSEWHERE, walk.beams->of_all);
     bool has_own =
-        mirror_beams_has(walk.beams, surface->part_id, vec3_dot(walk.wo, surface->ng) < 0);
-    bool is_first = set == BEAMS_OF_LAMPS && surface->part_id != NO_ID && !path->bounce &&
-                    !path->context->is_of_frame;
-    if (!has_own && !is_first) return;
-    numbers_for_near(path, set);
-    sampler_4d(path->sampler, u.search);
-    if (u.search[0] >= mirrored_rarity(path)) return; /* never of first vertices */
+        mirror_beams_has(walk.beams, surface->part_id, vec3_dot(walk.wo, surface->ng) < 0) &&
+        !mirrored_is_left(path, surface, walk.wo, set, choice);
+    bool searches_all = set == BEAMS_OF_LAMPS && surface->part_id != NO_ID && !path->bounce &&
+                        !path->context->is_of_frame && choice_of_all < of_all;
+    NearNumbers u;
+    if (!has_own && !searches_all) return;
     walk.prob = has_own ? mirrored_prob(path, surface, walk.wo, set) : 0;
-    if (u.search[0] >= walk.prob && !(is_first && u.search[1] < ELSEWHERE)) return;
+    has_own = choice < walk.prob;
+    if (!has_own && !searches_all) return;
+    numbers_for_mirrors(path, set);
     sampler_4d(path->sampler, u.place);
+    u.which = sampler_2d(path->sampler);
     u.facet = sampler_2d(path->sampler);
-    if (u.search[0] < walk.prob) add_source(walk, &u);
-    if (!is_first || u.search[1] >= ELSEWHERE) return;
-    walk.prob = ELSEWHERE;
+    if (has_own) add_source(walk, &u);
+    if (!searches_all) return;
+    walk.prob = of_all;
     walk.is_elsewhere = true;
     add_source(walk, &u);
 }
@@ -254,17 +257,24 @@ static void add_near(MirrorWalk walk) {
 /* The mirror is one more vertex: none is sampled where the path would end before it. */
 void mirrored_add(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding) {
     const PathContext *context = path->context;
+    bool is_sampled[BEAM_SETS], is_any = false;
+    float u[BEAM_SETS + 1];
     if (!bsdf_scatters(&surface->bsdf) || path->medium_id != NO_ID ||
         path->bounce + 1 >= context->max_bounces)
         return;
+    for (int set = 0; set < BEAM_SETS; set++)
+        is_any |= is_sampled[set] = mirrors_are_sampled(context, (BeamSet)set);
+    if (!is_any) return;
+    numbers_for(path, NUMBERS_MIRRORS);
+    sampler_4d(path->sampler, u);
     for (int set = 0; set < BEAM_SETS; set++) {
         MirrorWalk walk = {.path = path,
                            .surface = surface,
                            .wo = wo,
                            .guiding = guiding,
                            .beams = &context->beams[set]};
-        if (!mirrors_are_sampled(context, (BeamSet)set)) continue;
-        if (set == BEAMS_OF_SUN) add_suns(walk);
-        else add_near(walk);
+        if (!is_sampled[set]) continue;
+        if (set == BEAMS_OF_SUN) add_suns(walk, u[set]);
+        else add_near(walk, u[set], u[BEAM_SETS]);
     }
 }

@@ -72,16 +72,17 @@ static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
     if (next->wi.z * surface->local_wo.z < 0) cross(path, surface, next->wi, wi);
     path->way = mirrored_way(path, surface, wo, next);
     collect_turn(path, surface, wo, next);
-    path->last = (PathVertex){
-        .at = emitted_lit_point(path, surface),
-        .part_id = surface->part_id,
-        .pdf = next->pdf,
-        .is_delta = next->is_delta,
-        .is_back = vec3_dot(wo, surface->ng) < 0,
-        .mirrors = next->is_delta ? 0 : mirrored_prob(path, surface, wo, BEAMS_OF_EMITTERS),
-        .samples_map = samples_map,
-        .before = before,
-        .sun_share = sun};
+    path->last =
+        (PathVertex){.at = emitted_lit_point(path, surface),
+                     .part_id = surface->part_id,
+                     .pdf = next->pdf,
+                     .is_delta = next->is_delta,
+                     .is_back = vec3_dot(wo, surface->ng) < 0,
+                     .mirrors = next->is_delta ? 0 : mirrored_rarity(path, BEAMS_OF_EMITTERS),
+                     .mirrors_least = mirrored_least(path, surface, BEAMS_OF_EMITTERS),
+                     .samples_map = samples_map,
+                     .before = before,
+                     .sun_share = sun};
     path->smooth = next->is_delta ? path->smooth + 1 + path->by_plates : 0;
     path->straight = path->sheets_from = 0;
     path->by_plates = false;

@@ -58,14 +58,14 @@ typedef struct PathStatistics {
 enum {
     NUMBERS_LIGHTS = 0, /* two pairs a set */
     NUMBERS_MIRRORS = 2 * LIGHT_SETS,
-    NUMBERS_SPLIT = NUMBERS_MIRRORS + 3,
+    NUMBERS_SPLIT = NUMBERS_MIRRORS + 3, /* one is left */
     NUMBERS_HOLE,
     NUMBERS_SCATTER,
     NUMBERS_ROULETTE = NUMBERS_SCATTER + 2,
     NUMBERS_STEP
 };
 #define NUMBERS_MAP 4   /* a step's own, behind those of all steps: of the sunlit map */
-#define NUMBERS_NEAR 8  /* and again: of each set of near lights in mirrors */
+#define NUMBERS_NEAR 8  /* and again: of each set of lights in mirrors */
 #define NUMBERS_FIRST 2 /* before them: the place in the pixel, the wavelengths */
 #define STEPS_FAR 4096  /* more than a path meets */
 #define SPLITS 2        /* thin sheets along an eye's ray that are followed both ways */
@@ -83,14 +83,15 @@ typedef struct SunlitPair {
 /* The last vertex that scattered, and how the path went on from there. */
 typedef struct PathVertex {
     LitPoint at;
-    int part_id;        /* NO_ID: an eye or a luxmeter */
-    float pdf;          /* with which the direction was chosen, sr^-1 */
-    bool is_delta;      /* no light sample could have found what comes now */
-    bool is_back;       /* of its part's side, as light_selection_of_side has it */
-    float mirrors;      /* probability with which it sampled compact emitters in mirrors */
-    bool samples_map;   /* where it could (sunlit.h) */
-    SunlitPair before;  /* it and the vertex before it */
-    Spectrum sun_share; /* of the sun, if met next; the vertex before sampled the rest */
+    int part_id;         /* NO_ID: an eye or a luxmeter */
+    float pdf;           /* with which the direction was chosen, sr^-1 */
+    bool is_delta;       /* no light sample could have found what comes now */
+    bool is_back;        /* of its part's side, as light_selection_of_side has it */
+    float mirrors;       /* mirrored_rarity of compact emitters; 0: none sampled in mirrors */
+    float mirrors_least; /* mirrored_least of them */
+    bool samples_map;    /* where it could (sunlit.h) */
+    SunlitPair before;   /* it and the vertex before it */
+    Spectrum sun_share;  /* of the sun, if met next; the vertex before sampled the rest */
 } PathVertex;
 
 /* The smooth mirror that the path left last, for emitters that the vertex before it, or the
@@ -169,7 +170,7 @@ static inline void numbers_for_map(PathState *path) {
     path->sampler->dimension = 0x40000000u + (uint32_t)path->steps * NUMBERS_MAP;
 }
 
-static inline void numbers_for_near(PathState *path, BeamSet set) {
+static inline void numbers_for_mirrors(PathState *path, BeamSet set) {
     path->sampler->dimension =
         0x60000000u + ((uint32_t)path->steps * BEAM_SETS + (uint32_t)set) * NUMBERS_NEAR;
 }
