@@ -33,7 +33,6 @@ READERS = ("frame", "meter", "symbol", "gaze", "explain")
 LOST = ("wedge", "two mirrors")    # no connection is made by these
 COUNT, FEW = 200, 10
 WITHIN, TRUTH_WITHIN = 0.005, {"wedge": 0.02}  # a wedge's inner reflections are left out
-FRAME_WITHIN = 0.03  # a frame samples mirrors rarely where no beam landed (path/README.md)
 IOR, METAL = 1.5, 0.6
 HALF = 0.08                        # m, of mirrors and panes
 OPENING, EDGE = 0.02, 0.015        # m, of the luminaire and of the emitter
@@ -592,7 +591,7 @@ class Table:
             if error > WITHIN and not holds and names is None:
                 names = reader.names()
             is_named = bool(names)
-            within = FRAME_WITHIN if case.reader == "frame" else WITHIN
+            within = WITHIN
             is_wrong = error > within and not nearly and not is_named
             text = (f"case {number}, {', '.join(case.kinds)}: {what} {found:.5g} [{low:.5g}, "
                     f"{high:.5g}], right is {truth:.5g}")
