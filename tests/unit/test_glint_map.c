@@ -12,6 +12,24 @@ static Vec3 on_square(uint32_t i, float side_m) {
     return vec3(side_m * at.x, 0.3f, side_m * at.y);
 }
 
+/* What the adding tells is the most that is found anywhere, and is found somewhere near. */
+ARENA_TEST(no_place_has_more_than_the_adding_told) {
+    const float edge = 0.05f;
+    GlintMap map = {{{0}}};
+    float most = 0, found = 0;
+    for (uint32_t i = 0; i < 3000; i++) {
+        GlintPlace place = {7, edge, on_square(i, 1 + i % 2)};
+        most = fmaxf(most, glint_map_add(&map, &place, 1 + (float)(i % 5), &arena));
+    }
+    for (uint32_t i = 0; i < 100000; i++) {
+        GlintPlace place = {7, edge, on_square(i + 7, 2)};
+        place.position.y += 0.1f * (float)(i % 3 - 1.0f);
+        found = fmaxf(found, glint_map_lx(&map, &place));
+    }
+    assert_true(found <= most);
+    assert_close((double)found, (double)most, 0.05);
+}
+
 /* 1000 lx on a square of 2 m, by so many rays. */
 static GlintMap lit_square(uint32_t row, float edge_m, uint32_t rays, Arena *arena) {
     GlintMap map = {{{0}}};

@@ -194,7 +194,7 @@ TEST(small_emitters_in_mirrors_keep_their_mean) {
             WorldMean chance = world_measure(&world, eye, 2, 600000);
             world.context.beams[BEAMS_OF_EMITTERS].mirrors = mirrors;
             double sigma = sqrt(both.sigma * both.sigma + chance.sigma * chance.sigma);
-            if (!(fabs(both.mean - chance.mean) < 3.5 * sigma) || !(sigma < 0.06 * chance.mean))
+            if (!(fabs(both.mean - chance.mean) < 3.5 * sigma) || !(sigma < 0.05 * chance.mean))
                 fail_msg("kind %d, head %d: %g +- %g, by chance %g +- %g", i, head, both.mean,
                          both.sigma, chance.mean, chance.sigma);
             print_message("[          ] %g +- %g, by chance %g +- %g\n", both.mean, both.sigma,
