@@ -89,7 +89,7 @@ static size_t block_bytes(const Arena *arena, size_t size, size_t count, size_t 
     return bytes;
 }
 
-/* Zeroed bytes, or NULL where they are more than what is left. */
+/* Bytes of any value, or NULL where they are more than what is left. */
 static void *take_block(Arena *arena, size_t bytes, size_t align, size_t left) {
     if (align < GUARD_ALIGN) align = GUARD_ALIGN;
     size_t pad = (size_t)(-(uintptr_t)arena->next) & (align - 1);
@@ -97,21 +97,41 @@ static void *take_block(Arena *arena, size_t bytes, size_t align, size_t left) {
     char *memory = arena->next + pad;
     arena->next = memory + bytes;
     guard_open(arena, memory, bytes);
-    return bytes ? memset(memory, 0, bytes) : memory;
+    return memory;
 }
 
 void *arena_try(Arena *arena, size_t size, size_t align, size_t count) {
     size_t left, bytes = block_bytes(arena, size, count, &left);
-    return take_block(arena, bytes, align, left);
+    void *memory = take_block(arena, bytes, align, left);
+    return memory && bytes ? memset(memory, 0, bytes) : memory;
 }
 
-void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count) {
+static void *block_or_end(Arena *arena, size_t size, size_t align, size_t count) {
     size_t left, bytes = block_bytes(arena, size, count, &left);
     void *memory = take_block(arena, bytes, align, left);
     if (memory) return memory;
     if (arena->way_out) longjmp(*arena->way_out, 1);
     arena->on_full(bytes, left);
     abort(); /* on_full must not return */
+}
+
+void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count) {
+    void *memory = block_or_end(arena, size, align, count);
+    return size * count > 0 ? memset(memory, 0, size * count) : memory;
+}
+
+/* Whole pages become zero by being given back. */
+void *arena_untouched(Arena *arena, size_t size, size_t align, size_t count) {
+    char *memory = block_or_end(arena, size, align, count), *end = memory + size * count;
+    char *first = memory + ((size_t)(-(uintptr_t)memory) & (PAGE - 1));
+    char *last = end - ((uintptr_t)end & (PAGE - 1));
+    bool is_given =
+        size * count >= LARGE_BLOCK && !madvise(first, (size_t)(last - first), MADV_DONTNEED);
+    if (is_given) madvise(first, (size_t)(last - first), MADV_NOHUGEPAGE);
+    else first = last = end;
+    memset(memory, 0, (size_t)(first - memory));
+    memset(last, 0, (size_t)(end - last));
+    return memory;
 }
 
 void *arena_grow(Arena *arena, void *bytes, size_t size, size_t wanted, size_t align) {

@@ -52,7 +52,11 @@ void arena_release(Arena *arena);
 /* count * size zeroed bytes; align is a power of two. Never NULL; count 0 is fine. */
 void *arena_alloc(Arena *arena, size_t size, size_t align, size_t count);
 
-/* The same; NULL: there is no room, nothing has changed. */
+/* The same for large tables that are filled by many threads, or only here and there: a page is
+ * taken from the system when it is touched, one of few bytes, by the thread that touches it. */
+void *arena_untouched(Arena *arena, size_t size, size_t align, size_t count);
+
+/* arena_alloc; NULL: there is no room, nothing has changed. */
 void *arena_try(Arena *arena, size_t size, size_t align, size_t count);
 
 /* Keeps what was made in a copy of the arena: moves `size` bytes that lie behind the arena's

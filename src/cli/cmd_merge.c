@@ -310,7 +310,7 @@ static bool write_frame(MergeRun *work, Error *err) {
                                   .relative_error = work->error.frame,
                                   .rare_error = work->rare_error,
                                   .dropped_samples = film_dropped(work->film).count};
-    FrameImage frame = film_to_frame(work->film, work->common.attribute_count + 8, arena);
+    FrameImage frame = film_to_rows(work->film, work->common.attribute_count + 8, arena);
     for (int i = 0; i < work->common.attribute_count; i++)
         set_attribute(&frame, &work->common.attributes[i], arena);
     frame_set_outcome(&frame, &outcome, arena);

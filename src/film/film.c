@@ -26,6 +26,18 @@ size_t film_bytes(FilmRect crop, unsigned layers, int light_count) {
     return sizeof(Film) + pixel_count(crop) * pixel_bytes(layers, light_count);
 }
 
+static void place_arrays(Film *film, Arena *arena) {
+    size_t count = pixel_count(film->crop), apart;
+    for (int i = 0; i < SUMS_END_DISPLAY; i++) {
+        if (film->first[i] < 0) continue;
+        if (i < SUMS_FIRST_DISPLAY) film->first_display += sums_rows[i].size;
+        else film->display_numbers += sums_rows[i].size;
+    }
+    apart = (size_t)film->display_numbers * sizeof(Fixed);
+    film->pixels = arena_untouched(arena, film->stride - apart, _Alignof(PixelSums), count);
+    film->displays = arena_untouched(arena, apart, _Alignof(Fixed), count);
+}
+
 Film *film_create(int width, int height, FilmRect crop, unsigned layers, const FilmLights *lights,
                   Arena *arena) {
     assert(crop.x0 >= 0 && crop.x0 < crop.x1 && crop.x1 <= width);
@@ -45,14 +57,8 @@ Film *film_create(int width, int height, FilmRect crop, unsigned layers, const F
         if (is_kept) next += sums_rows[i].size;
     }
     film->first_light = next;
-    film->pixels = arena_alloc(arena, film->stride, _Alignof(PixelSums), pixel_count(crop));
+    place_arrays(film, arena);
     pthread_mutex_init(&film->lock, NULL);
-    for (int y = crop.y0; y < crop.y1; y++)
-        for (int x = crop.x0; x < crop.x1; x++) {
-            PixelSums *sums = film_sums(film, x, y);
-            sums->part_sample = sums->display_sample = NO_SAMPLE;
-            sums->part_id = sums->display_id = -1;
-        }
     return film;
 }
 
@@ -103,10 +109,24 @@ static void add_squares(Fixed *squares, const float xyz[3]) {
     }
 }
 
-static void add_layer(const Film *film, PixelSums *sums, LayerSums layer, const float *values) {
+/* A pixel in both arrays. */
+typedef struct PixelPlace {
+    PixelSums *sums;
+    Fixed *displays;
+} PixelPlace;
+
+/* Where the sums of a layer begin; NULL: they are not kept. */
+static Fixed *sums_of(const Film *film, PixelPlace to, LayerSums layer) {
     int first = film->first[layer];
-    for (int i = 0; i < sums_rows[layer].size; i++)
-        sums->layers[first + i] += fixed_from_float(values[i]);
+    if (first < 0) return NULL;
+    if (layer < SUMS_FIRST_DISPLAY) return to.sums->layers + first;
+    return layer < SUMS_END_DISPLAY ? to.displays + first - film->first_display
+                                    : to.sums->layers + first - film->display_numbers;
+}
+
+static void add_layer(const Film *film, PixelPlace to, LayerSums layer, const float *values) {
+    Fixed *sums = sums_of(film, to, layer);
+    for (int i = 0; i < sums_rows[layer].size; i++) sums[i] += fixed_from_float(values[i]);
 }
 
 /* The sample's values that these sums add as they are; NULL: none, or the film has none. */
@@ -125,11 +145,11 @@ static bool layers_in_range(const Film *film, LayerSums first, LayerSums end,
     return true;
 }
 
-static void add_layers(const Film *film, PixelSums *sums, LayerSums first, LayerSums end,
+static void add_layers(const Film *film, PixelPlace to, LayerSums first, LayerSums end,
                        const FilmSample *sample) {
     for (LayerSums i = first; i < end; i++) {
         const float *values = values_of(film, i, sample);
-        if (values) add_layer(film, sums, i, values);
+        if (values) add_layer(film, to, i, values);
     }
 }
 
@@ -141,7 +161,7 @@ static bool shared_in_range(const FilmSample *sample) {
 }
 
 static bool display_in_range(const Film *film, const FilmSample *sample) {
-    return layers_in_range(film, SUMS_FIRST_DISPLAY, SUMS_COUNT, sample) &&
+    return layers_in_range(film, SUMS_FIRST_DISPLAY, SUMS_END_DISPLAY, sample) &&
            (film->first[SUMS_REFLECTED] < 0 || in_range(sample->emitted, 3)) &&
            (film->first[SUMS_SHARED] < 0 || shared_in_range(sample)) &&
            (film->first[SUMS_DIRECTION] < 0 ||
@@ -152,60 +172,57 @@ static bool is_odd(const FilmSample *sample) {
     return sample->sample_index / BLOCK_SAMPLES % 2;
 }
 
-static void add_reflected(const Film *film, PixelSums *sums, const FilmSample *sample) {
-    int first = film->first[SUMS_REFLECTED], odd = film->first[SUMS_ODD];
-    if (first < 0) return;
+static void add_reflected(Fixed *sums, Fixed *odd, const FilmSample *sample) {
     for (int i = 0; i < 3; i++) {
         Fixed reflected = fixed_from_float(sample->xyz[i]) - fixed_from_float(sample->emitted[i]);
-        sums->layers[first + i] += reflected;
-        if (odd >= 0 && is_odd(sample)) sums->layers[odd + i] += reflected;
+        sums[i] += reflected;
+        if (odd && is_odd(sample)) odd[i] += reflected;
     }
-    if (odd >= 0 && is_odd(sample)) sums->layers[odd + 3] += fixed_from_float(1);
+    if (odd && is_odd(sample)) odd[3] += fixed_from_float(1);
 }
 
-static void add_shared(PixelSums *sums, int first, const FilmSample *sample) {
+static void add_shared(Fixed *sums, const FilmSample *sample) {
     Fixed id = sample->display_id, power = 1;
-    for (int i = 0; i < 3; i++) sums->layers[first + i] += power *= id;
+    for (int i = 0; i < 3; i++) sums[i] += power *= id;
     for (int i = 0; i < 3; i++) {
         double square = square_of(sample->xyz, i);
-        Fixed *squares = sums->layers + first + 6 + 2 * i;
-        sums->layers[first + 3 + i] += id * fixed_from_float(sample->xyz[i]);
+        Fixed *squares = sums + 6 + 2 * i;
+        sums[3 + i] += id * fixed_from_float(sample->xyz[i]);
         if (square < SQUARE_SPLIT) squares[0] += id * fixed_from_scaled(square * 0x1p45);
         else squares[1] += id * fixed_from_scaled(square * 0x1p-5);
     }
 }
 
-static void add_display(const Film *film, PixelSums *sums, const FilmSample *sample) {
+static void add_display(const Film *film, PixelPlace to, const FilmSample *sample) {
     if (!display_in_range(film, sample)) return;
-    sums->display_hits++;
-    if (sample->sample_index < sums->display_sample) {
-        sums->display_sample = sample->sample_index;
-        sums->display_id = sample->display_id;
+    Fixed *reflected = sums_of(film, to, SUMS_REFLECTED), *odd = sums_of(film, to, SUMS_ODD);
+    Fixed *squares = sums_of(film, to, SUMS_SQUARES), *shared = sums_of(film, to, SUMS_SHARED);
+    if (!to.sums->display_hits++ || sample->sample_index < to.sums->display_sample) {
+        to.sums->display_sample = sample->sample_index;
+        to.sums->display_id = sample->display_id;
     }
-    add_layers(film, sums, SUMS_FIRST_DISPLAY, SUMS_COUNT, sample);
-    add_reflected(film, sums, sample);
-    if (film->first[SUMS_SQUARES] >= 0)
-        add_squares(sums->layers + film->first[SUMS_SQUARES], sample->xyz);
-    if (film->first[SUMS_SHARED] >= 0) add_shared(sums, film->first[SUMS_SHARED], sample);
+    add_layers(film, to, SUMS_FIRST_DISPLAY, SUMS_END_DISPLAY, sample);
+    if (reflected) add_reflected(reflected, odd, sample);
+    if (squares) add_squares(squares, sample->xyz);
+    if (shared) add_shared(shared, sample);
     if (film->first[SUMS_DIRECTION] >= 0) {
         const float turns = 0.159154943f; /* 1 / (2 pi) */
         float sin_theta, cos_theta, sin_phi, cos_phi;
         sincos_turns(sample->theta * turns, &sin_theta, &cos_theta);
         sincos_turns(sample->phi * turns, &sin_phi, &cos_phi);
         float direction[3] = {sin_theta * cos_phi, sin_theta * sin_phi, cos_theta};
-        add_layer(film, sums, SUMS_DIRECTION, direction);
+        add_layer(film, to, SUMS_DIRECTION, direction);
     }
 }
 
-static void add_features(const Film *film, PixelSums *sums, const FilmSample *sample) {
-    if (sample->display_id >= 0) add_display(film, sums, sample);
+static void add_features(const Film *film, PixelPlace to, const FilmSample *sample) {
+    if (sample->display_id >= 0) add_display(film, to, sample);
     if (!layers_in_range(film, SUMS_DEPTH, SUMS_FIRST_DISPLAY, sample)) return;
-    sums->hits++;
-    if (sample->sample_index < sums->part_sample) {
-        sums->part_sample = sample->sample_index;
-        sums->part_id = sample->part_id;
+    if (!to.sums->hits++ || sample->sample_index < to.sums->part_sample) {
+        to.sums->part_sample = sample->sample_index;
+        to.sums->part_id = sample->part_id;
     }
-    add_layers(film, sums, SUMS_DEPTH, SUMS_FIRST_DISPLAY, sample);
+    add_layers(film, to, SUMS_DEPTH, SUMS_FIRST_DISPLAY, sample);
 }
 
 /* ---- groups of lights -------------------------------------------------------------------- */
@@ -227,19 +244,20 @@ static const FilmLight *brightest_light(const FilmSample *sample) {
  * where one of them is out of range, it gets everything. */
 static void add_lights(const Film *film, PixelSums *sums, const FilmSample *sample) {
     const FilmLight *most = brightest_light(sample);
+    Fixed *groups = sums->layers + film->first_light - film->display_numbers;
     bool is_good = lights_in_range(sample);
     Fixed left[3];
     for (int i = 0; i < 3; i++) left[i] = fixed_from_float(sample->xyz[i]);
     for (int k = 0; k < sample->light_count && is_good; k++) {
         const FilmLight *light = &sample->lights[k];
-        Fixed *to = sums->layers + film->first_light + 3 * light->group;
+        Fixed *to = groups + 3 * light->group;
         for (int i = 0; i < 3 && light != most; i++) {
             Fixed steps = fixed_from_float(light->xyz[i]);
             to[i] += steps;
             left[i] -= steps;
         }
     }
-    Fixed *to = sums->layers + film->first_light + 3 * most->group;
+    Fixed *to = groups + 3 * most->group;
     for (int i = 0; i < 3; i++) to[i] += left[i];
 }
 
@@ -248,7 +266,9 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample) {
         drop_sample(film, x, y, sample->sample_index);
         return;
     }
-    PixelSums *sums = film_sums(film, x, y);
+    const size_t index = film_index(film, x, y);
+    const PixelPlace to = {film_sums_at(film, index), film_displays_at(film, index)};
+    PixelSums *sums = to.sums;
     assert(sums->samples < FILM_SAMPLES_MAX);
     sums->samples++;
     for (int i = 0; i < 3; i++) sums->xyz[i] += fixed_from_float(sample->xyz[i]);
@@ -258,11 +278,11 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample) {
         sums->odd_samples++;
     }
     if (film->first[SUMS_STOKES] >= 0 && in_range(sample->stokes, 3))
-        add_layer(film, sums, SUMS_STOKES, sample->stokes);
+        add_layer(film, to, SUMS_STOKES, sample->stokes);
     if (film->first[SUMS_SOURCES] >= 0 && in_range(sample->sources, 3))
-        add_layer(film, sums, SUMS_SOURCES, sample->sources);
+        add_layer(film, to, SUMS_SOURCES, sample->sources);
     if (sample->light_count && film->lights.count) add_lights(film, sums, sample);
-    if (sample->hit) add_features(film, sums, sample);
+    if (sample->hit) add_features(film, to, sample);
 }
 
 FilmDropped film_dropped(const Film *film) {
@@ -281,7 +301,8 @@ uint64_t film_kept_samples(const Film *film) {
 
 FilmPixel film_pixel(const Film *film, int x, int y) {
     const PixelSums *sums = film_sums(film, x, y);
-    FilmPixel pixel = {.samples = sums->samples, .display_id = sums->display_id};
+    FilmPixel pixel = {.samples = sums->samples,
+                       .display_id = sums->display_hits ? sums->display_id : -1};
     for (int i = 0; i < 3 && sums->samples; i++)
         pixel.mean_xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS) / (double)sums->samples;
     pixel_variance(sums, pixel.variance_rgb);

@@ -15,7 +15,9 @@
  *          (some 1e-7 of it) goes to its brightest group.
  * Memory   everything comes from `arena`; nothing to free. 224 bytes a pixel, and 48 for each
  *          three-component layer and group of lights, 64 for display.halves, 96 for
- *          display.variance, 192 more for display.second, 32 for display.extrapolated.
+ *          display.variance, 192 more for display.second, 32 for display.extrapolated. Those of
+ *          displays take memory where pixels show one; a page of it, and of the others, is
+ *          first touched by the thread that fills its pixels.
  * Threads  tiles of different pixels may be filled at the same time; one pixel belongs to one
  *          thread at a time. Reading needs all writers to be done.
  * Fails    never; a sample that is not finite or beyond 2^47 is counted and dropped.
@@ -33,7 +35,7 @@ Film *film_create(int width, int height, FilmRect crop, unsigned layers, const F
 /* Pixels that have no sample are out of view (a fisheye's corners): they count in no error. */
 void film_set_blind(Film *film);
 
-/* Bytes that film_create will take with so many groups of lights. */
+/* Bytes that film_create will take with so many groups of lights, if displays fill the crop. */
 size_t film_bytes(FilmRect crop, unsigned layers, int light_count);
 
 /* x, y: pixel inside the crop. Members that no layer needs need not be set, but display_id

@@ -18,50 +18,67 @@ static bool sums_in_range(const Fixed *sums, size_t count, uint32_t samples) {
     return true;
 }
 
-static bool pixel_in_range(const PixelSums *sums, size_t layer_numbers, uint32_t most_samples) {
+static bool pixel_in_range(const Film *film, const PixelSums *sums, uint32_t most_samples) {
+    const Fixed *displays = sums->layers + film->first_display;
+    size_t apart = (size_t)film->display_numbers;
     return sums->samples <= most_samples && sums->hits <= sums->samples &&
            sums->display_hits <= sums->samples && sums->odd_samples <= sums->samples &&
            sums_in_range((const Fixed *)(const void *)sums, LEADING_SUMS, sums->samples) &&
-           sums_in_range(sums->layers, layer_numbers, sums->samples);
+           sums_in_range(sums->layers, film_layer_numbers(film), sums->samples) &&
+           sums_in_range(displays, apart, sums->display_hits);
 }
 
 /* Which id is shown is settled by the lowest sample index. */
-static void add_id(uint32_t *sample, int32_t *id, uint32_t other_sample, int32_t other_id) {
-    if (other_sample >= *sample) return;
-    *sample = other_sample;
-    *id = other_id;
+static void add_part(PixelSums *to, const PixelSums *from) {
+    if (from->hits && (!to->hits || from->part_sample < to->part_sample)) {
+        to->part_sample = from->part_sample;
+        to->part_id = from->part_id;
+    }
+    to->hits += from->hits;
 }
 
-static void add_pixel(PixelSums *to, const PixelSums *from, size_t layer_numbers) {
-    Fixed *sums = (Fixed *)(void *)to;
-    const Fixed *others = (const Fixed *)(const void *)from;
-    for (size_t i = 0; i < LEADING_SUMS; i++) sums[i] += others[i];
-    for (size_t i = 0; i < layer_numbers; i++) to->layers[i] += from->layers[i];
-    to->samples += from->samples;
-    to->hits += from->hits;
+static void add_display(PixelSums *to, const PixelSums *from) {
+    if (from->display_hits && (!to->display_hits || from->display_sample < to->display_sample)) {
+        to->display_sample = from->display_sample;
+        to->display_id = from->display_id;
+    }
     to->display_hits += from->display_hits;
+}
+
+static void add_numbers(Fixed *to, const Fixed *from, size_t count) {
+    for (size_t i = 0; i < count; i++) to[i] += from[i];
+}
+
+static void add_pixel(Film *film, size_t index, const PixelSums *from) {
+    PixelSums *to = film_sums_at(film, index);
+    size_t before = (size_t)film->first_display, apart = (size_t)film->display_numbers;
+    const Fixed *displays = from->layers + before, *others = displays + apart;
+    add_numbers((Fixed *)(void *)to, (const Fixed *)(const void *)from, LEADING_SUMS);
+    add_numbers(to->layers, from->layers, before);
+    add_numbers(to->layers + before, others, film_layer_numbers(film) - before - apart);
+    if (from->display_hits) add_numbers(film_displays_at(film, index), displays, apart);
+    add_part(to, from);
+    add_display(to, from);
+    to->samples += from->samples;
     to->odd_samples += from->odd_samples;
-    add_id(&to->part_sample, &to->part_id, from->part_sample, from->part_id);
-    add_id(&to->display_sample, &to->display_id, from->display_sample, from->display_id);
 }
 
 bool film_add_pixels(Film *film, FilmRect rect, const void *pixels, uint32_t most_samples,
                      Error *err) {
-    size_t layer_numbers = (film->stride - sizeof(PixelSums)) / sizeof(Fixed);
     const char *next = pixels;
     assert(rect.x0 >= film->crop.x0 && rect.x1 <= film->crop.x1);
     assert(rect.y0 >= film->crop.y0 && rect.y1 <= film->crop.y1);
     for (int y = rect.y0; y < rect.y1; y++)
         for (int x = rect.x0; x < rect.x1; x++, next += film->stride) {
             const PixelSums *from = (const PixelSums *)(const void *)next;
-            PixelSums *to = film_sums(film, x, y);
-            if (!pixel_in_range(from, layer_numbers, most_samples) ||
-                from->samples > FILM_SAMPLES_MAX - to->samples)
+            size_t index = film_index(film, x, y);
+            if (!pixel_in_range(film, from, most_samples) ||
+                from->samples > FILM_SAMPLES_MAX - film_sums_at(film, index)->samples)
                 return error_set(err, ERROR_INPUT,
                                  "damaged sums: pixel %d,%d has sums that %u samples cannot "
                                  "have made",
                                  x, y, most_samples);
-            add_pixel(to, from, layer_numbers);
+            add_pixel(film, index, from);
         }
     return true;
 }

@@ -11,6 +11,7 @@
 
 #define CHANNELS_MAX 80 /* besides those of lights */
 #define FILL_PIXELS 64  /* whose sums stay in a cache while all layers read them */
+#define BAND_BYTES ((size_t)128 << 20)
 
 /* Reads at most three numbers of a pixel. */
 typedef void PixelReader(const Film *film, const PixelSums *sums, float values[3]);
@@ -38,6 +39,7 @@ typedef struct ChannelFill {
     Arena *arena;
     LayerPlanes *layers;
     int layer_count;
+    char *pixels; /* FILL_PIXELS of them, gathered */
 } ChannelFill;
 
 static void add_channel(ChannelFill *to, int index, const char *name, bool is_whole) {
@@ -293,21 +295,28 @@ static void read_source(const Film *film, const ChannelSource *from, const Pixel
     }
 }
 
-static void fill_layer(const Film *film, const LayerPlanes *layer, size_t first, size_t end) {
-    for (size_t index = first; index < end; index++) {
+/* Gathered pixels become the planes' values from `first` on. */
+static void fill_layer(const ChannelFill *from, const LayerPlanes *layer, size_t first,
+                       size_t count) {
+    const char *next = from->pixels;
+    for (size_t k = 0; k < count; k++, next += from->film->stride) {
         float values[3];
-        read_source(film, &layer->from, film_sums_at(film, index), values);
+        read_source(from->film, &layer->from, (const PixelSums *)(const void *)next, values);
         for (int i = 0; i < 3; i++)
-            if (layer->of[i]) layer->of[i][index] = values[i];
+            if (layer->of[i]) layer->of[i][first + k] = values[i];
     }
 }
 
 /* A pixel with all its layers takes a kilobyte: it comes from memory once, not once a layer. */
-static void fill(const ChannelFill *to) {
-    size_t count = frame_pixel_count(to->frame);
+static void fill(void *user, int y0, int y1) {
+    const ChannelFill *to = user;
+    const Film *film = to->film;
+    size_t begin = film_index(film, film->crop.x0, y0);
+    size_t count = film_index(film, film->crop.x0, y1) - begin;
     for (size_t first = 0; first < count; first += FILL_PIXELS) {
-        size_t end = count - first < FILL_PIXELS ? count : first + FILL_PIXELS;
-        for (int i = 0; i < to->layer_count; i++) fill_layer(to->film, &to->layers[i], first, end);
+        size_t some = count - first < FILL_PIXELS ? count - first : FILL_PIXELS;
+        film_gather(film, begin + first, some, to->pixels);
+        for (int i = 0; i < to->layer_count; i++) fill_layer(to, &to->layers[i], first, some);
     }
 }
 
@@ -381,28 +390,48 @@ static int channels_most(const Film *film) {
     return CHANNELS_MAX + 3 * film->lights.count;
 }
 
-static FrameImage make_frame(const Film *film, ExrWindow data, int attribute_room, Arena *arena) {
+/* rows: NULL, the planes are to hold all. */
+static FrameImage make_frame(const Film *film, ExrWindow data, int attribute_room, ExrRows *rows,
+                             Arena *arena) {
     int most = channels_most(film);
+    ChannelFill *to = ARENA_NEW(arena, ChannelFill, 1);
     FrameImage frame = frame_create(film->width, film->height, data, most, attribute_room, arena);
-    ChannelFill to = {film, &frame, arena, ARENA_NEW(arena, LayerPlanes, most), 0};
-    add_layer(&to, "", "RGB", (ChannelSource){.kind = KIND_READ, .read = read_rgb});
-    add_layers(&to);
-    add_numbers(&to);
-    for (int i = 0; i < film->lights.count; i++) add_light(&to, i);
-    fill(&to);
+    frame.rows = rows;
+    *to = (ChannelFill){film,  &frame,
+                        arena, ARENA_NEW(arena, LayerPlanes, most),
+                        0,     arena_alloc(arena, film->stride, _Alignof(PixelSums), FILL_PIXELS)};
+    add_layer(to, "", "RGB", (ChannelSource){.kind = KIND_READ, .read = read_rgb});
+    add_layers(to);
+    add_numbers(to);
+    for (int i = 0; i < film->lights.count; i++) add_light(to, i);
+    to->frame = NULL; /* which the caller may move */
+    if (rows) *rows = (ExrRows){rows->count, fill, to};
+    else fill(to, data.y0, data.y1);
     return frame;
 }
 
-FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena) {
+static ExrWindow window_of(const Film *film) {
     const FilmRect crop = film->crop;
-    return make_frame(film, (ExrWindow){crop.x0, crop.y0, crop.x1, crop.y1}, attribute_room, arena);
+    return (ExrWindow){crop.x0, crop.y0, crop.x1, crop.y1};
+}
+
+FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena) {
+    return make_frame(film, window_of(film), attribute_room, NULL, arena);
+}
+
+FrameImage film_to_rows(const Film *film, int attribute_room, Arena *arena) {
+    ExrRows *rows = ARENA_NEW(arena, ExrRows, 1);
+    size_t row = (size_t)(film->crop.x1 - film->crop.x0) * (size_t)channels_most(film);
+    rows->count = exr_rows_in(BAND_BYTES, row * sizeof(float), film->crop.y1 - film->crop.y0);
+    return make_frame(film, window_of(film), attribute_room, rows, arena);
 }
 
 /* An upper bound. */
 static size_t frame_bytes_most(const Film *film, Arena scratch) {
     FilmRect crop = film->crop;
     size_t pixels = (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
-    size_t channels = (size_t)make_frame(film, (ExrWindow){0, 0, 0, 0}, 0, &scratch).channel_count;
+    const ExrWindow none = {0, crop.y0, 0, crop.y0};
+    size_t channels = (size_t)make_frame(film, none, 0, NULL, &scratch).channel_count;
     return pixels * channels * sizeof(float) + ((size_t)1 << 20);
 }
 

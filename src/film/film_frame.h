@@ -47,6 +47,10 @@
  * With LAYER_ROUNDED the layers of noise (variance, halves, of displays too) have 8 bits. */
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);
 
+/* The same for frame_write alone: its planes hold some rows, which are made as they are written.
+ * The film must stay as it is until then. */
+FrameImage film_to_rows(const Film *film, int attribute_room, Arena *arena);
+
 /* The fewest samples from index `first` on of which `halves` is known. */
 uint32_t film_halves_samples(uint32_t first);
 

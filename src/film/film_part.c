@@ -12,7 +12,6 @@
 
 #define PART_NAME "film"
 #define BAND_BYTES ((size_t)64 << 20)
-#define CHUNK_ROWS 16 /* that a ZIP-compressed file stores together */
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "words are named by their weight");
 
@@ -166,17 +165,48 @@ static size_t row_bytes(const FilmPart *part, size_t pixel_bytes) {
     return (size_t)(part->crop.x1 - part->crop.x0) * pixel_bytes;
 }
 
+/* Rows of a film as they are written. */
+typedef struct GatheredRows {
+    ExrRows rows;
+    const Film *film;
+    char *values;
+} GatheredRows;
+
+static void gather_rows(void *from, int y0, int y1) {
+    const GatheredRows *to = from;
+    size_t begin = film_index(to->film, to->film->crop.x0, y0);
+    film_gather(to->film, begin, film_index(to->film, to->film->crop.x0, y1) - begin, to->values);
+}
+
+static GatheredRows *prepare_rows(const Film *film, size_t row, int all, Arena *arena) {
+    GatheredRows *to = ARENA_NEW(arena, GatheredRows, 1);
+    int count = exr_rows_in(BAND_BYTES, row, all);
+    *to = (GatheredRows){{count, gather_rows, to},
+                         film,
+                         arena_alloc(arena, row, _Alignof(PixelSums), (size_t)count)};
+    return to;
+}
+
+static uint64_t checksum_of_film(GatheredRows *from, size_t row) {
+    uint64_t checksum = 0;
+    for (int y = from->film->crop.y0; y < from->film->crop.y1; y++) {
+        gather_rows(from, y, y + 1);
+        checksum += checksum_of_rows(from->values, row, y, 1);
+    }
+    return checksum;
+}
+
 void film_part_attach(FrameImage *frame, const Film *film, const FilmPart *part, Arena *arena) {
     ExrWords *words = ARENA_NEW(arena, ExrWords, 1);
     ExrAttribute *attributes = ARENA_NEW(arena, ExrAttribute, TEXT_COUNT + 2);
     const char *texts[TEXT_COUNT];
+    size_t row = row_bytes(part, film->stride);
+    GatheredRows *rows = prepare_rows(film, row, part->crop.y1 - part->crop.y0, arena);
     int count = text_count(part);
     make_texts(part, texts, arena);
     for (int i = 0; i < count; i++)
         attributes[i] = (ExrAttribute){text_names[i], EXR_STRING, texts[i], {0}};
-    uint64_t checksum = checksum_of_texts(part, texts) +
-                        checksum_of_rows(film->pixels, row_bytes(part, film->stride), part->crop.y0,
-                                         part->crop.y1 - part->crop.y0);
+    uint64_t checksum = checksum_of_texts(part, texts) + checksum_of_film(rows, row);
     attributes[count] = (ExrAttribute){"parhelion:layers", EXR_INT, "", {part->layers}};
     attributes[count + 1] =
         (ExrAttribute){"parhelion:checksum",
@@ -184,7 +214,8 @@ void film_part_attach(FrameImage *frame, const Film *film, const FilmPart *part,
                        arena_format(arena, "%016llx", (unsigned long long)checksum),
                        {0}};
     *words = name_words(part, arena);
-    words->values = film->pixels;
+    words->values = rows->values;
+    words->rows = &rows->rows;
     words->attribute_count = count + 2;
     words->attributes = attributes;
     assert((size_t)words->count * 4 == film->stride);
@@ -339,10 +370,7 @@ static bool check_checksum(const FilmPartReader *from, Error *err) {
 bool film_part_add_band(FilmPartReader *from, Film *to, Arena scratch, Error *err) {
     const FilmPart *part = &from->part;
     size_t row = row_bytes(part, to->stride);
-    int rows = (int)(BAND_BYTES / row) / CHUNK_ROWS * CHUNK_ROWS;
-    int left = part->crop.y1 - from->next_y;
-    if (rows < CHUNK_ROWS) rows = CHUNK_ROWS;
-    if (rows > left) rows = left;
+    int rows = exr_rows_in(BAND_BYTES, row, part->crop.y1 - from->next_y);
     FilmRect rect = {part->crop.x0, from->next_y, part->crop.x1, from->next_y + rows};
     ExrWords words = name_words(part, &scratch);
     char *values = arena_alloc(&scratch, row, _Alignof(PixelSums), (size_t)rows);

@@ -30,8 +30,10 @@ size_t film_packed_bytes_max(const Film *film) {
     return number_count(film) + row_pixels(film) * film->stride;
 }
 
-static const Fixed *row_begin(const Film *film, int y) {
-    return (const Fixed *)(const void *)film_sums(film, film->crop.x0, y);
+static const Fixed *gather_row(const Film *film, int y, Arena *scratch) {
+    Fixed *row = ARENA_NEW(scratch, Fixed, row_pixels(film) * number_count(film));
+    film_gather(film, film_index(film, film->crop.x0, y), row_pixels(film), row);
+    return row;
 }
 
 /* ---- packing ----------------------------------------------------------------------------- */
@@ -56,18 +58,18 @@ static void find_widths(const Fixed *row, size_t pixels, size_t numbers, unsigne
     }
 }
 
-size_t film_packed_bytes(const Film *film, int y) {
+size_t film_packed_bytes(const Film *film, int y, Arena scratch) {
     unsigned char widths[MOST_NUMBERS];
     size_t numbers = number_count(film), pixels = row_pixels(film), bytes = numbers;
     assert(numbers <= MOST_NUMBERS);
-    find_widths(row_begin(film, y), pixels, numbers, widths);
+    find_widths(gather_row(film, y, &scratch), pixels, numbers, widths);
     for (size_t n = 0; n < numbers; n++) bytes += widths[n] * pixels;
     return bytes;
 }
 
-size_t film_pack_row(const Film *film, int y, unsigned char *out) {
+size_t film_pack_row(const Film *film, int y, unsigned char *out, Arena scratch) {
     size_t numbers = number_count(film), pixels = row_pixels(film);
-    const Fixed *row = row_begin(film, y);
+    const Fixed *row = gather_row(film, y, &scratch);
     unsigned char *next = out + numbers;
     find_widths(row, pixels, numbers, out);
     for (size_t n = 0; n < numbers; n++)

@@ -25,10 +25,10 @@ size_t film_pixel_bytes(const Film *film);
 size_t film_packed_bytes_max(const Film *film);
 
 /* y: a row of the crop. Bytes that it will take. */
-size_t film_packed_bytes(const Film *film, int y);
+size_t film_packed_bytes(const Film *film, int y, Arena scratch);
 
 /* Returns how many bytes of `out` were filled. */
-size_t film_pack_row(const Film *film, int y, unsigned char *out);
+size_t film_pack_row(const Film *film, int y, unsigned char *out, Arena scratch);
 
 typedef struct PackedRow {
     const unsigned char *bytes;

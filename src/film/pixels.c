@@ -2,6 +2,7 @@
 #include "film/pixels.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "spectrum/spectral_table.h"
 
@@ -11,6 +12,28 @@
     {name, letters, sizeof letters - 1, users, member},
 
 const SumsRow sums_rows[SUMS_COUNT] = {FILM_SUMS(SUMS_ROW)};
+
+static void gather_pixel(const Film *film, size_t index, PixelSums *out) {
+    const PixelSums *sums = film_sums_at(film, index);
+    size_t before = (size_t)film->first_display, apart = (size_t)film->display_numbers;
+    size_t after = film_layer_numbers(film) - before - apart;
+    Fixed *displays = out->layers + before;
+    memcpy(out, sums, sizeof *out + before * sizeof(Fixed));
+    memcpy(displays + apart, sums->layers + before, after * sizeof(Fixed));
+    if (!out->hits) out->part_sample = NO_SAMPLE, out->part_id = -1;
+    if (out->display_hits) {
+        memcpy(displays, film_displays_at(film, index), apart * sizeof(Fixed));
+    } else {
+        memset(displays, 0, apart * sizeof(Fixed));
+        out->display_sample = NO_SAMPLE, out->display_id = -1;
+    }
+}
+
+void film_gather(const Film *film, size_t first, size_t count, void *out) {
+    char *next = out;
+    for (size_t i = 0; i < count; i++, next += film->stride)
+        gather_pixel(film, first + i, (PixelSums *)(void *)next);
+}
 
 /* (sum of squares - (sum)^2 / n) / (n - 1) / n for each of R, G, B, of sums of XYZ and of
  * squares of RGB. */

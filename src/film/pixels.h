@@ -2,8 +2,10 @@
 /* pixels.h -- how the film keeps a pixel; private to src/film.
  *
  * A pixel is a fixed part and then the sums of the layers that are kept, in the order of
- * LayerSums, and then XYZ of each group of lights. All sums are two's complement integers that
- * count steps: see film.h for ranges.
+ * LayerSums, and then XYZ of each group of lights: so files have it, and film_gather. In memory
+ * the sums over the samples that saw a display lie in an array of their own: most pixels see
+ * none, and where they lie together no page is ever touched. All sums are two's complement
+ * integers that count steps: see film.h for ranges.
  */
 #pragma once
 #include <pthread.h>
@@ -27,13 +29,15 @@ __extension__ typedef __int128 Fixed;
 typedef enum LayerSums { FILM_SUMS(SUMS_ID) SUMS_COUNT } LayerSums;
 
 #define SUMS_FIRST_DISPLAY SUMS_EMITTED
+#define SUMS_END_DISPLAY SUMS_STOKES
 
 typedef struct PixelSums {
     Fixed xyz[3];
     Fixed squares[3][2]; /* of linear Rec.709 R, G, B: [0] small, [1] large squares */
     Fixed odd_xyz[3];    /* of the samples in every second block of BLOCK_SAMPLES */
     uint32_t samples, hits, display_hits;
-    uint32_t part_sample; /* lowest sample index that hit; NO_SAMPLE: none */
+    /* unset in memory without such samples, else and in files NO_SAMPLE, -1 */
+    uint32_t part_sample; /* lowest sample index that hit */
     int32_t part_id;
     uint32_t display_sample; /* lowest sample index that saw a display */
     int32_t display_id;
@@ -49,9 +53,12 @@ struct Film {
     int first[SUMS_COUNT]; /* index into PixelSums.layers, -1: not kept */
     FilmLights lights;     /* none without LAYER_LIGHT */
     int first_light;       /* where those of the first group stand */
+    int first_display;     /* of PixelSums.layers: where those begin that lie in `displays` */
+    int display_numbers;   /* how many they are */
     size_t stride;         /* bytes a pixel */
-    char *pixels;
-    pthread_mutex_t lock; /* guards dropped: taken only when a sample is lost */
+    char *pixels;          /* without the displays' sums */
+    Fixed *displays;       /* 0 where display_hits is 0 */
+    pthread_mutex_t lock;  /* guards dropped: taken only when a sample is lost */
     FilmDropped dropped;
 };
 
@@ -113,16 +120,33 @@ SecondDisplay pixel_second_display(const DisplaySums *sums, int first);
 double pixel_sigma_y(const PixelSums *sums);
 double pixel_square_y(const PixelSums *sums);
 
-/* index: row by row of the crop. */
+/* Row by row of the crop. */
+static inline size_t film_index(const Film *film, int x, int y) {
+    return (size_t)(y - film->crop.y0) * (size_t)(film->crop.x1 - film->crop.x0) +
+           (size_t)(x - film->crop.x0);
+}
+
+/* Without the displays' sums. */
 static inline PixelSums *film_sums_at(const Film *film, size_t index) {
-    return (PixelSums *)(void *)(film->pixels + index * film->stride);
+    size_t apart = (size_t)film->display_numbers * sizeof(Fixed);
+    return (PixelSums *)(void *)(film->pixels + index * (film->stride - apart));
 }
 
 static inline PixelSums *film_sums(const Film *film, int x, int y) {
-    size_t index = (size_t)(y - film->crop.y0) * (size_t)(film->crop.x1 - film->crop.x0) +
-                   (size_t)(x - film->crop.x0);
-    return film_sums_at(film, index);
+    return film_sums_at(film, film_index(film, x, y));
 }
+
+static inline Fixed *film_displays_at(const Film *film, size_t index) {
+    return film->displays + index * (size_t)film->display_numbers;
+}
+
+/* Numbers of PixelSums.layers. */
+static inline size_t film_layer_numbers(const Film *film) {
+    return (film->stride - sizeof(PixelSums)) / sizeof(Fixed);
+}
+
+/* Whole pixels, as files have them. out: `count` times `stride` bytes. */
+void film_gather(const Film *film, size_t first, size_t count, void *out);
 
 /* bits: a step is 2^-bits, of the size of a double's exponent. */
 static inline double double_from_fixed(Fixed value, int bits) {

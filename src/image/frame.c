@@ -35,7 +35,9 @@ float *frame_add_channel(FrameImage *frame, const char *name, bool is_whole, Are
         frame->channels = ARENA_GROW(arena, ExrChannel, frame->channels, frame->channel_count,
                                      frame->channel_room);
     }
-    float *values = ARENA_NEW(arena, float, frame_pixel_count(frame));
+    size_t width = (size_t)(frame->data.x1 - frame->data.x0);
+    size_t count = frame->rows ? width * (size_t)frame->rows->count : frame_pixel_count(frame);
+    float *values = ARENA_NEW(arena, float, count);
     frame->channels[frame->channel_count++] =
         (ExrChannel){arena_string(arena, name, strlen(name)), is_whole, values};
     return values;

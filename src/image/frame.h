@@ -70,8 +70,8 @@ static inline size_t frame_pixel_count(const FrameImage *frame) {
     return (size_t)(frame->data.x1 - frame->data.x0) * (size_t)(frame->data.y1 - frame->data.y0);
 }
 
-/* Adds a channel and returns its zeroed values, one for each pixel of the data window. The
- * name is copied; it must be new. */
+/* Adds a channel and returns its zeroed values, one for each pixel of the data window, or of
+ * `rows->count` of its rows. The name is copied; it must be new. */
 float *frame_add_channel(FrameImage *frame, const char *name, bool is_whole, Arena *arena);
 
 /* Adds an attribute or replaces the one of that name. */

@@ -60,31 +60,33 @@ bool checkpoint_is_there(const char *path) {
 /* ---- writing ----------------------------------------------------------------------------- */
 
 /* Each row is preceded by its size. */
-static bool add_rows(KeptWriter *writer, const Film *film, FilmRect crop, unsigned char *buffer,
+static bool add_rows(KeptWriter *writer, const Film *film, FilmRect crop, Arena scratch,
                      Error *err) {
+    unsigned char *buffer =
+        ARENA_NEW(&scratch, unsigned char, sizeof(uint32_t) + film_packed_bytes_max(film));
     for (int y = crop.y0; y < crop.y1; y++) {
-        uint32_t size = (uint32_t)film_pack_row(film, y, buffer + sizeof size);
+        uint32_t size = (uint32_t)film_pack_row(film, y, buffer + sizeof size, scratch);
         memcpy(buffer, &size, sizeof size);
         if (!kept_add(writer, buffer, sizeof size + size, err)) return false;
     }
     return true;
 }
 
-static uint64_t bytes_of_rows(const Film *film, FilmRect crop) {
+static uint64_t bytes_of_rows(const Film *film, FilmRect crop, Arena scratch) {
     uint64_t bytes = 0;
-    for (int y = crop.y0; y < crop.y1; y++) bytes += sizeof(uint32_t) + film_packed_bytes(film, y);
+    for (int y = crop.y0; y < crop.y1; y++)
+        bytes += sizeof(uint32_t) + film_packed_bytes(film, y, scratch);
     return bytes;
 }
 
 bool checkpoint_write(const Checkpoint *what, const Film *film, Arena scratch, Error *err) {
     FilmRect crop = what->done.crop;
     CheckpointFacts facts = facts_of(what, film_pixel_bytes(film));
-    const KeptFile file = {&format, what->path, what->identity, &facts, bytes_of_rows(film, crop)};
-    unsigned char *buffer =
-        ARENA_NEW(&scratch, unsigned char, sizeof(uint32_t) + film_packed_bytes_max(film));
+    const KeptFile file = {&format, what->path, what->identity, &facts,
+                           bytes_of_rows(film, crop, scratch)};
     KeptWriter *writer;
-    return kept_begin(&file, &scratch, &writer, err) && add_rows(writer, film, crop, buffer, err) &&
-           kept_commit(writer, err);
+    return kept_begin(&file, &scratch, &writer, err) &&
+           add_rows(writer, film, crop, scratch, err) && kept_commit(writer, err);
 }
 
 /* ---- reading ----------------------------------------------------------------------------- */

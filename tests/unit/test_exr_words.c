@@ -40,7 +40,7 @@ static const ExrWords *make_words(Arena *arena) {
     static const ExrAttribute attributes[] = {{"unit", EXR_STRING, "steps", {0}},
                                               {"range", EXR_INT, "", {42}}};
     ExrWords *words = ARENA_NEW(arena, ExrWords, 1);
-    *words = (ExrWords){"film", WORDS, NAMES, make_values(arena), 2, attributes};
+    *words = (ExrWords){"film", WORDS, NAMES, make_values(arena), 2, attributes, NULL};
     return words;
 }
 
@@ -57,7 +57,7 @@ ARENA_TEST(every_word_comes_back_in_the_order_asked_for) {
     const uint32_t *written = words->values;
     ExrReader *reader = open_bytes(encode(words, &arena));
     static const char *const two[] = {"sum.X.0", "sum.Y.1"};
-    const ExrWords wanted = {"film", 2, two, NULL, 0, NULL};
+    const ExrWords wanted = {"film", 2, two, NULL, 0, NULL, NULL};
     assert_done(exr_reader_words(reader, "film", &found, &err));
     assert_int_equal(found->count, WORDS);
     assert_string_equal(found->name, "film");
@@ -194,7 +194,7 @@ ARENA_TEST(a_part_of_another_kind_is_refused) {
 
 ARENA_TEST(a_word_that_is_missing_is_named) {
     static const char *const names[] = {"count", "sum.Z.0"};
-    const ExrWords wanted = {"film", 2, names, NULL, 0, NULL};
+    const ExrWords wanted = {"film", 2, names, NULL, 0, NULL, NULL};
     uint32_t *rows = ARENA_NEW(&arena, uint32_t, WIDTH *HEIGHT * 2);
     ExrReader *reader = open_bytes(encode(make_words(&arena), &arena));
     const ExrWords *found;

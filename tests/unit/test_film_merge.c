@@ -4,6 +4,7 @@
 #include "film_fixture.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 
 #include "film/film_add.h"
 #include "film/film_frame.h"
@@ -76,11 +77,20 @@ static Film *make_film(FilmRect crop, uint32_t first, uint32_t end, unsigned lay
     return film;
 }
 
+/* All pixels as files have them. */
+static PixelSums *gathered(const Film *film, Arena *arena) {
+    size_t count = film_index(film, film->crop.x0, film->crop.y1);
+    PixelSums *pixels = arena_alloc(arena, film->stride, _Alignof(PixelSums), count);
+    film_gather(film, 0, count, pixels);
+    return pixels;
+}
+
 static void assert_same_films(const Film *a, const Film *b) {
+    Arena room = arena_reserve((size_t)1 << 28);
+    size_t bytes = film_index(a, a->crop.x0, a->crop.y1) * a->stride;
     assert_int_equal(a->stride, b->stride);
-    assert_memory_equal(a->pixels, b->pixels,
-                        (size_t)(a->crop.x1 - a->crop.x0) * (size_t)(a->crop.y1 - a->crop.y0) *
-                            a->stride);
+    assert_memory_equal(gathered(a, &room), gathered(b, &room), bytes);
+    arena_release(&room);
     assert_memory_equal(&a->dropped, &b->dropped, sizeof a->dropped);
 }
 
@@ -117,8 +127,8 @@ ARENA_TEST(parts_in_any_split_and_order_make_the_same_bits) {
         Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &groups, &scratch);
         for (int i = 0; i < count; i++) {
             Film *part = make_film(cuts[i].crop, cuts[i].first, cuts[i].end, LAYER_ALL, &scratch);
-            assert_done(
-                film_add_pixels(sum, part->crop, part->pixels, cuts[i].end - cuts[i].first, &err));
+            assert_done(film_add_pixels(sum, part->crop, gathered(part, &scratch),
+                                        cuts[i].end - cuts[i].first, &err));
             film_add_dropped(sum, &part->dropped);
         }
         assert_same_films(sum, expected);
@@ -134,9 +144,9 @@ ARENA_TEST(grouping_makes_no_difference) {
                         make_film(whole, 30, SAMPLES, LAYER_DEPTH, &arena)};
         Film *inner = part[left ? 0 : 1], *outer = part[left ? 2 : 0];
         Film *added = part[left ? 1 : 2];
-        assert_done(film_add_pixels(inner, whole, added->pixels, SAMPLES, &err));
+        assert_done(film_add_pixels(inner, whole, gathered(added, &arena), SAMPLES, &err));
         film_add_dropped(inner, &added->dropped);
-        assert_done(film_add_pixels(outer, whole, inner->pixels, SAMPLES, &err));
+        assert_done(film_add_pixels(outer, whole, gathered(inner, &arena), SAMPLES, &err));
         film_add_dropped(outer, &inner->dropped);
         assert_same_films(outer, expected);
     }
@@ -222,6 +232,43 @@ ARENA_TEST(long_parts_are_read_in_bands) {
     assert_same_films(back, film);
 }
 
+/* Bytes of the displays' sums that the system has lent. */
+static size_t lent_bytes(const Film *film) {
+    static unsigned char lent[1 << 16];
+    size_t page = (size_t)sysconf(_SC_PAGESIZE), count = 0;
+    uintptr_t begin = (uintptr_t)film->displays / page * page;
+    uintptr_t end = (uintptr_t)film_displays_at(film, film_index(film, 0, film->height));
+    assert_in_range((end - begin) / page, 1000, sizeof lent - 1);
+    assert_int_equal(mincore((void *)begin, end - begin, lent), 0);
+    for (size_t i = 0; i < (end - begin + page - 1) / page; i++) count += lent[i] & 1;
+    return count * page;
+}
+
+/* Rows 20 to 23 of 64 show a display. The arena was used before. */
+ARENA_TEST(sums_of_displays_take_memory_where_a_display_is_seen) {
+    enum { WIDE = 500, HIGH = 64, SHOWN = 4 };
+    FilmRect all = {0, 0, WIDE, HIGH};
+    Arena scratch = arena;
+    memset(ARENA_NEW(&scratch, char, 1 << 28), 255, 1 << 28);
+    Film *film = film_create(WIDE, HIGH, all, LAYER_ALL, &groups, &arena);
+    Film *back = film_create(WIDE, HIGH, all, LAYER_ALL, &groups, &arena);
+    FilmSample sample = sample_of(1, 1, 0);
+    for (int p = 0; p < WIDE * HIGH; p++) {
+        sample.display_id = p / WIDE / SHOWN == 20 / SHOWN ? 1 : -1;
+        film_add_sample(film, p % WIDE, p / WIDE, &sample);
+    }
+    FilmPart part = film_part_of(film, 0, 1);
+    FilmPartReader from;
+    write_part(film, &part, arena);
+    assert_done(film_part_open(path, &arena, &from, &err));
+    while (from.next_y < HIGH) assert_done(film_part_add_band(&from, back, arena, &err));
+    film_part_close(&from);
+    assert_same_films(back, film);
+    size_t shown = SHOWN * WIDE * (size_t)film->display_numbers * sizeof(Fixed);
+    assert_in_range(lent_bytes(film), shown, shown + 3 * 65536);
+    assert_in_range(lent_bytes(back), shown, shown + 3 * 65536);
+}
+
 /* The names are what strangers read: a sample of Y = 1 is 2^48 steps, in word 1. */
 ARENA_TEST(words_have_the_names_that_the_header_says) {
     static const char *const names[] = {"xyz.Y.0",   "xyz.Y.1",          "xyz.Z.3",       "samples",
@@ -241,7 +288,7 @@ ARENA_TEST(words_have_the_names_that_the_header_says) {
     film_add_sample(film, 0, 0, &sample);
     FilmPart part = film_part_of(film, 16, 17);
     ExrReader *reader;
-    const ExrWords *found, wanted = {"film", 12, names, NULL, 0, NULL};
+    const ExrWords *found, wanted = {"film", 12, names, NULL, 0, NULL, NULL};
     uint32_t read[12];
     write_part(film, &part, arena);
     assert_done(exr_reader_open(path, &reader, &err));
@@ -294,7 +341,7 @@ ARENA_TEST(a_flipped_bit_is_refused_or_changes_nothing) {
             assert_true(err.text[0] && !strchr(err.text, '\n'));
         } else {
             Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &groups, &scratch);
-            film_add_pixels(sum, w.film->crop, w.film->pixels, 4, &err);
+            film_add_pixels(sum, w.film->crop, gathered(w.film, &scratch), 4, &err);
             film_add_dropped(sum, &w.film->dropped);
             assert_same_films(back, sum);
             found.name = w.part.name;
@@ -413,7 +460,7 @@ ARENA_TEST(sums_that_no_samples_make_are_refused) {
         if (i == 4) pixel->hits = 4;
         if (i == 5) pixel->display_hits = 4;
         if (i == 6) pixel->odd_samples = 4;
-        assert_fails(film_add_pixels(sum, whole, film->pixels, 3, &err),
+        assert_fails(film_add_pixels(sum, whole, gathered(film, &arena), 3, &err),
                      "damaged sums: pixel 4,5 has sums that 3 samples cannot have");
     }
 }

@@ -155,6 +155,7 @@ static bool describe(ExrReader *reader, Error *err) {
                        0,
                        0,
                        nullptr,
+                       nullptr,
                        (int)reader->more_parts.size()};
     return check_picture(reader->picture, err);
 }
@@ -347,7 +348,8 @@ static bool describe_words(ExrReader *reader, int part, Error *err) {
                      reader->word_names.data(),
                      nullptr,
                      (int)reader->word_attributes.size(),
-                     reader->word_attributes.data()};
+                     reader->word_attributes.data(),
+                     nullptr};
     return true;
 }
 
@@ -366,12 +368,11 @@ bool exr_reader_words(ExrReader *reader, const char *name, const ExrWords **out,
         one_line);
 }
 
-/* A slice of a frame buffer for rows y0 and on of the words' part: word i of `count`. */
-static Imf::Slice word_slice(const void *values, int i, int count, ExrWindow data, int y0) {
+/* A slice of a frame buffer for some rows of the words' part: word i of `count`. */
+static Imf::Slice word_slice(const void *values, int i, int count, ExrWindow rows) {
     const size_t pixel = 4 * (size_t)count;
-    return Imf::Slice::Make(Imf::UINT, (const char *)values + 4 * i, Imath::V2i(data.x0, y0),
-                            data.x1 - data.x0, data.y1 - y0, pixel,
-                            pixel * (size_t)(data.x1 - data.x0));
+    return Imf::Slice::Make(Imf::UINT, (const char *)values + 4 * i, closed(rows), pixel,
+                            pixel * (size_t)(rows.x1 - rows.x0));
 }
 
 bool exr_reader_read_words(ExrReader *reader, const ExrWords *wanted, int y0, int y1, void *values,
@@ -383,11 +384,12 @@ bool exr_reader_read_words(ExrReader *reader, const ExrWords *wanted, int y0, in
             Imf::FrameBuffer buffer;
             Imf::InputPart part(*reader->file, reader->words_part);
             const ExrWindow &data = reader->picture.data;
+            const ExrWindow rows = {data.x0, y0, data.x1, y1};
             for (int i = 0; i < wanted->count; i++) {
                 if (!part.header().channels().findChannel(wanted->names[i]))
                     return error_set(err, ERROR_INPUT, "its part \"%s\" has no words %s",
                                      reader->words.name, wanted->names[i]);
-                buffer.insert(wanted->names[i], word_slice(values, i, wanted->count, data, y0));
+                buffer.insert(wanted->names[i], word_slice(values, i, wanted->count, rows));
             }
             part.setFrameBuffer(buffer);
             part.readPixels(y0, y1 - 1);
@@ -411,46 +413,69 @@ static std::vector<unsigned> whole_values(const float *values, size_t count) {
     return whole;
 }
 
-/* One part on its way into a file. */
-struct OutPart {
-    Imf::Header header;
-    Imf::FrameBuffer buffer;
-    std::vector<std::vector<unsigned>> whole;
+static Imf::Header header_of(const ExrPicture &p, const ExrAttribute *attributes, int count) {
+    Imf::Header header(closed(p.display), closed(p.data));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (int i = 0; i < count; i++) insert_attribute(&header, attributes[i]);
+    return header;
+}
 
-    OutPart(const ExrPicture &p, const ExrAttribute *attributes, int attribute_count)
-        : header(closed(p.display), closed(p.data)) {
-        header.compression() = Imf::ZIP_COMPRESSION;
-        for (int i = 0; i < attribute_count; i++) insert_attribute(&header, attributes[i]);
+static Imf::Header picture_header(const ExrPicture &p) {
+    Imf::Header header = header_of(p, p.attributes, p.attribute_count);
+    for (int i = 0; i < p.channel_count; i++)
+        header.channels().insert(p.channels[i].name,
+                                 Imf::Channel(p.channels[i].is_whole ? Imf::UINT : Imf::FLOAT));
+    return header;
+}
+
+static Imf::Header words_header(const ExrPicture &p) {
+    Imf::Header header = header_of(p, p.words->attributes, p.words->attribute_count);
+    for (int i = 0; i < p.words->count; i++)
+        header.channels().insert(p.words->names[i], Imf::Channel(Imf::UINT));
+    return header;
+}
+
+/* Rows of a picture on their way into a file: what the planes hold. */
+struct PictureRows {
+    const ExrPicture &p;
+    std::vector<std::vector<unsigned>> whole{};
+
+    Imf::FrameBuffer buffer(ExrWindow rows) {
+        const size_t count = (size_t)(rows.x1 - rows.x0) * (size_t)(rows.y1 - rows.y0);
+        Imf::FrameBuffer buffer;
+        whole.assign((size_t)p.channel_count, {});
+        for (int i = 0; i < p.channel_count; i++) {
+            const ExrChannel &c = p.channels[i];
+            if (c.is_whole) whole[(size_t)i] = whole_values(c.values, count);
+            const void *values = c.is_whole ? (const void *)whole[(size_t)i].data() : c.values;
+            buffer.insert(c.name, Imf::Slice::Make(c.is_whole ? Imf::UINT : Imf::FLOAT, values,
+                                                   closed(rows)));
+        }
+        return buffer;
     }
 };
 
-static OutPart picture_part(const ExrPicture &p) {
-    const Imath::Box2i window = closed(p.data);
-    const size_t width = (size_t)(p.data.x1 - p.data.x0);
-    const size_t count = width * (size_t)(p.data.y1 - p.data.y0);
-    OutPart part(p, p.attributes, p.attribute_count);
-    part.whole.resize((size_t)p.channel_count);
-    for (int i = 0; i < p.channel_count; i++) {
-        const ExrChannel &c = p.channels[i];
-        std::vector<unsigned> &whole = part.whole[(size_t)i];
-        Imf::PixelType type = c.is_whole ? Imf::UINT : Imf::FLOAT;
-        if (c.is_whole) whole = whole_values(c.values, count);
-        const void *values = c.is_whole ? (const void *)whole.data() : c.values;
-        part.header.channels().insert(c.name, Imf::Channel(type));
-        part.buffer.insert(c.name, Imf::Slice::Make(type, values, window));
-    }
-    return part;
-}
+struct WordRows {
+    const ExrWords &words;
 
-static OutPart words_part(const ExrPicture &p) {
-    const ExrWords &words = *p.words;
-    OutPart part(p, words.attributes, words.attribute_count);
-    for (int i = 0; i < words.count; i++) {
-        part.header.channels().insert(words.names[i], Imf::Channel(Imf::UINT));
-        part.buffer.insert(words.names[i],
-                           word_slice(words.values, i, words.count, p.data, p.data.y0));
+    Imf::FrameBuffer buffer(ExrWindow rows) {
+        Imf::FrameBuffer buffer;
+        for (int i = 0; i < words.count; i++)
+            buffer.insert(words.names[i], word_slice(words.values, i, words.count, rows));
+        return buffer;
     }
-    return part;
+};
+
+/* rows: NULL, all are there; else they are made band by band. */
+template <class Rows, class Out>
+static void write_rows(Rows from, const ExrRows *rows, ExrWindow data, Out *out) {
+    const int count = rows ? rows->count : data.y1 - data.y0;
+    for (int y = data.y0; y < data.y1; y += count) {
+        const ExrWindow band = {data.x0, y, data.x1, std::min(y + count, data.y1)};
+        if (rows) rows->make(rows->from, band.y0, band.y1);
+        out->setFrameBuffer(from.buffer(band));
+        out->writePixels(band.y1 - band.y0);
+    }
 }
 
 /* Of its values as they are, and what else a file holds of each row. */
@@ -462,25 +487,20 @@ static size_t most_bytes(const ExrPicture &p) {
 }
 
 static void write_picture(const ExrPicture &p, Imf::OStream *stream) {
-    OutPart part = picture_part(p);
-    Imf::OutputFile file(*stream, part.header, Imf::globalThreadCount());
-    file.setFrameBuffer(part.buffer);
-    file.writePixels(p.data.y1 - p.data.y0);
+    Imf::OutputFile file(*stream, picture_header(p), Imf::globalThreadCount());
+    write_rows(PictureRows{p}, p.rows, p.data, &file);
 }
 
 /* The picture comes first: who knows of one part only finds it. */
 static void write_both(const ExrPicture &p, Imf::OStream *stream) {
-    OutPart parts[2] = {picture_part(p), words_part(p)};
-    Imf::Header headers[2] = {parts[0].header, parts[1].header};
+    Imf::Header headers[2] = {picture_header(p), words_header(p)};
     headers[0].setName("picture");
     headers[1].setName(p.words->name);
     for (Imf::Header &header : headers) header.setType(Imf::SCANLINEIMAGE);
     Imf::MultiPartOutputFile file(*stream, headers, 2, true, Imf::globalThreadCount());
-    for (int i = 0; i < 2; i++) {
-        Imf::OutputPart out(file, i);
-        out.setFrameBuffer(parts[i].buffer);
-        out.writePixels(p.data.y1 - p.data.y0);
-    }
+    Imf::OutputPart picture(file, 0), words(file, 1);
+    write_rows(PictureRows{p}, p.rows, p.data, &picture);
+    write_rows(WordRows{*p.words}, p.words->rows, p.data, &words);
 }
 
 bool exr_encode(const ExrPicture *p, ExrBytes **out, Error *err) {

@@ -44,6 +44,22 @@ typedef struct ExrAttribute {
     double values[16]; /* the other kinds */
 } ExrAttribute;
 
+/* Rows that are made when they are written. */
+typedef struct ExrRows {
+    int count;                                /* that the planes (or words) hold (exr_rows_in) */
+    void (*make)(void *from, int y0, int y1); /* fills them with these rows of the data window */
+    void *from;
+} ExrRows;
+
+/* Rows of `all` whose `row` bytes each fit into so many, in whole chunks as files have them, at
+ * least one. */
+static inline int exr_rows_in(size_t bytes, size_t row, int all) {
+    const int chunk = 16; /* of ZIP compression */
+    int rows = (int)(bytes / row) / chunk * chunk;
+    if (rows < chunk) rows = chunk;
+    return rows < all ? rows : all;
+}
+
 /* 32-bit words of every pixel of a picture, kept as they are in a part of their own, of which
  * those who want the picture need not know. */
 typedef struct ExrWords {
@@ -54,6 +70,7 @@ typedef struct ExrWords {
                                  description */
     int attribute_count;
     const ExrAttribute *attributes;
+    const ExrRows *rows; /* NULL: all rows are there */
 } ExrWords;
 
 typedef struct ExrPicture {
@@ -63,6 +80,7 @@ typedef struct ExrPicture {
     int attribute_count;
     ExrAttribute *attributes;         /* files keep them sorted by name */
     int channel_room, attribute_room; /* what the lists hold; not looked at here */
+    const ExrRows *rows;              /* NULL: the planes hold all rows */
     const ExrWords *words;            /* a second part that is written; NULL: none, and when read */
     int more_parts; /* of a file that is read: those behind the first, less words */
 } ExrPicture;

@@ -167,10 +167,10 @@ static bool identify(RenderRun *work, Error *err) {
 static bool write_frame(const RenderRun *work, const RenderResult *result, Error *err) {
     Arena scratch = *work->arena;
     if (work->request.only_png) return true;
-    FrameImage frame =
-        render_make_frame(&work->request, work->scene, &work->camera, result, &scratch);
-    if (!render_output_is_radiance(&work->request))
-        return frame_write(work->request.output, &frame, err);
+    bool is_radiance = render_output_is_radiance(&work->request);
+    FrameImage frame = render_make_frame(&work->request, work->scene, &work->camera, result,
+                                         !is_radiance, &scratch);
+    if (!is_radiance) return frame_write(work->request.output, &frame, err);
     return radiance_picture_write(work->request.output, &frame, work->request.command_line, scratch,
                                   err);
 }
@@ -202,12 +202,13 @@ static void warn_of_memory(RenderRun *work) {
     const RenderOptions *options = &work->request.render;
     double wanted = bytes_of(options, options->layers), memory = (double)machine_memory_bytes();
     if (wanted <= memory / 2 || work->request.replays) return;
-    warn(work, arena_format(work->arena,
-                            "--layers: the film and the frame take %.1f of the %.1f GB here%s",
-                            wanted / 1e9, memory / 1e9,
-                            options->layers & ~(unsigned)LAYER_COMPARED
-                                ? " — --layers compare takes less, or --crop"
-                                : ""));
+    warn(work,
+         arena_format(work->arena,
+                      "--layers: the film and the frame take up to %.1f of the %.1f GB here%s",
+                      wanted / 1e9, memory / 1e9,
+                      options->layers & ~(unsigned)LAYER_COMPARED
+                          ? " — --layers compare takes less, or --crop"
+                          : ""));
 }
 
 static void warn_of_dropped(RenderRun *work, const RenderResult *result) {
@@ -298,7 +299,8 @@ static bool write_live_file(RenderRun *work, const RenderResult *so_far, Error *
     RenderResult result = *so_far;
     request.is_part = false;
     result.error = film_relative_error(so_far->film);
-    FrameImage frame = render_make_frame(&request, work->scene, &work->camera, &result, &scratch);
+    FrameImage frame =
+        render_make_frame(&request, work->scene, &work->camera, &result, true, &scratch);
     return render_live_write(&work->live, &frame, begun_s, err);
 }
 
@@ -334,7 +336,7 @@ static bool develop(const RenderRun *work, const RenderResult *result, Error *er
     Arena scratch = *work->arena;
     LookReport look;
     FrameImage frame =
-        render_make_frame(&work->request, work->scene, &work->camera, result, &scratch);
+        render_make_frame(&work->request, work->scene, &work->camera, result, false, &scratch);
     const LookRequest request = {&frame, &work->request.look, work->request.png,
                                  work->request.cli.threads};
     if (!look_options_develop(&request, scratch, &look, err)) return false;

@@ -151,9 +151,10 @@ static const char *missed_text(const RenderRequest *request, Arena *arena) {
 }
 
 FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
-                             const SceneCamera *camera, const RenderResult *result, Arena *arena) {
+                             const SceneCamera *camera, const RenderResult *result, bool by_rows,
+                             Arena *arena) {
     int room = 32 + scene->part_count + scene->display_count + FILM_LIGHTS_MAX;
-    FrameImage frame = film_to_frame(result->film, room, arena);
+    FrameImage frame = (by_rows ? film_to_rows : film_to_frame)(result->film, room, arena);
     frame_set_string(&frame, "software", "parhelion " PARHELION_VERSION, arena);
     frame_set_string(&frame, "parhelion:commandLine", request->command_line, arena);
     frame_set_string(&frame, "parhelion:identity",

@@ -7,9 +7,10 @@
 #pragma once
 #include "cli/render/render_request.h"
 
-/* The film as it stands, with its metadata. */
+/* The film as it stands, with its metadata; by_rows: for frame_write alone (film_to_rows). */
 FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
-                             const SceneCamera *camera, const RenderResult *result, Arena *arena);
+                             const SceneCamera *camera, const RenderResult *result, bool by_rows,
+                             Arena *arena);
 
 /* The command's answer on stdout. live_s: seconds that the file of --live took. */
 bool render_print_answer(const RenderRequest *request, const RenderResult *result, double live_s,
