@@ -21,7 +21,7 @@ def sound_scene():
                                      "roughnessFactor": 0.5},
         alphaMode="MASK", normalTexture={"index": picture}, extensions={
             "KHR_materials_clearcoat": {"clearcoatFactor": 1},
-            "KHR_materials_ior": {"ior": 1.4}, "KHR_materials_specular": {"specularFactor": 1}})
+            "KHR_materials_ior": {"ior": 1.5}, "KHR_materials_specular": {"specularFactor": 1}})
     scene.quad(material, [-1, 0, -2], [2, 0, 0], [0, 2, 0])
     scene.quad(scene.window(1.5), [-1, 0, -1], [2, 0, 0], [0, 2, 0])
     scene.facing_quad(scene.emitter(100), [0, 3, 0], [0, -1, 0], 1)

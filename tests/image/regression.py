@@ -23,7 +23,7 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 from report import Report, read  # noqa: E402
 
 WORKFLOW = "assets/ci/regression.yml"
-OPTIONS = "--size 48x32 --spp 16"
+OPTIONS = "--size 48x32 --spp 16 --no-guiding"
 ARTEFACTS = ("report.html", "compare.txt", "compare.json", "junit.xml")
 ADDRESS = "https://packages.invalid/parhelion.tar"
 # Stand-ins: each notes its words, and curl brings the tar file that lies beside it.
