@@ -66,7 +66,8 @@ laws()
     PARHELION_LAWS=all
     export PARHELION_LAWS
     units .build/release -R '^(shaders(_glass)?|brushed|engine|hour_sky|lamp_mirror'\
-'|light(_levels)?|night|panel_(directions|scatter)|path|plates|polarised|ray_ends|sheets|sun_beam)$'
+'|light(_levels)?|night|noise_stop|panel_(directions|scatter)|path|plates|polarised|ray_ends'\
+'|sheets|sun_beam)$'
 }
 
 # guides_and_meeting: the pages of the README's review are looked at

@@ -4,7 +4,7 @@
 # shellcheck shell=sh
 logs=.build/logs
 total_passed=0 total_failed=0 total_skipped=0
-rm -f .build/logs/junit.*
+rm -f .build/logs/junit.* .build/logs/processors.*
 unset PYTHONDONTWRITEBYTECODE
 export PYTHONPYCACHEPREFIX="$PWD/.build/pycache"
 mkdir -p $logs
@@ -62,6 +62,8 @@ report()
     echo "$line  ($4)"
     took=${4#kept, }
     junit_case "$1" "$2" "${took%% *}" "$failed" >>$logs/junit.cases
+    busy=${took#*, }
+    [ "$busy" = "$took" ] || echo "${busy%% *} $1" >>$logs/processors.steps
     [ "$failed" = 0 ] || {
         grep -h '^FAILED\|\[  FAILED  \]\|error:\|ERROR:\|WARNING: Thread' "$logs/$2.log" |
             head -n 12 | sed 's/^/    /'
@@ -276,11 +278,22 @@ build()
         cmake --build ".build/$preset" --target "$@"
 }
 
+# table_of_processors: of each step that was run, the longest first, to processors.txt; prints
+# the longest five and the sum
+table_of_processors()
+{
+    sort -rn $logs/processors.steps >$logs/processors.txt
+    awk 'NR <= 5 { longest = longest (NR > 1 ? ", " : "") $0 } { sum += $1 }
+         END { print sum " s of processors: " longest " ... ('$logs'/processors.txt)" }' \
+        $logs/processors.txt
+}
+
 finish()
 {
     [ "$mode" != list ] || exit 0
     { echo '<testsuite name="steps">' && cat $logs/junit.cases && echo '</testsuite>'; } \
         >$logs/junit.xml
+    [ ! -f $logs/processors.steps ] || table_of_processors
     [ $total_skipped = 0 ] || echo "$total_skipped skipped: see the lines above"
     echo "$total_passed passed, $total_failed failed"
     [ $total_failed = 0 ] || exit 1

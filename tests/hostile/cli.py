@@ -273,7 +273,7 @@ def check_hang_up(report, program):
     """nohup: a HUP that is ignored from the start stays ignored."""
     running = subprocess.Popen(
         ["nohup", program.path, "render", program.file("scene.gltf"), "-o",
-         program.file("nohup.exr"), "--size", "200x150", "--spp", "100000", "--threads",
+         program.file("nohup.exr"), "--size", "48x32", "--spp", "100000", "--threads",
          "1", "--progress", "json"], stderr=subprocess.PIPE, stdout=subprocess.PIPE)
     while not running.stderr.readline().startswith(b"{"):
         pass
@@ -541,7 +541,7 @@ def check_signal(report, program, number, status):
     """A long render that is interrupted leaves a frame that says so."""
     out = program.file(f"signal{status}.exr")
     running = subprocess.Popen(
-        [program.path, "render", program.file("scene.gltf"), "-o", out, "--size", "200x150",
+        [program.path, "render", program.file("scene.gltf"), "-o", out, "--size", "48x32",
          "--spp", "100000", "--threads", "1", "--progress", "json"], stderr=subprocess.PIPE,
         stdout=subprocess.PIPE,
         preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))  # nohup's children ignore HUP

@@ -371,15 +371,15 @@ def main():
             check_stop(work, *little, "--spp", "64")
             check_second_signal(work)
         else:
-            check_kills(work, arguments.kills, "--size", "64x48", "--spp", "150")
+            check_kills(work, arguments.kills, "--size", "64x48", "--spp", "80")
             check_kills(work, max(1, arguments.kills // 10), "--size", "64x48", "--spp",
                         "100000", "--noise", "0.07", "--crop", "3,1,60,47")
-            check_stop(work, *little, "--spp", "400", "--layers", "all", "--crop", "3,1,31,20")
-            check_snapshot(work, *little, "--spp", "400")
+            check_stop(work, *little, "--spp", "200", "--layers", "all", "--crop", "3,1,31,20")
+            check_snapshot(work, *little, "--spp", "200")
             check_second_signal(work)
             check_refusals(work, *little)
             check_inputs(work, *little)
-            check_full_disk(work, *little, "--spp", "400")
+            check_full_disk(work, *little, "--spp", "200")
     report.finish()
 
 

@@ -2,7 +2,7 @@
 """review_request.py [--all] PARHELION -- every key of REVIEW.json with values that it cannot
 have: of another kind, no number, negative, zero, huge, empty, too short, too long, an unknown
 key beside it. The schema says which are wrong; those are refused in one line that names the
-place, and what the schema takes is taken or refused so. Without --all every 27th of them. Then
+place, and what the schema takes is taken or refused so. Without --all every 53rd of them. Then
 the files that a request names, what `explain` is asked, and what is in the output's way.
 """
 import calendar
@@ -436,4 +436,4 @@ def main(program, step):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[-1], 1 if "--all" in sys.argv else 27))
+    sys.exit(main(sys.argv[-1], 1 if "--all" in sys.argv else 53))

@@ -3,7 +3,8 @@
 with 1, 2 and 5 threads, and a crop has those of the whole; an instruction set that is asked for
 gives the same bits on a CPU that has more. --small: one render with 2 threads of the small
 scene, for the thread sanitizer. --all: where light comes from is learnt in every scene, under
-every sky, not in one and under one. --against: the same bits as another build's.
+every sky, not in one and under one; and the dashboard has more pixels and samples. --against:
+the same bits as another build's.
 """
 import argparse
 import hashlib
@@ -130,7 +131,8 @@ def main():
         learns = [] if arguments.all or arguments.against else ["--no-guiding"]
         works = [([small], ["--size", "96x64", "--spp", "8"]),
                  ([small], ["--size", "64x48", "--spp", "4", "--no-guiding"]),
-                 (dashboard, ["--size", "96x54", "--spp", "4", *learns])]
+                 (dashboard, ["--size", "64x36", "--spp", "2", *learns] if learns else
+                  ["--size", "96x54", "--spp", "4"])]
         cpus = [([small], ["--size", "48x32", "--spp", "4", "--environment", sky, *more,
                            *(learns if i else [])]) for i, (sky, more) in enumerate(SKIES)]
         if arguments.small:

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """merge.py [--all] PARHELION -- parts of a frame, however it is cut and in any order, make the
 file that one run makes, byte for byte; and what does not make a whole is refused by name.
---all: more ways to cut it, and a scene with displays.
+--all: more ways to cut it, and a scene with displays; and where light comes from is learnt
+throughout, not for the first ways alone.
 """
 import argparse
 import itertools
@@ -382,6 +383,10 @@ def main():
         write_scene(os.path.join(folder, "small.gltf"))
         program.render("frame.exr", "--layers", "all", "--spp", str(SAMPLES))
         check_splits(report, program, few_splits())
+        if not arguments.all:
+            program.options.append("--no-guiding")
+            program.parts.clear()
+            program.render("frame.exr", "--layers", "all", "--spp", str(SAMPLES))
         check_nested(report, program)
         check_dealt(report, program)
         check_holes(report, program)

@@ -24,7 +24,7 @@ SAME, DIFFERENT, UNKNOWN = 0, 1, 3
 def render(program, path, seed):
     scenes = [os.path.join(ROOT, "scenes", name) for name in ("car_dashboard.gltf", "noon.gltf")]
     subprocess.run([program, "render", *scenes, "--size", "64x36", "--spp", "8", "--layers",
-                    "all", "--seed", str(seed), "-o", path, "--quiet"], check=True,
+                    "all", "--seed", str(seed), "-o", path, "--quiet", "--no-guiding"], check=True,
                    capture_output=True)
 
 

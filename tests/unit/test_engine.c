@@ -133,7 +133,7 @@ ARENA_TEST(conditions_with_any_bytes_do_no_harm) {
     static const uint32_t words[] = {0, 1, 0xffffffffu, 0x7fffffffu, 0x7fc00000u};
     ReviewOutcome first, again;
     FileBytes file;
-    size_t words_most = all_laws() ? 400 : 60;
+    size_t words_most = all_laws() ? 400 : 24;
     const char *path = arena_format(&arena, "%s", in_folder("2-bright.condition"));
     wall_write_files(request_text, arena);
     run_kept(&arena, &first);

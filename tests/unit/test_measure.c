@@ -244,13 +244,18 @@ static int poisson(double mean, unsigned *seed) {
 /* What each half of a pixel's samples found besides 20 cd m^-2: noise, and `glints` in all. */
 static void scatter_glints(FrameImage *frame, double glints, unsigned *seed) {
     size_t pixels = frame_pixel_count(frame);
+    float *reflected[3], *halves[3];
+    for (int c = 0; c < 3; c++) {
+        reflected[c] = plane_of(frame, "display.reflected", c);
+        halves[c] = plane_of(frame, "display.halves", c);
+    }
     for (size_t i = 0; i < pixels; i++) {
         double part[2];
         for (int k = 0; k < 2; k++)
             part[k] = GLINT * poisson(0.5 * glints / (double)pixels, seed) + 0.1 * normal(seed);
         for (int c = 0; c < 3; c++) {
-            plane_of(frame, "display.reflected", c)[i] = (float)(20 + part[0] + part[1]);
-            plane_of(frame, "display.halves", c)[i] = (float)(part[0] - part[1]);
+            reflected[c][i] = (float)(20 + part[0] + part[1]);
+            halves[c][i] = (float)(part[0] - part[1]);
         }
     }
 }
