@@ -2,8 +2,9 @@
 /* parallel.h -- does many small pieces of work with several threads.
  *
  * The workers take items off one atomic counter, so that a slow item holds nobody up. The
- * calling thread is worker 0 and works too; when the system refuses more threads the work is
- * done with fewer. No thread keeps state between two calls.
+ * calling thread is worker 0 and works too; when the system refuses more threads, or all of them
+ * are at work for another call, the work is done with fewer. Threads wait for the next call,
+ * without state of their own; they block signals, which the callers get.
  *
  * Fails    parallel_for never.
  */

@@ -2,6 +2,7 @@
 /* What control groups leave of the machine's memory, and how many threads can be had. */
 #include "fixture.h"
 
+#include <stdatomic.h>
 #include <sys/stat.h>
 
 #include "base/machine.h"
@@ -64,6 +65,39 @@ TEST(threads_are_granted_one_by_one) {
     assert_int_equal(parallel_grantable_threads(1), 1);
     assert_int_equal(parallel_grantable_threads(3), 3);
     assert_true(parallel_grantable_threads(1 << 20) <= PARALLEL_THREADS_MAX);
+}
+
+enum { OUTER = 40, INNER = 300, WORKERS = 5 };
+
+/* What one item's own items have done, and which of their workers is at work. */
+typedef struct Within {
+    atomic_int done[INNER], busy[WORKERS], clashes;
+} Within;
+
+static void count_within(void *user, int item, int worker) {
+    Within *within = user;
+    if (atomic_fetch_add(&within->busy[worker], 1)) atomic_fetch_add(&within->clashes, 1);
+    atomic_fetch_add(&within->done[item], 1);
+    atomic_fetch_sub(&within->busy[worker], 1);
+}
+
+static void call_within(void *user, int item, int worker) {
+    (void)worker;
+    parallel_for(WORKERS, INNER, count_within, (Within *)user + item);
+}
+
+/* Threads that wait serve calls within calls, and come again after they have gone. */
+TEST(calls_within_calls_do_each_item_once) {
+    for (int round = 0; round < 20; round++) {
+        Within *all = calloc(OUTER, sizeof *all);
+        parallel_for(WORKERS, OUTER, call_within, all);
+        for (int i = 0; i < OUTER; i++) {
+            assert_int_equal(all[i].clashes, 0);
+            for (int k = 0; k < INNER; k++) assert_int_equal(all[i].done[k], 1);
+        }
+        free(all);
+        if (round % 4 == 0) assert_int_equal(parallel_grantable_threads(WORKERS), WORKERS);
+    }
 }
 
 TEST_PROGRAM(make_folder, clear_folder)
