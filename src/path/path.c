@@ -255,9 +255,13 @@ static PathContext context_of(const Scene *scene, const Bvh *bvh, int max_bounce
                          .strategy = PATH_MIS};
 }
 
+PathContext path_context_unlit(const Scene *scene, const Bvh *bvh, int max_bounces, Arena *arena) {
+    return context_of(scene, bvh, max_bounces, SURFACE_PLAIN, arena);
+}
+
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                int max_bounces, Arena *arena) {
-    PathContext context = context_of(scene, bvh, max_bounces, SURFACE_PLAIN, arena);
+    PathContext context = path_context_unlit(scene, bvh, max_bounces, arena);
     return path_context_relight(&context, lights, arena);
 }
 

@@ -15,6 +15,9 @@
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                int max_bounces, Arena *arena);
 
+/* All of that but the lights: to be relit before any path. */
+PathContext path_context_unlit(const Scene *scene, const Bvh *bvh, int max_bounces, Arena *arena);
+
 /* The same for a frame's pixels: lamps and small emitters are sampled in those mirrors alone by
  * which beams came to a part (mirror_beams.h), and points of no part do not sample them. */
 PathContext path_context_of_frame(const Scene *scene, const Bvh *bvh, const Lights *lights,

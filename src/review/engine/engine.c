@@ -88,6 +88,7 @@ static bool take_all(const ReviewRun *run, Arena *arena, Conditions *out, Error 
     for (int i = 0; i < count; i++) {
         if (!review_is_wanted(run, i)) continue;
         if (!take_condition(run, i, arena, &out->list[out->count], err)) return false;
+        if (!review_scene_comes_again(run, i)) scenes_kept_close(run->means.scenes, i);
         out->ids[out->count++] = i;
     }
     return true;
@@ -160,9 +161,12 @@ static bool review_all(const ReviewRun *run, bool is_strict, Arena *arena, Revie
 bool review_run(const ReviewRun *run, bool is_strict, Arena *arena, ReviewOutcome *out,
                 Error *err) {
     SunSearches searches = sun_searches_start();
+    ScenesKept scenes = {NULL};
     ReviewRun own = *run;
     own.sun_searches = &searches;
+    own.means.scenes = &scenes;
     bool ok = review_all(&own, is_strict, arena, out, err);
+    scenes_kept_close(&scenes, NO_ID);
     sun_searches_end(&searches);
     return ok;
 }

@@ -60,6 +60,8 @@ uint64_t reading_aim_hash(const ProbeAim *aim) {
 #define PILOT_REACH 4 /* estimate_plan.h */
 #define PILOT_SEED 0x70696c6fu
 #define PIECE 64 /* paths that are looked at together */
+#define SPLIT 8  /* parts of a batch's paths, each of which a thread takes: work for 256 */
+#define PARTS (BATCHES * SPLIT)
 
 /* The sums of one batch of a reading's paths. */
 typedef struct Batch {
@@ -78,7 +80,8 @@ typedef struct Stream {
     int threads;
     int first, end; /* paths of every batch */
     Batch *batches;
-    TargetLight *targets; /* of each batch; NULL: they are not kept apart */
+    Batch *parts;         /* [SPLIT] of each batch: what is read now */
+    TargetLight *targets; /* of each of those; NULL: they are not kept apart */
 } Stream;
 
 static void add_targets(TargetLight *to, const ProbeLook *looks, int count) {
@@ -100,27 +103,46 @@ static void add_looks(Batch *to, const ProbeLook *looks, int count) {
     }
 }
 
-static void read_batch(void *user, int item, int worker) {
+static int part_begin(const Stream *stream, int part) {
+    return stream->first + (int)((long)(stream->end - stream->first) * part / SPLIT);
+}
+
+static void read_part(void *user, int item, int worker) {
     (void)worker;
     const Stream *stream = user;
     ProbeLook looks[PIECE];
     PathStatistics statistics = {0};
     ProbeAim aim = stream->aim;
-    aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)item);
+    Batch *to = &stream->parts[item];
+    aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)(item / SPLIT));
     aim.is_spread = true;
-    for (int first = stream->first; first < stream->end; first += PIECE) {
+    *to = (Batch){0};
+    int last = part_begin(stream, item % SPLIT + 1);
+    for (int first = part_begin(stream, item % SPLIT); first < last; first += PIECE) {
         if (signals_stop_requested()) return;
-        int end = first + PIECE < stream->end ? first + PIECE : stream->end;
+        int end = first + PIECE < last ? first + PIECE : last;
         stream->kernel->look(&aim, first, end, looks, &statistics);
-        add_looks(&stream->batches[item], looks, end - first);
+        add_looks(to, looks, end - first);
         if (stream->targets)
             add_targets(stream->targets + (size_t)item * (size_t)aim.target_count, looks,
                         end - first);
     }
-    stream->batches[item].sky_finds += (long)statistics.sky_finds;
-    stream->batches[item].sent_on += statistics.sent_on;
-    stream->batches[item].lost += statistics.lost;
-    stream->batches[item].rare += statistics.rare;
+    to->sky_finds = (long)statistics.sky_finds;
+    to->sent_on = statistics.sent_on;
+    to->lost = statistics.lost;
+    to->rare = statistics.rare;
+}
+
+static void add_part(Batch *to, const Batch *part) {
+    to->reflected += part->reflected;
+    to->mirror += part->mirror;
+    to->found += part->found;
+    to->sky_finds += part->sky_finds;
+    to->lost += part->lost;
+    to->rare += part->rare;
+    to->sent_on += part->sent_on;
+    to->bright.squares += part->bright.squares;
+    to->bright.fourths += part->bright.fourths;
 }
 
 /* Where no ray of the sun was seen to come in, a beam as wide as the map's pixels may. */
@@ -213,14 +235,18 @@ static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena sc
 /* ---- one stream -------------------------------------------------------------------------- */
 
 static Stream stream_start(const ProbeAim *aim, const ReadingTools *tools, Arena *arena) {
-    return (Stream){*aim, tools->kernel, tools->threads, 0, 0, ARENA_NEW(arena, Batch, BATCHES),
-                    NULL};
+    return (Stream){.aim = *aim,
+                    .kernel = tools->kernel,
+                    .threads = tools->threads,
+                    .batches = ARENA_NEW(arena, Batch, BATCHES),
+                    .parts = ARENA_NEW(arena, Batch, PARTS)};
 }
 
 /* All of its paths, up to so many. */
 static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal) {
     stream->end = (int)(paths / BATCHES);
-    parallel_for(stream->threads, BATCHES, read_batch, stream);
+    parallel_for(stream->threads, PARTS, read_part, stream);
+    for (int i = 0; i < PARTS; i++) add_part(&stream->batches[i / SPLIT], &stream->parts[i]);
     stream->first = stream->end;
     return reading_of(&stream->aim, stream->batches, stream->end, goal->known);
 }
@@ -290,9 +316,9 @@ Reading reading_field(const ProbeAim *aim, long paths, double known, const Readi
     ReadingGoal goal = {.known = 0};
     size_t count = (size_t)aim->target_count;
     Stream stream = stream_start(aim, tools, &scratch);
-    stream.targets = ARENA_NEW(&scratch, TargetLight, BATCHES * count);
+    stream.targets = ARENA_NEW(&scratch, TargetLight, PARTS * count);
     stream_read(&stream, paths, &goal);
-    for (size_t i = 0; i < BATCHES * count; i++) {
+    for (size_t i = 0; i < PARTS * count; i++) {
         TargetLight *to = &targets[i % count];
         to->paths += stream.targets[i].paths;
         to->sum += stream.targets[i].sum;

@@ -10,8 +10,9 @@
 #include "base/units.h"
 #include "review/light/sky_table.h"
 
-#define WAVE 16 /* chunks that are traced before they are added, in order */
-#define PILOT 8 /* chunks that sample every triangle */
+#define WAVE 16     /* chunks that sample every triangle once, */
+#define TOGETHER 64 /* and those that are traced before they are added, in order */
+#define PILOT 8     /* chunks that sample every triangle */
 /* widths of a triangle: what is sampled for a sun; one lies within, or more */
 #define NEAR 1.2f
 /* Later ones sample a cell that those found in every so manyth chunk: as many rays go out along
@@ -88,11 +89,11 @@ typedef struct Trace {
     const ProbeAim *aim;
     const ResponseOptions *options;
     const ProbeCells *cells;
-    int first_chunk, chunks; /* the wave's */
-    int *asked[WAVE];        /* cells of a chunk, */
-    Vec3 *towards[WAVE];
-    float *tables[WAVE];             /* its sums, */
-    double sent[WAVE];               /* and all of them */
+    int first_chunk, chunks; /* that are traced together */
+    int *asked[TOGETHER];    /* cells of a chunk, */
+    Vec3 *towards[TOGETHER];
+    float *tables[TOGETHER];         /* its sums, */
+    double sent[TOGETHER];           /* and all of them */
     double *sums;                    /* over all chunks */
     double *groups;                  /* as a response's, sums */
     double reading[RESPONSE_GROUPS]; /* under a uniform sky */
@@ -175,7 +176,7 @@ static void add_cells(void *user, int item, int worker) {
     for (int k = 0; k < trace->chunks; k++) add_chunk(trace, k, first, end < count ? end : count);
 }
 
-static void trace_wave(Trace *trace, int chunks) {
+static void trace_some(Trace *trace, int chunks) {
     int threads = trace->options->threads, count = trace->cells->count;
     trace->chunks = chunks;
     parallel_for(threads, chunks, trace_chunk, trace);
@@ -191,7 +192,7 @@ static Trace trace_start(const ProbeAim *aim, const ResponseOptions *options,
     trace.sums = ARENA_NEW(arena, double, table_size(cells));
     trace.groups = ARENA_NEW(arena, double, groups_size(cells));
     light_bands_white(trace.white);
-    for (int k = 0; k < WAVE; k++) {
+    for (int k = 0; k < TOGETHER; k++) {
         trace.tables[k] = ARENA_NEW(arena, float, table_size(cells));
         trace.towards[k] = ARENA_NEW(arena, Vec3, cells->count);
         trace.asked[k] = ARENA_NEW(arena, int, cells->count);
@@ -250,12 +251,12 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
     float *every = ARENA_NEW(&scratch, float, cells.count);
     Trace trace = trace_start(aim, options, &cells, &scratch);
     set_every(NULL, &cells, every);
-    trace_wave(&trace, chunks < PILOT ? chunks : PILOT);
+    trace_some(&trace, chunks < PILOT ? chunks : PILOT);
     set_every(open_cells(out, trace.sums, &scratch), &cells, every);
     while (trace.first_chunk < chunks && (trace.first_chunk < PILOT + RESPONSE_GROUPS * WAVE ||
                                           relative_error(&trace) > options->precision)) {
         int left = chunks - trace.first_chunk;
-        trace_wave(&trace, left < WAVE ? left : WAVE);
+        trace_some(&trace, left < TOGETHER ? left : TOGETHER);
     }
     out->paths = trace.first_chunk * RESPONSE_CHUNK;
     for (size_t i = 0; i < table_size(&out->cells); i++)

@@ -121,8 +121,8 @@ bool setup_scene(const SetupOptions *options, Arena *arena, Problems *problems, 
     return load_even(&scene, arena, problems, out, err);
 }
 
-bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, Setup *out,
-                Error *err) {
+static bool load(const SetupOptions *options, Arena *arena, Problems *problems, Setup *out,
+                 Error *err) {
     SceneOptions scene = scene_options(options, arena);
     *out = (Setup){.request = options->request,
                    .moment_guide = options->means.moment_guide,
@@ -139,25 +139,118 @@ bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, S
     for (int i = 0; i < out->scene->display_count; i++)
         out->scene_levels[i] = (double)out->scene->displays[i].level;
     identify(out, &scene, arena);
+    out->context = path_context_unlit(out->scene, out->bvh, SETUP_BOUNCES, arena);
+    return true;
+}
+
+static void unload(const Setup *setup) {
+    bvh_destroy(setup->bvh);
+    scene_close(setup->scene);
+}
+
+static void set_scene_levels(Setup *setup) {
+    for (int i = 0; i < setup->scene->display_count; i++)
+        setup->scene->displays[i].level = (float)setup->scene_levels[i];
+}
+
+/* ---- scenes that stay -------------------------------------------------------------------- */
+
+#define SCENE_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
+
+struct KeptScene {
+    Setup setup; /* as it was loaded, with that environment: */
+    Environment environment;
+    const char *key;
+    int condition_id; /* that used it last */
+    bool is_open;
+    Arena arena; /* of all of it, and of this */
+    KeptScene *next;
+};
+
+/* All by which a request's scenes differ. A change of levels alone is none. */
+static const char *key_of(const SetupOptions *options, Arena *arena) {
+    const ReviewChange *change = options->request->change;
+    SceneOptions scene = scene_options(options, arena);
+    Text key = {.arena = arena};
+    for (int i = 0; i < scene.path_count; i++) identity_line(&key, "scene", "%s", scene.paths[i]);
+    for (int i = 0; i < scene.content_count; i++)
+        identity_line(&key, scene.contents[i].material, "%s", scene.contents[i].value);
+    if (scene.change_count || scene.panel_count) identity_line(&key, "as", "%s", change->place);
+    return key.data;
+}
+
+static int id_of(const SetupOptions *options) {
+    const ReviewCondition *condition = options->condition;
+    return condition ? (int)(condition - options->request->conditions) : NO_ID;
+}
+
+static void lend(KeptScene *kept, const SetupOptions *options, Setup *out) {
+    *out = kept->setup;
+    out->request = options->request;
+    out->condition = options->condition;
+    out->moment_guide = options->means.moment_guide;
+    out->kept = kept;
+    out->scene->environment = kept->environment;
+    set_scene_levels(out);
+    kept->condition_id = id_of(options);
+    kept->is_open = true;
+}
+
+static bool keep(const SetupOptions *options, Problems *problems, KeptScene **out, Error *err) {
+    Arena arena = arena_reserve(SCENE_BYTES);
+    KeptScene *kept = ARENA_NEW(&arena, KeptScene, 1);
+    if (!load(options, &arena, problems, &kept->setup, err)) {
+        arena_release(&arena);
+        return false;
+    }
+    kept->environment = kept->setup.scene->environment;
+    kept->key = key_of(options, &arena);
+    kept->arena = arena;
+    kept->next = options->means.scenes->first;
+    options->means.scenes->first = *out = kept;
+    return true;
+}
+
+bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, Setup *out,
+                Error *err) {
+    if (!options->means.scenes) return load(options, arena, problems, out, err);
+    Arena scratch = *arena;
+    const char *key = key_of(options, &scratch);
+    KeptScene *kept = options->means.scenes->first;
+    while (kept && (kept->is_open || strcmp(kept->key, key) != 0)) kept = kept->next;
+    if (!kept && !keep(options, problems, &kept, err)) return false;
+    lend(kept, options, out);
     return true;
 }
 
 void setup_close(Setup *setup) {
-    bvh_destroy(setup->bvh);
-    scene_close(setup->scene);
+    if (setup->kept) setup->kept->is_open = false;
+    else unload(setup);
+}
+
+void scenes_kept_close(ScenesKept *scenes, int condition_id) {
+    for (KeptScene **at = &scenes->first; *at;) {
+        KeptScene *kept = *at;
+        if (condition_id != NO_ID && kept->condition_id != condition_id) {
+            at = &kept->next;
+            continue;
+        }
+        Arena arena = kept->arena;
+        *at = kept->next;
+        unload(&kept->setup);
+        arena_release(&arena);
+    }
 }
 
 /* ---- light ------------------------------------------------------------------------------- */
 
 bool setup_relight(Setup *setup, Arena *arena, Error *err) {
     Lights *lights;
-    const Lights *before = setup->context.tables ? setup->context.lights : NULL;
+    const Lights *before = setup->context.lights;
     if (!(before ? lights_under_sky(before, arena, &lights, err)
                  : lights_build(setup->scene, arena, &lights, err)))
         return false;
-    setup->context = setup->context.tables ? path_context_relight(&setup->context, lights, arena)
-                                           : path_context_build(setup->scene, setup->bvh, lights,
-                                                                SETUP_BOUNCES, arena);
+    setup->context = path_context_relight(&setup->context, lights, arena);
     return true;
 }
 
@@ -219,11 +312,6 @@ bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Err
     read_sensor(setup, level, *arena);
     if (set_levels(setup, level)) light_again(setup, arena);
     return true;
-}
-
-static void set_scene_levels(Setup *setup) {
-    for (int i = 0; i < setup->scene->display_count; i++)
-        setup->scene->displays[i].level = (float)setup->scene_levels[i];
 }
 
 bool setup_before_light(Setup *setup, Arena *arena, Error *err) {

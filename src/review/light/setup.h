@@ -26,6 +26,13 @@ typedef struct MomentGuide {
     GuideScene scene;
 } MomentGuide;
 
+/* Scenes that stay loaded, with all that their surfaces need, for other conditions that have
+ * them: what is found in one does not hang on what was lit in it before. */
+typedef struct KeptScene KeptScene;
+typedef struct ScenesKept {
+    KeptScene *first;
+} ScenesKept;
+
 typedef struct Setup {
     const ReviewRequest *request;
     const ReviewCondition *condition;
@@ -38,6 +45,7 @@ typedef struct Setup {
     const char *identity;      /* program and scene (render/identity.h), not its light */
     const char *files;         /* hashes of those that the request names besides */
     MomentGuide *moment_guide; /* NULL: nobody takes it over */
+    KeptScene *kept;           /* of which the scene is; NULL: its own */
 } Setup;
 
 /* By what means: the same for all setups of a review. */
@@ -47,6 +55,7 @@ typedef struct SetupMeans {
     int threads;
     const char *isa;           /* kernel.h's; NULL: the best */
     MomentGuide *moment_guide; /* of a condition with variants; NULL: of its own each time */
+    ScenesKept *scenes;        /* NULL: each setup loads its own */
 } SetupMeans;
 
 typedef struct SetupOptions {
@@ -80,6 +89,9 @@ bool setup_light_again(Setup *setup, const Setup *before, const Environment *env
 bool setup_relight(Setup *setup, Arena *arena, Error *err);
 
 void setup_close(Setup *setup);
+
+/* Closes those that setups of that condition used last; NO_ID: all of them. None may be open. */
+void scenes_kept_close(ScenesKept *scenes, int condition_id);
 
 /* Where the sun stands, unit, world, and what its bands give, lx on a plane that faces it.
  * False: the scene has none, or the moon in its place. */

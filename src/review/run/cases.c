@@ -25,10 +25,9 @@
 #define FACE_SEED 0x66616365u
 #define EYE_SEED 0x65796573u
 #define SUN_PATHS SYMBOL_POINTS
-/* Times the paths of a review with variants, and of those: their differences are then known
- * twice as well as two such reviews would know them even where nothing is common to both, as
- * with another panel, whose lobes send paths elsewhere. */
-#define COMPARED_TIMES 4
+/* Times the paths of a review with variants, and of those: where most of two readings is common to
+ * both, their difference is then known twice as well as two such reviews would know it. */
+#define COMPARED_TIMES 2
 #define COARSE_PRECISION 0.05
 #define COARSE_PATHS 8192
 #define COARSE_SEED 0x626f7865u /* the worst of many is not read again from what made it so */

@@ -60,12 +60,13 @@ static RenderOptions options_of(const FrameArgs *args) {
     const ReviewRequest *request = args->setup->request;
     int by = args->exposure ? FRAMES_PAIR : 1;
     int width = request->frames.width / by, height = request->frames.height / by;
+    bool is_preview = !(request->frames.noise < 1); /* no error is required */
     FilmRect all = {0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
     return (RenderOptions){.width = all.x1,
                            .height = all.y1,
                            .crop = all,
-                           .end_sample = FRAMES_SAMPLES,
-                           .noise = request->frames.noise,
+                           .end_sample = is_preview ? FRAMES_PREVIEW_SAMPLES : FRAMES_SAMPLES,
+                           .noise = is_preview ? 0 : request->frames.noise,
                            .max_bounces = SETUP_BOUNCES,
                            .noise_area = {all, FILM_ALL_PIXELS},
                            .layers = layers_of(args),

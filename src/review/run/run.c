@@ -118,6 +118,14 @@ static bool same_scene(const ReviewRequest *request, const ReviewCondition *a,
     return true;
 }
 
+bool review_scene_comes_again(const ReviewRun *run, int condition_id) {
+    const ReviewCondition *c = run->request->conditions;
+    for (int i = condition_id + 1; i < run->request->condition_count; i++)
+        if (review_is_wanted(run, i) && same_scene(run->request, &c[condition_id], &c[i]))
+            return true;
+    return false;
+}
+
 bool review_check(const ReviewRequest *request, Arena scratch, Error *err) {
     for (int i = 0; i < request->condition_count; i++)
         if (request->conditions[i].kind != CONDITION_MOMENT &&

@@ -12,6 +12,9 @@
 bool review_run_condition(const ReviewRun *run, int condition_id, Arena *arena, ReviewOutcome *out,
                           Error *err);
 
+/* Has a later condition that is reviewed the same scene? */
+bool review_scene_comes_again(const ReviewRun *run, int condition_id);
+
 /* What a reader must know of the whole: approximations, gaps in data. */
 void review_add_notes(const ReviewRun *run, Review *review, Arena *arena);
 

@@ -123,9 +123,11 @@ static bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAr
 }
 
 #define RESPONSE_PATHS 65536
-#define RESPONSE_PRECISION 0.004
-/* their worst is read by paths of its own; this is for how long they fail */
-#define RESPONSE_PRECISION_VARIANT 0.006
+/* of the contrast's precision: an even sky's reading is sure to so much of it, and then most
+ * suns' about to all of it */
+#define RESPONSE_SHARE 0.5
+/* its worst is read by paths of its own; this is for how long it fails */
+#define RESPONSE_SHARE_VARIANT 0.75
 #define METER_PATHS 16384
 #define SUN_PATHS SYMBOL_POINTS /* of the first vertex: a lobe is narrower than a symbol */
 #define METER_SUN_PATHS 64
@@ -273,7 +275,7 @@ static bool place_sights(Sweep *sweep, Arena *arena, Error *err) {
 static double response_precision(const Sweep *sweep) {
     const ReviewRun *run = sweep->run;
     bool is_bare = run->base && !run->request->is_relevelled;
-    return is_bare ? RESPONSE_PRECISION_VARIANT : RESPONSE_PRECISION;
+    return (is_bare ? RESPONSE_SHARE_VARIANT : RESPONSE_SHARE) * run->request->precision_contrast;
 }
 
 static void add_meter_call(Sweep *sweep, SweepMeter *meter, const char *name) {
