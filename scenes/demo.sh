@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # demo.sh -- from a fresh checkout to a picture: installs what is missing, builds, renders the
-# dashboard at noon, a denoised first look and then the frame, and develops it. SIZE, SPP and
+# dashboard at noon, a denoised preview and then the frame, and develops it. SIZE, SPP and
 # NOISE in the environment change the render.
 set -eu
 cd "$(dirname "$0")/.."
@@ -20,10 +20,11 @@ mkdir -p $out
     exit 1
 }
 
-say "rendering a first look of 4 samples a pixel, denoised"
+say "rendering a preview of 4 samples a pixel, denoised; soon a first look at it stands in
+$PWD/$out/preview.png"
 .build/release/parhelion render scenes/car_dashboard.gltf scenes/noon.gltf \
-    --size "$size" --preview -o $out/preview.exr --png $out/preview.png --quiet
-say "A first look, for looking and not for figures: $PWD/$out/preview.png"
+    --size "$size" --preview -o $out/preview.exr --png $out/preview.png
+say "A preview, for looking and not for figures: $PWD/$out/preview.png"
 
 say "rendering $size until the relative error is $noise, at most $spp samples a pixel"
 .build/release/parhelion render scenes/car_dashboard.gltf scenes/noon.gltf \

@@ -43,6 +43,7 @@
  * Not modelled: an overlay (layers/overlay.h). A boundary between equal indices, filmed or not,
  * is smooth.
  */
+#include "base/mathf.h"
 #include "shaders/solid_facet.h"
 
 #include "spectrum/fresnel.h"
@@ -334,7 +335,7 @@ static Spectrum solid_albedo(const void *parameters, Vec3 wo) {
 static float met_at(const Dielectric *d, const SolidRay *s) {
     if (is_delta(d)) return s->wo.z;
     Vec3 half = vec3_normalize(vec3_along(s->wo, s->wi, s->wi.z > 0 ? 1 : s->eta));
-    return fminf(fabsf(vec3_dot(s->wo, half)), 1);
+    return min_f(fabsf(vec3_dot(s->wo, half)), 1);
 }
 
 static bool solid_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,

@@ -28,6 +28,7 @@
  * bare or coated; haze and lambertian part send unpolarised light on. Not modelled: anisotropic
  * sparkle, the change of haze with the display's content.
  */
+#include "base/mathf.h"
 #include "panel/query/panel_sampling.h"
 #include "shaders/display.h"
 #include "shaders/facets/microfacet.h"
@@ -128,7 +129,7 @@ static bool sample_scattered(const DisplaySurface *display, const DisplayChances
                              const float u[3], Vec3 *wi, float *pdf) {
     if (!(display->matte > 0)) return sample_haze(display, wo, u, wi, pdf);
     float left = 1 - chances->of_mirror;
-    float share = left > 0 ? fminf(chances->of_finish / left, 1) : 0;
+    float share = left > 0 ? min_f(chances->of_finish / left, 1) : 0;
     if (u[2] < share) *wi = ggx_sample_reflection(wo, display->matte_alpha, u[0], u[1]);
     else {
         float rest[3] = {u[0], u[1], clampf((u[2] - share) / (1 - share), 0, 0x1.fffffep-1f)};

@@ -144,7 +144,7 @@ static float window_shift(const void *parameters, float cosine) {
     const Glazing *pane = ((const GlazedWindow *)parameters)->pane;
     float thickness = 0;
     for (int i = 0; i < pane->layer_count; i++) thickness += pane->layers[i].thickness_m;
-    cosine = fmaxf(cosine, LEAST_COSINE);
+    cosine = max_f(cosine, LEAST_COSINE);
     float straight = thickness * safe_sqrtf(1 - cosine * cosine) / cosine;
     return 0.5f * ghost_shift(pane, cosine) - straight;
 }

@@ -95,6 +95,7 @@
  */
 #include "shaders/metallic_roughness.h"
 
+#include "base/mathf.h"
 #include "shaders/metallic/metallic_eval.h"
 #include "shaders/polarisation.h"
 
@@ -218,7 +219,7 @@ static Part choose_part(const MetallicChoices *choices, float *u) {
                           choices->through, choices->across, choices->overlay};
     for (int part = 0; part < PART_NONE; part++) {
         if (*u < prob[part]) {
-            *u = fminf(*u / prob[part], 0x1.fffffep-1f);
+            *u = min_f(*u / prob[part], 0x1.fffffep-1f);
             return (Part)part;
         }
         *u -= prob[part];
@@ -397,18 +398,18 @@ static void add_facets(const MetallicView *view, float cosine, Spectrum all,
     Spectrum share = all / spectrum_max(nonmetal + metal, spectrum_all(1e-30f));
     const SurfaceCoating *coating = m->coating;
     if (m->metallic > 0 && coating && coating->metal_waves)
-        polarised_add_coated(parts, coating->metal_waves, m->wavelengths, fminf(cosine, 1),
+        polarised_add_coated(parts, coating->metal_waves, m->wavelengths, min_f(cosine, 1),
                              share * metal);
     else if (m->metallic > 0) polarised_add(parts, mirror, share * metal);
     if (!(m->metallic < 1)) return;
     if (coating && coating->glass_waves && !(m->transmission > 0)) {
-        polarised_add_coated(parts, coating->glass_waves, m->wavelengths, fminf(cosine, 1),
+        polarised_add_coated(parts, coating->glass_waves, m->wavelengths, min_f(cosine, 1),
                              share * nonmetal);
         return;
     }
     float ior = m->energy->ior;
-    Waves face = ior >= 1 ? waves_reflected(fminf(cosine, 1), ior) : mirror;
-    PolarisedPane pane = {face, pane_body(m->tint, fminf(cosine, 1), body_ior(m)), false};
+    Waves face = ior >= 1 ? waves_reflected(min_f(cosine, 1), ior) : mirror;
+    PolarisedPane pane = {face, pane_body(m->tint, min_f(cosine, 1), body_ior(m)), false};
     Spectrum opaque = spectrum_all((1 - m->transmission) * (face.s + face.p));
     Spectrum clear = spectrum_all(0), both;
     if (m->transmission > 0)
@@ -440,7 +441,7 @@ static void polarise_smooth(const MetallicView *view, Vec3 wi, PolarisedParts *p
 static void polarise_rough(const MetallicView *view, Vec3 wi, PolarisedParts *parts) {
     const MetallicRoughness *m = view->m;
     Vec3 half = vec3_normalize(vec3_add(view->wo, wi));
-    float pdf, cosine = fminf(fabsf(vec3_dot(view->wo, half)), 1);
+    float pdf, cosine = min_f(fabsf(vec3_dot(view->wo, half)), 1);
     ThroughCoat below;
     if (!is_smooth(m->alpha)) {
         if (m->clearcoat > 0) below = coat_through(m, wi);
@@ -454,7 +455,7 @@ static void polarise_rough(const MetallicView *view, Vec3 wi, PolarisedParts *pa
 /* A rough sheet's straight light is taken for all that it lets through. */
 static bool polarise_through(const MetallicRoughness *m, Vec3 wo, BsdfPolarisation *out) {
     if (!(m->energy->ior >= 1)) return false;
-    float cosine = fminf(wo.z, 1);
+    float cosine = min_f(wo.z, 1);
     PolarisedParts parts = {spectrum_all(0), spectrum_all(0), spectrum_all(0), spectrum_all(0)};
     PolarisedPane pane = {waves_reflected(cosine, m->energy->ior),
                           pane_body(m->tint, cosine, body_ior(m)), true};

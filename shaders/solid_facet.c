@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/solid_facet.h"
 
+#include "base/mathf.h"
 #include "base/units.h"
 #include "shaders/facets/microfacet.h"
 #include "spectrum/fresnel.h"
@@ -45,7 +46,7 @@ FacetShares solid_facet(const Dielectric *d, const SolidRay *s, float cosine) {
     FacetShares shares;
     float f = fresnel_mean(fresnel_dielectric(cosine, s->eta, &shares.behind));
     if (d->coating || solid_has_film(d)) {
-        if (d->coating) read_coating(d, s, fminf(cosine, 1), &shares);
+        if (d->coating) read_coating(d, s, min_f(cosine, 1), &shares);
         else read_film(d, s, cosine, f, &shares);
         shares.prob =
             reflect_prob(spectrum_mean(shares.reflected), spectrum_mean(shares.through * d->tint));
@@ -232,7 +233,7 @@ bool solid_loss_sample(const Dielectric *d, SolidRay *s, float u[3]) {
     Lost lost = lost_on(d, s->turned, s->wo, changes_of(d, space));
     LostChance chance = lost_chance(d, &lost);
     if (u[2] >= chance.any) {
-        u[2] = fminf((u[2] - chance.any) / (1 - chance.any), 0x1.fffffep-1f);
+        u[2] = min_f((u[2] - chance.any) / (1 - chance.any), 0x1.fffffep-1f);
         return false;
     }
     s->wi = microfacet_cosine(u[0], u[1]);

@@ -14,6 +14,7 @@
  */
 #include "shaders/solid_pane.h"
 
+#include "base/mathf.h"
 #include "shaders/polarisation.h"
 
 #define LEAST_ALONG 1e-9f /* m: ghosts are told from the first image by it */
@@ -24,7 +25,7 @@ float solid_pane_index(const Dielectric *face) {
 
 /* What the body lets through once, on the refracted way. */
 static Spectrum body_at(const SolidPlate *plate, float inside) {
-    float way = plate->depths / fmaxf(inside, PANE_LEAST_COSINE);
+    float way = plate->depths / max_f(inside, PANE_LEAST_COSINE);
     return way > 0 ? spectrum_pow(plate->left, way) : spectrum_all(1);
 }
 
@@ -67,7 +68,7 @@ void solid_pane_set(const SolidPlate *plate, SolidPane *out) {
     *out = (SolidPane){.passed = none,
                        .first = none,
                        .ghosts = none,
-                       .along = fmaxf(2 * plate->sideways, LEAST_ALONG),
+                       .along = max_f(2 * plate->sideways, LEAST_ALONG),
                        .ior = ior,
                        .body = body_at(plate, pane_cosine_inside(plate->cosine, ior))};
     if (!d->coating && !solid_has_film(d)) {

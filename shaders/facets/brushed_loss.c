@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/facets/brushed_loss.h"
 
+#include "base/mathf.h"
 #include "spectrum/spectrum.h"
 
 /* Between neighbours of the axes of alpha and ratio, in fourth roots, at most. */
@@ -181,7 +182,7 @@ static BrushedAxis finer(BrushedAxis axis) {
 static float axis_value(BrushedAxis axis, int node) {
     if (axis.count == 1) return axis.first * axis.first * axis.first * axis.first;
     float root = lerpf(axis.first, axis.last, (float)node / (float)(axis.count - 1));
-    return fminf(root * root * root * root, 1);
+    return min_f(root * root * root * root, 1);
 }
 
 static FacetKnot axis_knot(BrushedAxis axis, float value) {
@@ -224,7 +225,7 @@ typedef struct PairKnots {
 } PairKnots;
 
 static PairKnots pair_knots(BrushedAxis alphas, BrushedAxis ratios, Vec2 alpha) {
-    float high = fmaxf(alpha.x, alpha.y), low = fminf(alpha.x, alpha.y);
+    float high = max_f(alpha.x, alpha.y), low = min_f(alpha.x, alpha.y);
     return (PairKnots){axis_knot(alphas, high), axis_knot(ratios, low / high), ratios.count};
 }
 
@@ -270,7 +271,7 @@ SolidLost brushed_lost(const BrushedLoss *table, bool is_inside, Vec3 w, Vec2 al
     read_lost(table, is_inside, w, alpha, &lost, 1);
     read_mean(table, table->side[is_inside].mean, table->width, alpha, &mean, 1);
     read_mean(table, table->flux, 1, alpha, &flux, 1);
-    return (SolidLost){clampf(lost, 0, 1), fmaxf(mean, 0), fmaxf(flux, 0)};
+    return (SolidLost){clampf(lost, 0, 1), max_f(mean, 0), max_f(flux, 0)};
 }
 
 static LostFacets facets_of(const float node[MOST_WIDTH]) {
@@ -354,7 +355,7 @@ static void fill_side(const BrushedLoss *t, float eta, BrushedSide *side, Arena 
 
 /* As in solid_energy.c: as single facets let it across, as much as both sides allow. */
 static float flux_of(const float *outside, const float *inside, float ior) {
-    return fminf(outside[1] / (1 - outside[0]) * outside[0],
+    return min_f(outside[1] / (1 - outside[0]) * outside[0],
                  inside[1] / (1 - inside[0]) * inside[0] * ior * ior);
 }
 

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/mathf.h"
 #include "shaders/facets/microfacet.h"
 #include "spectrum/fresnel.h"
 
@@ -87,7 +88,7 @@ static void fill_pair(const EnergyTable *coat, const HatRow *rows, int a, int c,
     float coat_alpha = energy_alpha_of_row(c, COAT_PER_OCTAVE);
     for (int i = 0; i < ENERGY_COSINES; i++) {
         own[i] = coat_reflectance(coat, energy_cosine_of_node(i), coat_alpha);
-        open[i] = fmaxf(1 - own[i], 0);
+        open[i] = max_f(1 - own[i], 0);
         one[i] = 1;
     }
     for (int i = 0; i < ENERGY_COSINES; i++) lobe[i] = dot(rows[i].all, one);

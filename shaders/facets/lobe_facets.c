@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/facets/lobe_facets.h"
 
+#include "base/mathf.h"
 #include "shaders/facets/microfacet.h"
 
 const float facet_cosine[LOBE_FACETS] = {0.00960736f, 0.08426519f, 0.22221488f, 0.40245484f,
@@ -16,7 +17,7 @@ static FacetKnot root_knot(float value, int count) {
 
 static FacetPlace place_of(Vec3 w, Vec2 alpha) {
     FacetPlace place;
-    float high = fmaxf(alpha.x, alpha.y), low = fminf(alpha.x, alpha.y);
+    float high = max_f(alpha.x, alpha.y), low = min_f(alpha.x, alpha.y);
     float own = facet_own(w, alpha);
     place.alpha = root_knot(high, FACET_ALPHAS);
     place.ratio = root_knot(low / high, FACET_RATIOS);
@@ -46,7 +47,7 @@ LobeFacets lobe_facets(const FacetTable *table, Vec3 w, Vec2 alpha) {
 
 LobeFacets mean_facets(const FacetTable *table, Vec2 alpha) {
     LobeFacets sum = {{0}};
-    float high = fmaxf(alpha.x, alpha.y), low = fminf(alpha.x, alpha.y);
+    float high = max_f(alpha.x, alpha.y), low = min_f(alpha.x, alpha.y);
     FacetKnot a = root_knot(high, MEAN_ALPHAS), r = root_knot(low / high, MEAN_RATIOS);
     for (int i = 0; i < 16; i++)
         add_facets(&sum, &table->mean[a.first + (i & 3)][r.first + (i >> 2)],

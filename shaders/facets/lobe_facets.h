@@ -107,11 +107,11 @@ static inline FacetKnot facet_knot(float share, int count) {
 
 static inline float facet_own(Vec3 w, Vec2 alpha) {
     float x = alpha.x * w.x, y = alpha.y * w.y, side2 = w.x * w.x + w.y * w.y;
-    return side2 > 1e-12f ? sqrtf((x * x + y * y) / side2) : fmaxf(alpha.x, alpha.y);
+    return side2 > 1e-12f ? sqrtf((x * x + y * y) / side2) : max_f(alpha.x, alpha.y);
 }
 
 static inline float facet_turn(float own, Vec2 alpha) {
-    float high = fmaxf(alpha.x, alpha.y), low = fminf(alpha.x, alpha.y);
+    float high = max_f(alpha.x, alpha.y), low = min_f(alpha.x, alpha.y);
     return high > low ? safe_sqrtf((own - low) / (high - low)) : 0;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/facets/solid_energy.h"
 
+#include "base/mathf.h"
 #include "shaders/facets/microfacet.h"
 #include "spectrum/fresnel.h"
 
@@ -37,7 +38,7 @@ static void add_lost(LostFacets *sum, float cosine, float reflected, float throu
 }
 
 static void add_facet(Vec3 wo, Vec3 half, float eta, float alpha, float share, Sent *sum) {
-    float cosine = fminf(vec3_dot(wo, half), 1), behind = 0;
+    float cosine = min_f(vec3_dot(wo, half), 1), behind = 0;
     if (!(cosine > 0)) return;
     float mirror = eta > 0 ? fresnel_mean(fresnel_dielectric(cosine, eta, &behind)) : 1;
     Vec3 back = vec3_sub(vec3_scale(half, 2 * cosine), wo);
@@ -115,7 +116,7 @@ static void fill_rows(SolidEnergy *out, int row) {
     float crosses = fill_row(&out->side[0], row, ior);
     float returns = fill_row(&out->side[1], row, ior > 0 ? 1 / ior : 0);
     out->flux[row] =
-        fminf(crosses * out->side[0].mean[row], returns * out->side[1].mean[row] * ior2);
+        min_f(crosses * out->side[0].mean[row], returns * out->side[1].mean[row] * ior2);
 }
 
 const SolidEnergy *solid_energy_build(float ior, float least, float most, bool has_facets,

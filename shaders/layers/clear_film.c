@@ -106,7 +106,7 @@ static float faces_reflect(const FilmFaces *faces, float nm) {
     sincos_turns(faces->path_nm / nm, &sine, &cosine);
     for (int i = 0; i < 2; i++) {
         float ab = faces->product[i], turn = 2 * ab * cosine;
-        sum += (faces->squares[i] + turn) / fmaxf(1 + ab * ab + turn, 1e-30f);
+        sum += (faces->squares[i] + turn) / max_f(1 + ab * ab + turn, 1e-30f);
     }
     return clampf(0.5f * sum, 0, 1);
 }

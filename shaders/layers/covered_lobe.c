@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/mathf.h"
 #include "shaders/facets/microfacet.h"
 #include "spectrum/spectrum.h"
 
@@ -76,7 +77,7 @@ static void turn_on(Turns *turns) {
 static Directions reflected(const Cover *cover, const Directions *wo, const Turns *turns,
                             Spectrum rest, LobePoints *p) {
     Spectrum one = spectrum_all(1), two = spectrum_all(2), rest2 = rest * rest, facet;
-    float a = fminf(cover->alpha.x, cover->alpha.y), a2 = a * a;
+    float a = min_f(cover->alpha.x, cover->alpha.y), a2 = a * a;
     Directions eye = stretched(*wo, cover->alpha), wi, in;
     Spectrum out = length_of(eye), side = one + root_of(wo->x * wo->x + wo->y * wo->y);
     Spectrum cap =
@@ -183,8 +184,8 @@ static CoveredLobe cover_facets(const LobePoints *p, LobeFacets facets) {
     add_differences(p, mean, &lobe.facets);
     for (int i = 0; i < p->batches; i++) white += p->white[i];
     lobe.lost =
-        spectrum_mean(white) / (float)p->batches - fminf(all, 1) * weighted_mean(p, p->mirror);
-    lobe.lost = fmaxf(lobe.lost, 0);
+        spectrum_mean(white) / (float)p->batches - min_f(all, 1) * weighted_mean(p, p->mirror);
+    lobe.lost = max_f(lobe.lost, 0);
     return lobe;
 }
 

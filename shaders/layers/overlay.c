@@ -2,10 +2,11 @@
 /* The one kind of such a layer: the fibres of sheen.h. */
 #include "shaders/layers/overlay.h"
 
+#include "base/mathf.h"
 #include "shaders/layers/sheen.h"
 
 float overlay_alpha(float roughness) {
-    return fmaxf(roughness * roughness, SHEEN_LEAST_ALPHA);
+    return max_f(roughness * roughness, SHEEN_LEAST_ALPHA);
 }
 
 Spectrum overlay_tint(const Overlay *overlay, const Wavelengths *wavelengths) {

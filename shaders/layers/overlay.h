@@ -14,6 +14,7 @@
  * Threads  pure functions.  Fails  never.
  */
 #pragma once
+#include "base/mathf.h"
 #include "base/vec.h"
 #include "shaders/facets/energy.h"
 #include "spectrum/wavelengths.h"
@@ -48,5 +49,5 @@ float overlay_open(const Overlay *overlay, float cosine, float coat_alpha);
 
 /* The strongest primary. */
 static inline float overlay_most(const Overlay *overlay) {
-    return fmaxf(fmaxf(overlay->color[0], overlay->color[1]), overlay->color[2]);
+    return max_f(max_f(overlay->color[0], overlay->color[1]), overlay->color[2]);
 }

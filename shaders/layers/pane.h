@@ -14,6 +14,7 @@
  * Threads  pure functions.  Fails  never.
  */
 #pragma once
+#include "base/mathf.h"
 #include "shaders/layers/coating.h"
 #include "spectrum/fresnel.h"
 
@@ -63,7 +64,7 @@ static inline float pane_mean_slant(float ior) {
 
 /* What a body lets through once; tint: along the normal. ior 1 or more. */
 static inline Spectrum pane_body(Spectrum tint, float cosine, float ior) {
-    float inside = fmaxf(pane_cosine_inside(cosine, ior), PANE_LEAST_COSINE);
+    float inside = max_f(pane_cosine_inside(cosine, ior), PANE_LEAST_COSINE);
     return spectrum_pow(tint, 1 / inside);
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/layers/sheen.h"
 
+#include "base/mathf.h"
 #include "base/units.h"
 
 /* The fit of Estevez and Kulla for alpha 1 and 0; between them it goes by (1 - alpha)^2. */
@@ -64,18 +65,18 @@ static float look_up(const float table[SHEEN_ROUGHNESSES][SHEEN_COSINES], float 
     int last = r.low + 2 < SHEEN_ROUGHNESSES ? r.low + 2 : SHEEN_ROUGHNESSES - 1;
     float row[4];
     for (int i = first; i <= last; i++) row[i - first] = cubic_along(table[i], SHEEN_COSINES, c);
-    return fmaxf(cubic_along(row, last - first + 1, (EnergyKnot){r.low - first, r.t}), 0);
+    return max_f(cubic_along(row, last - first + 1, (EnergyKnot){r.low - first, r.t}), 0);
 }
 
 float sheen_albedo(const SheenTable *table, float cosine, float alpha) {
-    return fminf(look_up(table->albedo, cosine, alpha), 1);
+    return min_f(look_up(table->albedo, cosine, alpha), 1);
 }
 
 float sheen_lobe(const SheenTable *table, Vec3 wo, Vec3 wi, float alpha) {
     float lobe = sheen_lobe_full(wo, wi, alpha);
     if (!(lobe > 0)) return 0;
-    float most = fmaxf(look_up(table->full, wo.z, alpha), look_up(table->full, wi.z, alpha));
-    return lobe / fmaxf(most, 1);
+    float most = max_f(look_up(table->full, wo.z, alpha), look_up(table->full, wi.z, alpha));
+    return lobe / max_f(most, 1);
 }
 
 /* ---- facets beneath --------------------------------------------------------------------- */
@@ -90,7 +91,7 @@ OverlayShare sheen_share(const SheenTable *table, float cosine, float alpha, flo
     Energy excess = energy_mix(excess_at(table->excess[r.low], b, c),
                                excess_at(table->excess[r.low + 1], b, c), r.t);
     float albedo = sheen_albedo(table, cosine, alpha);
-    return (OverlayShare){albedo, fminf(albedo + excess.all, 1), fminf(albedo + excess.shape, 1)};
+    return (OverlayShare){albedo, min_f(albedo + excess.all, 1), min_f(albedo + excess.shape, 1)};
 }
 
 OverlayShare sheen_mean(const SheenTable *table, float alpha, float base) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/metallic/metallic_base.h"
 
+#include "base/mathf.h"
 #include "base/units.h"
 
 Spectrum base_lambert_across(const MetallicRoughness *m) {
@@ -78,7 +79,7 @@ static float rebound_lobe(float out, float in, float missing) {
 /* Share of the light that gets past the overlay and that facets hide. */
 static float hidden_below_overlay(const MetallicRoughness *m, Energy e, OverlayShare share) {
     float sent = overlay_most(&m->overlay) * share.albedo;
-    return fmaxf(1 - sent - overlay_passes(&m->overlay, e, share).all, 0);
+    return max_f(1 - sent - overlay_passes(&m->overlay, e, share).all, 0);
 }
 
 float base_rebound_lobe(const MetallicView *view, Vec3 wi, Energy in) {
@@ -148,11 +149,11 @@ Spectrum coat_on_facets(Spectrum r, const ThroughCoat *out, const ThroughCoat *i
     float stays[2], t[2] = {out->open, in->open}, u[2] = {out->share.boost, in->share.boost};
     for (int i = 0; i < 2; i++) {
         float p = u[i] > 0 ? t[i] / u[i] : 1;
-        stays[i] = 1 - fminf(p * p, 1);
+        stays[i] = 1 - min_f(p * p, 1);
     }
     product = (one - r * spectrum_all(stays[0])) * (one - r * spectrum_all(stays[1]));
     for (int i = 0; i < SPECTRUM_LANES; i++)
-        product[i] = t[0] * t[1] / sqrtf(fmaxf(product[i], 1e-12f));
+        product[i] = t[0] * t[1] / sqrtf(max_f(product[i], 1e-12f));
     return product;
 }
 
@@ -163,7 +164,7 @@ Spectrum coat_on_mirror(Spectrum r, float t) {
 CoatOnSheet coat_on_sheet(const MetallicRoughness *m, const ThroughCoat *out,
                           const ThroughCoat *in) {
     float pass = out->open * in->open, boost = out->share.boost * in->share.boost;
-    float least = fminf(out->open, in->open);
+    float least = min_f(out->open, in->open);
     if (is_covered(m) || is_smooth(m->alpha)) return (CoatOnSheet){least * least, 1 - least};
     return (CoatOnSheet){pass, boost > pass ? 1 - pass / boost : 0};
 }

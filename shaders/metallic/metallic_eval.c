@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/metallic/metallic_eval.h"
 
+#include "base/mathf.h"
 #include "base/units.h"
 
 /* The lobe of a sheet's facets, turned over to the other side, and the cosine to them. */
@@ -15,7 +16,7 @@ static Spectrum below_overlay(const MetallicView *view, Vec3 wi, Spectrum below)
     const MetallicRoughness *m = view->m;
     if (!has_overlay(m)) return below;
     float most = overlay_most(&m->overlay), in = overlay_albedo(&m->overlay, fabsf(wi.z));
-    return below * spectrum_all(1 - most * fmaxf(view->overlay.albedo, in));
+    return below * spectrum_all(1 - most * max_f(view->overlay.albedo, in));
 }
 
 /* Its lobe from wi towards the eye. */
@@ -36,7 +37,7 @@ static Spectrum facet_below(const MetallicView *view, float cosine, const Throug
     if (!below) return nonmetal + metal;
     if (m->metallic > 0)
         metal *= is_covered(m)
-                     ? coat_on_mirror(energy_metal_mean(m), fminf(view->through.open, below->open))
+                     ? coat_on_mirror(energy_metal_mean(m), min_f(view->through.open, below->open))
                      : coat_on_facets(energy_metal_mean(m), &view->through, below);
     if (has_sheet_under_coat(m)) {
         SheetFaces faces = facet_sheet(m, &view->boundary, cosine);
@@ -244,7 +245,7 @@ static MetallicChoices choose_bare(const MetallicView *view) {
     float f0 = spectrum_mean(view->boundary.f0);
     float face = f0 * e.all + (m->specular - f0) * e.shape;
     float tint = spectrum_mean(m->tint), in = 1 - face, seen = face * tint;
-    float once = in * in * tint / fmaxf(1 - seen * seen, 1e-6f); /* through, about */
+    float once = in * in * tint / max_f(1 - seen * seen, 1e-6f); /* through, about */
     float sheet = face + once * seen;
     float metal = base * e.all + (1 - base) * e.shape;
     float clear = (1 - m->metallic) * m->transmission, solid = 1 - m->metallic - clear;
@@ -277,7 +278,7 @@ static MetallicChoices choose_turns(const MetallicView *view, MetallicChoices c)
         is_covered(m) ? view->covered.rest.metal : view->through.open * (1 - view->energy.all);
     if (through > 0) { /* the sum of both stays as it was */
         float left = (front + through) * on / ((back + on) * through);
-        float moved = c.through * m->clearcoat * fmaxf(1 - left, 0);
+        float moved = c.through * m->clearcoat * max_f(1 - left, 0);
         c.mirror += moved;
         c.through -= moved;
     }

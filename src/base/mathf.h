@@ -26,6 +26,18 @@ static inline float clampf(float value, float low, float high) {
     return value < low ? low : value > high ? high : value;
 }
 
+/* fminf and fmaxf, which are calls of a library, before which a hot function saves its vector
+ * registers. Of a number and a NaN it is the number; of two equal ones (0 and -0) the second. */
+static inline float min_f(float a, float b) {
+    float least = a < b ? a : b;
+    return b != b ? a : least;
+}
+
+static inline float max_f(float a, float b) {
+    float most = a > b ? a : b;
+    return b != b ? a : most;
+}
+
 static inline float lerpf(float a, float b, float t) {
     return a + (b - a) * t;
 }

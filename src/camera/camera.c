@@ -121,9 +121,9 @@ static Vec3 add_triangle(const Scene *scene, uint32_t triangle, DisplayView *vie
     Vec3 corner[3];
     for (int c = 0; c < 3; c++) {
         Vec3 p = corner[c] = scene_corner(scene, triangle, c);
-        view->low = vec3(fminf(view->low.x, p.x), fminf(view->low.y, p.y), fminf(view->low.z, p.z));
+        view->low = vec3(min_f(view->low.x, p.x), min_f(view->low.y, p.y), min_f(view->low.z, p.z));
         view->high =
-            vec3(fmaxf(view->high.x, p.x), fmaxf(view->high.y, p.y), fmaxf(view->high.z, p.z));
+            vec3(max_f(view->high.x, p.x), max_f(view->high.y, p.y), max_f(view->high.z, p.z));
     }
     Vec3 facing = vec3_scale(
         vec3_cross(vec3_sub(corner[1], corner[0]), vec3_sub(corner[2], corner[0])), 0.5f);
@@ -148,7 +148,7 @@ static DisplayView find_displays(const Scene *scene) {
 
 static SceneCamera frame_bounds(Vec3 low, Vec3 high, Vec3 towards_eye, const char *name) {
     Vec3 centre = vec3_scale(vec3_add(low, high), 0.5f);
-    float radius = fmaxf(0.5f * vec3_length(vec3_sub(high, low)), 1e-6f);
+    float radius = max_f(0.5f * vec3_length(vec3_sub(high, low)), 1e-6f);
     float distance = radius / half_angle_tangent(FRAMING_YFOV) * FRAMING_MARGIN;
     SceneCamera camera =
         camera_look_at(vec3_along(centre, towards_eye, distance), centre, FRAMING_YFOV);

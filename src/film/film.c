@@ -306,8 +306,7 @@ FilmPixel film_pixel(const Film *film, int x, int y) {
     for (int i = 0; i < 3 && sums->samples; i++)
         pixel.mean_xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS) / (double)sums->samples;
     pixel_variance(sums, pixel.variance_rgb);
-    pixel.sigma_y = pixel_sigma_y(sums);
-    pixel.square_y = pixel_square_y(sums);
+    pixel_noise_y(sums, pixel.variance_rgb, &pixel.sigma_y, &pixel.square_y);
     return pixel;
 }
 
@@ -358,12 +357,8 @@ static double mean_of(const Film *film, FilmArea area, double lowest, PixelFigur
     return count ? sum / (double)count : (double)NAN;
 }
 
-static double mean_error(const Film *film, FilmArea area, double lowest) {
-    return mean_of(film, area, lowest, pixel_error);
-}
-
 double film_area_error(const Film *film, FilmArea area) {
-    return mean_error(film, area, lowest_luminance(film));
+    return mean_of(film, area, lowest_luminance(film), pixel_error);
 }
 
 static double pixel_spike(const FilmPixel *pixel, double lowest) {
@@ -389,11 +384,23 @@ double film_rare_error(const Film *film, double error) {
     return may_be > FILM_RARE * error ? may_be : (double)NAN;
 }
 
+/* Both by one look at each pixel: all passes that are shown ask for it. */
 FilmError film_relative_error(const Film *film) {
-    double lowest = lowest_luminance(film);
-    return (FilmError){.frame = mean_error(film, (FilmArea){film->crop, FILM_ALL_PIXELS}, lowest),
-                       .displays =
-                           mean_error(film, (FilmArea){film->crop, FILM_ANY_DISPLAY}, lowest)};
+    double lowest = lowest_luminance(film), all = 0, displays = 0;
+    int64_t seen = 0, shown = 0;
+    for (int y = film->crop.y0; y < film->crop.y1; y++)
+        for (int x = film->crop.x0; x < film->crop.x1; x++) {
+            FilmPixel pixel = film_pixel(film, x, y);
+            double error = pixel_error(&pixel, lowest);
+            if (!is_seen(film, &pixel)) continue;
+            all += error;
+            seen++;
+            if (!shows(&pixel, FILM_ANY_DISPLAY)) continue;
+            displays += error;
+            shown++;
+        }
+    return (FilmError){.frame = seen ? all / (double)seen : (double)NAN,
+                       .displays = shown ? displays / (double)shown : (double)NAN};
 }
 
 /* Puts a pixel where it belongs among the `kept` worst; returns how many are kept then. */

@@ -5,12 +5,15 @@
 #include <string.h>
 
 #include "base/mathf.h"
+#include "base/parallel.h"
 #include "base/units.h"
 #include "film/pixels.h"
 #include "spectrum/photometry.h"
 
 #define CHANNELS_MAX 80 /* besides those of lights */
 #define FILL_PIXELS 64  /* whose sums stay in a cache while all layers read them */
+#define FEW_ITEMS 256   /* of FILL_PIXELS: not worth threads */
+#define MOST_THREADS 16 /* memory is the limit then */
 #define BAND_BYTES ((size_t)128 << 20)
 
 /* Reads at most three numbers of a pixel. */
@@ -39,8 +42,15 @@ typedef struct ChannelFill {
     Arena *arena;
     LayerPlanes *layers;
     int layer_count;
-    char *pixels; /* FILL_PIXELS of them, gathered */
+    int threads;
+    char *pixels; /* FILL_PIXELS of them for each thread, gathered */
 } ChannelFill;
+
+/* Rows of a film on their way into the planes. */
+typedef struct FillRows {
+    const ChannelFill *to;
+    size_t begin, count; /* pixels */
+} FillRows;
 
 static void add_channel(ChannelFill *to, int index, const char *name, bool is_whole) {
     to->layers[to->layer_count - 1].of[index] =
@@ -296,28 +306,35 @@ static void read_source(const Film *film, const ChannelSource *from, const Pixel
 }
 
 /* Gathered pixels become the planes' values from `first` on. */
-static void fill_layer(const ChannelFill *from, const LayerPlanes *layer, size_t first,
+static void fill_layer(const Film *film, const LayerPlanes *layer, const char *next, size_t first,
                        size_t count) {
-    const char *next = from->pixels;
-    for (size_t k = 0; k < count; k++, next += from->film->stride) {
+    for (size_t k = 0; k < count; k++, next += film->stride) {
         float values[3];
-        read_source(from->film, &layer->from, (const PixelSums *)(const void *)next, values);
+        read_source(film, &layer->from, (const PixelSums *)(const void *)next, values);
         for (int i = 0; i < 3; i++)
             if (layer->of[i]) layer->of[i][first + k] = values[i];
     }
 }
 
 /* A pixel with all its layers takes a kilobyte: it comes from memory once, not once a layer. */
+static void fill_some(void *context, int item, int worker) {
+    const FillRows *rows = context;
+    const ChannelFill *to = rows->to;
+    char *pixels = to->pixels + (size_t)worker * FILL_PIXELS * to->film->stride;
+    size_t first = (size_t)item * FILL_PIXELS, left = rows->count - first;
+    size_t count = left < FILL_PIXELS ? left : FILL_PIXELS;
+    film_gather(to->film, rows->begin + first, count, pixels);
+    for (int i = 0; i < to->layer_count; i++)
+        fill_layer(to->film, &to->layers[i], pixels, first, count);
+}
+
 static void fill(void *user, int y0, int y1) {
     const ChannelFill *to = user;
     const Film *film = to->film;
     size_t begin = film_index(film, film->crop.x0, y0);
-    size_t count = film_index(film, film->crop.x0, y1) - begin;
-    for (size_t first = 0; first < count; first += FILL_PIXELS) {
-        size_t some = count - first < FILL_PIXELS ? count - first : FILL_PIXELS;
-        film_gather(film, begin + first, some, to->pixels);
-        for (int i = 0; i < to->layer_count; i++) fill_layer(to, &to->layers[i], first, some);
-    }
+    FillRows rows = {to, begin, film_index(film, film->crop.x0, y1) - begin};
+    size_t items = (rows.count + FILL_PIXELS - 1) / FILL_PIXELS;
+    parallel_for(items < FEW_ITEMS ? 1 : to->threads, (int)items, fill_some, &rows);
 }
 
 /* ---- the frame --------------------------------------------------------------------------- */
@@ -397,9 +414,15 @@ static FrameImage make_frame(const Film *film, ExrWindow data, int attribute_roo
     ChannelFill *to = ARENA_NEW(arena, ChannelFill, 1);
     FrameImage frame = frame_create(film->width, film->height, data, most, attribute_room, arena);
     frame.rows = rows;
-    *to = (ChannelFill){film,  &frame,
-                        arena, ARENA_NEW(arena, LayerPlanes, most),
-                        0,     arena_alloc(arena, film->stride, _Alignof(PixelSums), FILL_PIXELS)};
+    int processors = parallel_default_threads();
+    int threads = processors < MOST_THREADS ? processors : MOST_THREADS;
+    *to = (ChannelFill){.film = film,
+                        .frame = &frame,
+                        .arena = arena,
+                        .layers = ARENA_NEW(arena, LayerPlanes, most),
+                        .threads = threads,
+                        .pixels = arena_alloc(arena, film->stride * FILL_PIXELS,
+                                              _Alignof(PixelSums), (size_t)threads)};
     add_layer(to, "", "RGB", (ChannelSource){.kind = KIND_READ, .read = read_rgb});
     add_layers(to);
     add_numbers(to);

@@ -137,16 +137,10 @@ static double sigma_of_halves(double difference) {
     return 1.2533141373155003 * fabs(difference);
 }
 
-double pixel_sigma_y(const PixelSums *sums) {
-    double variance_rgb[3], halves[3];
-    if (pixel_halves(sums, BLOCK_SAMPLES, halves)) return sigma_of_halves(halves[1]);
-    pixel_variance(sums, variance_rgb);
-    return sigma_of_spread(variance_rgb);
-}
-
-double pixel_square_y(const PixelSums *sums) {
-    double halves[3], sigma;
-    if (pixel_halves(sums, BLOCK_SAMPLES, halves)) return halves[1] * halves[1];
-    sigma = pixel_sigma_y(sums);
-    return sigma * sigma;
+void pixel_noise_y(const PixelSums *sums, const double variance_rgb[3], double *sigma,
+                   double *square) {
+    double halves[3];
+    bool has_halves = pixel_halves(sums, BLOCK_SAMPLES, halves);
+    *sigma = has_halves ? sigma_of_halves(halves[1]) : sigma_of_spread(variance_rgb);
+    *square = has_halves ? halves[1] * halves[1] : *sigma * *sigma;
 }

@@ -116,9 +116,9 @@ typedef struct SecondDisplay {
  * and e, P T - Q^2 = h k d e (d - e)^2 is not 0. */
 SecondDisplay pixel_second_display(const DisplaySums *sums, int first);
 
-/* FilmPixel.sigma_y, square_y. */
-double pixel_sigma_y(const PixelSums *sums);
-double pixel_square_y(const PixelSums *sums);
+/* FilmPixel.sigma_y, square_y, given its variance_rgb. */
+void pixel_noise_y(const PixelSums *sums, const double variance_rgb[3], double *sigma,
+                   double *square);
 
 /* Row by row of the crop. */
 static inline size_t film_index(const Film *film, int x, int y) {

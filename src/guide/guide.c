@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: runs at every vertex of a path. No allocation, no lock, no libm. */
 #include "guide/guide.h"
+#include "base/mathf.h"
 
 /* How far below its horizon a surface still takes a bin's middle for lit: half of its width. */
 #define HORIZON 0.1f
@@ -31,7 +32,7 @@ void guide_view(const LightGuide *guide, uint32_t cell, const GuideSurface *surf
                 GuideView *view) {
     const GuideCell *from = &guide->cells[cell];
     Vec3 n = surface->ns, wo = surface->wo;
-    float n_wo = fmaxf(vec3_dot(n, wo), 0), alpha2 = surface->alpha * surface->alpha;
+    float n_wo = max_f(vec3_dot(n, wo), 0), alpha2 = surface->alpha * surface->alpha;
     float k = 0.5f * surface->alpha;
     float scale = 0.25f * alpha2 / (n_wo * (1 - k) + k + 1e-6f);
     Spectrum one = spectrum_all(1), none = spectrum_all(0), column[GUIDE_AIMS] = {none, none};
@@ -120,7 +121,7 @@ static int choose(const float weight[GUIDE_SIDE], float sum, float u, float *res
     for (int i = 0; i < GUIDE_SIDE; i++) {
         if (!(weight[i] > 0)) continue;
         if (left < weight[i]) {
-            *rest = fminf(left / weight[i], 0x1.fffffep-1f);
+            *rest = min_f(left / weight[i], 0x1.fffffep-1f);
             return i;
         }
         left -= weight[i];

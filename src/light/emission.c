@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "light/emission.h"
 
+#include "base/mathf.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_place.h"
 #include "panel/zones/backlight_at.h"
@@ -135,7 +136,7 @@ static float coat_lets_out(const Scene *scene, const Material *m, uint32_t trian
         coat *= texel[0];
     }
     float cosine = fabsf(vec3_dot(coat_normal(scene, m, triangle, point), direction));
-    return 1 - coat * fresnel_unpolarised(fminf(cosine, 1), CLEARCOAT_IOR);
+    return 1 - coat * fresnel_unpolarised(min_f(cosine, 1), CLEARCOAT_IOR);
 }
 
 bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoint *point,

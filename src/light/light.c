@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "light/light.h"
 
+#include "base/mathf.h"
 #include "scene/point/coverage.h"
 #include "light/emitters_build.h"
 #include "light/punctual_build.h"
@@ -143,8 +144,8 @@ static bool sample_emitters(const Lights *lights, const LitPoint *from, const fl
 #define LAMP_ROUNDING 0x1p-20f /* of a lamp's largest coordinate */
 
 static float before_lamp(Vec3 lamp, float distance) {
-    float size = fmaxf(fmaxf(fabsf(lamp.x), fabsf(lamp.y)), fabsf(lamp.z));
-    return fmaxf(distance * (1 - BEFORE_LAMP) - LAMP_ROUNDING * size, 0);
+    float size = max_f(max_f(fabsf(lamp.x), fabsf(lamp.y)), fabsf(lamp.z));
+    return max_f(distance * (1 - BEFORE_LAMP) - LAMP_ROUNDING * size, 0);
 }
 
 Ray lights_ray(Vec3 from, const LightSample *sample) {

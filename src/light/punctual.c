@@ -2,6 +2,7 @@
 /* HOT: choosing a lamp. No allocation, no lock, no libm. */
 #include "light/punctual.h"
 
+#include "base/mathf.h"
 #include "base/sampler.h"
 #include "light/branch_choice.h"
 #include "light/opening.h"
@@ -31,7 +32,7 @@ float punctual_falloff(const PunctualLight *light, Vec3 from_light) {
     if (light->kind == LIGHT_LUMINAIRE)
         return intensity_web_at(light->web, lamp_from_world(light, from_light));
     if (light->kind != LIGHT_SPOT) return 1;
-    float range = fmaxf(light->cos_inner - light->cos_outer, 1e-6f);
+    float range = max_f(light->cos_inner - light->cos_outer, 1e-6f);
     float ramp = clampf((vec3_dot(light->direction, from_light) - light->cos_outer) / range, 0, 1);
     return ramp * ramp;
 }
@@ -121,7 +122,7 @@ static float target_at(const PunctualLight *light, const LitPoint *point) {
     float radius = opening_radius(&light->opening), d2 = vec3_dot(away, away);
     float relative = d2 > 0 ? punctual_falloff(light, vec3_normalize(away)) : 0;
     float height = -vec3_dot(point->ns, away);
-    return candela * fmaxf(relative, LEAST_OF_OPENING) / (d2 + radius * radius) *
+    return candela * max_f(relative, LEAST_OF_OPENING) / (d2 + radius * radius) *
            cosine_above(point->both_sides ? fabsf(height) : height, sqrtf(d2), radius);
 }
 

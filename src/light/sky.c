@@ -2,6 +2,7 @@
 #include "light/sky.h"
 
 #include "base/mathd.h"
+#include "base/mathf.h"
 #include "base/units.h"
 #include "spectrum/photometry.h"
 
@@ -139,7 +140,7 @@ SkySample sky_seen(const Sky *sky, Vec3 direction, Vec3 ns, const Wavelengths *w
                         picture);
         rgb = picture;
     } else {
-        seen.pdf = fmaxf(vec3_dot(direction, ns), 0) * INV_PI_F;
+        seen.pdf = max_f(vec3_dot(direction, ns), 0) * INV_PI_F;
     }
     seen.radiance = spectrum_from_rgb_emission(wavelengths, rgb);
     return seen;
@@ -162,7 +163,7 @@ bool sky_choose(const Sky *sky, Vec3 ns, const float u[2], SkySample *sample) {
         sample->pdf = sky_model_pdf(sky->model, sample->direction);
     } else {
         sample->direction = sample_cosine(ns, u[0], u[1]);
-        sample->pdf = fmaxf(vec3_dot(sample->direction, ns), 0) * INV_PI_F;
+        sample->pdf = max_f(vec3_dot(sample->direction, ns), 0) * INV_PI_F;
     }
     return sample->pdf > 0;
 }
@@ -172,7 +173,7 @@ void sky_towards(const Sky *sky, Vec3 direction, Vec3 ns, SkySample *sample) {
     if (sky->kind == ENVIRONMENT_HDRI)
         sample->at = sky_picture_place(&sky->picture, direction, &sample->pdf);
     else if (sky->model) sample->pdf = sky_model_pdf(sky->model, direction);
-    else sample->pdf = fmaxf(vec3_dot(direction, ns), 0) * INV_PI_F;
+    else sample->pdf = max_f(vec3_dot(direction, ns), 0) * INV_PI_F;
 }
 
 Spectrum sky_radiance(const Sky *sky, const SkySample *chosen, const Wavelengths *wavelengths) {

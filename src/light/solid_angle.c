@@ -57,13 +57,13 @@ void solid_angle_sample(const SolidAngle *seen, float u0, float u1, float weight
     Vec3 split = vec3_along(vec3_scale(a, cosine), e, of_c);
     Vec3 chord = vec3_sub(split, b);
     float whole = 0.5f * vec3_dot(chord, chord), part = u1 * whole; /* 1 - cos */
-    float of_split = whole > 0 ? sqrtf(u1 * (2 - part) / (2 - fminf(whole, 1.999999f))) : 0;
+    float of_split = whole > 0 ? sqrtf(u1 * (2 - part) / (2 - min_f(whole, 1.999999f))) : 0;
     weight[0] = of_split * (cosine - of_c * cos_b);
     weight[1] = (1 - part) - (1 - whole) * of_split;
     weight[2] = of_split * of_c;
     float sum = 0;
     for (int k = 0; k < 3; k++) {
-        weight[k] = fmaxf(weight[k], 0) / seen->distance[k];
+        weight[k] = max_f(weight[k], 0) / seen->distance[k];
         sum += weight[k];
     }
     for (int k = 0; k < 3; k++) weight[k] = sum > 0 ? weight[k] / sum : k == 1;

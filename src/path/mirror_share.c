@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: no allocation, no lock, no libm. */
 #include "path/mirror_share.h"
+#include "base/mathf.h"
 
 /* Squared: a normal that was bent towards the eye has moved by more. */
 #define UNBENT2 1e-8f
@@ -43,14 +44,14 @@ float mirrored_prob(const PathState *path, const Surface *surface, Vec3 wo, Beam
     if (!(rarity > 0)) return 0;
     prob = rarity * mirror_beams_prob(&path->context->beams[set], surface->part_id,
                                       vec3_dot(wo, surface->ng) < 0, surface->position);
-    return prob > 0 ? fmaxf(prob, mirrored_least(path, surface, set)) : 0;
+    return prob > 0 ? max_f(prob, mirrored_least(path, surface, set)) : 0;
 }
 
 bool mirrored_is_left(const PathState *path, const Surface *surface, Vec3 wo, BeamSet set,
                       float u) {
     float most = mirror_beams_most(&path->context->beams[set], surface->part_id,
                                    vec3_dot(wo, surface->ng) < 0);
-    return u >= fmaxf(mirrored_rarity(path, set) * most, mirrored_least(path, surface, set));
+    return u >= max_f(mirrored_rarity(path, set) * most, mirrored_least(path, surface, set));
 }
 
 /* Did the vertex before, to which wo leads, sample the set's lights in this mirror, smooth or
@@ -111,7 +112,7 @@ MirrorWay mirrored_way(const PathState *path, const Surface *surface, Vec3 wo,
         is_eye ? 0
                : last->mirrors * mirror_beams_prob(&context->beams[BEAMS_OF_EMITTERS],
                                                    last->part_id, last->is_back, last->at.position);
-    if (prob > 0) prob = fmaxf(prob, last->mirrors_least);
+    if (prob > 0) prob = max_f(prob, last->mirrors_least);
     way = (MirrorWay){.pdf =
                           last->pdf * spectrum_mean(bsdf_mirror(&surface->bsdf, surface->local_wo)),
                       .prob = prob,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "path/path.h"
 
+#include "base/mathf.h"
 #include "scene/point/ray_ends.h"
 #include "path/direct.h"
 #include "path/emitted.h"
@@ -30,7 +31,7 @@ static bool roulette(PathState *path) {
     if (path->bounce < ROULETTE_FIRST_BOUNCE) return true;
     numbers_for(path, NUMBERS_ROULETTE);
     float share = spectrum_max_lane(path->throughput) / path->bright;
-    float survival = fminf(ROULETTE_GENEROSITY * sqrtf(share), 1);
+    float survival = min_f(ROULETTE_GENEROSITY * sqrtf(share), 1);
     if (sampler_1d(path->sampler) >= survival) return false;
     path->throughput *= spectrum_all(1 / survival);
     return true;

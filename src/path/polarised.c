@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "path/polarised.h"
+#include "base/mathf.h"
 
 #define NO_PLANE 1e-6f /* squared sine: below, s and p differ by no more */
 #define LEAST 1e-12f
@@ -15,7 +16,7 @@ static void turn_row(PolarisedRow *row, float cosine2, float sine2) {
  * against the light. */
 static void twice_between(Vec3 from, Vec3 to, Vec3 way, float *cosine2, float *sine2) {
     float c = vec3_dot(from, to), s = vec3_dot(vec3_cross(from, to), way);
-    float size2 = fmaxf(c * c + s * s, LEAST);
+    float size2 = max_f(c * c + s * s, LEAST);
     *cosine2 = (c * c - s * s) / size2;
     *sine2 = 2 * c * s / size2;
 }

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/mathf.h"
 #include "scene/point/ray_ends.h"
 
 #define SHEET_SHARE 0.5f /* of an eye's samples that follow what a thin sheet itself shows */
@@ -26,7 +27,7 @@ static Vec3 beside(const Surface *surface, Vec3 wi, float along) {
 bool pane_image_start(const PathState *path, const Surface *surface, Vec3 wi, float along,
                       Vec3 *out) {
     float cosine = vec3_dot(wi, surface->frame.z), flat2 = 1 - cosine * cosine;
-    float reach = along * (1 / sqrtf(fmaxf(flat2, 1e-6f)) + 2 * OFF_PANE); /* and a little */
+    float reach = along * (1 / sqrtf(max_f(flat2, 1e-6f)) + 2 * OFF_PANE); /* and a little */
     Ray ray = {ray_start(&surface->point, wi), wi, 0, reach};
     path->statistics->shadow_rays++;
     *out = beside(surface, wi, along);
@@ -56,7 +57,7 @@ void sheet_go_behind(PathState *path, const Surface *surface) {
         return;
     }
     path->sheets_from =
-        path->stack->count ? 2 * ray_step(&surface->point) / fmaxf(cosine, 1e-6f) : 0;
+        path->stack->count ? 2 * ray_step(&surface->point) / max_f(cosine, 1e-6f) : 0;
     Vec3 side = path->stack->count ? vec3_neg(direction) : direction;
     path->ray = (Ray){ray_start(&surface->point, side), direction, 0, INFINITY};
     if (!path->bounce && !path->stack->count) start_behind_pane(path, surface);

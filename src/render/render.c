@@ -32,10 +32,14 @@ static PathStatistics with_earlier(PathStatistics sum, const Checkpoint *resume)
 
 /* ---- all passes -------------------------------------------------------------------------- */
 
+/* Pixels of a pass: all, or those of one colour of a chess board. */
+typedef enum PassSquares { SQUARES_ALL, SQUARES_BLACK, SQUARES_WHITE } PassSquares;
+
 /* The state of all passes of a render. */
 typedef struct Run {
     const RenderOptions *options;
     TileJob job;
+    PassSquares squares;
     WorkerCounts *counts;
     Progress progress;
     uint32_t total;           /* samples of the frame in the end */
@@ -44,13 +48,30 @@ typedef struct Run {
     RenderResult result;
 } Run;
 
+/* Returns how many paths that took. */
+static uint64_t render_rect(const Run *run, FilmRect rect, int worker) {
+    const TileJob *job = &run->job;
+    run->result.kernel->render(job, rect, &run->counts[worker].statistics);
+    return sample_shares_sum(&job->shares, rect, job->first_sample, job->end_sample);
+}
+
+static uint64_t render_squares(const Run *run, FilmRect rect, int worker) {
+    const FilmRect crop = run->options->crop;
+    const int colour = run->squares == SQUARES_WHITE;
+    uint64_t paths = 0;
+    for (int y = rect.y0; y < rect.y1; y++)
+        for (int x = rect.x0; x < rect.x1; x++)
+            if ((x - crop.x0 + y - crop.y0) % 2 == colour)
+                paths += render_rect(run, (FilmRect){x, y, x + 1, y + 1}, worker);
+    return paths;
+}
+
 static void render_one_tile(void *context, int item, int worker) {
     Run *run = context;
     if (run->options->stops_at_once && signals_stop_requested()) return;
     FilmRect rect = render_tile(run->options->crop, item);
-    run->result.kernel->render(&run->job, rect, &run->counts[worker].statistics);
-    uint64_t paths =
-        sample_shares_sum(&run->job.shares, rect, run->job.first_sample, run->job.end_sample);
+    uint64_t paths = run->squares == SQUARES_ALL ? render_rect(run, rect, worker)
+                                                 : render_squares(run, rect, worker);
     uint64_t done = atomic_fetch_add(&run->paths_done, paths) + paths;
     if (worker == 0) progress_update(&run->progress, (double)done);
 }
@@ -110,6 +131,18 @@ bool render_noise_is_rare(const RenderResult *result) {
     return noise_stop_is_rare(&result->stop, result->noise, result->noise_doubt);
 }
 
+static void run_pass(Run *run) {
+    const RenderOptions *options = run->options;
+    const int tiles = render_tile_count(options->crop);
+    bool is_looked_at = options->first_look && !run->result.samples;
+    run->squares = is_looked_at ? SQUARES_BLACK : SQUARES_ALL;
+    parallel_for(options->threads, tiles, render_one_tile, run);
+    if (!is_looked_at) return;
+    options->first_look(options->user, &run->result, &run->progress);
+    run->squares = SQUARES_WHITE;
+    parallel_for(options->threads, tiles, render_one_tile, run);
+}
+
 static void run_passes(Run *run) {
     const RenderOptions *options = run->options;
     uint32_t total = run->total;
@@ -122,7 +155,7 @@ static void run_passes(Run *run) {
         if (samples > total - done) samples = total - done;
         run->job.first_sample = options->first_sample + done;
         run->job.end_sample = run->job.first_sample + samples;
-        parallel_for(options->threads, render_tile_count(options->crop), render_one_tile, run);
+        run_pass(run);
         run->result.stopped_by = signals_stop_requested();
         if (options->stops_at_once && run->result.stopped_by) return;
         run->result.samples = done + samples;
@@ -208,7 +241,9 @@ bool render_write_checkpoint(const CheckpointName *name, const RenderOptions *op
 
 /* Reads the field from its file, or trains it and writes that file, if one is named. */
 static bool find_field(RenderSetup *setup, const RenderOptions *options, Arena *arena, Error *err) {
-    const TrainOptions train = {setup->kernel, options->threads, false};
+    const double pixels = (double)options->width * (double)options->height;
+    const TrainOptions train = {setup->kernel, options->threads, false,
+                                pixels * options->guided_samples};
     double begun_s = monotonic_seconds();
     if (options->field && file_exists(options->field)) {
         GuideScene scene = train_guide_scene(&setup->context);

@@ -37,6 +37,7 @@ typedef struct RenderOptions {
     bool favours_noise;        /* pixels take samples as a pilot found noise (pilot.h) */
     bool is_reading;           /* the context is one of readings (path_context_build) */
     bool no_guiding;           /* does not first train a guide of where light comes from */
+    uint32_t guided_samples;   /* of a pixel, for which the guide is trained; 0: as for many */
     const char *field;         /* the trained guide: read from this file if it is there, else
                                   kept there; NULL: neither */
     int max_bounces;           /* 0: emission only, 1: plus direct light */
@@ -51,6 +52,9 @@ typedef struct RenderOptions {
     ProgressMode progress;
     Progress *within;     /* the frame is a part of that and shows nothing of its own; */
     double within_weight; /* of this weight. NULL: it is by itself */
+    /* As soon as every second pixel has a sample, like the squares of one colour of a chess board.
+     * NULL: nobody looks */
+    void (*first_look)(void *user, const RenderResult *so_far, const Progress *shown);
     void (*snapshot)(void *user, const RenderResult *so_far);   /* NULL: none */
     void (*checkpoint)(void *user, const RenderResult *so_far); /* NULL: none */
     double checkpoint_interval_s; /* at least this between two, after the pass in hand */

@@ -11,6 +11,8 @@
 #define STEPS_MAX 16384.0 /* of the raster */
 #define CELLS 1.0         /* times the root of the frame's pixels: so many cells, or more */
 #define ROUNDS 2
+#define CELL_PATHS (ROUNDS * GUIDE_POINTS * GUIDE_BINS / 2) /* above the horizon */
+#define TRAINED 0.06     /* of the paths that are to be guided, or up to twice as many */
 #define SEED 0x67756964u /* not a frame's own samples */
 
 typedef struct TrainingRun {
@@ -144,10 +146,11 @@ static TrainingRun run_start(const Camera *camera, const TrainOptions *options, 
     return run;
 }
 
-/* Places of a cell, at most: a small frame is worth a short training pass. */
-static uint32_t places_a_cell(const Camera *camera, uint32_t places) {
-    double pixels = (double)camera->width * (double)camera->height;
-    return (uint32_t)fmax(places / (CELLS * sqrt(pixels)), GUIDE_POINTS);
+/* Places of a cell, at most: a small frame is worth a short training pass, and few samples are. */
+static uint32_t places_a_cell(const Camera *camera, double paths, uint32_t places) {
+    double cells = CELLS * sqrt((double)camera->width * (double)camera->height);
+    if (paths > 0) cells = fmax(fmin(cells, TRAINED * paths / CELL_PATHS), 1);
+    return (uint32_t)fmax(places / cells, GUIDE_POINTS);
 }
 
 GuideScene train_guide_scene(const PathContext *context) {
@@ -171,7 +174,7 @@ const LightGuide *train_guide(const PathContext *context, const Camera *camera,
     if (is_stopped(&run)) return NULL;
     GuidePlace *places = all_places(&run, arena, &count);
     GuideTraining *training =
-        guide_training_start(places, count, places_a_cell(camera, count), arena);
+        guide_training_start(places, count, places_a_cell(camera, options->paths, count), arena);
     LightGuide *guide = &training->guide;
     run.job.training = run.training = training;
     run.job.finds = ARENA_NEW(arena, LightFinds, guide->cell_count);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/mathd.h"
+#include "base/mathf.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "sky/air/beam_table.h"
@@ -468,7 +469,7 @@ Spectrum atmosphere_relief(const Atmosphere *a, float elevation, float azimuth) 
 /* The phase function is (1 + cos^2) times a constant; of it (1 - cos^2) is polarised. */
 Spectrum atmosphere_polarised(const Atmosphere *a, float elevation, float azimuth) {
     SkyParts at = look_up(a, elevation, azimuth);
-    float square = fminf(at.cosine * at.cosine, 1);
+    float square = min_f(at.cosine * at.cosine, 1);
     return at.molecules *
            spectrum_all(air_phase_molecules(at.cosine) * (1 - square) / (1 + square));
 }

@@ -136,11 +136,11 @@ float sky_shape_at(const SkyShape *shape, float cos_theta, float gamma) {
     float sine, c;
     if (shape->linear > 0) return (1 + (float)shape->linear * cos_theta) * (1 / 3.0f);
     sincos_turns(gamma * (0.5f * INV_PI_F), &sine, &c);
-    float gradation = 1 + (float)shape->a * exp_f((float)shape->b / fmaxf(cos_theta, 1e-6f));
+    float gradation = 1 + (float)shape->a * exp_f((float)shape->b / max_f(cos_theta, 1e-6f));
     float indicatrix = 1 +
                        (float)shape->c * (exp_f((float)shape->d * gamma) - (float)shape->offset) +
                        (float)shape->e * c * c;
-    return fmaxf(0, gradation * indicatrix);
+    return max_f(0, gradation * indicatrix);
 }
 
 /* Over half a turn of azimuth at one zenith angle; what is the same all along, found once. */

@@ -84,14 +84,14 @@ static void place_region(SunlitWork *work, Arena scratch) {
     Extent s = extent_along(&work->receivers, map->frame.x, value);
     Extent t = extent_along(&work->receivers, map->frame.y, value);
     Extent h = extent_along(&work->receivers, map->frame.z, value);
-    map->side = fmaxf(s.high - s.low, t.high - t.low);
+    map->side = max_f(s.high - s.low, t.high - t.low);
     map->above = map->below = (h.high - h.low) / 2;
     map->corner = frame_to_world(&map->frame, vec3(s.low, t.low, (h.low + h.high) / 2));
     work->pitch = map->side / SUNLIT_SIDE;
-    work->columns = (int)fminf(ceilf((s.high - s.low) / work->pitch), SUNLIT_SIDE);
-    work->rows = (int)fminf(ceilf((t.high - t.low) / work->pitch), SUNLIT_SIDE);
+    work->columns = (int)min_f(ceilf((s.high - s.low) / work->pitch), SUNLIT_SIDE);
+    work->rows = (int)min_f(ceilf((t.high - t.low) / work->pitch), SUNLIT_SIDE);
     float blur = SUN_BLUR * 2 * map->above / work->pitch; /* of edges, by the sun's disc */
-    work->reach = 1 + (int)ceilf(fminf(blur, REACH_MOST));
+    work->reach = 1 + (int)ceilf(min_f(blur, REACH_MOST));
 }
 
 /* ---- one ray ----------------------------------------------------------------------------- */
@@ -345,9 +345,9 @@ static void list_blocks(SunlitWork *work, Arena *arena) {
 static void add_landing(SunlitPixel *pixel, const Landing *landing, float power) {
     Vec3 p = landing->point.position;
     if (!pixel->landed++) pixel->low = pixel->high = p;
-    pixel->low = vec3(fminf(pixel->low.x, p.x), fminf(pixel->low.y, p.y), fminf(pixel->low.z, p.z));
+    pixel->low = vec3(min_f(pixel->low.x, p.x), min_f(pixel->low.y, p.y), min_f(pixel->low.z, p.z));
     pixel->high =
-        vec3(fmaxf(pixel->high.x, p.x), fmaxf(pixel->high.y, p.y), fmaxf(pixel->high.z, p.z));
+        vec3(max_f(pixel->high.x, p.x), max_f(pixel->high.y, p.y), max_f(pixel->high.z, p.z));
     pixel->normals = vec3_add(pixel->normals, landing->normal);
     pixel->both_sides |= landing->both_sides;
     pixel->power += power;
@@ -395,10 +395,10 @@ static void add_about(const SunlitPixel *pixel, About *about) {
         all->high = pixel->high;
     }
     all->landed += pixel->landed;
-    all->low = vec3(fminf(all->low.x, pixel->low.x), fminf(all->low.y, pixel->low.y),
-                    fminf(all->low.z, pixel->low.z));
-    all->high = vec3(fmaxf(all->high.x, pixel->high.x), fmaxf(all->high.y, pixel->high.y),
-                     fmaxf(all->high.z, pixel->high.z));
+    all->low = vec3(min_f(all->low.x, pixel->low.x), min_f(all->low.y, pixel->low.y),
+                    min_f(all->low.z, pixel->low.z));
+    all->high = vec3(max_f(all->high.x, pixel->high.x), max_f(all->high.y, pixel->high.y),
+                     max_f(all->high.z, pixel->high.z));
     all->normals = vec3_add(all->normals, pixel->normals);
     all->both_sides |= pixel->both_sides;
 }
@@ -425,7 +425,7 @@ static SunlitPixel smoothed(const SunlitWork *work, int i, int j) {
     About about = look_about(work, i, j);
     float mean = about.all.power / (float)about.count;
     SunlitPixel out = pixel->landed ? *pixel : about.all;
-    out.power = fmaxf(pixel->landed ? 0.5f * (pixel->power + mean) : 0, SOFT * mean);
+    out.power = max_f(pixel->landed ? 0.5f * (pixel->power + mean) : 0, SOFT * mean);
     return out;
 }
 

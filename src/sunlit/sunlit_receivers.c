@@ -91,7 +91,7 @@ static Vec3 view_direction(const SceneCamera *camera, Vec2 u) {
     float sine, cosine, aspect = camera->aspect > 0 ? camera->aspect : 1;
     float half = camera->is_perspective ? camera->yfov / 2 : 0;
     sincos_turns(half / (2 * PI_F), &sine, &cosine);
-    float high = sine / fmaxf(cosine, 1e-3f);
+    float high = sine / max_f(cosine, 1e-3f);
     Vec3 local = vec3((2 * u.x - 1) * high * aspect, (2 * u.y - 1) * high, -1);
     return vec3_normalize(transform_vector(&camera->world_from_camera, local));
 }

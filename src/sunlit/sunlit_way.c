@@ -67,7 +67,7 @@ static double luminance(const SunlitTools *tools, const SunlitWay *way, float u)
     float albedo = (m->base_color[0] + m->base_color[1] + m->base_color[2]) / 3;
     float cosine = fabsf(vec3_dot(ng, sun));
     return lights_sample_lx(tools->lights, facing, &way->sun, u) *
-           (double)(fmaxf(albedo, LEAST_ALBEDO) * cosine * INV_PI_F);
+           (double)(max_f(albedo, LEAST_ALBEDO) * cosine * INV_PI_F);
 }
 
 bool sunlit_try(const SunlitTools *tools, const SunlitMap *map, LitPoint point, const float u[6],

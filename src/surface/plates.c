@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "surface/plates.h"
 
+#include "base/mathf.h"
 #include "scene/point/ray_ends.h"
 #include "shaders/facets/microfacet.h"
 
@@ -40,8 +41,8 @@ static void clip(float origin, float direction, float low, float high, float *fr
     }
     a /= direction;
     b /= direction;
-    *from = fmaxf(*from, fminf(a, b));
-    *to = fminf(*to, fmaxf(a, b));
+    *from = max_f(*from, min_f(a, b));
+    *to = min_f(*to, max_f(a, b));
 }
 
 bool plate_boxes_meet(const PlateBoxes *boxes, Ray ray) {
@@ -74,7 +75,7 @@ static bool is_face(const Scene *scene, const Surface *surface) {
 static void set_pane(const PlateView *view, const Surface *face, float sideways, Plate *out) {
     const Material *m = &view->scene->materials[face->material_id];
     SolidPlate plate = {.face = surface_clear_solid(face),
-                        .cosine = fminf(face->local_wo.z, 1),
+                        .cosine = min_f(face->local_wo.z, 1),
                         .left = spectrum_all(1),
                         .sideways = sideways};
     if (isfinite(m->attenuation_distance_m)) {
@@ -110,7 +111,7 @@ bool plate_at(const PlateView *view, const Surface *face, const Hit *hit, Vec3 w
                    .start = ray_start(&back.point, way)};
     out->inside = out->thickness / behind;
     if (!(out->thickness > 0)) return false;
-    set_pane(view, face, out->inside * sqrtf(fmaxf(1 - behind2, 0)), out);
+    set_pane(view, face, out->inside * sqrtf(max_f(1 - behind2, 0)), out);
     return true;
 }
 
@@ -210,7 +211,7 @@ static float stack_at(const PlateStack *stack, float q, float *slope) {
     *slope = m;
     for (int i = 0; i < stack->count; i++) {
         float n2 = stack->index2[i];
-        float inside2 = fmaxf(n2 + (n2 - 1) * q * q, 1e-12f), root = sqrtf(inside2);
+        float inside2 = max_f(n2 + (n2 - 1) * q * q, 1e-12f), root = sqrtf(inside2);
         m += stack->thickness[i] / root;
         *slope += stack->thickness[i] * n2 / (inside2 * root);
     }
@@ -222,7 +223,7 @@ static float solve(const PlateStack *stack, float rho) {
     float slope, q = rho / stack_at(stack, 0, &slope);
     for (int i = 0; i < STEPS_MAX; i++) {
         float m = stack_at(stack, q, &slope), step = (rho - q * m) / slope;
-        q = fmaxf(q + step, 0);
+        q = max_f(q + step, 0);
         if (fabsf(step) <= 1e-7f * q) break;
     }
     return q;
@@ -244,7 +245,7 @@ int plate_lamp_ways(const PlateLamp *lamp, PlateLampWay ways[PLATE_ORDERS]) {
     }
     if (!(stack.air > 0)) return 0;
     float share[PLATE_ORDERS] = {rest, rest * turns};
-    share[2] = fmaxf(1 - share[0] - share[1], 0);
+    share[2] = max_f(1 - share[0] - share[1], 0);
     for (int order = 0; order < PLATE_ORDERS; order++) {
         float slope;
         for (int i = 0; i < lamp->count; i++) {

@@ -10,6 +10,7 @@
  * Units    metres, scene. Threads  const context. HOT.
  */
 #pragma once
+#include "base/mathf.h"
 #include "bvh/bvh.h"
 #include "surface/surface.h"
 
@@ -50,7 +51,7 @@ bool plate_at(const PlateView *view, const Surface *face, const Hit *hit, Vec3 w
  * have without that. */
 static inline Ray ray_from_plate(Ray ray, const Plate *plate) {
     float gone = plate->hit.t + plate->thickness / fabsf(vec3_dot(ray.direction, plate->normal));
-    return (Ray){plate->start, ray.direction, 0, fmaxf(ray.t_max - gone, 0)};
+    return (Ray){plate->start, ray.direction, 0, max_f(ray.t_max - gone, 0)};
 }
 
 /* Its near face's surface becomes the plate, which must outlive it. */

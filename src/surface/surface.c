@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "surface/surface.h"
 
+#include "base/mathf.h"
 #include "scene/point/coverage.h"
 #include "scene/point/texture_slot.h"
 #include "scene/point/ray_ends.h"
@@ -45,8 +46,8 @@ static float alpha_brushed(float alpha, float strength) {
 /* least, most: of alpha across the brushing. A texture may weaken the brushing to nothing. */
 static BrushedRange brushed_range(const Brushing *b, float least, float most) {
     float weakest = b->texture.texture_id == NO_ID ? b->strength : 0;
-    least = fmaxf(least, SMOOTH_ALPHA);
-    most = fmaxf(most, SMOOTH_ALPHA);
+    least = max_f(least, SMOOTH_ALPHA);
+    most = max_f(most, SMOOTH_ALPHA);
     return (BrushedRange){.least = alpha_brushed(least, weakest),
                           .most = alpha_brushed(most, b->strength),
                           .least_ratio = least / alpha_brushed(least, b->strength),
@@ -81,8 +82,8 @@ static SolidTables solid_tables(const Material *m, Arena *arena) {
     float low = m->index ? m->index->value[0] : m->ior, high = low;
     if (!is_rough_solid(m)) return (SolidTables){NULL, NULL};
     for (int i = 0; i < CURVE_COUNT && m->index; i++) {
-        low = fminf(low, m->index->value[i]);
-        high = fmaxf(high, m->index->value[i]);
+        low = min_f(low, m->index->value[i]);
+        high = max_f(high, m->index->value[i]);
     }
     bool is_coated = m->coating || m->film;
     return (SolidTables){energy_of(m, index_of(m, low), is_coated, arena),
@@ -265,7 +266,7 @@ static void set_brushing(const Scene *scene, const Hit *hit, const Brushing *b, 
     turned = vec3_normalize(vec3_along(turned, z, -vec3_dot(turned, z)));
     if (!(vec3_dot(turned, turned) > 0.5f)) return;
     surface->frame = (Frame){turned, vec3_cross(z, turned), z};
-    *alpha = fmaxf(*alpha, SMOOTH_ALPHA);
+    *alpha = max_f(*alpha, SMOOTH_ALPHA);
     *alpha_along = alpha_brushed(*alpha, strength);
 }
 

@@ -89,7 +89,7 @@ static void make_context(Bench *bench, Arena *arena) {
 }
 
 static bool measure(Bench *bench, Arena *arena, Error *err) {
-    const TrainOptions train = {bench->kernel, bench->threads, false};
+    const TrainOptions train = {bench->kernel, bench->threads, false, 0};
     PathStatistics ignored = {0};
     begin(bench);
     end(bench, "start");

@@ -205,6 +205,19 @@ TEST(render_makes_a_denoised_picture_at_once) {
     assert_non_null(strstr(o.err, "a look is asked for, but no picture"));
 }
 
+/* Half of the first sample is taken before the other half: the frame is the same. */
+TEST(a_preview_shows_a_first_look_and_then_the_same_frame) {
+    Outcome o;
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "513x257", "--png", "a.png",
+           "--preview", "--spp", "1", "--no-guiding");
+    assert_non_null(strstr(o.err, "a.png: a first look, of a quarter of the pixels; "));
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "b.exr", "--size", "513x257", "--png", "b.png",
+           "--denoise", "--spp", "1", "--no-guiding");
+    assert_null(strstr(o.err, "a first look"));
+    RUN_AS(0, &o, "compare", "a.exr", "b.exr");
+    assert_non_null(strstr(o.out, "same: equal in every pixel"));
+}
+
 TEST(a_preview_is_four_samples_denoised) {
     Outcome o;
     RUN_AS(0, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--png", "a.png",
@@ -214,6 +227,7 @@ TEST(a_preview_is_four_samples_denoised) {
     RUN_AS(0, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--png", "a.png",
            "--preview", "--spp", "2");
     assert_non_null(strstr(o.out, "8x6, 2 samples a pixel"));
+    assert_null(strstr(o.err, "a first look"));
     RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--png", "a.png", "--preview", "--noise",
            "0.1");
     assert_non_null(strstr(o.err, "--preview and --noise exclude each other"));

@@ -9,6 +9,7 @@
 #include "film/film_add.h"
 #include "film/film_frame.h"
 #include "film/film_merge.h"
+#include "film/film_quarter.h"
 #include "film/pixels.h"
 
 enum { WIDTH = 9, HEIGHT = 23, SAMPLES = 40 };
@@ -150,6 +151,36 @@ ARENA_TEST(grouping_makes_no_difference) {
         film_add_dropped(outer, &inner->dropped);
         assert_same_films(outer, expected);
     }
+}
+
+/* Also at the edges, where there is half a pair. */
+ARENA_TEST(a_quarter_has_the_samples_of_two_by_two_pixels) {
+    static const FilmRect odd = {2, 3, WIDTH, HEIGHT - 3};
+    Film *film = make_film(odd, 0, SAMPLES, LAYER_ALL, &arena);
+    Film *quarter = film_quarter(film, &arena);
+    uint64_t kept = 0;
+    assert_int_equal(quarter->width, (odd.x1 - odd.x0 + 1) / 2);
+    assert_int_equal(quarter->height, (odd.y1 - odd.y0 + 1) / 2);
+    for (int y = 0; y < quarter->height; y++)
+        for (int x = 0; x < quarter->width; x++) {
+            FilmRect two = {odd.x0 + 2 * x, odd.y0 + 2 * y, odd.x0 + 2 * x + 2, odd.y0 + 2 * y + 2};
+            Arena scratch = arena;
+            Film *sum =
+                film_create(WIDTH, HEIGHT, (FilmRect){0, 0, 1, 1}, LAYER_ALL, &groups, &scratch);
+            PixelSums *pixels = gathered(film, &scratch), *one = NULL;
+            for (int v = two.y0; v < two.y1 && v < odd.y1; v++)
+                for (int u = two.x0; u < two.x1 && u < odd.x1; u++) {
+                    one = (PixelSums *)(void *)((char *)pixels +
+                                                film_index(film, u, v) * film->stride);
+                    assert_done(film_add_pixels(sum, sum->crop, one, SAMPLES, &err));
+                }
+            assert_memory_equal(gathered(sum, &scratch),
+                                (char *)gathered(quarter, &scratch) +
+                                    film_index(quarter, x, y) * film->stride,
+                                film->stride);
+            kept += film_sums(quarter, x, y)->samples;
+        }
+    assert_int_equal(kept, film_kept_samples(film));
 }
 
 /* ---- through files ----------------------------------------------------------------------- */

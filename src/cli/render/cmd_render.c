@@ -19,6 +19,7 @@
 #include "cli/render/render_setup.h"
 #include "denoise/denoise.h"
 #include "film/film_frame.h"
+#include "film/film_quarter.h"
 #include "image/light/radiance_picture.h"
 #include "missed/missed.h"
 #include "print/print.h"
@@ -332,19 +333,49 @@ static Outcome report_interruption(const RenderRun *work, const RenderResult *re
     return OUTCOME_STOPPED;
 }
 
-static bool develop(const RenderRun *work, const RenderResult *result, Error *err) {
-    Arena scratch = *work->arena;
-    LookReport look;
+static bool develop(const RenderRun *work, const RenderResult *result, Arena *scratch,
+                    LookReport *look, Error *err) {
     FrameImage frame =
-        render_make_frame(&work->request, work->scene, &work->camera, result, false, &scratch);
+        render_make_frame(&work->request, work->scene, &work->camera, result, false, scratch);
     const LookRequest request = {&frame, &work->request.look, work->request.png,
                                  work->request.cli.threads};
-    if (!look_options_develop(&request, scratch, &look, err)) return false;
+    return look_options_develop(&request, *scratch, look, err);
+}
+
+static bool show_picture(const RenderRun *work, const RenderResult *result, Error *err) {
+    Arena scratch = *work->arena;
+    LookReport look;
+    if (!develop(work, result, &scratch, &look, err)) return false;
     if (work->request.cli.json || !look.develop.is_developed) return true;
     print("%s: %s, %s, middle grey %.4g cd/m2, %s%s\n", work->request.png, look.develop.display,
           look.develop.view, look.develop.grey_cd_m2, look.develop.config,
           look_options_words(&look, &scratch));
     return true;
+}
+
+#define LOOK_PIXELS (1 << 17) /* a smaller picture is soon there itself */
+
+static bool has_first_look(const RenderRequest *request) {
+    const FilmRect crop = request->render.crop;
+    return request->previews && request->png && !request->replays &&
+           (int64_t)(crop.x1 - crop.x0) * (crop.y1 - crop.y0) >= LOOK_PIXELS;
+}
+
+static void show_first_look(void *user, const RenderResult *so_far, const Progress *shown) {
+    RenderRun *work = user;
+    Arena scratch = *work->arena;
+    RenderResult quarter = *so_far;
+    LookReport look;
+    Error err;
+    quarter.film = film_quarter(so_far->film, &scratch);
+    bool done = develop(work, &quarter, &scratch, &look, &err);
+    progress_clear(shown);
+    if (!done) warn_of(work, &err);
+    else if (shown->mode == PROGRESS_BAR || shown->mode == PROGRESS_PLAIN)
+        print_to(stderr,
+                 "parhelion: %s: a first look, of a quarter of the pixels; the picture will take "
+                 "its place\n",
+                 work->request.png);
 }
 
 /* The checkpoint comes first: who stopped the render may not wait for long. */
@@ -360,7 +391,7 @@ static Outcome hand_over(RenderRun *work, const RenderResult *result, Error *err
     if (!write_frame(work, result, err)) return OUTCOME_FAILED;
     if (result->complete) render_remove_checkpoint(&work->request);
     show_end(work, result);
-    if ((work->request.png && !develop(work, result, err)) ||
+    if ((work->request.png && !show_picture(work, result, err)) ||
         !render_print_answer(&work->request, result, work->live.spent_s, &work->problems, err))
         return OUTCOME_FAILED;
     return result->complete ? OUTCOME_DONE : report_interruption(work, result, is_kept);
@@ -396,6 +427,7 @@ static Outcome run(RenderRun *work, Error *err) {
     if (!check_view(work, err)) return OUTCOME_FAILED;
     work->live = render_live_begin(&work->request);
     if (work->live.path) options->pass_ended = show_pass;
+    if (has_first_look(&work->request)) options->first_look = show_first_look;
     if (!render_prepare(work->scene, &work->camera, options, work->arena, &work->setup, err))
         return OUTCOME_FAILED;
     bool done = find_lights(work, err) && identify(work, err);

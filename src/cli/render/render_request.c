@@ -235,8 +235,10 @@ static bool set_preview(const RenderWords *typed, RenderRequest *request, Error 
                          "--preview and %s exclude each other: a preview is "
                          "a denoised picture of %d samples, or of --spp N",
                          other, PREVIEW_SAMPLES);
-    request->look.is_denoised = true;
+    request->previews = request->look.is_denoised = true;
     if (!typed->has_spp) request->render.end_sample = PREVIEW_SAMPLES;
+    /* what is learnt is kept for other frames, too */
+    if (!request->render.field) request->render.guided_samples = request->render.end_sample;
     return true;
 }
 

@@ -23,6 +23,7 @@ typedef struct RenderRequest {
     SceneOptions scene;
     const char *output;  /* NULL only when replaying */
     const char *png;     /* NULL: none */
+    bool previews;       /* a few samples, for looking: a first look as soon as there is one */
     bool only_png;       /* the frame is not kept: output is png */
     DevelopOptions look; /* of the png */
     const char *live;    /* the file that has the frame so far; NULL: none */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: drawing directions. No allocation, no lock, no libm. */
 #include "hemisphere/sampling/sampling_tree.h"
+#include "base/mathf.h"
 
 #define BELOW_ONE 0x1.fffffep-1f
 
@@ -30,7 +31,7 @@ static uint32_t cell_of(const SamplingTree *tree, Vec3 direction, GeodesicWalk *
 
 static float margin_of(const GeodesicWalk *walk) {
     float u = walk->weight[0], v = walk->weight[1], w = walk->weight[2];
-    return fminf(u, fminf(v, w)) / (u + v + w);
+    return min_f(u, min_f(v, w)) / (u + v + w);
 }
 
 static float density_of(const SamplingTree *tree, const SamplingMix *mix, uint32_t cell) {

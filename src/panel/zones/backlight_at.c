@@ -47,6 +47,6 @@ void backlight_codes(const Backlight *backlight, float b, const float shown[3], 
         const float *log_share = backlight->log_share[p];
         codes[p] = shown[p];
         if (log < 0 && shown[p] > 0)
-            codes[p] = fmaxf(code_of(log_share, log_share_of(log_share, shown[p]) - log), shown[p]);
+            codes[p] = max_f(code_of(log_share, log_share_of(log_share, shown[p]) - log), shown[p]);
     }
 }

@@ -457,7 +457,7 @@ void trained_guide_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena) {
     SceneCamera look =
         camera_look_at(eye, vec3_add(eye, towards), (float)radians_from_degrees(TRAINING_DEG));
     Camera camera = camera_from_scene(&look, TRAINING_WIDTH, TRAINING_HEIGHT);
-    TrainOptions options = {setup->tools.kernel, setup->tools.threads, true};
+    TrainOptions options = {setup->tools.kernel, setup->tools.threads, true, 0};
     PathStatistics cost;
     setup->context.guide = train_guide(&setup->context, &camera, &options,
                                        is_left ? &setup->moment_guide->room : arena, &cost);

@@ -219,7 +219,7 @@ static bool render(const FrameArgs *args, FrameKept *kept, const SceneCamera *ca
     const Setup *setup = args->setup;
     RenderSetup render = {
         .kernel = setup->tools.kernel, .bvh = setup->bvh, .context = setup->context};
-    TrainOptions train = {setup->tools.kernel, options->threads, true};
+    TrainOptions train = {setup->tools.kernel, options->threads, true, 0};
     Arena *arena = kept->arena;
     if (!frame_kept_begin(kept, options, err)) return false;
     render.camera = camera_from_scene(camera, options->width, options->height);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/point/ray_ends.h"
+#include "base/mathf.h"
 
 static Vec3 interpolate(Vec3 a, Vec3 b, Vec3 c, float u, float v) {
     float w = 1 - u - v;
@@ -43,7 +44,7 @@ static float squared(Vec3 a) {
 static void set_rounding(const TriangleEdges *edges, float s, TrianglePoint *point) {
     Vec3 p = point->position, n = edges->ng;
     float along = fabsf(n.x * p.x) + fabsf(n.y * p.y) + fabsf(n.z * p.z);
-    point->slant = 4 * ROUNDING * (1 + fminf(s, SLIVER_MOST));
+    point->slant = 4 * ROUNDING * (1 + min_f(s, SLIVER_MOST));
     point->rounding = ROUNDING * along + point->slant * edges->longest_near;
 }
 
@@ -71,7 +72,7 @@ static Inside beside_edges(const TriangleEdges *edges, const float away[3], Vec3
 #define MOST_IN 0.25f /* of a height; the centroid is at a third */
 
 static float lack(const Inside *in, int edge, float reach) {
-    return fminf(reach, MOST_IN * in->height[edge]) - in->off[edge];
+    return min_f(reach, MOST_IN * in->height[edge]) - in->off[edge];
 }
 
 static void move_inwards(Inside *in, int edge, float by) {
@@ -84,7 +85,7 @@ static void move_inwards(Inside *in, int edge, float by) {
 static void set_inside(const TriangleEdges *edges, float u, float v, TrianglePoint *point) {
     float w = 1 - u - v, reach = ray_inset(point, edges->longest), share = 0;
     point->inside = point->position;
-    if (fminf(w, fminf(u, v)) * edges->twice_area >= reach * edges->longest) return;
+    if (min_f(w, min_f(u, v)) * edges->twice_area >= reach * edges->longest) return;
     Inside in = beside_edges(edges, (const float[3]){v, w, u},
                              from_corner(edges->first, edges->second, u, v));
     Vec3 centroid = vec3_scale(vec3_add(edges->first, edges->second), 1 / 3.0f);
@@ -92,7 +93,7 @@ static void set_inside(const TriangleEdges *edges, float u, float v, TrianglePoi
         if (lack(&in, i, reach) > 0) move_inwards(&in, i, lack(&in, i, reach));
     for (int i = 0; i < 3; i++)
         if (lack(&in, i, reach) > 0)
-            share = fmaxf(share, lack(&in, i, reach) / (in.height[i] / 3 - in.off[i]));
+            share = max_f(share, lack(&in, i, reach) / (in.height[i] / 3 - in.off[i]));
     in.place = vec3_along(in.place, vec3_sub(centroid, in.place), share);
     point->inside = vec3_add(edges->corner, in.place);
 }
@@ -100,10 +101,10 @@ static void set_inside(const TriangleEdges *edges, float u, float v, TrianglePoi
 static void set_ends(const Scene *scene, TriangleEdges *edges, float u, float v,
                      TrianglePoint *point) {
     float a = squared(edges->first), b = squared(edges->second),
-          c = squared(vec3_sub(edges->second, edges->first)), most = fmaxf(a, fmaxf(b, c));
+          c = squared(vec3_sub(edges->second, edges->first)), most = max_f(a, max_f(b, c));
     float shorter = sqrtf(a / most * b * c); /* the product of the two shorter ones */
     edges->longest = sqrtf(most);
-    edges->longest_near = fmaxf(edges->longest, fminf(scene->longest_edge_m, NEIGHBOUR_MOST_M));
+    edges->longest_near = max_f(edges->longest, min_f(scene->longest_edge_m, NEIGHBOUR_MOST_M));
     set_rounding(edges, shorter / edges->twice_area, point);
     set_inside(edges, u, v, point);
 }

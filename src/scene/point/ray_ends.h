@@ -33,6 +33,7 @@
  * Threads  pure functions.
  */
 #pragma once
+#include "base/mathf.h"
 #include "bvh/ray.h"
 #include "scene/scene.h"
 
@@ -64,7 +65,7 @@ static inline float ray_step(const TrianglePoint *point) {
 
 /* How far from the edges of its triangle, whose longest one is given, m. */
 static inline float ray_inset(const TrianglePoint *point, float longest) {
-    return RAY_INSET * ray_step(point) + RAY_INSET_SHARE * fminf(longest, 1);
+    return RAY_INSET * ray_step(point) + RAY_INSET_SHARE * min_f(longest, 1);
 }
 
 /* Where a ray starts that leaves the point to the side of `towards`. */
@@ -86,5 +87,5 @@ static inline Ray ray_to(Vec3 from, const TrianglePoint *point, Vec3 side) {
 /* What is left of a ray behind the triangle that it met. */
 static inline Ray ray_behind(const Scene *scene, Ray ray, const Hit *hit) {
     TrianglePoint point = triangle_point(scene, hit->triangle, hit->u, hit->v);
-    return (Ray){ray_start(&point, ray.direction), ray.direction, 0, fmaxf(ray.t_max - hit->t, 0)};
+    return (Ray){ray_start(&point, ray.direction), ray.direction, 0, max_f(ray.t_max - hit->t, 0)};
 }
