@@ -39,12 +39,12 @@ static void put_part(Bytes *b, const char *type, const unsigned char *data, size
 }
 
 static int channels_of(const Wish *wish) {
-    return (int[]){1, 0, 3, 0, 2, 0, 4}[wish->colour_type];
+    return (int[]){1, 0, 3, 1, 2, 0, 4}[wish->colour_type];
 }
 
 /* Any bytes are a picture, whatever the filters. */
 static size_t random_rows(const Wish *wish, uint32_t *dice, unsigned char *rows) {
-    size_t row_bytes = 1 + (size_t)(wish->width * channels_of(wish) * wish->bits / 8);
+    size_t row_bytes = 1 + (size_t)((wish->width * channels_of(wish) * wish->bits + 7) / 8);
     size_t size = row_bytes * (size_t)(wish->height + wish->rows_more);
     for (size_t i = 0; i < size; i++) {
         rows[i] = (unsigned char)(hash_u32((*dice)++) >> 24);
@@ -66,6 +66,14 @@ static void put_pixels(Bytes *b, const Wish *wish, uint32_t *dice) {
         put_part(b, "IDAT", packed + at, size - at < most ? size - at : most);
 }
 
+/* Of as many colours as the bits tell apart. */
+static void put_palette(Bytes *b, const Wish *wish, uint32_t *dice) {
+    unsigned char colours[3 << 8];
+    size_t size = (size_t)3 << wish->bits;
+    for (size_t i = 0; i < size; i++) colours[i] = (unsigned char)(hash_u32((*dice)++) >> 24);
+    put_part(b, "PLTE", colours, size);
+}
+
 static const Bytes *make_png(const Wish *wish, uint32_t *dice) {
     static Bytes png;
     Bytes head = {.size = 0};
@@ -79,6 +87,7 @@ static const Bytes *make_png(const Wish *wish, uint32_t *dice) {
     memcpy(head.data + head.size, rest, 3);
     head.size += 3;
     put_part(&png, "IHDR", head.data, head.size);
+    if (wish->colour_type == 3) put_palette(&png, wish, dice);
     if (wish->extra) put_part(&png, wish->extra, (const unsigned char *)"\0\5", 2);
     put_pixels(&png, wish, dice);
     put_part(&png, "IEND", NULL, 0);
@@ -124,6 +133,15 @@ TEST(pixels_are_the_librarys_for_every_filter_size_and_kind) {
                 wish.part_bytes = 7;
                 assert_as_the_library(make_png(&wish, &dice));
             }
+}
+
+TEST(colours_of_a_palette_are_the_librarys) {
+    uint32_t dice = 3000000;
+    for (int bits = 1; bits <= 8; bits *= 2)
+        for (int side = 1; side <= SIDE_MAX; side += 13) {
+            Wish wish = {side, SIDE_MAX + 1 - side, 3, bits, .filter = -1};
+            assert_as_the_library(make_png(&wish, &dice));
+        }
 }
 
 TEST(parts_that_mean_nothing_here_change_nothing) {

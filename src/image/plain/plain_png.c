@@ -30,8 +30,9 @@ static void give_up(png_structp png, png_const_charp why) {
 
 static bool read_head(png_structp png, png_infop info, PlainPng *out) {
     uint32_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
-    if (width > SIDE_MAX || height > SIDE_MAX || png_get_bit_depth(png, info) != 8 ||
-        png_get_color_type(png, info) == PNG_COLOR_TYPE_PALETTE ||
+    bool has_palette = png_get_color_type(png, info) == PNG_COLOR_TYPE_PALETTE;
+    if (width > SIDE_MAX || height > SIDE_MAX ||
+        (png_get_bit_depth(png, info) != 8 && !has_palette) ||
         png_get_interlace_type(png, info) != PNG_INTERLACE_NONE ||
         png_get_valid(png, info, PNG_INFO_tRNS | PNG_INFO_sBIT))
         return false;
@@ -42,6 +43,7 @@ static bool read_head(png_structp png, png_infop info, PlainPng *out) {
 
 /* What is missing of red, green, blue and alpha the library adds to every row. */
 static void read_rows(png_structp png, png_infop info, const PlainPng *file, unsigned char *rgba) {
+    png_set_palette_to_rgb(png);
     png_set_gray_to_rgb(png);
     png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
     png_read_update_info(png, info);

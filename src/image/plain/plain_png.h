@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* plain_png.h -- decodes the commonest pictures at once: PNG files of 8 bits that are grey or
- * RGB, with or without alpha, not interlaced, without a palette or a transparent colour.
+ * RGB, with or without alpha, and those with a palette; not interlaced, without a transparent
+ * colour.
  *
  * Anything unusual about a file, damage above all, makes it not plain: it is then for the
  * library for all pictures (openimageio/image_file.h), which takes a fifth of a second to load,
