@@ -137,6 +137,8 @@ start 'panels of foreign layouts' layouts \
 start 'one light in every command' one-light python3 tests/image/one_light.py $program
 start 'a scene far off is the same' far python3 tests/image/far.py $program
 start 'displays under sun and sky' reflection python3 tests/image/reflection.py $program
+start 'displays against their panels, all over' display-long \
+    python3 tests/image/display.py --all $program
 start 'half the space and its glare' fisheye python3 tests/image/fisheye.py $program
 start 'light that few paths find' rare python3 tests/image/rare.py $program
 of "$review scenes tests/image"

@@ -278,7 +278,7 @@ def check_places(report, commands, panel):
                         "slope": [0.3, -0.2], "clouding": 0.5}
     source = write_json(commands.file("places.json"), recipe)
     folder, path = commands.file("places"), panel + ".places"
-    commands.text("simulate", source, "-o", folder, "--noise", "off", "--grid", "22x36",
+    commands.text("simulate", source, "-o", folder, "--noise", "off", "--grid", "12x24",
                   "--quiet")
     commands.text("fit", os.path.join(folder, "MANIFEST.json"), "-o", path, "--quiet")
     for at in ("0.31,0.79", "0.5,0.5", "0.02,0.95"):

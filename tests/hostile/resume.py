@@ -187,7 +187,7 @@ def check_snapshot(work, *options):
 
 def check_second_signal(work):
     """While the first signal waits for its pass, the second ends the process at once."""
-    running = work.start("--size", "600x450", "--spp", "100000", "--threads", "1",
+    running = work.start("--size", "400x300", "--spp", "100000", "--threads", "1",
                          "--checkpoint-interval", "0")
     work.wait_for("frame.exr.checkpoint")
     before = contents(work.path("frame.exr.checkpoint"))

@@ -19,10 +19,12 @@ def direction(theta_deg, phi_deg):
 
 
 def check_panels(check_panel):
-    """`[PANEL...] PARHELION` of the command line; those of assets/panels when none is named.
+    """`[--all] [PANEL...] PARHELION` of the command line; the panels of assets/panels when none
+    is named.
     check_panel(report, program, panel, folder) says what it found to the report."""
     report, program = Report(), os.path.abspath(sys.argv[-1])
-    panels = sys.argv[1:-1] or sorted(glob.glob(os.path.join(ROOT, "assets/panels/*.panel")))
+    named = [word for word in sys.argv[1:-1] if word != "--all"]
+    panels = named or sorted(glob.glob(os.path.join(ROOT, "assets/panels/*.panel")))
     report.claim(bool(panels), "assets/panels holds no panel")
     with tempfile.TemporaryDirectory() as folder:
         for panel in panels:

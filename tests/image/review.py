@@ -243,12 +243,13 @@ def check_start(report, reviewer):
 
 
 def check_suns(report, reviewer, whole):
-    """Suns of a sweep as moments of their own, whatever the threads: five of 24, or two."""
+    """Suns of a sweep as moments of their own, whatever the threads: five of 24, or one of two.
+    """
     azimuths, elevations, count = ((0, 330, 30), (30, 42, 12), 24) if whole else \
         ((0, 45, 45), (30, 30, 1), 2)
     suns = random.Random(5).sample(
         [(a, e) for a in range(azimuths[0], azimuths[1] + 1, azimuths[2])
-         for e in range(elevations[0], elevations[1] + 1, elevations[2])], min(count, 5))
+         for e in range(elevations[0], elevations[1] + 1, elevations[2])], 5 if whole else 1)
     out, review = check_threads(report, reviewer, request(
         precision={"contrast": 0.01 if whole else 0.03}, conditions=[{"name": "suns", "sweep": {
             "sun": {"azimuth_deg": azimuths, "elevation_deg": elevations}, "sky": "sky"}}] + [
