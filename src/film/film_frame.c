@@ -40,6 +40,7 @@ typedef struct ChannelFill {
     const Film *film;
     FrameImage *frame;
     Arena *arena;
+    unsigned wanted; /* FilmLayer bits */
     LayerPlanes *layers;
     int layer_count;
     int threads;
@@ -380,7 +381,7 @@ static const struct {
 static void add_layers(ChannelFill *to) {
     for (size_t i = 0; i < sizeof layer_channels / sizeof *layer_channels; i++) {
         PixelReader *read = layer_channels[i].read;
-        if (!(to->film->layers & layer_channels[i].layer) || !*layer_channels[i].letters) continue;
+        if (!(to->wanted & layer_channels[i].layer) || !*layer_channels[i].letters) continue;
         add_layer(to, layer_channels[i].name, layer_channels[i].letters,
                   (ChannelSource){.kind = read ? KIND_READ : KIND_MEAN,
                                   .read = read,
@@ -391,7 +392,7 @@ static void add_layers(ChannelFill *to) {
 static void add_numbers(ChannelFill *to) {
     for (size_t i = 0; i < sizeof number_channels / sizeof *number_channels; i++) {
         int index = number_channels[i].index;
-        if (!(to->film->layers & number_channels[i].layers)) continue;
+        if (!(to->wanted & number_channels[i].layers)) continue;
         ChannelSource from = {.kind = KIND_READ, .read = number_channels[i].read};
         if (index == 0) begin_layer(to, from);
         add_channel(to, index, number_channels[i].name, number_channels[i].is_whole);
@@ -408,8 +409,8 @@ static int channels_most(const Film *film) {
 }
 
 /* rows: NULL, the planes are to hold all. */
-static FrameImage make_frame(const Film *film, ExrWindow data, int attribute_room, ExrRows *rows,
-                             Arena *arena) {
+static FrameImage make_frame(const Film *film, unsigned layers, ExrWindow data, int attribute_room,
+                             ExrRows *rows, Arena *arena) {
     int most = channels_most(film);
     ChannelFill *to = ARENA_NEW(arena, ChannelFill, 1);
     FrameImage frame = frame_create(film->width, film->height, data, most, attribute_room, arena);
@@ -419,6 +420,7 @@ static FrameImage make_frame(const Film *film, ExrWindow data, int attribute_roo
     *to = (ChannelFill){.film = film,
                         .frame = &frame,
                         .arena = arena,
+                        .wanted = layers & film->layers,
                         .layers = ARENA_NEW(arena, LayerPlanes, most),
                         .threads = threads,
                         .pixels = arena_alloc(arena, film->stride * FILL_PIXELS,
@@ -426,7 +428,7 @@ static FrameImage make_frame(const Film *film, ExrWindow data, int attribute_roo
     add_layer(to, "", "RGB", (ChannelSource){.kind = KIND_READ, .read = read_rgb});
     add_layers(to);
     add_numbers(to);
-    for (int i = 0; i < film->lights.count; i++) add_light(to, i);
+    for (int i = 0; i < film->lights.count && layers & LAYER_LIGHT; i++) add_light(to, i);
     to->frame = NULL; /* which the caller may move */
     if (rows) *rows = (ExrRows){rows->count, fill, to};
     else fill(to, data.y0, data.y1);
@@ -439,14 +441,18 @@ static ExrWindow window_of(const Film *film) {
 }
 
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena) {
-    return make_frame(film, window_of(film), attribute_room, NULL, arena);
+    return make_frame(film, film->layers, window_of(film), attribute_room, NULL, arena);
+}
+
+FrameImage film_to_picture(const Film *film, unsigned layers, int attribute_room, Arena *arena) {
+    return make_frame(film, layers, window_of(film), attribute_room, NULL, arena);
 }
 
 FrameImage film_to_rows(const Film *film, int attribute_room, Arena *arena) {
     ExrRows *rows = ARENA_NEW(arena, ExrRows, 1);
     size_t row = (size_t)(film->crop.x1 - film->crop.x0) * (size_t)channels_most(film);
     rows->count = exr_rows_in(BAND_BYTES, row * sizeof(float), film->crop.y1 - film->crop.y0);
-    return make_frame(film, window_of(film), attribute_room, rows, arena);
+    return make_frame(film, film->layers, window_of(film), attribute_room, rows, arena);
 }
 
 /* An upper bound. */
@@ -454,7 +460,7 @@ static size_t frame_bytes_most(const Film *film, Arena scratch) {
     FilmRect crop = film->crop;
     size_t pixels = (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
     const ExrWindow none = {0, crop.y0, 0, crop.y0};
-    size_t channels = (size_t)make_frame(film, none, 0, NULL, &scratch).channel_count;
+    size_t channels = (size_t)make_frame(film, film->layers, none, 0, NULL, &scratch).channel_count;
     return pixels * channels * sizeof(float) + ((size_t)1 << 20);
 }
 

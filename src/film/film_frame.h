@@ -47,6 +47,9 @@
  * With LAYER_ROUNDED the layers of noise (variance, halves, of displays too) have 8 bits. */
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);
 
+/* The same with these layers alone, as far as the film has them: for looking. */
+FrameImage film_to_picture(const Film *film, unsigned layers, int attribute_room, Arena *arena);
+
 /* The same for frame_write alone: its planes hold some rows, which are made as they are written.
  * The film must stay as it is until then. */
 FrameImage film_to_rows(const Film *film, int attribute_room, Arena *arena);

@@ -170,7 +170,7 @@ static bool write_frame(const RenderRun *work, const RenderResult *result, Error
     if (work->request.only_png) return true;
     bool is_radiance = render_output_is_radiance(&work->request);
     FrameImage frame = render_make_frame(&work->request, work->scene, &work->camera, result,
-                                         !is_radiance, &scratch);
+                                         is_radiance ? FRAME_PICTURE : FRAME_FILE, &scratch);
     if (!is_radiance) return frame_write(work->request.output, &frame, err);
     return radiance_picture_write(work->request.output, &frame, work->request.command_line, scratch,
                                   err);
@@ -301,7 +301,7 @@ static bool write_live_file(RenderRun *work, const RenderResult *so_far, Error *
     request.is_part = false;
     result.error = film_relative_error(so_far->film);
     FrameImage frame =
-        render_make_frame(&request, work->scene, &work->camera, &result, true, &scratch);
+        render_make_frame(&request, work->scene, &work->camera, &result, FRAME_FILE, &scratch);
     return render_live_write(&work->live, &frame, begun_s, err);
 }
 
@@ -335,8 +335,8 @@ static Outcome report_interruption(const RenderRun *work, const RenderResult *re
 
 static bool develop(const RenderRun *work, const RenderResult *result, Arena *scratch,
                     LookReport *look, Error *err) {
-    FrameImage frame =
-        render_make_frame(&work->request, work->scene, &work->camera, result, false, scratch);
+    FrameImage frame = render_make_frame(&work->request, work->scene, &work->camera, result,
+                                         FRAME_PICTURE, scratch);
     const LookRequest request = {&frame, &work->request.look, work->request.png,
                                  work->request.cli.threads};
     return look_options_develop(&request, *scratch, look, err);

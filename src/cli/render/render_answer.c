@@ -14,6 +14,7 @@
 #include "cli/options/environment_options.h"
 #include "cli/options/missed_answer.h"
 #include "cli/render/render_identity.h"
+#include "denoise/denoise.h"
 #include "film/film_frame.h"
 #include "film/film_part.h"
 #include "image/frame_view.h"
@@ -150,11 +151,20 @@ static const char *missed_text(const RenderRequest *request, Arena *arena) {
     return request->missed ? missed_words(request->scene_lit, request->missed, arena) : NULL;
 }
 
+static unsigned look_layers(const RenderRequest *request) {
+    unsigned layers = 0;
+    Error never;
+    if (request->look.is_denoised) render_layers_parse(DENOISE_LAYERS, &layers, &never);
+    return layers;
+}
+
 FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
-                             const SceneCamera *camera, const RenderResult *result, bool by_rows,
+                             const SceneCamera *camera, const RenderResult *result, FrameUse use,
                              Arena *arena) {
     int room = 32 + scene->part_count + scene->display_count + FILM_LIGHTS_MAX;
-    FrameImage frame = (by_rows ? film_to_rows : film_to_frame)(result->film, room, arena);
+    FrameImage frame = use == FRAME_FILE
+                           ? film_to_rows(result->film, room, arena)
+                           : film_to_picture(result->film, look_layers(request), room, arena);
     frame_set_string(&frame, "software", "parhelion " PARHELION_VERSION, arena);
     frame_set_string(&frame, "parhelion:commandLine", request->command_line, arena);
     frame_set_string(&frame, "parhelion:identity",

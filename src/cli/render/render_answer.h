@@ -7,9 +7,11 @@
 #pragma once
 #include "cli/render/render_request.h"
 
-/* The film as it stands, with its metadata; by_rows: for frame_write alone (film_to_rows). */
+/* The film as it stands, with its metadata: for frame_write alone (film_to_rows), or R, G, B for
+ * looking, with what a denoiser requires where the request has one. */
+typedef enum FrameUse { FRAME_FILE, FRAME_PICTURE } FrameUse;
 FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
-                             const SceneCamera *camera, const RenderResult *result, bool by_rows,
+                             const SceneCamera *camera, const RenderResult *result, FrameUse use,
                              Arena *arena);
 
 /* The command's answer on stdout. live_s: seconds that the file of --live took. */
