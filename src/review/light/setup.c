@@ -244,13 +244,20 @@ void scenes_kept_close(ScenesKept *scenes, int condition_id) {
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-bool setup_relight(Setup *setup, Arena *arena, Error *err) {
+/* What paths need besides them is of the lights before. */
+static bool take_lights(Setup *setup, Arena *arena, Error *err) {
     Lights *lights;
     const Lights *before = setup->context.lights;
     if (!(before ? lights_under_sky(before, arena, &lights, err)
                  : lights_build(setup->scene, arena, &lights, err)))
         return false;
-    setup->context = path_context_relight(&setup->context, lights, arena);
+    setup->context.lights = lights;
+    return true;
+}
+
+bool setup_relight(Setup *setup, Arena *arena, Error *err) {
+    if (!take_lights(setup, arena, err)) return false;
+    setup->context = path_context_relight(&setup->context, setup->context.lights, arena);
     return true;
 }
 
@@ -317,7 +324,7 @@ bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Err
 bool setup_before_light(Setup *setup, Arena *arena, Error *err) {
     set_scene_levels(setup);
     set_fixed_levels(setup);
-    return setup_relight(setup, arena, err);
+    return take_lights(setup, arena, err);
 }
 
 bool setup_light_again(Setup *setup, const Setup *before, const Environment *environment,

@@ -77,7 +77,7 @@ bool setup_scene(const SetupOptions *options, Arena *arena, Problems *problems, 
 bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Error *err);
 
 /* For a setup that is lit by one sky after the other: with the levels that it has before any
- * light is known, its emitters sorted for them, under the sky that it has now. *before: this
+ * light is known, its emitters sorted for them. No path may be traced by it. *before: this
  * setup, which must outlive all that are lit from it. */
 bool setup_before_light(Setup *setup, Arena *arena, Error *err);
 bool setup_light_again(Setup *setup, const Setup *before, const Environment *environment,

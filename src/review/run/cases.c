@@ -20,7 +20,8 @@
 #include "text/text.h"
 #include "vision/grey_steps.h"
 
-#define FACE_PRECISION 0.02
+#define FACE_PRECISION 0.05 /* where that tells day from night; else */
+#define FACE_PRECISION_OPEN 0.02
 #define FACE_PATHS 16384
 #define FACE_SEED 0x66616365u
 #define EYE_SEED 0x65796573u
@@ -34,7 +35,7 @@
 
 /* ---- the display's face ------------------------------------------------------------------ */
 
-/* Illuminance of a symbol's middle. */
+/* Illuminance of a symbol's middle, read on where it may be that of another ambient. */
 static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena scratch) {
     const Setup *setup = tools->setup;
     SymbolPoint point = symbol_middle(symbol);
@@ -42,6 +43,11 @@ static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena 
     ProbeAim aim = {
         .context = &setup->context, .meter = &head, .seed = review_seed(setup->request, FACE_SEED)};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
+    Reading face = reading_take(&aim, &goal, &setup->tools, scratch);
+    if (profile_ambient(tools->profile, face.interval.low, false) ==
+        profile_ambient(tools->profile, face.interval.high, false))
+        return face.reflected;
+    goal.precision = FACE_PRECISION_OPEN;
     return reading_take(&aim, &goal, &setup->tools, scratch).reflected;
 }
 
@@ -90,6 +96,7 @@ typedef struct CaseLook {
     const SetupSymbol *symbol;
     Vec3 eye;
     bool is_coarse, is_bare;
+    bool is_open;       /* of coarse ones: fewer paths leave its verdict open */
     const Vec3 *points; /* [point_count], all of the eye's; NULL: no glass is searched */
     int point_count;
 } CaseLook;
@@ -160,8 +167,8 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArg
     without.without_mirrored_sun = goal.known > 0;
     rest.context = &without;
     if (look->is_coarse) {
-        goal.precision = COARSE_PRECISION;
-        goal.most = COARSE_PATHS;
+        goal.precision = look->is_open ? COARSE_PRECISION : 0;
+        goal.most = look->is_open ? COARSE_PATHS : READING_LEAST;
         goal.times = 1;
         goal.least = 0;
         goal.question = NULL;
@@ -398,9 +405,15 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const EyePl
     int at = 0, failed = 0;
     for (int i = 0; i < of->count; i++) {
         Arena room = scratch;
-        CaseLook one = {look->symbol, of->points[i], true, true, NULL, 0};
+        CaseLook one = {
+            .symbol = look->symbol, .eye = of->points[i], .is_coarse = true, .is_bare = true};
         ReviewCase seen = start;
         judge_look(tools, &one, &seen, &room);
+        if (seen.verdict == VERDICT_TOO_CLOSE) {
+            one.is_open = true;
+            seen = start;
+            judge_look(tools, &one, &seen, &room);
+        }
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
         if (of->places) of->places[i] = place_of(tools->setup, of->points[i], &seen);
         if (i && !is_worse(&seen, &worst)) continue;

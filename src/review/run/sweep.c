@@ -423,8 +423,7 @@ static bool sweep_all(Sweep *sweep, Arena *scratch, Arena *arena, ReviewOutcome 
     sweep->run->progress->total = steps_of(sweep);
     if (!sweep_make_probes(sweep, scratch, err)) return false;
     report_responses(sweep, arena, out);
-    return sweep_light_dark(sweep->setup, 1, scratch, err) &&
-           sweep_suns_of(sweep, *scratch, arena, out, err);
+    return sweep_suns_of(sweep, *scratch, arena, out, err);
 }
 
 bool run_sweep(const ReviewRun *run, Setup *setup, Arena *arena, ReviewOutcome *out, Error *err) {

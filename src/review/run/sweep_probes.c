@@ -78,6 +78,16 @@ static bool gives_light(const Lights *lights) {
     return lights_has(lights, LIGHTS_EMITTERS) || lights_has(lights, LIGHTS_PUNCTUAL);
 }
 
+/* Anything but displays? */
+static bool has_lamps(const Scene *scene) {
+    bool has = scene->light_count > 0;
+    for (int i = 0; i < scene->part_count && !has; i++) {
+        const Material *material = &scene->materials[scene->parts[i].material_id];
+        has = material->is_emitter && material->display_id == NO_ID;
+    }
+    return has;
+}
+
 static double own_reading(const Setup *setup, const ProbeAim *aim, Arena scratch) {
     ReadingGoal goal = {.precision = OWN_PRECISION, .most = OWN_PATHS};
     if (!gives_light(setup->context.lights)) return 0;
@@ -466,7 +476,7 @@ static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err) {
 
 bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err) {
     Setup *setup = sweep->setup;
-    if (!sweep_light_dark(setup, 0, arena, err) ||
+    if (!sweep_light_dark(setup, has_lamps(setup->scene) ? 0 : 1, arena, err) ||
         !setup_symbols(setup, arena, &sweep->symbols, &sweep->symbol_count, err))
         return false;
     place_meters(sweep, arena);
@@ -479,8 +489,9 @@ bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err) {
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err) {
     Setup *setup = sweep->setup;
     const ReviewRun *run = sweep->run;
-    return responses_read_own(setup, sweep->calls, sweep->call_count, false, err) &&
-           sweep_light_dark(setup, 1, arena, err) &&
+    return (!has_lamps(setup->scene) ||
+            (responses_read_own(setup, sweep->calls, sweep->call_count, false, err) &&
+             sweep_light_dark(setup, 1, arena, err))) &&
            responses_read_own(setup, sweep->calls, sweep->call_count, true, err) &&
            responses_trace(run, setup, sweep->calls, sweep->call_count, arena, err) &&
            (run->base || find_false_suns(sweep, arena, err)); /* a variant reports none */

@@ -107,7 +107,8 @@ bool sweep_light_sun(Sweep *sweep, const SweepSun *sun, const Environment *sky, 
 /* Probes of the scene, and those of their responses that are kept. */
 bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err);
 
-/* Then all other responses, in the dark but for the scene's own light. */
+/* Then all other responses, in the dark but for the scene's own light; all displays have
+ * level 1 then. */
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err);
 
 /* Everything for the skies of a condition, and the meters for its suns; what they read between
