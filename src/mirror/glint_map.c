@@ -5,7 +5,7 @@
 
 #include "base/mathf.h"
 
-#define COARSER 8 /* edge of a large cube by a small one's */
+#define COARSER 8 /* edge of a cube by the next smaller one's */
 #define FIRST_ROOM 4096
 #define ACROSS_M2 4.0f /* times edge squared: area of a plane that one cube counts for */
 
@@ -57,6 +57,7 @@ static float add_lm(GlintTable *table, uint32_t tag, float lm, Arena *arena) {
     table->count += !cube->tag;
     cube->tag = tag;
     cube->lm += lm;
+    cube->rays++;
     return cube->lm;
 }
 
@@ -65,9 +66,8 @@ static float lx_of(float lm, float edge) {
 }
 
 float glint_map_add(GlintMap *map, const GlintPlace *place, float lm, Arena *arena) {
-    float most = 0;
-    for (int size = 0; size < GLINT_SIZES; size++) {
-        float edge = size ? COARSER * place->edge_m : place->edge_m;
+    float most = 0, edge = place->edge_m;
+    for (int size = 0; size < GLINT_SIZES; size++, edge *= COARSER) {
         uint64_t lowest = cube_key(place, edge, 0.5f);
         for (int i = 0; i < 8; i++)
             most = fmaxf(most, lx_of(add_lm(&map->size[size],
@@ -84,8 +84,16 @@ static float lx_in(const GlintTable *table, const GlintPlace *place, float edge)
     return lx_of(find(table, tag_of(cube_key(place, edge, 0)))->lm, edge);
 }
 
-/* Where no large cube got light no small one did. */
+/* Where no cube of a size got light no smaller one did. A place without rays in the midst of
+ * few others may be lit as those are, where none chanced to land: of n that a coarse cube gets
+ * on average, with a probability of e^-n, whose root weighs it about as 1 / (1 + n)^2. */
 float glint_map_lx(const GlintMap *map, const GlintPlace *place) {
-    float coarse = lx_in(&map->size[1], place, COARSER * place->edge_m);
-    return coarse > 0 ? fmaxf(coarse, lx_in(&map->size[0], place, place->edge_m)) : 0;
+    float edge = COARSER * place->edge_m;
+    const GlintTable *wide = &map->size[2];
+    float coarse = lx_in(&map->size[1], place, edge);
+    if (coarse > 0) return fmaxf(coarse, lx_in(&map->size[0], place, place->edge_m));
+    if (!wide->room) return 0;
+    const GlintCube *cube = find(wide, tag_of(cube_key(place, COARSER * edge, 0)));
+    float n = 1 + (float)cube->rays / (COARSER * COARSER);
+    return lx_of(cube->lm, COARSER * edge) / (n * n);
 }

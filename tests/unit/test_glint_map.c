@@ -61,9 +61,24 @@ ARENA_TEST(nothing_is_found_off_the_light_or_in_another_row) {
     beside.position.x = -0.4f;
     assert_true(glint_map_lx(&map, &lit) > 0);
     assert_true(glint_map_lx(&map, &row) == 0);
+    assert_true(glint_map_lx(&map, &above) < 0.1f * glint_map_lx(&map, &lit));
+    assert_true(glint_map_lx(&map, &beside) < 0.1f * glint_map_lx(&map, &lit));
+    above.position.y = 20;
+    beside.position.x = -20;
     assert_true(glint_map_lx(&map, &above) == 0);
     assert_true(glint_map_lx(&map, &beside) == 0);
     assert_true(glint_map_lx(&none, &lit) == 0);
+}
+
+/* Of few rays some chance to leave a large cube empty: there it is not taken for dark. */
+ARENA_TEST(no_place_among_few_rays_is_dark) {
+    GlintMap map = lit_square(7, 0.02f, 100, &arena);
+    for (int i = 0; i < 4000; i++) {
+        Vec3 at = vec3_along(vec3(0.3f, 0.3f, 0.3f), on_square((uint32_t)i, 1.4f), 1);
+        GlintPlace place = {7, 0.02f, vec3(at.x, 0.3f, at.z)};
+        float lx = glint_map_lx(&map, &place);
+        assert_true(lx > 30 && lx < 1e5f);
+    }
 }
 
 /* A small glint is as bright as it is, one ray is known all around it, and a far and a tiny
