@@ -21,8 +21,8 @@
 #define GENEROSITY 0.2f  /* times the root of mirrored over other light, of one mirror */
 #define LEAST 0.0075f    /* probability where no ray came */
 #define OF_NEAR 0.25f    /* times both of near lights, whose search takes longer */
-#define OF_POINTS 0.25f  /* most probability of points of no part to search all for near lights; */
-#define OF_ALL 1.5f      /* so much over the root of their number, about as the search takes time */
+#define OF_POINTS 0.25f  /* most probability of points of no part to search all mirrors; */
+#define OF_ALL 0.75f     /* so much over the root of their number, about as the search takes time */
 #define CUBES 128        /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f   /* of other light */
@@ -42,7 +42,6 @@ typedef struct Beams {
     Arena *arena; /* nothing else allocates from it meanwhile */
     MirrorPair *pairs;
     uint32_t count, room;
-    uint32_t all_count; /* of them all mirrors, for NO_ID */
     Glint *glints;
     uint32_t glint_count, glint_room;
     const BeamSide *sides;          /* as in MirrorBeams */
@@ -269,7 +268,6 @@ static void join_pieces(const Beams *pieces, const RayWork *work, Beams *out, Gl
     out->pairs = ARENA_NEW(arena, MirrorPair, out->count + (has_all ? (uint32_t)work->count : 0));
     out->glints = ARENA_NEW(arena, Glint, out->glint_count);
     uint32_t count = has_all ? add_all_mirrors(out->tools->scene, work, out->pairs) : 0, glint = 0;
-    out->all_count = count;
     for (int p = 0; p < PIECES; p++)
         for (uint32_t i = 0; i < pieces[p].count; i++) out->pairs[count++] = pieces[p].pairs[i];
     for (int p = 0; p < PIECES; p++)
@@ -447,10 +445,11 @@ MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightS
     float *most_lx = ARENA_NEW(arena, float, 2 * ((size_t)tools->scene->part_count + 1));
     send_all_rays(&beams, &out.map, most_lx, arena);
     if (!beams.count) return out;
-    out.of_all =
-        set == BEAMS_OF_SUN ? 1 : fminf(OF_POINTS, OF_ALL / sqrtf((float)beams.all_count + 1));
     if (set != BEAMS_OF_SUN) list_sources(&beams, &out, arena);
     qsort(beams.pairs, beams.count, sizeof *beams.pairs, mirrors_compare_pairs);
+    while (out.all_count < beams.count && beams.pairs[out.all_count].part_id == NO_ID)
+        out.all_count++;
+    out.of_all = fminf(OF_POINTS, OF_ALL / sqrtf((float)out.all_count + 1));
     weigh_sides(&beams, selection, most_lx, sides, *arena);
     out.sides = sides;
     out.mirrors =

@@ -42,7 +42,8 @@ typedef struct MirrorBeams {
                                there are stand at NO_ID */
     const BeamSide *sides;  /* rows as LightSelection's */
     GlintMap map;           /* where the rays came */
-    float of_all;           /* probability with which a point of no part searches all at NO_ID */
+    float of_all;           /* probability with which a point of no part searches all at NO_ID, */
+    uint32_t all_count;     /* so many; of the sun's all that its beams came by */
     const BeamSource *sources; /* but of the sun: a row's are [first[row], first[row + 1]), by id */
     const uint32_t *first;
     CompactEmitters emitters; /* of BEAMS_OF_EMITTERS */

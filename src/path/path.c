@@ -382,3 +382,75 @@ void path_from_point(const PathStart *start, LitPoint point, float xyz_lx[3]) {
     }
     path_light_to_xyz(&path.gathered, path.wavelengths, xyz_lx);
 }
+
+/* ---- how often a luxmeter searches all mirrors ------------------------------------------- */
+
+#define METER_PATHS 32   /* of a pilot, and of its searches of each set */
+#define METER_OFTEN 4.0f /* root of a path's time by that of a search of one mirror */
+#define METER_EVEN 0.1f  /* least deviation of paths that is believed, by their mean */
+
+/* One path's answer, lx: all of it, or by no mirrors but the first vertex' own of the context. */
+static double meter_sample(const PathContext *context, LitPoint head, uint32_t i, bool is_first) {
+    PathStatistics ignored = {0};
+    Sampler sampler = sampler_start(METER_PATHS, (int)is_first, 0, i);
+    Wavelengths wavelengths;
+    float xyz[3];
+    wavelengths_sample(sampler_1d(&sampler), &wavelengths);
+    PathStart start = {.context = context,
+                       .wavelengths = &wavelengths,
+                       .sampler = &sampler,
+                       .statistics = &ignored};
+    if (!is_first) {
+        path_from_point(&start, head, xyz);
+        return (double)xyz[1];
+    }
+    PathRoom room;
+    Surface white;
+    PathState path = state_of(&start, &room);
+    surface_white(context->tables, head.position, head.ns, &white);
+    path.throughput = spectrum_all(PI_F);
+    guiding_none(context, path.spare);
+    mirrored_add(&path, &white, head.ns, path.spare);
+    path_light_to_xyz(&path.gathered, path.wavelengths, xyz);
+    return (double)xyz[1];
+}
+
+/* The root of the mean square of what a search of the set's mirrors finds. */
+static double meter_mirrored(const PathContext *context, LitPoint head, int set) {
+    PathContext one = *context;
+    double squares = 0;
+    for (int other = 0; other < BEAM_SETS; other++)
+        if (other != set) one.beams[other].mirrors = NULL;
+    for (uint32_t i = 0; i < METER_PATHS; i++) {
+        double lx = meter_sample(&one, head, i, true);
+        squares += lx * lx;
+    }
+    return sqrt(squares / METER_PATHS);
+}
+
+PathContext path_context_of_meter(const PathContext *context, LitPoint head) {
+    PathContext often = *context, out = *context;
+    double sum = 0, squares = 0;
+    bool is_any = false;
+    for (int set = 0; set < BEAM_SETS; set++) {
+        is_any |= mirrors_are_sampled(context, (BeamSet)set);
+        often.beams[set].of_all = 1;
+    }
+    if (!is_any) return out;
+    for (uint32_t i = 0; i < METER_PATHS; i++) {
+        double lx = meter_sample(&often, head, i, false);
+        sum += lx;
+        squares += lx * lx;
+    }
+    double mean = sum / METER_PATHS;
+    double spread = sqrt(fmax(squares / METER_PATHS - mean * mean, 0));
+    double others = fmax(spread, (double)METER_EVEN * mean);
+    for (int set = 0; set < BEAM_SETS; set++) {
+        MirrorBeams *beams = &out.beams[set];
+        if (!mirrors_are_sampled(context, (BeamSet)set)) continue;
+        double time = sqrt(sqrt((double)beams->all_count + 1));
+        double share = meter_mirrored(&often, head, set) / fmax(others, 1e-30);
+        beams->of_all = fminf(fmaxf(beams->of_all, (float)(METER_OFTEN * share / time)), 1);
+    }
+    return out;
+}

@@ -20,6 +20,7 @@ typedef struct IlluminanceSums {
 
 typedef struct Meter {
     const PathContext *context;
+    PathContext *contexts; /* the points' own */
     const IlluminanceOptions *options;
     const LitPoint *points; /* those at work now */
     IlluminanceSums sums[POINTS_AT_ONCE][BATCHES];
@@ -28,6 +29,12 @@ typedef struct Meter {
 /* Samples of a batch; the first batches have one more. */
 static long batch_samples(const IlluminanceOptions *options, int batch) {
     return (options->samples - batch + BATCHES - 1) / BATCHES;
+}
+
+static void place_meter(void *user, int item, int worker) {
+    (void)worker;
+    Meter *meter = user;
+    meter->contexts[item] = path_context_of_meter(meter->context, meter->points[item]);
 }
 
 /* item: a batch of a point. */
@@ -44,7 +51,7 @@ static void measure_batch(void *user, int item, int worker) {
         Wavelengths wavelengths;
         float xyz[3];
         wavelengths_sample(sampler_1d(&sampler), &wavelengths);
-        PathStart start = {.context = meter->context,
+        PathStart start = {.context = &meter->contexts[point],
                            .wavelengths = &wavelengths,
                            .sampler = &sampler,
                            .statistics = &statistics};
@@ -61,7 +68,7 @@ static void measure_batch(void *user, int item, int worker) {
 static double sky_unmet(const Meter *meter, int point) {
     for (int i = 0; i < BATCHES; i++)
         if (meter->sums[point][i].sky_finds) return 0;
-    return estimate_unmet(PI * (double)meter->context->selection.sky_cd_m2,
+    return estimate_unmet(PI * (double)meter->contexts[point].selection.sky_cd_m2,
                           (double)meter->options->samples);
 }
 
@@ -74,7 +81,7 @@ static Illuminance add_batches(const Meter *meter, int point) {
                       .piece = 1,
                       .share = 1,
                       .unmet = sky_unmet(meter, point),
-                      .unseen = PI * (double)sunlit_map_unseen(&meter->context->sunlit)};
+                      .unseen = PI * (double)sunlit_map_unseen(&meter->contexts[point].sunlit)};
     for (int i = 0; i < y.batches; i++) {
         const IlluminanceSums *sums = &meter->sums[point][i];
         y.unseen += sums->lost / samples;
@@ -99,11 +106,15 @@ bool illuminance_measure(const Scene *scene, const IlluminanceOptions *options, 
     if (!bvh_create(scene, options->threads, NULL, &bvh, err)) return false;
     PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
     Progress progress = progress_start(options->progress, "illuminance", "points", options->count);
+    PathContext *contexts = ARENA_NEW(arena, PathContext, POINTS_AT_ONCE);
     Meter *meter = ARENA_NEW(arena, Meter, 1);
     for (int done = 0; done < options->count; done += POINTS_AT_ONCE) {
         int left = options->count - done;
         int count = left < POINTS_AT_ONCE ? left : POINTS_AT_ONCE;
-        *meter = (Meter){.context = &context, .options = options, .points = options->points + done};
+        const LitPoint *points = options->points + done;
+        *meter = (Meter){
+            .context = &context, .contexts = contexts, .options = options, .points = points};
+        parallel_for(options->threads, count, place_meter, meter);
         parallel_for(options->threads, count * BATCHES, measure_batch, meter);
         for (int i = 0; i < count; i++) out[done + i] = add_batches(meter, i);
         progress_update(&progress, done + count);

@@ -80,21 +80,21 @@ typedef struct Gauge {
 static inline WorldMean world_measure(const World *world, Gauge gauge, uint32_t seed, int count) {
     double sum = 0, squares = 0, largest = 0;
     Frame frame = frame_from_z(vec3_normalize(gauge.direction));
+    LitPoint head = {gauge.from, gauge.direction, false};
     PathStatistics statistics = {0};
+    PathContext context = world->context;
+    if (gauge.is_luxmeter) context = path_context_of_meter(&context, head);
     for (int i = 0; i < count; i++) {
         Sampler sampler = sampler_start(seed, 0, 0, (uint32_t)i);
         Vec2 at = gauge.is_luxmeter ? (Vec2){0, 0} : sampler_2d(&sampler);
         Wavelengths w;
         PathResult result;
         wavelengths_sample(sampler_1d(&sampler), &w);
-        PathStart start = {.context = &world->context,
-                           .wavelengths = &w,
-                           .sampler = &sampler,
-                           .statistics = &statistics};
+        PathStart start = {
+            .context = &context, .wavelengths = &w, .sampler = &sampler, .statistics = &statistics};
         Vec3 local = vec3(gauge.spread * (at.x - 0.5f), gauge.spread * (at.y - 0.5f), 1);
         Ray ray = {gauge.from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
-        if (gauge.is_luxmeter)
-            path_from_point(&start, (LitPoint){gauge.from, gauge.direction, false}, result.xyz);
+        if (gauge.is_luxmeter) path_from_point(&start, head, result.xyz);
         else path_from_ray(&start, ray, &result);
         sum += (double)result.xyz[1];
         squares += (double)result.xyz[1] * (double)result.xyz[1];

@@ -264,9 +264,9 @@ bool setup_relight(Setup *setup, Arena *arena, Error *err) {
 static void read_sensor(Setup *setup, const ReviewLevel *level, Arena scratch) {
     LitPoint head = {scene_from_world(setup->scene->origin, level->position_m),
                      vec3_from_doubles(level->normal), false};
-    ProbeAim aim = {.context = &setup->context,
-                    .meter = &head,
-                    .seed = review_seed(setup->request, SENSOR_SEED)};
+    PathContext here = path_context_of_meter(&setup->context, head);
+    ProbeAim aim = {
+        .context = &here, .meter = &head, .seed = review_seed(setup->request, SENSOR_SEED)};
     ReadingGoal goal = {.precision = SENSOR_PRECISION, .most = SENSOR_PATHS};
     setup->sensor_lux = reading_take(&aim, &goal, &setup->tools, scratch).reflected;
 }

@@ -40,8 +40,9 @@ static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena 
     const Setup *setup = tools->setup;
     SymbolPoint point = symbol_middle(symbol);
     LitPoint head = {symbol_point_start(setup->scene, &point), point.ns, false};
+    PathContext here = path_context_of_meter(&setup->context, head);
     ProbeAim aim = {
-        .context = &setup->context, .meter = &head, .seed = review_seed(setup->request, FACE_SEED)};
+        .context = &here, .meter = &head, .seed = review_seed(setup->request, FACE_SEED)};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
     Reading face = reading_take(&aim, &goal, &setup->tools, scratch);
     if (profile_ambient(tools->profile, face.interval.low, false) ==
