@@ -26,7 +26,8 @@ float mirrored_rarity(const PathState *path, BeamSet set) {
     if (!mirrors_are_sampled(context, set) || path->medium_id != NO_ID ||
         path->bounce + 1 >= context->max_bounces)
         return 0;
-    for (int i = 0; i < path->bounce && i < DEEP_BOUNCE; i++) share *= DEEP_SHARE;
+    bool is_read = set == BEAMS_OF_SUN && !context->is_of_frame;
+    for (int i = 0; i < path->bounce && i < DEEP_BOUNCE && !is_read; i++) share *= DEEP_SHARE;
     return share;
 }
 

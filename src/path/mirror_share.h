@@ -19,7 +19,8 @@ Spectrum mirrored_sun_share(const PathState *path, const Surface *surface, Vec3 
  * That is known in a moment. */
 bool mirrored_is_left(const PathState *path, const Surface *surface, Vec3 wo, BeamSet set, float u);
 
-/* How much rarer than mirror_beams_prob the surface samples the set's mirrors; 0: it has none. */
+/* How much rarer than mirror_beams_prob the surface samples the set's mirrors; 0: it has none. Of
+ * the sun in readings 1: they have few paths, one of which would bring much. */
 float mirrored_rarity(const PathState *path, BeamSet set);
 
 /* The least of mirrored_prob, where it is above 0. */
