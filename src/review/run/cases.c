@@ -20,8 +20,7 @@
 #include "text/text.h"
 #include "vision/grey_steps.h"
 
-#define FACE_PRECISION 0.05 /* where that tells day from night; else */
-#define FACE_PRECISION_OPEN 0.02
+#define FACE_PRECISION 0.02
 #define FACE_PATHS 16384
 #define FACE_SEED 0x66616365u
 #define EYE_SEED 0x65796573u
@@ -35,7 +34,7 @@
 
 /* ---- the display's face ------------------------------------------------------------------ */
 
-/* Illuminance of a symbol's middle, read on where it may be that of another ambient. */
+/* Illuminance of a symbol's middle. */
 static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena scratch) {
     const Setup *setup = tools->setup;
     SymbolPoint point = symbol_middle(symbol);
@@ -44,11 +43,6 @@ static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena 
     ProbeAim aim = {
         .context = &here, .meter = &head, .seed = review_seed(setup->request, FACE_SEED)};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
-    Reading face = reading_take(&aim, &goal, &setup->tools, scratch);
-    if (profile_ambient(tools->profile, face.interval.low, false) ==
-        profile_ambient(tools->profile, face.interval.high, false))
-        return face.reflected;
-    goal.precision = FACE_PRECISION_OPEN;
     return reading_take(&aim, &goal, &setup->tools, scratch).reflected;
 }
 
