@@ -148,8 +148,7 @@ def check_partly_hidden(report, reviews):
         edge = (-0.075 + 0.05 * cover + 0.02) / 2
         write_scene(reviews.folder, [(POST[0], [edge - 0.045, 0.005, 0.35], 0.45)])
         both = asked()
-        if cover < 0.9:
-            both["conditions"].append(sweep)
+        both["conditions"].append(sweep)
         done, found, headline, is_green = reviews.review(both)
         cases = found["cases"] + [s["worst"] for s in found["sweeps"]]
         for case in (c for c in cases if c["symbol"] == "bar"):
