@@ -5,9 +5,9 @@ that light, a spot, a pane across the gaze, walls that reflect a tenth.
 
 A camera at the eye sees the symbol; the same samples without any bounce are taken off, which
 leaves what is reflected at each pixel's place of the content. The brightness of the bars is the
-case's own. Truth of the threshold increment, which no frame shows, is the mean of all seeds, which
-is said. The mean of the display's illuminance, which has no interval, is printed beside that of
-luxmeters of many paths.
+case's own. Truth of the threshold increment and of what a gaze sees mirrored, which no frame
+shows, is the mean of all seeds, which is said. The mean of the display's illuminance, which has
+no interval, is printed beside that of luxmeters of many paths.
 """
 import json
 import math
@@ -137,12 +137,14 @@ def measure(reviewer, tally, seeds):
             increment = [{"value": age["threshold_increment_pct"],
                           "interval": age["threshold_increment_interval"]}
                          for age in gaze["road"]["ages"]]  # none by day
-            tally.add(f"cabin by {name}", {"case": told, **(
+            mirrored = {k: gaze[k] for k in ("mirrored_cd_m2", "mirrored_interval")}
+            tally.add(f"cabin by {name}", {"case": told, "gaze": mirrored, **(
                 {"TI": increment[0]} if increment else {})}, {
                 "case/reflected_interval": part,
                 "case/contrast_interval": every_interval.contrast_of(told["luminance_cd_m2"],
                                                                      part),
                 "symbol_mean/reflected_interval": truths[name].mean(SYMBOL),
+                "gaze/mirrored_interval": every_interval.OF_SEEDS,
                 "/TI/interval": every_interval.OF_SEEDS})
     for name, found in lux.items():
         mean = sum(found) / seeds
