@@ -166,32 +166,29 @@ static void add_point(void *user, uint32_t triangle, const ReflectionPoint *poin
     find_mirrored(walk, &mirror, local_wi, &rays, share);
 }
 
-static void find(MirrorWalk *walk, MirrorQuery *query) {
+static void find(MirrorWalk *walk, const MirrorQuery *query) {
     mirrors_find(walk->beams->mirrors, query, add_point, walk);
 }
 
-/* choice, here and below: a number of the sampler's. Does the vertex sample its mirrors? */
-static void add_suns(MirrorWalk walk, float choice) {
-    PathState *path = walk.path;
-    const Surface *surface = walk.surface;
+/* choice, here and below: a number of the sampler's, small enough for mirrored_prob to be tried. */
+static void add_suns(MirrorWalk *walk, float choice) {
+    PathState *path = walk->path;
+    const Surface *surface = walk->surface;
     const Lights *lights = path->context->lights;
     float u[4];
-    bool is_back = vec3_dot(walk.wo, surface->ng) < 0;
-    if (!mirror_beams_has(walk.beams, surface->part_id, is_back)) return;
-    if (mirrored_is_left(path, surface, walk.wo, BEAMS_OF_SUN, choice)) return;
-    walk.prob = mirrored_prob(path, surface, walk.wo, BEAMS_OF_SUN);
-    if (choice >= walk.prob) return;
+    walk->prob = mirrored_prob(path, surface, walk->wo, BEAMS_OF_SUN);
+    if (choice >= walk->prob) return;
     numbers_for_mirrors(path, BEAMS_OF_SUN);
     sampler_4d(path->sampler, u);
     LitPoint point = {surface->position, surface->frame.z, true}; /* from any side */
-    if (!lights_sample(lights, LIGHTS_SUN, point, u, &walk.sun)) return;
-    walk.sun_radiance =
-        lights_radiance(lights, &walk.sun, path->wavelengths) / spectrum_all(walk.sun.pdf);
-    MirrorQuery query = {surface->part_id, false, surface->position, {walk.sun.wi, false}, {0, 0}};
-    find(&walk, &query);
-    query.is_rough = walk.is_rough = true;
+    if (!lights_sample(lights, LIGHTS_SUN, point, u, &walk->sun)) return;
+    walk->sun_radiance =
+        lights_radiance(lights, &walk->sun, path->wavelengths) / spectrum_all(walk->sun.pdf);
+    MirrorQuery query = {surface->part_id, false, surface->position, {walk->sun.wi, false}, {0, 0}};
+    find(walk, &query);
+    query.is_rough = walk->is_rough = true;
     query.u = (Vec2){u[2], u[3]};
-    find(&walk, &query);
+    find(walk, &query);
 }
 
 /* What a vertex draws for near lights in mirrors. */
@@ -201,63 +198,63 @@ typedef struct NearNumbers {
     Vec2 facet;     /* of rough mirrors */
 } NearNumbers;
 
-/* One source in the part's mirrors; is_elsewhere: in all others. */
-static void add_source(MirrorWalk walk, const NearNumbers *u) {
-    const Surface *surface = walk.surface;
-    const PathContext *context = walk.path->context;
-    bool is_of_lamp = walk.beams->set == BEAMS_OF_LAMPS;
-    MirrorQuery query = {.part_id = walk.is_elsewhere ? NO_ID : surface->part_id,
+/* One source in the part's mirrors; is_elsewhere: in all others. prob: of the search. */
+static void add_source(MirrorWalk *walk, const NearNumbers *u, float prob) {
+    const Surface *surface = walk->surface;
+    const PathContext *context = walk->path->context;
+    bool is_of_lamp = walk->beams->set == BEAMS_OF_LAMPS;
+    MirrorQuery query = {.part_id = walk->is_elsewhere ? NO_ID : surface->part_id,
                          .from = surface->position,
                          .u = u->facet};
     float chosen;
-    int id = mirror_beams_source(walk.beams, context->lights, surface->part_id,
-                                 vec3_dot(walk.wo, surface->ng) < 0,
-                                 walk.is_elsewhere ? u->which.y : u->which.x, &chosen);
-    walk.prob *= chosen;
+    int id = mirror_beams_source(walk->beams, context->lights, surface->part_id,
+                                 vec3_dot(walk->wo, surface->ng) < 0,
+                                 walk->is_elsewhere ? u->which.y : u->which.x, &chosen);
+    walk->prob = prob * chosen;
+    walk->is_rough = false;
     if (is_of_lamp) {
-        walk.lamp = lights_lamp_point(context->lights, id, u->place);
-        query.light = (ReflectionLight){walk.lamp.at, !walk.lamp.is_distant};
+        walk->lamp = lights_lamp_point(context->lights, id, u->place);
+        query.light = (ReflectionLight){walk->lamp.at, !walk->lamp.is_distant};
     } else {
-        walk.emitter = &walk.beams->emitters.list[id];
-        walk.at = compact_emitter_point(context->scene, walk.emitter, u->place);
-        query.light = (ReflectionLight){walk.at.point.position, true};
+        walk->emitter = &walk->beams->emitters.list[id];
+        walk->at = compact_emitter_point(context->scene, walk->emitter, u->place);
+        query.light = (ReflectionLight){walk->at.point.position, true};
     }
-    find(&walk, &query);
-    if (walk.is_elsewhere || !is_of_lamp) return;
-    query.is_rough = walk.is_rough = true;
-    find(&walk, &query);
+    find(walk, &query);
+    if (walk->is_elsewhere || !is_of_lamp) return;
+    query.is_rough = walk->is_rough = true;
+    find(walk, &query);
 }
 
-static void add_near(MirrorWalk walk, float choice, float choice_of_all) {
-    PathState *path = walk.path;
-    const Surface *surface = walk.surface;
-    BeamSet set = walk.beams->set;
-    float of_all = fminf(ELSEWHERE, walk.beams->of_all);
-    bool has_own =
-        mirror_beams_has(walk.beams, surface->part_id, vec3_dot(walk.wo, surface->ng) < 0) &&
-        !mirrored_is_left(path, surface, walk.wo, set, choice);
-    bool searches_all = set == BEAMS_OF_LAMPS && surface->part_id != NO_ID && !path->bounce &&
-                        !path->context->is_of_frame && choice_of_all < of_all;
+/* of_all: the probability with which all mirrors are searched, and are; 0: they are not. */
+static void add_near(MirrorWalk *walk, float choice, float of_all) {
+    PathState *path = walk->path;
+    BeamSet set = walk->beams->set;
+    float prob = mirrored_prob(path, walk->surface, walk->wo, set);
+    bool has_own = choice < prob;
     NearNumbers u;
-    if (!has_own && !searches_all) return;
-    walk.prob = has_own ? mirrored_prob(path, surface, walk.wo, set) : 0;
-    has_own = choice < walk.prob;
-    if (!has_own && !searches_all) return;
+    if (!has_own && !(of_all > 0)) return;
     numbers_for_mirrors(path, set);
     sampler_4d(path->sampler, u.place);
     u.which = sampler_2d(path->sampler);
     u.facet = sampler_2d(path->sampler);
-    if (has_own) add_source(walk, &u);
-    if (!searches_all) return;
-    walk.prob = of_all;
-    walk.is_elsewhere = true;
-    add_source(walk, &u);
+    if (has_own) add_source(walk, &u, prob);
+    if (!(of_all > 0)) return;
+    walk->is_elsewhere = true;
+    add_source(walk, &u, of_all);
+}
+
+/* Does a reading's first vertex search all mirrors for lamps? As add_near has it. */
+static float all_mirrors(const PathState *path, const Surface *surface, float choice) {
+    float of_all = fminf(ELSEWHERE, path->context->beams[BEAMS_OF_LAMPS].of_all);
+    bool does = surface->part_id != NO_ID && !path->bounce && !path->context->is_of_frame;
+    return does && choice < of_all ? of_all : 0;
 }
 
 /* The mirror is one more vertex: none is sampled where the path would end before it. */
 void mirrored_add(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding) {
     const PathContext *context = path->context;
-    bool is_sampled[BEAM_SETS], is_any = false;
+    bool is_sampled[BEAM_SETS], is_any = false, is_back = vec3_dot(wo, surface->ng) < 0;
     float u[BEAM_SETS + 1];
     if (!bsdf_scatters(&surface->bsdf) || path->medium_id != NO_ID ||
         path->bounce + 1 >= context->max_bounces)
@@ -268,13 +265,15 @@ void mirrored_add(PathState *path, const Surface *surface, Vec3 wo, const Guidin
     numbers_for(path, NUMBERS_MIRRORS);
     sampler_4d(path->sampler, u);
     for (int set = 0; set < BEAM_SETS; set++) {
-        MirrorWalk walk = {.path = path,
-                           .surface = surface,
-                           .wo = wo,
-                           .guiding = guiding,
-                           .beams = &context->beams[set]};
+        const MirrorBeams *beams = &context->beams[set];
         if (!is_sampled[set]) continue;
-        if (set == BEAMS_OF_SUN) add_suns(walk, u[set]);
-        else add_near(walk, u[set], u[BEAM_SETS]);
+        bool is_left = !mirror_beams_has(beams, surface->part_id, is_back) ||
+                       mirrored_is_left(path, surface, wo, (BeamSet)set, u[set]);
+        float of_all = set == BEAMS_OF_LAMPS ? all_mirrors(path, surface, u[BEAM_SETS]) : 0;
+        if (is_left && !(of_all > 0)) continue;
+        MirrorWalk walk = {
+            .path = path, .surface = surface, .wo = wo, .guiding = guiding, .beams = beams};
+        if (set == BEAMS_OF_SUN) add_suns(&walk, u[set]);
+        else add_near(&walk, is_left ? INFINITY : u[set], of_all);
     }
 }
