@@ -22,7 +22,7 @@
 #define LEAST 0.0075f    /* probability where no ray came */
 #define OF_NEAR 0.25f    /* times both of near lights, whose search takes longer */
 #define OF_POINTS 0.25f  /* most probability of points of no part to search all mirrors; */
-#define OF_ALL 0.75f     /* so much over the root of their number, about as the search takes time */
+#define OF_ALL 1.5f      /* so much over the root of their number, about as the search takes time */
 #define CUBES 128        /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f   /* of other light */
