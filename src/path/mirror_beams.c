@@ -20,10 +20,11 @@
 #define SHEETS_PASSED 16 /* by one ray behind its mirror */
 #define GENEROSITY 0.2f  /* times the root of mirrored over other light, of one mirror */
 #define LEAST 0.0075f    /* probability where no ray came */
-#define OF_NEAR 0.25f    /* times both of near lights, whose search takes longer */
-#define OF_POINTS 0.25f  /* most probability of points of no part to search all mirrors; */
-#define OF_ALL 1.5f      /* so much over the root of their number, about as the search takes time */
-#define CUBES 128        /* along the longest edge of a part's box, and at least so large: */
+#define OF_NEAR 0.25f    /* times both of near lights, whose search takes longer; in a frame: */
+#define OF_NEAR_IN_FRAMES 0.12f
+#define OF_POINTS 0.25f /* most probability of points of no part to search all mirrors; */
+#define OF_ALL 1.5f     /* so much over the root of their number, about as the search takes time */
+#define CUBES 128       /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f   /* of other light */
 #define ANY_SOURCE 0.15f /* of the choices, that go to all alike */
@@ -320,13 +321,14 @@ static void weigh_sides(const Beams *beams, const LightSelection *selection, con
                         BeamSide *sides, Arena scratch) {
     const Scene *scene = beams->tools->scene;
     uint32_t *mirrors = ARENA_NEW(&scratch, uint32_t, scene->part_count + 1);
+    float of_near = beams->tools->is_of_frame ? OF_NEAR_IN_FRAMES : OF_NEAR;
     for (uint32_t i = 0; i < beams->count; i++)
         if (beams->pairs[i].part_id != NO_ID) mirrors[beams->pairs[i].part_id]++;
     for (int row = 0; row < 2 * scene->part_count; row++) {
         BeamSide *side = &sides[row];
         float time = sqrtf(sqrtf((float)mirrors[row / 2]));
         if (!mirrors[row / 2]) continue;
-        float share = beams->set == BEAMS_OF_SUN ? 1 : OF_NEAR;
+        float share = beams->set == BEAMS_OF_SUN ? 1 : of_near;
         side->least = share * LEAST;
         side->by_root = share * GENEROSITY / (time * sqrtf(fmaxf(selection->lx[row], LEAST_LX)));
         side->most = fminf(side->least + side->by_root * sqrtf(most_lx[side->row]), 1);

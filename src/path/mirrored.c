@@ -251,6 +251,24 @@ static float all_mirrors(const PathState *path, const Surface *surface, float ch
     return does && choice < of_all ? of_all : 0;
 }
 
+/* What a vertex chose: whether its part's mirrors are left, by a number that else says it; of_all:
+ * the probability with which all mirrors are searched, and are; 0: they are not. */
+typedef struct MirrorChoice {
+    BeamSet set;
+    bool is_left;
+    float u, of_all;
+} MirrorChoice;
+
+/* Lights of one set. Few vertices come here: most leave their mirrors. */
+static __attribute__((noinline)) void add_set(PathState *path, const Surface *surface, Vec3 wo,
+                                              const Guiding *guiding, const MirrorChoice *choice) {
+    const MirrorBeams *beams = &path->context->beams[choice->set];
+    MirrorWalk walk = {
+        .path = path, .surface = surface, .wo = wo, .guiding = guiding, .beams = beams};
+    if (choice->set == BEAMS_OF_SUN) add_suns(&walk, choice->u);
+    else add_near(&walk, choice->is_left ? INFINITY : choice->u, choice->of_all);
+}
+
 /* The mirror is one more vertex: none is sampled where the path would end before it. */
 void mirrored_add(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding) {
     const PathContext *context = path->context;
@@ -265,15 +283,12 @@ void mirrored_add(PathState *path, const Surface *surface, Vec3 wo, const Guidin
     numbers_for(path, NUMBERS_MIRRORS);
     sampler_4d(path->sampler, u);
     for (int set = 0; set < BEAM_SETS; set++) {
-        const MirrorBeams *beams = &context->beams[set];
         if (!is_sampled[set]) continue;
-        bool is_left = !mirror_beams_has(beams, surface->part_id, is_back) ||
-                       mirrored_is_left(path, surface, wo, (BeamSet)set, u[set]);
-        float of_all = set == BEAMS_OF_LAMPS ? all_mirrors(path, surface, u[BEAM_SETS]) : 0;
-        if (is_left && !(of_all > 0)) continue;
-        MirrorWalk walk = {
-            .path = path, .surface = surface, .wo = wo, .guiding = guiding, .beams = beams};
-        if (set == BEAMS_OF_SUN) add_suns(&walk, u[set]);
-        else add_near(&walk, is_left ? INFINITY : u[set], of_all);
+        MirrorChoice choice = {.set = (BeamSet)set, .u = u[set]};
+        choice.is_left = !mirror_beams_has(&context->beams[set], surface->part_id, is_back) ||
+                         mirrored_is_left(path, surface, wo, choice.set, choice.u);
+        if (set == BEAMS_OF_LAMPS) choice.of_all = all_mirrors(path, surface, u[BEAM_SETS]);
+        if (choice.is_left && !(choice.of_all > 0)) continue;
+        add_set(path, surface, wo, guiding, &choice);
     }
 }
