@@ -123,16 +123,15 @@ typedef struct Filtering {
     long *left; /* pixels of each row that were not filtered */
 } Filtering;
 
-/* Pixels that show a surface, as far as the network's range goes. The others, the sky, suns and
- * what is not finite, stay as they are. */
+/* As far as the network's range goes: suns and what is not finite stay as they are. The sky is
+ * filtered as well: alone it has no noise, but the mirror images of panes before it have. */
 static bool is_filtered(const Filtering *work, size_t i) {
     const Layers *layers = work->layers;
     const float most = TRANSFER_MOST / work->exposure;
     if (!are_finite(layers->light, i)) return false;
     for (int c = 0; c < 3; c++)
         if (!(layers->light[c][i] < most)) return false;
-    return layers->coverage[0][i] > 0 ||
-           (are_finite(layers->normal, i) && are_finite(layers->albedo, i));
+    return true;
 }
 
 static void fill_row(void *user, int y, float *row) {

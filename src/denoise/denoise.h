@@ -24,7 +24,7 @@ typedef struct DenoiseReport {
                             pixels that are not finite left out */
     double block_error;  /* of the light that is filtered, what the worst block of 64x64 pixels
                             gained or lost; a share of all its light */
-    double left_share;   /* of the pixels that were not filtered: sky, not finite */
+    double left_share;   /* of the pixels that were not filtered: suns, not finite */
 } DenoiseReport;
 
 /* Whether the weights are there, before any work for a frame that will be filtered. */
