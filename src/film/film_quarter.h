@@ -8,4 +8,4 @@
 
 /* Of a quarter of the pixels, each with the samples of two by two, from the crop's corner on: it
  * begins at 0, 0 and has no other pixels. */
-Film *film_quarter(const Film *film, Arena *arena);
+Film *film_quarter(const Film *film, int threads, Arena *arena);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "image/adapt.h"
 #include "image/colour.h"
 #include "image/exposure.h"
@@ -65,8 +66,23 @@ static const char *chosen_view(const DevelopOptions *options, const char *config
     return options->view || config || !wants_white ? options->view : "untonemapped";
 }
 
-static bool apply_view(Picture *picture, const DevelopOptions *options, DevelopReport *report,
-                       Error *err) {
+#define PIECE_PIXELS 8192 /* of a picture, that a thread transforms at once */
+
+typedef struct ViewWork {
+    const ViewTransform *transform;
+    float *rgb;
+    size_t count;
+} ViewWork;
+
+static bool transform_piece(void *user, int item, Error *err) {
+    const ViewWork *work = user;
+    size_t first = (size_t)item * PIECE_PIXELS, left = work->count - first;
+    return view_transform_apply(work->transform, work->rgb + 3 * first,
+                                left < PIECE_PIXELS ? left : PIECE_PIXELS, err);
+}
+
+static bool apply_view(Picture *picture, const DevelopOptions *options, Arena scratch,
+                       DevelopReport *report, Error *err) {
     ViewTransform *transform;
     const char *config = chosen_config(options);
     const ViewRequest request = {config, OWN_OCIO_CONFIG, options->display,
@@ -76,7 +92,10 @@ static bool apply_view(Picture *picture, const DevelopOptions *options, DevelopR
     snprintf(report->display, sizeof report->display, "%s", view_transform_display(transform));
     snprintf(report->view, sizeof report->view, "%s", view_transform_view(transform));
     size_t count = (size_t)picture->width * (size_t)picture->height;
-    bool ok = view_transform_apply(transform, picture->rgb, count, err);
+    ViewWork work = {transform, picture->rgb, count};
+    bool ok = parallel_try(options->threads ? options->threads : 1,
+                           (int)((count + PIECE_PIXELS - 1) / PIECE_PIXELS), transform_piece, &work,
+                           scratch, err);
     view_transform_destroy(transform);
     return ok;
 }
@@ -131,7 +150,7 @@ static bool develop_light(LayerView *view, const DevelopOptions *options, Arena 
     if (report->is_adapted) adapt(view, report->grey_cd_m2, share, arena);
     float scale = (float)(MIDDLE_GREY / report->grey_cd_m2);
     *out = exposed(view, scale, &report->nonfinite_pixels, arena);
-    return apply_view(out, options, report, err);
+    return apply_view(out, options, *arena, report, err);
 }
 
 static bool set_range(const DevelopOptions *options, LayerView *view, Error *err) {

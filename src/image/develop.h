@@ -34,6 +34,7 @@ typedef struct DevelopOptions {
     const char *eye;            /* as whose eye sees the frame, in words: noted as well */
     int bits;                   /* 0 or 8, or 16 */
     const char *frame_name;     /* for messages about its layers; may be NULL */
+    int threads;                /* 0: one */
 } DevelopOptions;
 
 typedef struct DevelopReport {

@@ -423,8 +423,8 @@ static void build_trees(const Scene *scene, Mirrors *mirrors, const uint32_t *fi
                       .nodes = nodes,
                       .roots = roots,
                       .patch_count = patch_count};
-    work.items = ARENA_NEW(&scratch, Item, items);
-    work.leaves = ARENA_NEW(&scratch, MirrorLeaf, patch_count);
+    work.items = arena_untouched(&scratch, sizeof(Item), _Alignof(Item), items);
+    work.leaves = arena_untouched(&scratch, sizeof(MirrorLeaf), _Alignof(MirrorLeaf), patch_count);
     work.normals = unit_normals(mirrors->patches, patch_count, &scratch);
     parallel_for(threads, (int)((patch_count + LEAVES_TOGETHER - 1) / LEAVES_TOGETHER),
                  make_some_leaves, &work);

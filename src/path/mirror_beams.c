@@ -222,7 +222,13 @@ static Aim *list_aims(const Scene *scene, int *count, double *all_m2, Arena *are
     bool *is_smooth_one = ARENA_NEW(&scratch, bool, scene->material_count + 1);
     for (int i = 0; i < scene->material_count; i++)
         is_smooth_one[i] = mirrors_can_be(scene, &scene->materials[i]);
-    Aim *aims = ARENA_NEW(&scratch, Aim, 2 * (size_t)scene->triangle_count);
+    size_t most = 0;
+    for (int i = 0; i < scene->part_count; i++) {
+        int id = scene->parts[i].material_id;
+        int ways = is_smooth_one[id] + (mirrors_rough_alpha(&scene->materials[id]) > 0);
+        most += (size_t)ways * scene->parts[i].triangle_count;
+    }
+    Aim *aims = ARENA_NEW(&scratch, Aim, most);
     *count = 0;
     *all_m2 = 0;
     for (uint32_t i = 0; i < scene->triangle_count; i++) {

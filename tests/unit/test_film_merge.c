@@ -157,7 +157,7 @@ ARENA_TEST(grouping_makes_no_difference) {
 ARENA_TEST(a_quarter_has_the_samples_of_two_by_two_pixels) {
     static const FilmRect odd = {2, 3, WIDTH, HEIGHT - 3};
     Film *film = make_film(odd, 0, SAMPLES, LAYER_ALL, &arena);
-    Film *quarter = film_quarter(film, &arena);
+    Film *quarter = film_quarter(film, 3, &arena);
     uint64_t kept = 0;
     assert_int_equal(quarter->width, (odd.x1 - odd.x0 + 1) / 2);
     assert_int_equal(quarter->height, (odd.y1 - odd.y0 + 1) / 2);

@@ -108,6 +108,7 @@ bool look_options_develop(const LookRequest *request, Arena scratch, LookReport 
     FrameImage filtered = *request->frame;
     LookReport made = {0};
     bool has_eye = request->eye && request->eye->words;
+    look.threads = request->threads;
     if (!check_denoise(&look, err) || (has_eye && !check_eye(&look, err))) return false;
     if (look.is_denoised &&
         !denoise_frame(request->frame, request->threads, &scratch, &filtered, &made.denoise, err))

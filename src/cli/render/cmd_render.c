@@ -367,7 +367,7 @@ static void show_first_look(void *user, const RenderResult *so_far, const Progre
     RenderResult quarter = *so_far;
     LookReport look;
     Error err;
-    quarter.film = film_quarter(so_far->film, &scratch);
+    quarter.film = film_quarter(so_far->film, work->request.cli.threads, &scratch);
     bool done = develop(work, &quarter, &scratch, &look, &err);
     progress_clear(shown);
     if (!done) warn_of(work, &err);
