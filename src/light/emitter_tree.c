@@ -2,6 +2,7 @@
 /* Before the first path: the tree of emitters, and the directions of displays. */
 #include "light/emitter_tree.h"
 
+#include "base/mathf.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -100,7 +101,7 @@ static EmitterFacts facts_about(const TreeWork *work, const Emitter *e) {
         corner[k] = triangle_point(work->scene, e->triangle, k == 1, k == 2);
     for (int k = 0; k < 3; k++) {
         Vec3 edge = vec3_sub(corner[k].position, corner[(k + 1) % 3].position);
-        facts.edge = fmaxf(facts.edge, vec3_length(edge) / (float)e->side);
+        facts.edge = max_f(facts.edge, vec3_length(edge) / (float)e->side);
         facts.within2 += vec3_dot(edge, edge) / (36 * (float)(e->side * e->side));
     }
     facts.normal = corner[0].ng;
@@ -311,7 +312,7 @@ static Vec3 node_direction(int i, int j) {
     float s = 2 * (float)i / (EMITTER_PROFILE_SIDE - 1) - 1;
     float t = 2 * (float)j / (EMITTER_PROFILE_SIDE - 1) - 1;
     float x = 0.5f * (s + t), y = 0.5f * (s - t);
-    return vec3_normalize(vec3(x, y, fmaxf(0, 1 - fabsf(x) - fabsf(y))));
+    return vec3_normalize(vec3(x, y, max_f(0, 1 - fabsf(x) - fabsf(y))));
 }
 
 static const EmitterProfile *profile_of(const TreeWork *work, int part_id) {
@@ -422,7 +423,7 @@ static void finish_branch(const TreeWork *work, const Gathering *g, int i, Emitt
     node->radius[i] = bounds.radius;
     node->behind[i] = has_back ? bounds.behind : INFINITY;
     node->power[i] = (float)g->power;
-    node->focus[i] = fminf(1, length);
+    node->focus[i] = min_f(1, length);
     node->both_sides[i] = bounds.both_sides ? -1 : 0;
     node->first[i] = g->rank;
     if (g->cells == 1) node->large2[i] = first_emitter(work, g)->cell_area * (1 / EMITTER_LARGE);

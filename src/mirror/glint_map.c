@@ -70,7 +70,7 @@ float glint_map_add(GlintMap *map, const GlintPlace *place, float lm, Arena *are
     for (int size = 0; size < GLINT_SIZES; size++, edge *= COARSER) {
         uint64_t lowest = cube_key(place, edge, 0.5f);
         for (int i = 0; i < 8; i++)
-            most = fmaxf(most, lx_of(add_lm(&map->size[size],
+            most = max_f(most, lx_of(add_lm(&map->size[size],
                                             tag_of(lowest + (i & 1 ? MIX_X : 0) +
                                                    (i & 2 ? MIX_Y : 0) + (i & 4 ? MIX_Z : 0)),
                                             lm, arena),
@@ -91,7 +91,7 @@ float glint_map_lx(const GlintMap *map, const GlintPlace *place) {
     float edge = COARSER * place->edge_m;
     const GlintTable *wide = &map->size[2];
     float coarse = lx_in(&map->size[1], place, edge);
-    if (coarse > 0) return fmaxf(coarse, lx_in(&map->size[0], place, place->edge_m));
+    if (coarse > 0) return max_f(coarse, lx_in(&map->size[0], place, place->edge_m));
     if (!wide->room) return 0;
     const GlintCube *cube = find(wide, tag_of(cube_key(place, COARSER * edge, 0)));
     float n = 1 + (float)cube->rays / (COARSER * COARSER);

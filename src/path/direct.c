@@ -2,6 +2,7 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "path/direct.h"
 
+#include "base/mathf.h"
 #include "scene/point/ray_ends.h"
 #include "path/emitted.h"
 #include "path/mirror_share.h"
@@ -70,7 +71,7 @@ static void find_sheets_at_emitter(const Bvh *bvh, Ray to_light, ShadowRay *ray)
     ray->end = vec3_dot(vec3_sub(at->inside, to_light.origin), at->ng) / cosine;
     ray->rounding = at->rounding + at->slant * ray->light->distance;
     to_light.t_min = to_light.t_max;
-    to_light.t_max = fmaxf(2 * ray->end - to_light.t_min, to_light.t_min);
+    to_light.t_max = max_f(2 * ray->end - to_light.t_min, to_light.t_min);
     bvh_find_sheets(bvh, to_light, passes_before_emitter, ray);
 }
 

@@ -282,7 +282,7 @@ static void join_pieces(const Beams *pieces, const RayWork *work, Beams *out, Gl
             const Glint *g = &pieces[p].glints[i];
             float *most = &most_lx[g->place.row];
             out->glints[glint++] = *g;
-            *most = fmaxf(*most, glint_map_add(map, &g->place, g->lm, arena));
+            *most = max_f(*most, glint_map_add(map, &g->place, g->lm, arena));
         }
     out->count = count;
 }
@@ -312,7 +312,7 @@ static void measure_sides(const Scene *scene, BeamSide *sides) {
     for (int id = 0; id < scene->part_count; id++) {
         const Part *part = &scene->parts[id];
         bool is_sheet = material_sends_through(&scene->materials[part->material_id]);
-        float edge = fmaxf(scene_part_longest_m(scene, part) / CUBES, LEAST_EDGE_M);
+        float edge = max_f(scene_part_longest_m(scene, part) / CUBES, LEAST_EDGE_M);
         for (int k = 0; k < 2; k++)
             sides[2 * id + k] =
                 (BeamSide){.row = (uint32_t)(2 * id + (is_sheet ? 0 : k)), .edge_m = edge};
@@ -336,8 +336,8 @@ static void weigh_sides(const Beams *beams, const LightSelection *selection, con
         if (!mirrors[row / 2]) continue;
         float share = beams->set == BEAMS_OF_SUN ? 1 : of_near;
         side->least = share * LEAST;
-        side->by_root = share * GENEROSITY / (time * sqrtf(fmaxf(selection->lx[row], LEAST_LX)));
-        side->most = fminf(side->least + side->by_root * sqrtf(most_lx[side->row]), 1);
+        side->by_root = share * GENEROSITY / (time * sqrtf(max_f(selection->lx[row], LEAST_LX)));
+        side->most = min_f(side->least + side->by_root * sqrtf(most_lx[side->row]), 1);
     }
 }
 
@@ -457,7 +457,7 @@ MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightS
     qsort(beams.pairs, beams.count, sizeof *beams.pairs, mirrors_compare_pairs);
     while (out.all_count < beams.count && beams.pairs[out.all_count].part_id == NO_ID)
         out.all_count++;
-    out.of_all = fminf(OF_POINTS, OF_ALL / sqrtf((float)out.all_count + 1));
+    out.of_all = min_f(OF_POINTS, OF_ALL / sqrtf((float)out.all_count + 1));
     weigh_sides(&beams, selection, most_lx, sides, *arena);
     out.sides = sides;
     out.mirrors =
@@ -477,6 +477,6 @@ float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec
     const BeamSide *side = &beams->sides[2 * part_id + is_back];
     GlintPlace place = {side->row, side->edge_m, position};
     if (!(side->least > 0)) return 0;
-    return fminf(side->least + side->by_root * sqrtf(glint_map_lx(&beams->map, &place)),
+    return min_f(side->least + side->by_root * sqrtf(glint_map_lx(&beams->map, &place)),
                  side->most);
 }

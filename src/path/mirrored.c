@@ -2,6 +2,7 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "path/mirrored.h"
 
+#include "base/mathf.h"
 #include "path/direct.h"
 #include "path/mirror_share.h"
 #include "path/windows.h"
@@ -246,7 +247,7 @@ static void add_near(MirrorWalk *walk, float choice, float of_all) {
 
 /* Does a reading's first vertex search all mirrors for lamps? As add_near has it. */
 static float all_mirrors(const PathState *path, const Surface *surface, float choice) {
-    float of_all = fminf(ELSEWHERE, path->context->beams[BEAMS_OF_LAMPS].of_all);
+    float of_all = min_f(ELSEWHERE, path->context->beams[BEAMS_OF_LAMPS].of_all);
     bool does = surface->part_id != NO_ID && !path->bounce && !path->context->is_of_frame;
     return does && choice < of_all ? of_all : 0;
 }

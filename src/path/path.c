@@ -450,7 +450,7 @@ PathContext path_context_of_meter(const PathContext *context, LitPoint head) {
         if (!mirrors_are_sampled(context, (BeamSet)set)) continue;
         double time = sqrt(sqrt((double)beams->all_count + 1));
         double share = meter_mirrored(&often, head, set) / fmax(others, 1e-30);
-        beams->of_all = fminf(fmaxf(beams->of_all, (float)(METER_OFTEN * share / time)), 1);
+        beams->of_all = min_f(max_f(beams->of_all, (float)(METER_OFTEN * share / time)), 1);
     }
     return out;
 }

@@ -54,8 +54,8 @@ static SunlitNode joined(const SunlitNode four[4]) {
         if (!(n->power > 0)) continue;
         Vec3 r = vec3(n->radius, n->radius, n->radius);
         Vec3 a = vec3_sub(n->centre, r), b = vec3_add(n->centre, r);
-        low = vec3(fminf(low.x, a.x), fminf(low.y, a.y), fminf(low.z, a.z));
-        high = vec3(fmaxf(high.x, b.x), fmaxf(high.y, b.y), fmaxf(high.z, b.z));
+        low = vec3(min_f(low.x, a.x), min_f(low.y, a.y), min_f(low.z, a.z));
+        high = vec3(max_f(high.x, b.x), max_f(high.y, b.y), max_f(high.z, b.z));
         axis = vec3_along(axis, n->axis, n->power);
         all.power += n->power;
     }
@@ -65,8 +65,8 @@ static SunlitNode joined(const SunlitNode four[4]) {
     for (int k = 0; k < 4; k++) {
         if (!(four[k].power > 0)) continue;
         float out = vec3_length(vec3_sub(four[k].centre, all.centre)) + four[k].radius;
-        all.radius = fmaxf(all.radius, out);
-        all.cosine = fminf(all.cosine, cone_about(all.axis, &four[k]));
+        all.radius = max_f(all.radius, out);
+        all.cosine = min_f(all.cosine, cone_about(all.axis, &four[k]));
     }
     return all;
 }
@@ -75,9 +75,9 @@ static bool is_one_leaf(const SunlitNode *all, const SunlitNode four[4]) {
     float least = INFINITY, most = 0, radius = 0;
     for (int k = 0; k < 4; k++) {
         if (four[k].child) return false;
-        least = fminf(least, four[k].power);
-        most = fmaxf(most, four[k].power);
-        radius = fmaxf(radius, four[k].radius);
+        least = min_f(least, four[k].power);
+        most = max_f(most, four[k].power);
+        radius = max_f(radius, four[k].radius);
     }
     return least >= EVEN * most && all->cosine >= FLAT && all->radius <= SMOOTH * radius;
 }
