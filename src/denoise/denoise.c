@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/program.h"
 #include "denoise/balance.h"
+#include "denoise/detail.h"
 #include "denoise/network.h"
 #include "denoise/transfer.h"
 
@@ -16,6 +17,7 @@ typedef struct Layers {
     const float *coverage[3]; /* one */
     const float *fine[3];     /* NULL without that layer */
     const float *lamps[3];    /* NULL without `emitted` */
+    const float *halves[3];   /* NULL without that layer */
 } Layers;
 
 typedef struct LayerRow {
@@ -38,6 +40,7 @@ static const LayerRow layer_rows[] = {
      offsetof(Layers, fine),
      true},
     {"emitted", {"emitted.R", "emitted.G", "emitted.B"}, offsetof(Layers, lamps), true},
+    {"halves", {"halves.R", "halves.G", "halves.B"}, offsetof(Layers, halves), true},
 };
 
 enum { LAYER_ROWS = sizeof layer_rows / sizeof *layer_rows };
@@ -169,6 +172,37 @@ static void take_row(void *user, int y, const float *row) {
     }
 }
 
+/* ---- what the network took besides noise ------------------------------------------------- */
+
+/* Of the whole pixel, as its luminance is; variances hold the noise of displays' light, too,
+ * where the frame's samples have it. */
+static void difference_of_pixel(void *user, size_t i, DetailDifference *out) {
+    const Filtering *work = user;
+    const Layers *layers = work->layers;
+    const float after[3] = {work->out[0][i], work->out[1][i], work->out[2][i]};
+    const float level = luminance_of(after);
+    float before[3], shown[3];
+    *out = (DetailDifference){0, 0};
+    if (!is_filtered(work, i) || !are_finite(layers->halves, i) || !(level > 0)) return;
+    other_light(layers, i, before);
+    shown_light(layers, i, shown);
+    for (int c = 0; c < 3; c++) {
+        const float difference = (before[c] + shown[c] - after[c]) / level;
+        const float noise = layers->halves[c][i] / level;
+        out->square += difference * difference;
+        out->variance += noise * noise;
+    }
+}
+
+static void give_back_detail(void *user, size_t i, float share) {
+    const Filtering *work = user;
+    float before[3], shown[3];
+    if (!is_filtered(work, i)) return;
+    other_light(work->layers, i, before);
+    shown_light(work->layers, i, shown);
+    for (int c = 0; c < 3; c++) work->out[c][i] += share * (before[c] + shown[c] - work->out[c][i]);
+}
+
 /* ---- the light that the network took ----------------------------------------------------- */
 
 static void light_of_pixel(void *user, size_t i, BalanceLight *out) {
@@ -287,6 +321,9 @@ bool denoise_frame(const FrameImage *frame, int threads, Arena *arena, FrameImag
     work.exposure = exposure_of(&work);
     const NetworkPicture picture = {work.width, work.height, &work, fill_row, take_row};
     network_run(&network, &picture, threads, scratch);
+    const DetailPicture detail = {work.width, work.height, &work, difference_of_pixel,
+                                  give_back_detail};
+    if (layers.halves[0]) detail_run(&detail, threads, scratch);
     *report = report_of(&work, give_back(&work, threads, scratch));
     *out = made;
     return true;

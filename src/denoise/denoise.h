@@ -6,7 +6,7 @@
  *
  * Units    cd m^-2.
  * Memory   the new frame comes from the arena; scratch of some 150 KB for each pixel of the
- *          width.
+ *          width, and 16 bytes a pixel.
  * Threads  as many as requested; the same bits for any number.
  * Fails    when the frame lacks a layer that is required (DENOISE_LAYERS), and when the weights
  *          are not there or damaged.
@@ -14,10 +14,10 @@
 #pragma once
 #include "image/frame.h"
 
-/* The layers that it goes by, as --layers names them. The last two may be missing: what
- * displays show is then as noisy as the frame's samples have it, and lamps that are seen are
- * filtered, by which small ones lose light. */
-#define DENOISE_LAYERS "normal,albedo,display.emitted,display.fine,emitted"
+/* The layers that it goes by, as --layers names them. The last three may be missing: what
+ * displays show is then as noisy as the frame's samples have it, lamps that are seen are
+ * filtered, by which small ones lose light, and fine textures go with the noise. */
+#define DENOISE_LAYERS "normal,albedo,display.emitted,display.fine,emitted,halves"
 
 typedef struct DenoiseReport {
     double energy_ratio; /* luminance of the filtered frame by that of the frame, summed up;

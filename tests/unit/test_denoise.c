@@ -501,6 +501,30 @@ ARENA_TEST(a_reflections_edge_is_softened_by_this_much) {
     assert_close(row[3 * WIDTH / 4], 60, 0.02);
 }
 
+/* A fine texture, and the frame says by `halves` how noisy it is: not at all, so that it comes
+ * back; as noisy as that; or nothing, and the network has the last word. */
+ARENA_TEST(what_the_frame_shows_beyond_its_noise_comes_back) {
+    DenoiseReport report;
+    const float noise[] = {0, 20, NAN};
+    double error[3];
+    for (int k = 0; k < 3; k++) {
+        FrameImage frame = whole_wall(&arena);
+        uint32_t random = 5;
+        for (size_t i = 0; i < COUNT; i++) {
+            const float light = uniform(&random) < 0.5 ? 90 : 110;
+            for (const char *c = "R\0G\0B\0"; *c; c += 2) plane(&frame, c, &arena)[i] = light;
+        }
+        set(&frame, "halves", "RGB", noise[k], &arena);
+        FrameImage out = denoised(&frame, &report, &arena);
+        error[k] = 0;
+        for (size_t i = 0; i < COUNT; i++)
+            error[k] += fabs((double)(green(&out)[i] - green(&frame)[i])) / COUNT;
+    }
+    print_message("off by %.3g, %.3g, %.3g of 10 cd/m2\n", error[0], error[1], error[2]);
+    assert_true(error[0] < 0.1 && error[2] > 5);
+    assert_close(error[1], error[2], 1e-6);
+}
+
 ARENA_TEST(small_frames_and_crops_are_filtered) {
     DenoiseReport report;
     const ExrWindow windows[] = {
