@@ -247,6 +247,7 @@ typedef struct SunSums {
                      such angles have no digits left */
     float *sums;
     float per_sr; /* one over the disc's solid angle */
+    long near;    /* ProbeAnswers's */
 } SunSums;
 
 static void add_sun(void *user, int i, int bounce, const float *share, float pdf) {
@@ -264,6 +265,21 @@ static int first_sun_from(const ProbeSuns *suns, float y) {
         else high = middle;
     }
     return low;
+}
+
+/* Panes on the way turn a direction by less than what is near a sun. */
+static bool asks_sun(void *user, Vec3 direction) {
+    SunSums *to = user;
+    const ProbeSuns *suns = to->suns;
+    float reach = PROBE_NEAR_SUN * sqrtf(to->chord2);
+    int i = first_sun_from(suns, direction.y - reach);
+    for (; i < suns->count && suns->towards[i].y <= direction.y + reach; i++) {
+        Vec3 apart = vec3_sub(direction, suns->towards[i]);
+        if (vec3_dot(apart, apart) > reach * reach) continue;
+        to->near++;
+        return true;
+    }
+    return false;
 }
 
 /* Via the first surface's mirror into each disc that the direction meets. */
@@ -299,14 +315,14 @@ void probe_sample_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, in
                        ProbeAnswers *out, PathStatistics *statistics) {
     double half = sin_d((double)suns->radius / 2);
     float chord2 = (float)(4 * half * half);
-    SunSums to = {suns, chord2, out->sums, 1 / (PI_F * chord2)};
+    SunSums to = {suns, chord2, out->sums, 1 / (PI_F * chord2), 0};
     int count = suns->by_mirror ? 0 : suns->count;
     PathDistant distant = {.towards = out->towards,
                            .count = count,
                            .add = add_sun,
                            .add_escaped = add_escaped_sun,
                            .user = &to,
-                           .is_of_mirror = suns->by_mirror};
+                           .asks_mirror = suns->by_mirror ? asks_sun : NULL};
     PathContext once = *aim->context;
     ProbeAim direct = *aim;
     once.max_bounces = 1;
@@ -316,6 +332,7 @@ void probe_sample_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, in
         DistantCollector questions = distant_collector(&distant);
         trace(&direct, path, &questions.base, statistics);
     }
+    out->near_suns = to.near;
 }
 
 /* ---- mirror images ----------------------------------------------------------------------- */

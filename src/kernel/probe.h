@@ -79,6 +79,8 @@ Vec3 probe_cell_center(const ProbeCells *cells, int cell);
 typedef struct ProbeAnswers {
     float *sums;
     Vec3 *towards;
+    long near_suns; /* probe_sample_suns by mirror: paths whose mirror direction lies near one,
+                       whatever stands before it */
 } ProbeAnswers;
 
 /* HOT. Adds the sum over paths to sums[order][cell][lane]: what comes to the eye of a radiance
@@ -87,6 +89,7 @@ void probe_sample_cells(const ProbeAim *aim, const ProbeCells *cells, int first,
                         ProbeAnswers *out, PathStatistics *statistics);
 
 /* Discs of one size in the sky. */
+#define PROBE_NEAR_SUN 4 /* radii from a sun's centre that are near it */
 typedef struct ProbeSuns {
     const Vec3 *towards; /* unit, world: their centres; by_mirror: their y rises */
     int count;

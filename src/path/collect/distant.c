@@ -112,14 +112,24 @@ static bool at_hit(PathCollector *c, PathState *path, const Surface *surface, Ve
     return true;
 }
 
-/* Chooses the mirror direction of a first display, so that chance leaves none of it out;
- * false: the mirror alone is not requested, or this is no such display. */
+/* A first display, whose mirror alone is requested. */
+static bool is_of_mirror(const PathCollector *c, const PathState *path, const Surface *surface) {
+    return ((const DistantCollector *)c)->distant->asks_mirror && !path->bounce &&
+           surface_is_display(path->context->scene, surface);
+}
+
+static bool refuse_mirror(PathCollector *c, PathState *path, const Surface *surface,
+                          const BsdfSample *next) {
+    const PathDistant *distant = ((DistantCollector *)c)->distant;
+    return is_of_mirror(c, path, surface) &&
+           !distant->asks_mirror(distant->user, frame_to_world(&surface->frame, next->wi));
+}
+
+/* Chooses the mirror direction of a first display, so that chance leaves none of it out. */
 static bool choose_mirror(PathCollector *c, PathState *path, const Surface *surface,
                           BsdfSample *next) {
     Vec3 local_wo = surface->local_wo;
-    if (!((DistantCollector *)c)->distant->is_of_mirror || path->bounce ||
-        !surface_is_display(path->context->scene, surface))
-        return false;
+    if (!is_of_mirror(c, path, surface)) return false;
     *next = (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z),
                          .pdf = 1,
                          .weight = bsdf_mirror(&surface->bsdf, local_wo),
@@ -145,9 +155,11 @@ static bool leave(PathCollector *c, PathState *path) {
 }
 
 DistantCollector distant_collector(const PathDistant *distant) {
-    static const CollectorKind kind = {
-        .size = sizeof(DistantCollector),
-        .steer = {.vertex = at_hit, .choose = choose_mirror, .escape = leave},
-        .turn = turn_from};
+    static const CollectorKind kind = {.size = sizeof(DistantCollector),
+                                       .steer = {.vertex = at_hit,
+                                                 .choose = choose_mirror,
+                                                 .refuse = refuse_mirror,
+                                                 .escape = leave},
+                                       .turn = turn_from};
     return (DistantCollector){{&kind, NULL}, distant, false};
 }

@@ -21,9 +21,11 @@ typedef struct PathDistant {
      * radiance from there. pdf: 0, or of a way that left by a sharp lobe, sr^-1. */
     void (*add_escaped)(void *user, Vec3 direction, int bounce, const float *share, float pdf);
     void *user;
-    bool is_of_mirror; /* where a display comes first, its mirror alone is followed */
-    bool has_ways;     /* vertices send out PATH_WAYS rays each, which follow mirrors and sharp
-                          lobes: what leaves the scene so is added for these, not for paths */
+    /* Where a display comes first its mirror alone is followed, as far as its direction is
+     * asked for. NULL: the mirror is nothing special. */
+    bool (*asks_mirror)(void *user, Vec3 direction);
+    bool has_ways; /* vertices send out PATH_WAYS rays each, which follow mirrors and sharp
+                      lobes: what leaves the scene so is added for these, not for paths */
 } PathDistant;
 
 typedef struct DistantCollector {

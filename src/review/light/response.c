@@ -141,7 +141,7 @@ static void trace_chunk(void *user, int item, int worker) {
     aim.is_spread = true;
     memset(trace->tables[item], 0, size * sizeof(float));
     ProbeCells part = cells_of_chunk(trace->cells, chunk - PILOT, trace->asked[item]);
-    ProbeAnswers answers = {trace->tables[item], trace->towards[item]};
+    ProbeAnswers answers = {trace->tables[item], trace->towards[item], 0};
     trace->options->kernel->sample_cells(&aim, &part, first, first + RESPONSE_CHUNK, &answers,
                                          &statistics);
     double sent = 0;

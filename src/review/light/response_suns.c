@@ -13,6 +13,7 @@
 /* Paths of one piece of work: pieces are added in order. By mirror a path reaches few suns. */
 #define SUN_CHUNK 4
 #define MIRROR_CHUNK 1024
+#define NEAR_CHUNK 64
 #define SUN_BYTES ((size_t)16 << 20) /* tables that are not added yet */
 
 typedef struct SunTrace {
@@ -21,6 +22,7 @@ typedef struct SunTrace {
     const ProbeSuns *suns;
     float *tables;
     Vec3 *towards;
+    long *near;       /* of pieces: ProbeAnswers's */
     int first, paths; /* first path of the pieces in hand; all paths */
     int chunk;
     bool is_by_target; /* a piece is a target's */
@@ -45,9 +47,10 @@ static void trace_suns(void *user, int item, int worker) {
     ProbeAim aim =
         trace->is_by_target ? aim_at_target(trace->aim, first / trace->chunk) : *trace->aim;
     memset(table, 0, count * RESPONSE_BANDS * sizeof(float));
-    ProbeAnswers answers = {table, trace->towards + (size_t)item * count};
+    ProbeAnswers answers = {table, trace->towards + (size_t)item * count, 0};
     trace->options->kernel->sample_suns(
         &aim, trace->suns, first, end < trace->paths ? end : trace->paths, &answers, &statistics);
+    trace->near[item] = answers.near_suns;
 }
 
 #define MIRROR_HITS 1024.0 /* paths that meet the sun's image, evenly: 0.6 % */
@@ -127,6 +130,25 @@ static int pieces_at_once(const SunTrace *trace) {
     return most > trace->options->threads ? most : trace->options->threads;
 }
 
+/* Of one sun: does a share of the paths find no mirror direction near it? These are well spread:
+ * what of a mirror is within PROBE_NEAR_SUN radii of the sun, wherever on its rim the image lies,
+ * gets as many of them as the whole image of all. */
+static bool is_far_from_mirror(const SunTrace *of, int pieces) {
+    SunTrace some = *of;
+    some.is_by_target = false;
+    some.chunk = NEAR_CHUNK;
+    some.paths = of->paths / (PROBE_NEAR_SUN * PROBE_NEAR_SUN);
+    long near = 0;
+    if (!of->suns->by_mirror || of->suns->count != 1) return false;
+    for (; some.first < some.paths && !near; some.first += pieces * some.chunk) {
+        int left = (some.paths - some.first + some.chunk - 1) / some.chunk;
+        int now = left < pieces ? left : pieces;
+        parallel_for(some.options->threads, now, trace_suns, &some);
+        for (int k = 0; k < now; k++) near += some.near[k];
+    }
+    return !near;
+}
+
 static int paths_of_target(const ProbeAim *aim, const ResponseOptions *options) {
     return (options->paths + aim->target_count - 1) / aim->target_count;
 }
@@ -157,6 +179,8 @@ static const float *suns_of(const ProbeAim *aim, const ResponseOptions *options,
     size_t pieces = (size_t)pieces_at_once(&trace);
     trace.tables = ARENA_NEW(&scratch, float, count *RESPONSE_BANDS *pieces);
     trace.towards = ARENA_NEW(&scratch, Vec3, count * pieces);
+    trace.near = ARENA_NEW(&scratch, long, pieces);
+    if (is_far_from_mirror(&trace, (int)pieces)) return shares;
     sum_suns(&trace, (int)pieces, sums, to->of ? to : NULL);
     for (size_t i = 0; i < count; i++)
         for (int b = 0; b < RESPONSE_BANDS; b++)
