@@ -42,7 +42,7 @@ ReviewCase review_case_unknown(void) {
         c.height_arcmin = c.stroke_ratio = c.jnd = c.visibility = (double)NAN;
     l->foreground = l->background = l->reflected = l->mirror = l->scattered = l->veil = (double)NAN;
     c.reflected_range = (MeanInterval){(double)NAN, (double)NAN};
-    c.eye_failed_share = c.precision_asked = c.precision_reached = (double)NAN;
+    c.eye_failed_share = c.precision_asked = c.precision_reached = c.alike_within = (double)NAN;
     c.glasses_transmittance = 1;
     c.own_reflected = (double)NAN;
     c.whole = case_whole_unknown();

@@ -245,16 +245,20 @@ typedef struct ReviewCase {
                              sees of strokes that wide (Barten) */
     const CaseVisibility *visibilities; /* the observer's first; none: nobody asked */
     int visibility_count;
-    long paths;               /* that what is reflected was read from */
-    const double *batches;    /* [CASE_BATCHES] estimates by independent batches of them, cd
-                                 m^-2, whose mean is luminance_cd_m2.reflected; NULL: not
-                                 known */
-    double precision_asked;   /* of the contrast, relative: coarser where the verdict is
-                                 clear; NaN: nothing is visible */
-    double precision_reached; /* its standard error, relative; NaN likewise */
-    OpenBy open_by;           /* what keeps a case open that is too close */
-    double visible_share;     /* of the box about its foreground, 0..1 */
-    const CaseHider *hiders;  /* of all else, greatest first: with it they add up to 1 */
+    long paths;                  /* that what is reflected was read from */
+    const double *batches;       /* [CASE_BATCHES] estimates by independent batches of them, cd
+                                    m^-2, whose mean is luminance_cd_m2.reflected; NULL: not
+                                    known */
+    double precision_asked;      /* of the contrast, relative: coarser where the verdict is
+                                    clear; NaN: nothing is visible */
+    double precision_reached;    /* its standard error, relative; NaN likewise */
+    double alike_within;         /* of a variant: the reading is the review's, from which its own is
+                                    no further than this share (run/alike.h); NaN: it was read by
+                                    itself */
+    const struct CaseKept *kept; /* of the review's, for that (run/cases.c); NULL: nothing is */
+    OpenBy open_by;              /* what keeps a case open that is too close */
+    double visible_share;        /* of the box about its foreground, 0..1 */
+    const CaseHider *hiders;     /* of all else, greatest first: with it they add up to 1 */
     int hider_count;
     double eye_failed_share; /* of an eye box's points: those that fail; NaN: one point */
     double eye_m[3];         /* where the eye was, world; of a box its worst point */

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """variants.py [--all] PARHELION -- what a review says of its variants is what separate reviews
-of scenes changed by hand say; differences are sharper than values; pictures stand side by
-side, each from where its eye is.
+of scenes changed by hand say; differences are sharper than values; what is not changed is not
+read again; pictures stand side by side, each from where its eye is.
 Without --all two of the variants in one light and no sweep, each beside one review, and what is
 refused.
 """
@@ -153,6 +153,61 @@ def curved(times, **members):
     return document
 
 
+def beside(mirror_z=0.0):
+    """The dashboard with a mirror to its right, and a plate under its floor, which no light
+    that it shows has met."""
+    made = scene()
+    plate = made.lambert(0.9)
+    made.document["materials"][plate]["name"] = "plate"
+    made.quad(plate, [-0.4, -0.5, 0.6], [0.2, 0, 0], [0, 0, -0.2])
+    made.document["nodes"][-1]["name"] = "plate"
+    made.quad(made.metal(0.9), [0.4, -0.2, mirror_z], [0, 0, 0.4], [0, 0.4, 0])
+    made.document["nodes"][-1]["name"] = "mirror"
+    return made
+
+
+# What a variant changes, its level, and where its mirror is; whether its light is the review's.
+ALIKE = {
+    "the same": ({"brightness": {"screen": 1}}, LEVEL, 0, True),
+    "brighter": ({"brightness": {"screen": 1.1}}, 1.1 * LEVEL, 0, True),
+    "plate moved": ({"nodes": {"plate": {"move_m": [0, 0, 0.1]}}}, LEVEL, 0, True),
+    "black plate": ({"materials": {"plate": {"pbrMetallicRoughness": {
+        "baseColorFactor": [0, 0, 0, 1]}}}}, LEVEL, 0, True),
+    "mirror moved": ({"nodes": {"mirror": {"move_m": [0, 0, -1]}}}, LEVEL, -1, False),
+}
+
+
+def check_alike(report, reviewer):
+    """A variant is read by itself only where it changes the light; else its light is the
+    review's. Both are what reviews by hand say."""
+    beside().write(os.path.join(reviewer.folder, "dash.gltf"))
+    changes = {name: change for name, (change, *_) in ALIKE.items()}
+    _, base = reviewer.review(asked(swept=False, variants=changes), "alike")
+    own, by_hand = base["cases"][0], {}
+    for variant in base["variants"]:
+        name, found = variant["name"], variant["cases"][0]
+        _, level, mirror_z, is_alike = ALIKE[name]
+        within = found["alike_within"]
+        report.claim((within is not None) == is_alike, f"{name}: alike within {within}")
+        if (level, mirror_z) not in by_hand:
+            beside(mirror_z).write(os.path.join(reviewer.folder, "hand.gltf"))
+            document = asked(level, swept=False, scene=["hand.gltf"])
+            document["precision"]["seed"] = OTHER_SEED
+            by_hand[level, mirror_z] = reviewer.review(document, "alone")[1]
+        for _ in check_variant(report, name, variant, base, [by_hand[level, mirror_z]], base):
+            pass
+        if not is_alike:
+            continue
+        report.claim(within <= PRECISION, f"{name}: alike within {within}")
+        report.claim(found["reflected_cd_m2"] == own["luminance_cd_m2"]["reflected"],
+                     f"{name}: reflects {found['reflected_cd_m2']}, the review {own}")
+        if level == LEVEL:
+            low, high = found["margin_difference_interval"]
+            report.claim(found["margin_difference"] == 0 and low <= 0 <= high and
+                         (low == high) == (name == "the same"),
+                         f"{name}: differs by {found['margin_difference']}, {low} to {high}")
+
+
 def width_of(path):
     with open(path, "rb") as file:
         return int.from_bytes(file.read(20)[16:], "big")
@@ -285,6 +340,7 @@ def main(program, whole):
         else:
             check_variants(report, reviewer, SOME, SEEDS[:1], False)
         check_refusals(report, reviewer, whole)
+        check_alike(report, reviewer)
     return report.finish()
 
 

@@ -15,7 +15,7 @@
 #define BODY_BYTES ((uint64_t)1 << 34)
 #define FILE_BYTES ((size_t)1 << 34)
 
-static const KeptFormat format = {"PRHLCOND", "a reviewed condition", 1, 0};
+static const KeptFormat format = {"PRHLCOND", "a reviewed condition", 2, 0};
 
 const char *condition_file_name(const ReviewRequest *request, int condition_id, Arena *arena) {
     const char *name = request->conditions[condition_id].name;

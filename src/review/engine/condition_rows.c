@@ -110,7 +110,7 @@ ROWS(review_case, TEXT(ReviewCase, condition), TEXT(ReviewCase, eye), TEXT(Revie
      TEXT(ReviewCase, display), CHOICE(ReviewCase, ambient, AMBIENTS), TEXT(ReviewCase, when),
      FLAG(ReviewCase, has_sun), NUMBERS(ReviewCase, sun_azimuth_deg, visibility),
      LIST(ReviewCase, visibilities, visibility_count, level), NUMBER(ReviewCase, paths),
-     ONE(ReviewCase, batches, batches), NUMBERS(ReviewCase, precision_asked, precision_reached),
+     ONE(ReviewCase, batches, batches), NUMBERS(ReviewCase, precision_asked, alike_within),
      CHOICE(ReviewCase, open_by, OPEN_COUNT), NUMBER(ReviewCase, visible_share),
      LIST(ReviewCase, hiders, hider_count, hider), NUMBERS(ReviewCase, eye_failed_share, origin_m),
      FLAG(ReviewCase, is_optional), FLAG(ReviewCase, must_not_be_read),

@@ -159,6 +159,7 @@ static json_t *difference_json(const ReviewDifference *d) {
     set(out, "margin_difference", json_figure(d->margin));
     set(out, "margin_difference_interval", pair(d->margin_range.low, d->margin_range.high));
     set(out, "reflected_cd_m2", json_figure(d->after->luminance_cd_m2.reflected));
+    set(out, "alike_within", json_figure(d->after->alike_within));
     case_members_json(d->after, LAST, out);
     if (!d->sweep_after) return out;
     const ReviewSweep *before = d->sweep_before;

@@ -48,6 +48,12 @@ static const char *difference_words(const ReviewDifference *d, Arena *arena) {
     return effect_text(d->margin, d->margin_range, SHOWN_SHARE, arena);
 }
 
+/* "": it was read by itself. */
+static const char *alike_words(const ReviewCase *c, Arena *arena) {
+    if (isnan(c->alike_within)) return "";
+    return arena_format(arena, "light of the review, within %.1g %%", 100 * c->alike_within);
+}
+
 static const char *difference_class(const ReviewDifference *d) {
     if (effect_is_none(d->margin, d->margin_range, SHOWN_SHARE)) return "n";
     if (d->margin_range.low > 0) return "n good";
@@ -240,6 +246,7 @@ static void add_difference(json_t *list, const ReviewDifference *d, Arena *arena
     page_set(to, "after", words_margin(d->after->margin, arena));
     page_set(to, "kind", difference_class(d));
     page_set(to, "difference", difference_words(d, arena));
+    page_set(to, "alike", alike_words(d->after, arena));
 }
 
 /* Those that change most first. */

@@ -13,6 +13,7 @@
 #include "review/light/setup.h"
 #include "review/light/response_suns.h"
 #include "review/review_decide.h"
+#include "review/run/alike.h"
 #include "review/run/case_visibility.h"
 #include "review/run/private_images.h"
 #include "review/run/symbols.h"
@@ -21,6 +22,7 @@
 #include "vision/grey_steps.h"
 
 #define FACE_PRECISION 0.02
+#define FACE_PRECISION_VARIANT 0.05 /* where that tells day from night: it has no other use */
 #define FACE_PATHS 16384
 #define FACE_SEED 0x66616365u
 #define EYE_SEED 0x65796573u
@@ -42,8 +44,15 @@ static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena 
     PathContext here = path_context_of_meter(&setup->context, head);
     ProbeAim aim = {
         .context = &here, .meter = &head, .seed = review_seed(setup->request, FACE_SEED)};
-    ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
-    return reading_take(&aim, &goal, &setup->tools, scratch).reflected;
+    ReadingGoal goal = {.precision = tools->base ? FACE_PRECISION_VARIANT : FACE_PRECISION,
+                        .most = FACE_PATHS};
+    Reading face = reading_take(&aim, &goal, &setup->tools, scratch);
+    if (tools->base && profile_ambient(tools->profile, face.interval.low, false) !=
+                           profile_ambient(tools->profile, face.interval.high, false)) {
+        goal.precision = FACE_PRECISION;
+        face = reading_take(&aim, &goal, &setup->tools, scratch);
+    }
+    return face.reflected;
 }
 
 /* The display's luminance to the eye by direct sun alone, cd m^-2. */
@@ -85,6 +94,17 @@ static void set_contrasts(ReviewCase *c, MeanInterval reflected) {
                                 lets * (l->background + l->reflected + veil));
 }
 
+/* What was read of a look. */
+typedef struct LookReading {
+    double visible_share, reflected, mirror;
+    MeanInterval range;
+    CaseWhole whole;
+    DirectSun direct;
+    const double *batches;
+    long paths;
+    double asked, reached;
+} LookReading;
+
 /* One point of an eye that looks at a symbol; coarse: to find the worst of many points; bare:
  * without stray light. */
 typedef struct CaseLook {
@@ -94,6 +114,9 @@ typedef struct CaseLook {
     bool is_open;       /* of coarse ones: fewer paths leave its verdict open */
     const Vec3 *points; /* [point_count], all of the eye's; NULL: no glass is searched */
     int point_count;
+    const LookReading *like; /* of a variant: the review's, which is this one's, too; NULL: it is
+                                read by itself */
+    double within;           /* this share of each other */
 } CaseLook;
 
 /* ---- until its verdict is clear ---------------------------------------------------------- */
@@ -275,6 +298,72 @@ static void keep_reading(const Reading *reading, const CaseLook *look, ReviewCas
     c->visibility = visibility_of(c, &look->symbol->split);
 }
 
+/* ---- as the review's --------------------------------------------------------------------- */
+
+/* What a case of a review with variants leaves for them. */
+typedef struct CaseKept {
+    const CasePilot *pilot;
+    LookReading own;
+    int at;                    /* which of the eye's points it is of */
+    const LookReading *points; /* of all of them, where there are several */
+} CaseKept;
+
+/* What must not be read is judged by its least part; lenses have no pilot. */
+static bool is_kept(const CaseTools *tools, const ReviewCase *c) {
+    const Setup *setup = tools->setup;
+    return setup->request->variant_count && !c->must_not_be_read &&
+           !(setup->condition && setup->condition->glasses);
+}
+
+static LookReading look_reading(const ReviewCase *c, DirectSun direct) {
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    return (LookReading){
+        c->visible_share, l->reflected, l->mirror, c->reflected_range, c->whole,
+        direct,           c->batches,   c->paths,  c->precision_asked, c->precision_reached};
+}
+
+/* The pilot of a part and, from all points, of all. */
+static const CasePilot *pilot_of(const CaseTools *tools, const CaseLook *look, const ProbeAim *part,
+                                 double mirror, Arena *arena) {
+    PilotArgs args = {tools->setup, &look->symbol->surface, part,
+                      mirror,       look->points,           look->point_count};
+    return case_pilot(&args, arena);
+}
+
+static ProbeAim aim_at_part(const CaseLook *look, const ProbeAim *aim, const LookReading *like,
+                            Arena *arena) {
+    double part[4];
+    memcpy(part, &like->whole.part, sizeof part);
+    return worst_part_aim(look->symbol, aim, part, arena);
+}
+
+/* Takes the review's reading, in the part that the review judged. No targets: another share of
+ * the symbol is seen. */
+static ProbeAim take_alike(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
+                           ReviewCase *c, Arena *arena) {
+    const LookReading *like = look->like;
+    CaseLuminances *l = &c->luminance_cd_m2;
+    double more = look->within * like->reflected;
+    ProbeAim part = aim_at_part(look, aim, like, arena);
+    if (!part.target_count || like->visible_share != c->visible_share)
+        return (ProbeAim){.target_count = 0};
+    l->reflected = like->reflected;
+    l->mirror = like->mirror;
+    l->scattered = like->reflected - like->mirror;
+    c->alike_within = look->within;
+    c->paths = like->paths;
+    c->batches = like->batches;
+    c->whole = like->whole;
+    c->precision_asked = like->asked;
+    c->precision_reached = like->reached;
+    set_mean(tools->profile, c);
+    set_contrasts(
+        c, (MeanInterval){fmax(l->reflected - hypot(l->reflected - like->range.low, more), 0),
+                          l->reflected + hypot(like->range.high - l->reflected, more)});
+    c->visibility = visibility_of(c, &look->symbol->split);
+    return part;
+}
+
 /* *c holds all that does not depend on the eye. The aim has no targets where it is not
  * seen; *direct: of what is reflected. */
 static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
@@ -292,11 +381,16 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
                     .eye = look->eye,
                     .seed = review_seed(setup->request, look->is_coarse ? COARSE_SEED : EYE_SEED)};
     symbol_put_on_glasses(setup, symbol, &aim, c, arena);
-    PartArgs in = {symbol, &aim, look->is_coarse, c->must_not_be_read};
-    WorstPart part = worst_part_find(setup, &in, arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil ||
                       profile_has(tools->profile, LIMIT_VISIBILITY_LEVEL);
     if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, look->eye, c, arena);
+    if (look->like) {
+        ProbeAim same = take_alike(tools, look, &aim, c, arena);
+        *direct = look->like->direct;
+        if (same.target_count) return same;
+    }
+    PartArgs in = {symbol, &aim, look->is_coarse, c->must_not_be_read};
+    WorstPart part = worst_part_find(setup, &in, arena);
     VerdictArgs args = {.tools = tools, .of = c};
     Reading reading = read_part(look, &part, c, &args, arena);
     *direct = args.direct;
@@ -360,26 +454,30 @@ static double data_share_of(const CaseTools *tools, const CaseLook *look, const 
     return count ? case_data_share(&args, scratch) : 0;
 }
 
+/* *direct: of what is reflected. */
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
-                           Arena *arena) {
-    DirectSun direct = {0, 0};
-    ProbeAim aim = see_symbol(tools, look, c, &direct, arena);
+                           DirectSun *direct, Arena *arena) {
+    *direct = (DirectSun){0, 0};
+    ProbeAim aim = see_symbol(tools, look, c, direct, arena);
     if (c->must_not_be_read && look->points)
         private_images_find(
             &(PrivateLook){tools->setup, look->symbol, look->points, look->point_count}, c, arena);
     judge_ambient(c, tools->profile,
-                  aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
+                  aim.target_count && is_in_sun(*direct, c->luminance_cd_m2.reflected));
     c->without_data_share = data_share_of(tools, look, &aim, c, *arena);
     judge_case(c, tools->profile, arena);
-    judge_open(c, known_share(direct, c->reflected_range));
+    judge_open(c, known_share(*direct, c->reflected_range));
     return aim;
 }
 
-/* The points of an eye; places: NULL, or [count] to be filled. */
+/* The points of an eye; places, readings: NULL, or [count] to be filled; like: of a variant, the
+ * review's readings [count], or NULL. */
 typedef struct EyePlaces {
     const Vec3 *points;
     int count;
     CasePlace *places;
+    LookReading *readings;
+    const LookReading *like;
 } EyePlaces;
 
 static CasePlace place_of(const Setup *setup, Vec3 eye, const ReviewCase *seen) {
@@ -400,15 +498,22 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const EyePl
     int at = 0, failed = 0;
     for (int i = 0; i < of->count; i++) {
         Arena room = scratch;
-        CaseLook one = {
-            .symbol = look->symbol, .eye = of->points[i], .is_coarse = true, .is_bare = true};
+        CaseLook one = {.symbol = look->symbol,
+                        .eye = of->points[i],
+                        .is_coarse = true,
+                        .is_bare = true,
+                        .like = of->like ? &of->like[i] : NULL,
+                        .within = look->within};
         ReviewCase seen = start;
-        judge_look(tools, &one, &seen, &room);
+        DirectSun direct;
+        judge_look(tools, &one, &seen, &direct, &room);
         if (seen.verdict == VERDICT_TOO_CLOSE) {
             one.is_open = true;
+            one.like = NULL;
             seen = start;
-            judge_look(tools, &one, &seen, &room);
+            judge_look(tools, &one, &seen, &direct, &room);
         }
+        if (of->readings) of->readings[i] = look_reading(&seen, direct);
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
         if (of->places) of->places[i] = place_of(tools->setup, of->points[i], &seen);
         if (i && !is_worse(&seen, &worst)) continue;
@@ -420,14 +525,62 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const EyePl
 }
 
 /* The worst of an eye's points, which all of them are read for where there are several. */
-static Vec3 worst_place(const CaseTools *tools, const CaseLook *look, EyePlaces of, ReviewCase *c,
-                        Arena *arena) {
-    if (of.count == 1) return of.points[0];
+static int worst_place(const CaseTools *tools, const CaseLook *look, EyePlaces of, ReviewCase *c,
+                       Arena *arena) {
+    if (of.count == 1) return 0;
     if (c->must_not_be_read) {
         c->places = of.places = ARENA_NEW(arena, CasePlace, of.count);
         c->place_count = of.count;
     }
-    return of.points[worst_point(tools, look, &of, c, *arena)];
+    return worst_point(tools, look, &of, c, *arena);
+}
+
+/* The most by which a variant's light is apart from the review's, as a share; INFINITY: they
+ * differ. A sweep's worst may be under another sun. */
+static double apart_from(const CaseTools *tools, const CaseLook *look, const ReviewCase *like,
+                         const ReviewCase *c, Arena scratch) {
+    const Setup *setup = tools->setup;
+    ProbeAim aim = {.context = &setup->context, .eye = look->points[like->kept->at]};
+    if (c->has_sun && c->sun_elevation_deg != like->sun_elevation_deg) return (double)INFINITY;
+    aim = aim_at_part(look, &aim, &like->kept->own, &scratch);
+    if (!aim.target_count) return (double)INFINITY;
+    double mirror = direct_sun(setup, &aim, scratch).mirror;
+    return case_pilots_apart(like->kept->pilot, pilot_of(tools, look, &aim, mirror, &scratch));
+}
+
+/* The review's same case, where a variant's is alike: no further apart than the precision that
+ * is asked of the contrast; else NULL. */
+static const ReviewCase *like_of(const CaseTools *tools, CaseLook *look, const ReviewCase *c,
+                                 Arena scratch) {
+    const ReviewCase *like = tools->base ? review_case_like(tools->base, c) : NULL;
+    if (!like || !like->kept) return NULL;
+    look->within = apart_from(tools, look, like, c, scratch);
+    return look->within <= tools->setup->request->precision_contrast ? like : NULL;
+}
+
+static void keep_case(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
+                      CaseKept kept, ReviewCase *c, Arena *arena) {
+    CaseKept *to = ARENA_NEW(arena, CaseKept, 1);
+    kept.pilot = pilot_of(tools, look, aim, kept.own.direct.mirror, arena);
+    *to = kept;
+    c->kept = to;
+}
+
+/* At the worst of its points. */
+static ProbeAim judge_eye(const CaseTools *tools, CaseLook *look, ReviewCase *c, Arena *arena) {
+    const ReviewCase *like = like_of(tools, look, c, *arena);
+    bool keeps = is_kept(tools, c);
+    EyePlaces of = {.points = look->points,
+                    .count = look->point_count,
+                    .readings = keeps ? ARENA_NEW(arena, LookReading, look->point_count) : NULL,
+                    .like = like ? like->kept->points : NULL};
+    CaseKept kept = {.at = worst_place(tools, look, of, c, arena), .points = of.readings};
+    look->eye = of.points[kept.at];
+    if (like && like->kept->at == kept.at) look->like = &like->kept->own;
+    ProbeAim aim = judge_look(tools, look, c, &kept.own.direct, arena);
+    kept.own = look_reading(c, kept.own.direct);
+    if (keeps && aim.target_count) keep_case(tools, look, &aim, kept, c, arena);
+    return aim;
 }
 
 static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, ReviewCase *out,
@@ -439,10 +592,9 @@ static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, 
     if (!points || !review_goes_on(err)) return false;
     c.display_lux = args->face_lux;
     c.eye_failed_share = (double)NAN;
-    look.eye = worst_place(tools, &look, (EyePlaces){points, count, NULL}, &c, arena);
     look.points = points;
     look.point_count = count;
-    ProbeAim aim = judge_look(tools, &look, &c, arena);
+    ProbeAim aim = judge_eye(tools, &look, &c, arena);
     world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
     c.panel = symbol_panel(args->symbol, arena);
     if (aim.target_count && !args->is_bare) {

@@ -403,6 +403,13 @@ WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena
     return out;
 }
 
+ProbeAim worst_part_aim(const SetupSymbol *symbol, const ProbeAim *aim, const double uv[4],
+                        Arena *arena) {
+    WorstPart out = {.aim = *aim};
+    aim_at_box(&symbol->surface, uv, &out, arena);
+    return out.aim;
+}
+
 /* ---- the mean in its place --------------------------------------------------------------- */
 
 bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading, bool is_private) {

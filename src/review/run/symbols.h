@@ -87,6 +87,10 @@ typedef struct WorstPart {
 
 WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena);
 
+/* That part of it, or all of it where the box is all. No target: nothing of it is seen. */
+ProbeAim worst_part_aim(const SetupSymbol *symbol, const ProbeAim *aim, const double uv[4],
+                        Arena *arena);
+
 /* The mean is that reading of all of the symbol. */
 void worst_part_set_mean(CaseWhole *whole, const Reading *reading);
 

@@ -44,6 +44,14 @@ static double image_half(const ReviewCase *of) {
     return limit && limit->by_pane ? 0.5 * (limit->high - limit->low) / limit->value : 0;
 }
 
+/* Half the interval of a margin whose light is the review's, within a share. */
+static double alike_half(const ReviewCase *of, const Profile *profile, Arena scratch) {
+    double light = of->luminance_cd_m2.reflected;
+    if (isnan(of->alike_within)) return 0;
+    return fabs(margin_with(of, light * (1 + of->alike_within), profile, scratch) -
+                margin_with(of, light, profile, scratch));
+}
+
 /* By how much bright light that paths may have missed moves a margin: what the upper end of the
  * reflected light has more than the lower. Where one case lacks it so does the other. */
 static double margin_of_bright(const ReviewCase *of, const Profile *profile, Arena scratch) {
@@ -67,6 +75,8 @@ static void set_difference(const Profile *profile, ReviewDifference *of, Arena s
     double half = student_quantile(CASE_BATCHES - 1) * error;
     double images = hypot_d(image_half(of->before), image_half(of->after));
     if (images > 0) half = hypot_d(half, images);
+    double alike = alike_half(of->after, profile, scratch);
+    if (alike > 0) half = hypot_d(half, alike);
     double bright = margin_of_bright(of->after, profile, scratch) -
                     margin_of_bright(of->before, profile, scratch);
     of->margin_range =

@@ -2,13 +2,14 @@
 /* variants.h -- the review once more for each of its variants, and what they differ by.
  *
  * A variant is this review with another request: read by the same random numbers as the review
- * itself, from no fewer paths, and judged by the light alone: no causes, gazes, false suns,
- * pictures. Responses are found by what decides them (sweep_probes.h). They end half as long:
- * how long it fails hangs on them alone.
+ * itself, from no fewer paths, where its light is not alike (run/alike.h), and judged by that
+ * alone: no causes, gazes, false suns, pictures. Responses are found by what decides them
+ * (sweep_probes.h). They end half as long: how long it fails hangs on them alone.
  *
  * Intervals  of differences of margins: jackknife over the batches of both readings, which are
  *            independent of each other and share their luck pair by pair; Student's t for 95 %.
- *            The error of what is known without paths, the same on both sides, is not in it.
+ *            The error of what is known without paths, the same on both sides, is not in it; that
+ *            by which light is alike is.
  * Source     B. Efron, The Jackknife, the Bootstrap and Other Resampling Plans, SIAM 1982
  * Memory     from the arena.
  * Threads    starts its own; the same figures for any count.
