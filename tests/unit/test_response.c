@@ -255,6 +255,42 @@ TEST(a_sun_in_a_display_is_as_bright_as_its_mirror_says) {
     if (!(rms < 0.01)) fail_msg("rms %g", rms);
 }
 
+/* Alone, where few paths ask whether there is any, as beside others: down to the slice that
+ * stands 0.9 radii beyond the rim. */
+TEST(a_slice_of_the_sun_at_a_rim_of_a_display_is_found) {
+    enum { SUNS = 12 };
+    ENDS_BY(world_end) World world = world_start();
+    Vec3 middles[TILES * TILES], suns[SUNS];
+    ProbePatch patches[TILES * TILES];
+    add_display(&world);
+    world_ready(&world, 64);
+    tile_display(middles, patches);
+    float radius = 0.0046504f;
+    for (int i = 0; i < SUNS; i++) {
+        float beyond = 0.9f * (2.0f * (float)i / (SUNS - 1) - 1) * radius;
+        Vec3 to = vec3_sub(vec3(0.2f, 0.01f * (float)(i - SUNS / 2), 0), eye);
+        to.x += beyond * vec3_length(to);
+        to = vec3_normalize(to);
+        suns[i] = vec3(to.x, to.y, -to.z);
+    }
+    ProbeAim aim = {.context = &world.context,
+                    .eye = eye,
+                    .targets = middles,
+                    .patches = patches,
+                    .target_count = TILES * TILES,
+                    .seed = 7};
+    ProbeSuns all = {suns, SUNS, radius, true}, one = all;
+    ResponseOptions options = {kernel(), 4, response_mirror_paths(&aim, radius), 2, 0};
+    const float *together = response_suns(&aim, &options, &all, &world.arena);
+    one.count = 1;
+    for (int i = 0; i < SUNS; i++) {
+        one.towards = suns + i;
+        const float *alone = response_suns(&aim, &options, &one, &world.arena);
+        assert_true(alone[0] > 0);
+        assert_memory_equal(alone, together + (size_t)i * LIGHT_BANDS, LIGHT_BANDS * sizeof(float));
+    }
+}
+
 /* The sun in a tile of 20 x 10 mm: by luck, and as what is known of it beside all else. */
 TEST(a_reading_knows_of_the_sun_in_a_display) {
     ENDS_BY(world_end) World world = world_start();
