@@ -396,7 +396,8 @@ WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena
                                    : read_all(setup, &parts, &out.whole, scratch);
         out.is_all = part == LIGHT_PARTS_ALL;
         if (!out.is_all) symbol_part_box(args->symbol, &parts, part, uv);
-        if (!args->is_coarse) out.whole.lit_share = lit_share(setup, args, scratch);
+        bool is_told = !args->is_coarse && !setup->request->change; /* of no variant */
+        if (is_told) out.whole.lit_share = lit_share(setup, args, scratch);
     }
     arena_release(&scratch);
     if (!aim_at_box(all, uv, &out, arena)) aim_at_all(all, &out, arena);
