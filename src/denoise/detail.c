@@ -46,8 +46,9 @@ static void give_back_row(void *context, int y, int worker) {
             sum.square += detail->line[(size_t)k * width + x].square;
             sum.variance += detail->line[(size_t)k * width + x].variance;
         }
-        if (sum.square > sum.variance)
-            picture->give_back(picture->user, (size_t)y * width + x, 1 - sum.variance / sum.square);
+        const size_t at = (size_t)y * width + x;
+        if (sum.square > sum.variance && !(detail->pixel[at].square > DETAIL_SPECK * sum.square))
+            picture->give_back(picture->user, at, 1 - sum.variance / sum.square);
     }
 }
 

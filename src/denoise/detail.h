@@ -23,6 +23,9 @@
 #include "base/arena.h"
 
 enum { DETAIL_REACH = 4 }; /* pixels to each side */
+/* Of the square's difference^2: a pixel with more, 4 times the root of their mean, is taken for
+ * a speck of rare light rather than a texture's, and stays filtered. */
+#define DETAIL_SPECK 0.2f
 
 /* Of a pixel; 0 where nothing was filtered or the variance is not known. */
 typedef struct DetailDifference {

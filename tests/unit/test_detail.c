@@ -86,6 +86,15 @@ ARENA_TEST(without_noise_the_frame_comes_back) {
     for (int i = 0; i < COUNT; i++) assert_near(p->after[i], p->truth[i], 1e-7);
 }
 
+ARENA_TEST(a_speck_does_not_come_back) {
+    Planted *p = planted(NOISE, 0, &arena);
+    const int speck = HEIGHT / 2 * WIDTH + WIDTH / 4;
+    p->before[speck] += 1;
+    run(p, 2, arena);
+    assert_near(p->after[speck], 1, 0);
+    assert_near(p->after[speck + 1], p->before[speck + 1], 1e-6);
+}
+
 ARENA_TEST(threads_do_not_change_a_bit) {
     Planted *one = planted(NOISE, NOISE, &arena), *many = planted(NOISE, NOISE, &arena);
     run(one, 1, arena);
