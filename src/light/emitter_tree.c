@@ -2,10 +2,10 @@
 /* Before the first path: the tree of emitters, and the directions of displays. */
 #include "light/emitter_tree.h"
 
-#include "base/mathf.h"
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/mathf.h"
 #include "panel/query/panel_emission.h"
 
 #define PROFILE_CODES 8 /* of the content, whose directions are averaged */
