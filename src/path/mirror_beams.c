@@ -2,6 +2,7 @@
 #include "path/mirror_beams.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/mathf.h"
 #include "base/parallel.h"
@@ -323,13 +324,20 @@ static void measure_sides(const Scene *scene, BeamSide *sides) {
  * times its time: the least of both together has q along c over the root of the time, and the
  * time grows about as the root of the mirrors sampled. Measured over views of both cockpits the
  * root of c does better than c, which is known by a few rays. */
-static void weigh_sides(const Beams *beams, const LightSelection *selection, const float *most_lx,
-                        BeamSide *sides, Arena scratch) {
-    const Scene *scene = beams->tools->scene;
+MirrorBeams mirror_beams_weighed(const MirrorBeams *beams, const BeamTools *tools,
+                                 const LightSelection *selection, Arena *arena) {
+    const Scene *scene = tools->scene;
+    const Mirrors *all = beams->mirrors;
+    MirrorBeams out = *beams;
+    if (!all) return out;
+    BeamSide *sides = ARENA_NEW(arena, BeamSide, 2 * ((size_t)scene->part_count + 1));
+    Arena scratch = *arena;
     uint32_t *mirrors = ARENA_NEW(&scratch, uint32_t, scene->part_count + 1);
-    float of_near = beams->tools->is_of_frame ? OF_NEAR_IN_FRAMES : OF_NEAR;
-    for (uint32_t i = 0; i < beams->count; i++)
-        if (beams->pairs[i].part_id != NO_ID) mirrors[beams->pairs[i].part_id]++;
+    float of_near = tools->is_of_frame ? OF_NEAR_IN_FRAMES : OF_NEAR;
+    memcpy(sides, beams->sides, 2 * (size_t)scene->part_count * sizeof *sides);
+    out.sides = sides;
+    for (uint32_t i = 0; i < all->pair_count; i++)
+        if (all->pairs[i].part_id != NO_ID) mirrors[all->pairs[i].part_id]++;
     for (int row = 0; row < 2 * scene->part_count; row++) {
         BeamSide *side = &sides[row];
         float time = sqrtf(sqrtf((float)mirrors[row / 2]));
@@ -337,8 +345,9 @@ static void weigh_sides(const Beams *beams, const LightSelection *selection, con
         float share = beams->set == BEAMS_OF_SUN ? 1 : of_near;
         side->least = share * LEAST;
         side->by_root = share * GENEROSITY / (time * sqrtf(max_f(selection->lx[row], LEAST_LX)));
-        side->most = min_f(side->least + side->by_root * sqrtf(most_lx[side->row]), 1);
+        side->most = min_f(side->least + side->by_root * sqrtf(beams->most_lx[side->row]), 1);
     }
+    return out;
 }
 
 /* ---- which source ------------------------------------------------------------------------ */
@@ -436,8 +445,7 @@ static bool has_lights(const Lights *lights, const MirrorBeams *beams) {
     return lights_has(lights, beams->set == BEAMS_OF_SUN ? LIGHTS_SUN : LIGHTS_PUNCTUAL);
 }
 
-MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightSelection *selection,
-                               Arena *arena) {
+MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, Arena *arena) {
     MirrorBeams out = {.set = set};
     if (set == BEAMS_OF_EMITTERS) out.emitters = compact_emitters_build(tools->scene, arena);
     if (!has_lights(tools->lights, &out)) return out;
@@ -458,8 +466,8 @@ MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightS
     while (out.all_count < beams.count && beams.pairs[out.all_count].part_id == NO_ID)
         out.all_count++;
     out.of_all = min_f(OF_POINTS, OF_ALL / sqrtf((float)out.all_count + 1));
-    weigh_sides(&beams, selection, most_lx, sides, *arena);
     out.sides = sides;
+    out.most_lx = most_lx;
     out.mirrors =
         mirrors_build(tools->scene, beams.pairs, beams.count, bvh_threads(tools->bvh), arena);
     return out;

@@ -41,6 +41,7 @@ typedef struct MirrorBeams {
     const Mirrors *mirrors; /* NULL: none sends light of the set anywhere. Of all but the sun's all
                                there are stand at NO_ID */
     const BeamSide *sides;  /* rows as LightSelection's */
+    const float *most_lx;   /* that they bring anywhere on each */
     GlintMap map;           /* where the rays came */
     float of_all;           /* probability with which a point of no part searches all at NO_ID, */
     uint32_t all_count;     /* so many; of the sun's all that its beams came by */
@@ -57,9 +58,13 @@ typedef struct BeamTools {
     bool is_of_frame; /* nothing stands at NO_ID but what beams of the sun showed */
 } BeamTools;
 
-/* The same for any number of threads and on every machine whose rays hit the same. */
-MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, const LightSelection *selection,
-                               Arena *arena);
+/* The same for any number of threads and on every machine whose rays hit the same. No side
+ * samples its mirrors until they are weighed. */
+MirrorBeams mirror_beams_build(const BeamTools *tools, BeamSet set, Arena *arena);
+
+/* The same beams beside all other light as it is now. What they hold stays in its arena. */
+MirrorBeams mirror_beams_weighed(const MirrorBeams *beams, const BeamTools *tools,
+                                 const LightSelection *selection, Arena *arena);
 
 /* HOT. Has the side of a part mirrors at all? */
 static inline bool mirror_beams_has(const MirrorBeams *beams, int part_id, bool is_back) {

@@ -293,8 +293,21 @@ PathContext path_context_relight(const PathContext *before, const Lights *lights
     PlateView plates = plate_view(&context, &middle);
     context.selection = light_selection_build(&sun, &context.sunlit, &plates, arena);
     for (int set = 0; set < BEAM_SETS; set++)
-        context.beams[set] = mirror_beams_build(&tools, (BeamSet)set, &context.selection, arena);
+        if (set == BEAMS_OF_SUN || !context.knows_lamps)
+            context.beams[set] = mirror_beams_build(&tools, (BeamSet)set, arena);
+    context.knows_lamps = true;
+    for (int set = 0; set < BEAM_SETS; set++)
+        context.beams[set] =
+            mirror_beams_weighed(&context.beams[set], &tools, &context.selection, arena);
     return context;
+}
+
+void path_context_know_lamps(PathContext *context, const Lights *lights, Arena *arena) {
+    const BeamTools tools = {context->scene, context->bvh, lights, context->tables,
+                             context->is_of_frame};
+    context->beams[BEAMS_OF_LAMPS] = mirror_beams_build(&tools, BEAMS_OF_LAMPS, arena);
+    context->beams[BEAMS_OF_EMITTERS] = mirror_beams_build(&tools, BEAMS_OF_EMITTERS, arena);
+    context->knows_lamps = true;
 }
 
 /* ---- from a ray, from a point ------------------------------------------------------------ */

@@ -28,8 +28,12 @@ PathContext path_context_of_frame(const Scene *scene, const Bvh *bvh, const Ligh
 PathContext path_context_sketch(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                 int max_bounces, Arena *arena);
 
-/* The same scene under other lights; what surfaces need is shared with `before`. */
+/* The same scene under another sky or other levels; what surfaces need, and what mirrors do with
+ * the light of lamps, is shared with `before`. */
 PathContext path_context_relight(const PathContext *before, const Lights *lights, Arena *arena);
+
+/* Finds, for all contexts that are relit from this one, what mirrors do with the scene's lamps. */
+void path_context_know_lamps(PathContext *context, const Lights *lights, Arena *arena);
 
 /* Where a path begins, and its inputs. */
 typedef struct PathStart {

@@ -28,6 +28,7 @@ typedef struct PathContext {
     SunlitMap sunlit;             /* without nodes: what the sun lights is left to chance */
     LightSelection selection;
     bool is_of_frame; /* path_context_of_frame */
+    bool knows_lamps; /* beams of lamps and emitters are there: no sky and no level changes them */
     int max_bounces;  /* 0: emission only, 1: plus direct light */
     PathStrategy strategy;
     const LightGuide *guide;   /* guides wide scattering; NULL: the surfaces alone decide */

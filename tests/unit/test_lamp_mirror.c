@@ -203,4 +203,31 @@ TEST(small_emitters_in_mirrors_keep_their_mean) {
     }
 }
 
+/* Under another sky mirrors do the same with a lamp's light, which counts for less beside it. */
+TEST(another_sky_leaves_what_mirrors_do_with_lamps) {
+    SCOPED_WORLD world = world_start();
+    builder_part(world.scene, builder_material(0.5f));
+    builder_quad(world.scene, vec3(0, 0, 0), vec3(2, 0, 0), vec3(0, 0, -2));
+    builder_part(world.scene, builder_mirror(0.6f));
+    builder_quad(world.scene, vec3(0, 1, -2), vec3(2, 0, 0), vec3(0, 1, 0));
+    add_lamp(&world, LIGHT_POINT, vec3(0.3f, 1.2f, 0.5f), vec3(0, 0, 1));
+    world_ready(&world, 2);
+    builder_sky(world.scene, 5000);
+    Lights *lights;
+    assert_done(lights_build(world.scene, &world.arena, &lights, &err));
+    PathContext again = path_context_relight(&world.context, lights, &world.arena);
+    PathContext fresh = path_context_build(world.scene, world.bvh, lights, 2, &world.arena);
+    const MirrorBeams *before = &world.context.beams[BEAMS_OF_LAMPS];
+    const MirrorBeams *kept = &again.beams[BEAMS_OF_LAMPS], *own = &fresh.beams[BEAMS_OF_LAMPS];
+    bool is_rarer = false;
+    assert_ptr_equal(kept->mirrors, before->mirrors);
+    for (int i = 0; i < 20; i++) {
+        Vec3 at = vec3(0.1f * (float)i - 1, 0, -0.05f * (float)i);
+        float prob = mirror_beams_prob(kept, 0, false, at);
+        assert_true(prob == mirror_beams_prob(own, 0, false, at));
+        is_rarer |= prob < mirror_beams_prob(before, 0, false, at);
+    }
+    assert_true(is_rarer);
+}
+
 TEST_PROGRAM(NULL, NULL)

@@ -244,6 +244,15 @@ void scenes_kept_close(ScenesKept *scenes, int condition_id) {
 
 /* ---- light ------------------------------------------------------------------------------- */
 
+/* Once for a kept scene: by the one that opened it, before it is lit by several threads. */
+static void know_lamps(Setup *setup) {
+    KeptScene *kept = setup->kept;
+    if (!kept || setup->context.knows_lamps) return;
+    path_context_know_lamps(&kept->setup.context, setup->context.lights, &kept->arena);
+    memcpy(setup->context.beams, kept->setup.context.beams, sizeof setup->context.beams);
+    setup->context.knows_lamps = true;
+}
+
 /* What paths need besides them is of the lights before. */
 static bool take_lights(Setup *setup, Arena *arena, Error *err) {
     Lights *lights;
@@ -252,6 +261,7 @@ static bool take_lights(Setup *setup, Arena *arena, Error *err) {
                  : lights_build(setup->scene, arena, &lights, err)))
         return false;
     setup->context.lights = lights;
+    know_lamps(setup);
     return true;
 }
 
