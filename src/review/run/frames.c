@@ -50,7 +50,7 @@ static unsigned layers_of(const FrameArgs *args) {
     enum {
         DENOISE =
             LAYER_NORMAL | LAYER_ALBEDO | LAYER_DISPLAY_EMITTED | LAYER_DISPLAY_FINE | LAYER_EMITTED
-    }; /* DENOISE_LAYERS */
+    }; /* DENOISE_LAYERS without halves: of so few samples no texture comes back */
     unsigned layers = args->exposure ? LAYER_VARIANCE : LAYER_VARIANCE | LAYER_ID | LAYER_DISPLAYS;
     if (args->setup->request->frames.is_denoised) layers |= DENOISE;
     return render_layers(args->setup->scene, layers);
