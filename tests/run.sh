@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# run.sh -- the tests of every day: 7 min 41 s on two processors, the build of a fresh clone with
-# a warm cache of the compiler among them. tests/long.sh has the rest: what is slow, what one room
+# run.sh -- the tests of every day: 7 min 45 s on two processors, among them two for the build of
+# a fresh clone without a compiler's cache. tests/long.sh has the rest: what is slow, what one room
 # alone can break, every guide, the sanitizers.
 # Installs what is missing, builds, and ends with one line: "N passed, N failed"; the steps
 # stand in .build/logs/junit.xml, too.

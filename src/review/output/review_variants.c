@@ -48,10 +48,15 @@ static const char *difference_words(const ReviewDifference *d, Arena *arena) {
     return effect_text(d->margin, d->margin_range, SHOWN_SHARE, arena);
 }
 
-/* "": it was read by itself. */
+/* "": it was read by itself. Rounded up: what is shown holds. */
 static const char *alike_words(const ReviewCase *c, Arena *arena) {
-    if (isnan(c->alike_within)) return "";
-    return arena_format(arena, "light of the review, within %.1g %%", 100 * c->alike_within);
+    double percent = 100 * c->alike_within;
+    if (isnan(percent)) return "";
+    if (percent > 0) {
+        double digit = pow(10, floor(log10(percent)));
+        percent = digit * ceil(percent / digit);
+    }
+    return arena_format(arena, "light of the review, within %.1g %%", percent);
 }
 
 static const char *difference_class(const ReviewDifference *d) {
