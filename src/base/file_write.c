@@ -87,10 +87,39 @@ static bool has_no_unnamed(int reason) {
     return reason == EOPNOTSUPP || reason == EISDIR || reason == EINVAL;
 }
 
+/* The one place where a file gets a name that somebody else may have taken before: what stands
+ * there is not followed, not waited for and not written over. is_new: nothing may stand there.
+ * -1, with errno: 0 where it is no regular file. */
+static int open_own(const char *name, bool is_new) {
+    int how = is_new ? O_EXCL : 0;
+    int handle = open(name, O_RDWR | O_CREAT | how | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    struct stat info;
+    if (handle < 0) {
+        if (errno == ELOOP || errno == ENXIO || errno == EISDIR) errno = 0;
+        return -1;
+    }
+    if (fstat(handle, &info) == 0 && S_ISREG(info.st_mode)) return handle;
+    close(handle);
+    errno = 0;
+    return -1;
+}
+
+bool file_open_own(const char *path, int *out, Error *err) {
+    int handle = open_own(path, false);
+    if (handle < 0 && !errno)
+        return error_at(err, ERROR_OUTPUT, path, "",
+                        "is no regular file, and is not opened: remove it");
+    if (handle < 0) return output_error(path, "created", errno, err);
+    *out = handle;
+    return true;
+}
+
+/* What a killed process of the same number left there goes, or a link: not what it leads to. */
 static int open_own_name(const char *path) {
     char name[PATH_BYTES];
     own_name(path, name);
-    return open(name, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    unlink(name);
+    return open_own(name, true);
 }
 
 /* 0, or errno. */
@@ -168,10 +197,14 @@ static bool link_unnamed(int handle, const char *path) {
     return false;
 }
 
-static bool rename_own_name(const char *place, const char *path) {
+/* Still the file that was written: a link in its place does not get the path's name. */
+static bool rename_own_name(int handle, const char *place, const char *path) {
     char name[PATH_BYTES];
+    struct stat ours, there;
     own_name(place, name);
-    return rename(name, path) == 0;
+    if (fstat(handle, &ours) != 0 || lstat(name, &there) != 0) return false;
+    errno = ESTALE;
+    return ours.st_ino == there.st_ino && ours.st_dev == there.st_dev && rename(name, path) == 0;
 }
 
 /* The new name is durable only when the folder is written too; a file system that cannot do
@@ -191,7 +224,7 @@ bool file_writer_commit_as(FileWriter *writer, const char *path, Error *err) {
         return writer_failed(writer, path, errno, err);
     if (writer->kind == FILE_UNNAMED && !link_unnamed(writer->handle, path))
         return writer_failed(writer, path, errno, err);
-    if (writer->kind == FILE_NAMED && !rename_own_name(writer->path, path))
+    if (writer->kind == FILE_NAMED && !rename_own_name(writer->handle, writer->path, path))
         return writer_failed(writer, path, errno, err);
     if (close(writer->handle) != 0 && !is_file) return output_error(path, "written", errno, err);
     if (is_file) sync_folder(path);
@@ -230,6 +263,18 @@ bool folder_make(const char *path, Error *err) {
     return output_error(path, "made", reason == EEXIST ? ENOTDIR : reason, err);
 }
 
+bool folder_make_own(const char *path, bool *is_new, Error *err) {
+    struct stat info;
+    *is_new = mkdir(path, 0777) == 0;
+    if (*is_new || (errno == EEXIST && lstat(path, &info) == 0 && S_ISDIR(info.st_mode)))
+        return true;
+    if (errno == EEXIST)
+        return error_at(err, ERROR_OUTPUT, path, "",
+                        "is a link or a file, and none is followed: a folder is required — remove "
+                        "it, or name another folder");
+    return output_error(path, "made", errno, err);
+}
+
 void file_remove(const char *path) {
     char name[PATH_BYTES];
     handover_name(path, name);
@@ -240,7 +285,7 @@ void file_remove(const char *path) {
 /* ---- for a writer that needs a path of its own ------------------------------------------- */
 
 bool file_commit(const char *temporary, const char *path, Error *err) {
-    int file = open(temporary, O_RDWR | O_CLOEXEC);
+    int file = open(temporary, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
     bool synced = file >= 0 && fsync(file) == 0;
     int reason = errno;
     if (file >= 0 && close(file) != 0 && synced) {

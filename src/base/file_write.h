@@ -46,6 +46,15 @@ void file_writer_discard(FileWriter *writer);
 /* Makes a folder, unless there is one: of several processes that do so at once all succeed. */
 bool folder_make(const char *path, Error *err);
 
+/* The same for a folder of ours within another, which may have come from anywhere: no link is
+ * followed. *is_new: it was not there. */
+bool folder_make_own(const char *path, bool *is_new, Error *err);
+
+/* A file of ours that stays under its name, such as a lock: made where there is none, opened
+ * where there is one, to be closed. Only a regular file; no link is followed, no pipe waited
+ * for. */
+bool file_open_own(const char *path, int *out, Error *err);
+
 /* Removes a file, and what a process that was killed may have left of its successor. */
 void file_remove(const char *path);
 

@@ -78,13 +78,22 @@ static FILE *open_file(const char *path) {
     return fopen(path, "rbe");
 }
 
-bool kept_is_there(const KeptFormat *format, const char *path) {
+/* So many letters of the magic. */
+static bool begins_with(const char *magic, size_t letters, const char *path) {
     KeptHead head = {{0}, 0, 0, 0, 0};
     FILE *file = open_file(path);
     if (!file) return false;
     size_t got = fread(head.magic, 1, sizeof head.magic, file);
     fclose(file);
-    return got == sizeof head.magic && !memcmp(head.magic, format->magic, got);
+    return got == sizeof head.magic && !memcmp(head.magic, magic, letters);
+}
+
+bool kept_is_there(const KeptFormat *format, const char *path) {
+    return begins_with(format->magic, sizeof format->magic - 1, path);
+}
+
+bool kept_is_ours(const char *path) {
+    return begins_with("PRHL", 4, path);
 }
 
 bool kept_damaged(const KeptReader *reader, Error *err, const char *format, ...) {

@@ -24,7 +24,7 @@
 
 /* One kind of file. */
 typedef struct KeptFormat {
-    char magic[9];    /* 8 letters */
+    char magic[9];    /* 8 letters, "PRHL" first */
     const char *name; /* as messages call it: "a checkpoint" */
     uint32_t version; /* others are refused */
     size_t facts_bytes;
@@ -64,6 +64,9 @@ typedef struct KeptReader {
 
 /* True when a file stands there that begins with the format's magic. */
 bool kept_is_there(const KeptFormat *format, const char *path);
+
+/* The same of any format. */
+bool kept_is_ours(const char *path);
 
 /* Checks all of the file against its checksum, and fills the facts. To be closed. */
 bool kept_open(const KeptFormat *format, const char *path, void *facts, Arena *arena,

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """review_files.py PARHELION -- the folder of a review is also the user's: symbols of any names
 have a page each, to which their link leads; nothing is removed but what an earlier review says
-that it made, and a file of somebody else's in the way is told of before any work.
+that it made, and a file of somebody else's in the way is told of before any work. Nothing is
+written or removed behind a link, and no pipe is waited for.
 """
 import html
 import json
@@ -136,7 +137,7 @@ def check_in_the_way(work):
     for name in ("index.html", "review.json", "Index.HTML", "cases.csv", LIST, "live.js",
                  "summary-speed.html", "Summary-SPEED.html", "summary-speed.2.html",
                  "frames/1-grey-eye.png", "frames/12-Grey-eye-contrast.png",
-                 "frames/1-grey-eye-variant-1-x.exr"):
+                 "frames/1-grey-eye-variant-1-x.exr", "unfinished/1-grey.condition"):
         for options in ([], ["--dry-run"]):
             out = "way"
             work.put(out, name)
@@ -148,6 +149,91 @@ def check_in_the_way(work):
             shutil.rmtree(work.path(out))
 
 
+HASH = "0123456789abcdef"
+# A user's own, beside and among a review's: names of the review's kinds with other bytes, and
+# names that are nearly theirs. All stay, and the folders that hold them.
+MINE = ["unfinished/night.checkpoint", f"unfinished/{HASH}.checkpoint", f"unfinished/{HASH}.frame",
+        f"unfinished/{HASH.upper()}.checkpoint", f"unfinished/{HASH}0.frame", "unfinished/a.part",
+        f"unfinished/{HASH[:15]}.checkpoint", "unfinished/9-grey.condition", "unfinished/.hidden",
+        "unfinished/x.parhelion-part", f"unfinished/{HASH}.frame.deadbeef.part",
+        f"unfinished/{HASH}.frame.deadbeef-1x.part", "unfinished/deadbeef-1.part",
+        "unfinished/n.checkpoint.deadbeef-12.part", "unfinished/new/notes.txt",
+        "unfinished/deep/er/x.checkpoint", "unfinished/new/mine.part", "a.part", "b.checkpoint",
+        "responses/mine.response", "sweeps/a.csv", "frames/a.png", "conditions/a.condition",
+        "responses/speed-0123456789abcdef.response"]
+# Folders that are links to others, and what lies there under names of a review's.
+LINKED = {"unfinished": [f"{HASH}.checkpoint", "lock", "new/index.html"],
+          "unfinished/new": ["index.html", "cases.csv"],
+          "unfinished/new/frames": ["1-grey-eye.png"], "unfinished/new/sweeps": ["1-a.csv"],
+          "unfinished/new/conditions": ["1-grey.condition"],
+          "frames": ["1-grey-eye.png", "1-grey-eye.exr"], "sweeps": ["1-grey-eye-speed.csv"],
+          "conditions": ["1-grey.condition"], "responses": ["x-0123456789abcdef.response"]}
+EMPTY = ["unfinished", "frames", "sweeps", "conditions", "responses"]
+# What is no file where a review writes: nothing waits, nothing is written into.
+PIPES = ["unfinished/lock", "unfinished/new/index.html", "unfinished/new/frames/1-grey-eye.exr",
+         "unfinished/1-grey.condition", f"unfinished/{HASH}.checkpoint",
+         "responses/x-0123456789abcdef.response"]
+
+
+def bytes_below(folder):
+    """All files and links, by name; no link is followed."""
+    return {os.path.relpath(os.path.join(at, name), folder):
+            os.readlink(os.path.join(at, name)) if os.path.islink(os.path.join(at, name))
+            else open(os.path.join(at, name), "rb").read()
+            for at, folders, files in os.walk(folder)
+            for name in files + [f for f in folders if os.path.islink(os.path.join(at, f))]}
+
+
+def check_planted(work):
+    """A first review in a folder of somebody else's, and one more: what was there stays byte for
+    byte; folders that are links, pipes and devices are refused in one line."""
+    report = work.report
+    for name in MINE:
+        work.put("theirs", name)
+    os.symlink("night.checkpoint", work.path("theirs", "unfinished", "link"))
+    before = bytes_below(work.path("theirs"))
+    for times in range(2):
+        said = work.review("theirs", ["speed"], worst=1)
+        after = bytes_below(work.path("theirs"))
+        changed = [name for name in before if after.get(name) != before[name]]
+        report.claim(said == (0, "") and not changed, f"planted, {times}: {said} {changed}")
+    for name in EMPTY:
+        os.makedirs(work.path("empty", name))
+    report.claim(work.review("empty", ["speed"]) == (0, "") and
+                 set(EMPTY) <= set(os.listdir(work.path("empty"))), "an empty folder is gone")
+    shutil.rmtree(work.path("theirs"))
+    for name, files in LINKED.items():
+        for file in files:
+            work.put("other", name, file, text="PRHLCKPT" if "checkpoint" in file else "mine")
+        os.makedirs(os.path.dirname(work.path("linked", name)), exist_ok=True)
+        os.symlink(work.path("other", name), work.path("linked", name))
+        before = bytes_below(work.path("other"))
+        status, said = work.review("linked", ["speed"], worst=1)
+        report.claim(status == 4 and said.count("\n") == 1 and f"linked/{name}: " in said and
+                     bytes_below(work.path("other")) == before and
+                     work.all_files("linked") == [] and os.path.islink(work.path("linked", name)),
+                     f"{name} is a link: {status} {said!r} {bytes_below(work.path('linked'))}")
+        shutil.rmtree(work.path("linked"))
+        shutil.rmtree(work.path("other"))
+    for name in PIPES:
+        for is_link in (False, True):
+            place = work.path("pipes", name)
+            os.makedirs(os.path.dirname(place), exist_ok=True)
+            os.mkfifo(work.path("pipe") if is_link else place)
+            if is_link:
+                os.symlink(work.path("pipe"), place)
+            status, said = work.review("pipes", ["speed"], worst=1)
+            report.claim(status == 4 and said.count("\n") == 1 and f"pipes/{name}: " in said,
+                         f"{name} is a pipe, {is_link}: {status} {said!r}")
+            shutil.rmtree(work.path("pipes"))
+            if is_link:
+                os.remove(work.path("pipe"))
+    work.put("locked", "unfinished", "lock")
+    status, said = work.review("locked", ["speed"])
+    report.claim(status == 4 and "a lock is empty" in said and
+                 work.text("locked", "unfinished", "lock") == "mine", f"a lock: {status} {said!r}")
+
+
 def main():
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
@@ -156,6 +242,7 @@ def main():
         check_foreign(work)
         check_without_list(work)
         check_in_the_way(work)
+        check_planted(work)
     report.finish()
 
 

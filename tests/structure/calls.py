@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """calls.py -- what no source may call: no shell and no other program, no network, no code that
 is loaded while the program runs, no file that is mapped (one that shrinks would kill us), and no
-stream but by src/print/print.c, which escapes what a foreign name could make a terminal do.
+stream but by src/print/print.c, which escapes what a foreign name could make a terminal do. No
+file is made but by src/base/file_write.c.
 """
 import re
 import sys
@@ -27,6 +28,11 @@ ALLOWED = {("src/base/arena.c", "mmap"): "MAP_ANONYMOUS",
 STREAM = "a stream"
 # Behind print.h; the other prints the program's own tables alone, in another language's letters.
 PRINTERS = ("src/print/print.c", "shaders/tables/make_tables.c")
+# Where a file may be made under a name: file_write.c follows no link there, and writes over
+# nothing. The other makes the program's own tables, where the build names the file.
+MAKES = re.compile(r"\bO_CREAT\b|\bcreat(?:64)?\s*\(|\bmkstemp|\bofstream\b|"
+                   r"\bf(?:d|re)?open\s*\([^;]*\"[wa][^\"]*\"")
+MAKERS = {"src/base/file_write.c": 1, "shaders/tables/make_tables.c": 1}
 HEADERS = re.compile(r'#\s*include\s*[<"](sys/socket|netdb|netinet/|arpa/|spawn|curl)')
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*|\"(?:\\.|[^\"\\\n])*\"", re.DOTALL)
 
@@ -55,7 +61,17 @@ def calls_in(name, text):
             yield code.count("\n", 0, match.start()) + 1, match[1], what
 
 
+def made_in(text):
+    """How often a file is made; strings stay, comments go."""
+    return len(MAKES.findall(re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.DOTALL)))
+
+
 def check_itself(report):
+    for text, count in (("open(path, O_RDWR | O_CREAT, 0666);", 1), ("/* O_CREAT */", 0),
+                        ('fopen(name, "wb");', 1), ('fopen(name, "rbe");', 0),
+                        ("std::ofstream out(name);", 1), ("creat(path, 0666);", 1),
+                        ('fdopen(handle, "a");', 1), ("fopen(name, mode);", 0)):
+        report.claim(made_in(text) == count, f"calls.py: {text!r} makes {made_in(text)} files")
     for text, count in (('x = system("ls");', 1), ("/* system() */", 0), ("door->open(x);", 0),
                         ("std::system(x);", 1), ("static bool connect(int a);\nconnect(1);", 0),
                         ("mmap(NULL, 1, 2, MAP_ANONYMOUS, -1, 0);", 1), ("filesystem(x);", 0),
@@ -74,6 +90,9 @@ def main():
     report.claim_none("headers of other programs and the network", [
         f"{name}: {match[0]}" for name in names
         for match in HEADERS.finditer(read(name))])
+    report.claim_none("files made elsewhere than by base/file_write.h", [
+        f"{name}: {count}" for name in names
+        if (count := made_in(read(name))) > MAKERS.get(name, 0)])
     report.claim(len(names) > 100, f"{len(names)} sources only")
     check_itself(report)
     report.finish()

@@ -110,6 +110,25 @@ TEST(what_a_killed_writer_leaves_is_cleared) {
     assert_int_equal(files_in_folder(), 0);
 }
 
+/* What the writer's own name leads to stays; nor is a link published in the path's place. */
+static int write_over_planted(const char *path) {
+    Error err;
+    FileWriter writer;
+    Arena arena = arena_reserve(1 << 20);
+    const char *target = in_folder("precious"), *own = file_temporary_name(path, &arena);
+    if (!file_write(target, "mine", 4, &err)) return 11;
+    for (int kind = 0; kind < 3; kind++) {
+        int failed = kind == 0 ? symlink(target, own) : kind == 1 ? mkfifo(own, 0666) : 0;
+        if (failed || !file_write(path, kind ? "b" : "a", 1, &err)) return 12 + kind;
+    }
+    if (!file_writer_open(path, &writer, &err) || writer.kind != FILE_NAMED) return 15;
+    if (unlink(own) || symlink(target, own)) return 16;
+    if (file_writer_commit(&writer, &err)) return 17;
+    if (access(own, F_OK) == 0) return 18; /* a name of its own does not stay */
+    arena_release(&arena);
+    return 0;
+}
+
 /* From here on the process knows no unnamed files. */
 static bool forbid_unnamed_files(void) {
     struct sock_filter steps[] = {
@@ -135,7 +154,7 @@ static int write_without_unnamed_files(const char *path) {
     if (!file_writer_open(path, &writer, &err) || files_in_folder() != 2) return 5;
     file_writer_discard(&writer);
     if (files_in_folder() != 1 || file_writer_open(in_folder("no/x"), &writer, &err)) return 6;
-    return 0;
+    return write_over_planted(in_folder("p.bin"));
 }
 
 TEST(file_systems_without_unnamed_files_get_named_ones) {
@@ -148,6 +167,36 @@ TEST(file_systems_without_unnamed_files_get_named_ones) {
     assert_int_equal(status, 0);
     assert_content(path, "name");
     unlink(path);
+    assert_content(in_folder("precious"), "mine");
+    assert_content(in_folder("p.bin"), "b");
+    unlink(in_folder("precious"));
+    unlink(in_folder("p.bin"));
+}
+
+TEST(files_and_folders_of_ours_are_no_links) {
+    int handle;
+    bool is_new;
+    const char *path = in_folder("lock"), *other = in_folder("other");
+    for (int i = 0; i < 2; i++) {
+        assert_done(file_open_own(path, &handle, &err));
+        close(handle);
+        assert_done(folder_make_own(other, &is_new, &err));
+        assert_int_equal(is_new, !i);
+    }
+    assert_fails(folder_make_own(path, &is_new, &err), "is a link or a file");
+    unlink(path);
+    assert_int_equal(symlink(other, path), 0);
+    assert_fails(folder_make_own(path, &is_new, &err), "is a link or a file");
+    assert_fails(file_open_own(path, &handle, &err), "is no regular file");
+    assert_fails(file_open_own(other, &handle, &err), "is no regular file");
+    unlink(path);
+    assert_int_equal(symlink(in_folder("none"), path), 0); /* and none is made behind one */
+    assert_fails(file_open_own(path, &handle, &err), "is no regular file");
+    unlink(path);
+    assert_int_equal(mkfifo(path, 0666), 0);
+    assert_fails(file_open_own(path, &handle, &err), "is no regular file");
+    unlink(path);
+    assert_int_equal(rmdir(other), 0);
 }
 
 ARENA_TEST(reading_names_what_is_wrong) {

@@ -4,7 +4,6 @@
 #include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +16,7 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/lines.h"
+#include "keep/kept.h"
 #include "review/output/review_json.h"
 #include "review/output/review_link.h"
 #include "review/output/review_words.h"
@@ -219,9 +219,19 @@ static bool may_be_numbered(const char *name, const ReviewRequest *request, Aren
     return false;
 }
 
+/* What is kept of a condition while the review is not finished. */
+static bool may_be_kept(const char *name, const ReviewRequest *request, Arena scratch) {
+    for (int c = 0; c < request->condition_count; c++)
+        if (!strcasecmp(name, arena_format(&scratch, "unfinished/%d-%s.condition", c + 1,
+                                           words_file_name(request->conditions[c].name, &scratch))))
+            return true;
+    return false;
+}
+
 static bool may_be_written(const char *name, const ReviewRequest *request, Arena scratch) {
     for (int i = 0; i < REVIEW_FILES_FIXED; i++)
         if (!strcasecmp(name, review_files_fixed[i])) return true;
+    if (starts_with(name, "unfinished/")) return may_be_kept(name, request, scratch);
     if (starts_alike(name, "summary-")) return may_be_summary(name, request, scratch);
     return (is_numbered(name, "frames/") || is_numbered(name, "sweeps/")) &&
            may_be_numbered(name, request, scratch);
@@ -233,10 +243,25 @@ bool review_files_check(const char *dir, const ReviewRequest *request, Arena scr
     for (int i = 0; i < there.count; i++) {
         const char *name = there.list[i];
         const char *path = arena_format(&scratch, "%s/%s", dir, name);
-        bool is_foreign =
-            strcmp(name, LIST) ? !review_files_has(&made, name) : !list_text(path, &scratch);
+        bool is_foreign = !strcmp(name, LIST)                ? !list_text(path, &scratch)
+                          : starts_with(name, "unfinished/") ? !kept_is_ours(path)
+                                                             : !review_files_has(&made, name);
         if (is_foreign && may_be_written(name, request, scratch))
             return review_files_refuse(path, err);
+    }
+    return true;
+}
+
+bool review_files_are_plain(const char *folder, Arena scratch, Error *err) {
+    Lines there = {.arena = &scratch};
+    review_files_list(&there, folder, "");
+    for (int i = 0; i < there.count; i++) {
+        struct stat info;
+        const char *path = arena_format(&scratch, "%s/%s", folder, there.list[i]);
+        if (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
+            return error_at(err, ERROR_OUTPUT, path, "",
+                            "is a pipe or a device, and no review made it — remove it, or give "
+                            "another folder");
     }
     return true;
 }
@@ -262,32 +287,91 @@ bool review_files_spare(const char *dir, const ReviewRequest *request, const Lin
     return true;
 }
 
+/* ---- files of a draft -------------------------------------------------------------------- */
+
+#define HEX_DIGITS "0123456789abcdef"
+#define DIGITS "0123456789"
+
+/* HASH.frame, HASH.checkpoint, N-NAME.condition, before `end`. */
+static bool is_kept_name(const char *name, const char *end) {
+    static const char *const endings[] = {".frame", ".checkpoint"};
+    size_t length = (size_t)(end - name), digits = strspn(name, DIGITS);
+    if (digits && name[digits] == '-')
+        return length > digits + 10 && !memcmp(end - 10, ".condition", 10);
+    for (int i = 0; i < COUNT_OF(endings); i++)
+        if (strspn(name, HEX_DIGITS) == 16 && length == 16 + strlen(endings[i]) &&
+            !memcmp(name + 16, endings[i], length - 16))
+            return true;
+    return false;
+}
+
+/* Of a review that was stopped: its name is no proof of it, the file's begin is. */
+static bool is_kept(const char *folder, const char *name, Arena scratch) {
+    return is_kept_name(name, name + strlen(name)) &&
+           kept_is_ours(arena_format(&scratch, "%s/%s", folder, name));
+}
+
+/* Of NAME.parhelion-part and NAME.HASH-PROCESS.part, which a writer that was killed leaves, the
+ * length of NAME; of any other 0. */
+static size_t leftover_of(const char *name) {
+    const char *ending = path_ending(name), *dot = ending;
+    if (!strcmp(ending, ".parhelion-part")) return (size_t)(ending - name);
+    if (ending == name || strcmp(ending, ".part") != 0) return 0;
+    while (dot > name && *--dot != '.') {
+    }
+    bool is_own = *dot == '.' && strspn(dot + 1, HEX_DIGITS) == 8 && dot[9] == '-' &&
+                  dot + 10 + strspn(dot + 10, DIGITS) == ending;
+    return is_own ? (size_t)(dot - name) : 0;
+}
+
+static bool is_leftover(const char *name, Arena scratch) {
+    size_t length = leftover_of(name);
+    const char *whole = arena_string(&scratch, name, length);
+    if (starts_with(whole, "new/")) return review_files_may_have(whole + 4);
+    return length && is_kept_name(whole, whole + length);
+}
+
+bool review_has_unfinished(const char *target, Arena scratch) {
+    Lines files = {.arena = &scratch};
+    const char *folder = arena_format(&scratch, "%s/unfinished", target);
+    review_files_list(&files, folder, "");
+    for (int i = 0; i < files.count; i++)
+        if (!strchr(files.list[i], '/') && is_kept(folder, files.list[i], scratch)) return true;
+    return false;
+}
+
 /* ---- folders ----------------------------------------------------------------------------- */
 
-static const char *const parts[] = {"", "/sweeps", "/frames", "/conditions"};
+static const char *const parts[REVIEW_PARTS] = {"", "/sweeps", "/frames", "/conditions"};
 
-static bool make_parts(const char *folder, Arena scratch, Error *err) {
-    for (int i = 0; i < COUNT_OF(parts); i++)
-        if (!folder_make(arena_format(&scratch, "%s%s", folder, parts[i]), err)) return false;
+/* is_new: those that were not there; NULL: nobody asks. */
+static bool make_parts(const char *folder, bool *is_new, Arena scratch, Error *err) {
+    for (int i = 1; i < REVIEW_PARTS; i++) {
+        bool made;
+        const char *path = arena_format(&scratch, "%s%s", folder, parts[i]);
+        if (!folder_make_own(path, &made, err)) return false;
+        if (is_new) is_new[i] = made;
+    }
     return true;
 }
 
-/* As far as they are empty. */
-static void remove_parts(const char *folder, Arena scratch) {
-    for (int i = COUNT_OF(parts) - 1; i >= 0; i--)
-        rmdir(arena_format(&scratch, "%s%s", folder, parts[i]));
+/* As far as they are empty. is_ours: NULL: all of them. */
+static void remove_parts(const char *folder, const bool *is_ours, Arena scratch) {
+    for (int i = REVIEW_PARTS - 1; i >= 0; i--)
+        if (!is_ours || is_ours[i]) rmdir(arena_format(&scratch, "%s%s", folder, parts[i]));
 }
 
 static const char *lock_path(const ReviewDraft *draft, Arena *arena) {
     return arena_format(arena, "%s/lock", draft->unfinished);
 }
 
+/* What is not a review's stays, and so does a folder that was there before any review. */
 void review_draft_close(ReviewDraft *draft) {
     unlink(lock_path(draft, draft->arena));
     close(draft->lock);
-    remove_parts(draft->folder, *draft->arena);
-    rmdir(draft->unfinished);
-    remove_parts(draft->target, *draft->arena);
+    remove_parts(draft->folder, NULL, *draft->arena);
+    if (draft->unfinished_is_ours) rmdir(draft->unfinished);
+    remove_parts(draft->target, draft->is_ours, *draft->arena);
 }
 
 /* Known before the work: a file that cannot take its place would end the review half moved. */
@@ -299,16 +383,15 @@ static bool check_files(const char *target, Arena scratch, Error *err) {
     return true;
 }
 
-/* Two processes never have one folder. A folder that came from somewhere may have a link or a
- * pipe in the lock's place; a file system without locks is no reason to fail. */
+/* Two processes never have one folder. A folder that came from somewhere may have anything in
+ * the lock's place; a file system without locks is no reason to fail. */
 static bool take_lock(ReviewDraft *draft, Arena *arena, Error *err) {
     const char *path = lock_path(draft, arena);
     struct stat info;
-    draft->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
-    if (draft->lock < 0)
-        return error_at(err, ERROR_OUTPUT, path, "", "cannot be created: %s", strerror(errno));
-    if (fstat(draft->lock, &info) != 0 || !S_ISREG(info.st_mode))
-        error_at(err, ERROR_OUTPUT, path, "", "is not a regular file");
+    if (!file_open_own(path, &draft->lock, err)) return false;
+    if (fstat(draft->lock, &info) != 0 || info.st_size)
+        error_at(err, ERROR_OUTPUT, path, "",
+                 "is not a review's: a lock is empty — move it, or give another folder");
     else if (flock(draft->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return true;
     else
         error_at(err, ERROR_OUTPUT, draft->unfinished, "",
@@ -318,35 +401,46 @@ static bool take_lock(ReviewDraft *draft, Arena *arena, Error *err) {
     return false;
 }
 
+/* Folders that a review left, or made just now, are its own: they go when they are empty. */
+static bool make_folders(ReviewDraft *draft, bool is_new, bool was_begun, Arena *arena,
+                         Error *err) {
+    bool is_new_folder;
+    const char *list = arena_format(arena, "%s/" LIST, draft->target);
+    bool is_reviews = was_begun || (file_exists(list) && list_text(list, arena));
+    bool ok = make_parts(draft->target, draft->is_ours, *arena, err) &&
+              folder_make_own(draft->folder, &is_new_folder, err) &&
+              make_parts(draft->folder, NULL, *arena, err) &&
+              review_files_are_plain(draft->unfinished, *arena, err) &&
+              review_files_are_plain(draft->folder, *arena, err) &&
+              check_files(draft->target, *arena, err);
+    draft->is_ours[0] = is_new;
+    for (int i = 0; i < REVIEW_PARTS; i++) draft->is_ours[i] |= is_reviews;
+    return ok;
+}
+
 bool review_draft_open(const char *target, Arena *arena, ReviewDraft *out, Error *err) {
     ReviewDraft draft = {.arena = arena,
                          .target = target,
                          .unfinished = arena_format(arena, "%s/unfinished", target)};
+    struct stat info;
+    bool is_new = lstat(target, &info) != 0;
     draft.folder = arena_format(arena, "%s/new", draft.unfinished);
-    if (!folder_make(target, err) || !folder_make(draft.unfinished, err) ||
+    bool was_begun = lstat(lock_path(&draft, arena), &info) == 0 ||
+                     (!is_new && review_has_unfinished(target, *arena));
+    if (!folder_make(target, err) ||
+        !folder_make_own(draft.unfinished, &draft.unfinished_is_ours, err) ||
         !take_lock(&draft, arena, err)) {
-        rmdir(draft.unfinished);
-        rmdir(target);
+        if (draft.unfinished_is_ours) rmdir(draft.unfinished);
+        if (is_new) rmdir(target);
         return false;
     }
-    if (make_parts(target, *arena, err) && make_parts(draft.folder, *arena, err) &&
-        check_files(target, *arena, err)) {
+    draft.unfinished_is_ours |= was_begun;
+    if (make_folders(&draft, is_new, was_begun, arena, err)) {
         *out = draft;
         return true;
     }
     review_draft_close(&draft);
     return false;
-}
-
-/* ---- files of a draft -------------------------------------------------------------------- */
-
-static bool has_ending(const char *name, const char *ending) {
-    return !strcmp(path_ending(name), ending);
-}
-
-/* Did a writer that was killed leave it behind? */
-static bool is_leftover(const char *name) {
-    return has_ending(name, ".part") || has_ending(name, ".parhelion-part");
 }
 
 /* ---- taking their places ----------------------------------------------------------------- */
@@ -355,22 +449,24 @@ static bool move(const ReviewDraft *draft, const char *name, Arena scratch, Erro
     const char *from = arena_format(&scratch, "%s/%s", draft->folder, name);
     const char *to = arena_format(&scratch, "%s/%s", draft->target, name);
     const char *slash = strrchr(name, '/');
-    if (slash &&
-        !folder_make(arena_format(&scratch, "%s/%.*s", draft->target, (int)(slash - name), name),
-                     err))
+    bool is_new;
+    if (slash && !folder_make_own(
+                     arena_format(&scratch, "%s/%.*s", draft->target, (int)(slash - name), name),
+                     &is_new, err))
         return false;
     return rename(from, to) == 0 ||
            error_at(err, ERROR_OUTPUT, to, "", "cannot be written: %s", strerror(errno));
 }
 
-/* What moves now: all but frames that the review does not name, review.json last. */
+/* What moves now: all but frames and tables that the review does not name, review.json last. */
 static Lines to_publish(const ReviewDraft *draft, const Review *review, Arena *arena) {
     Lines drafted = {.arena = arena}, files = {.arena = arena};
     review_files_list(&drafted, draft->folder, "");
     for (int i = 0; i < drafted.count; i++) {
         const char *name = drafted.list[i];
-        bool is_other_frame = starts_with(name, "frames/") && !review_files_is_named(review, name);
-        if (review_files_may_have(name) && strcmp(name, "review.json") != 0 && !is_other_frame)
+        bool is_other = (starts_with(name, "frames/") || starts_with(name, "sweeps/")) &&
+                        !review_files_is_named(review, name);
+        if (review_files_may_have(name) && strcmp(name, "review.json") != 0 && !is_other)
             lines_put(&files, name);
     }
     lines_put(&files, "review.json");
@@ -409,20 +505,6 @@ bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena 
            review_files_write(draft->target, &stays, scratch, err);
 }
 
-/* Of a review that was stopped. */
-static bool is_kept(const char *name) {
-    return has_ending(name, ".condition") || has_ending(name, ".frame") ||
-           has_ending(name, ".checkpoint");
-}
-
-bool review_has_unfinished(const char *target, Arena scratch) {
-    Lines files = {.arena = &scratch};
-    review_files_list(&files, arena_format(&scratch, "%s/unfinished", target), "");
-    for (int i = 0; i < files.count; i++)
-        if (is_kept(files.list[i]) && !strchr(files.list[i], '/')) return true;
-    return false;
-}
-
 void review_draft_finish(ReviewDraft *draft) {
     Arena scratch = *draft->arena;
     Lines files = {.arena = &scratch};
@@ -433,7 +515,7 @@ void review_draft_finish(ReviewDraft *draft) {
     for (int i = 0; i < files.count; i++) {
         const char *name = files.list[i];
         bool is_drafted = starts_with(name, "new/") && review_files_may_have(name + 4);
-        if (is_drafted || is_kept(name) || is_leftover(name))
+        if (is_drafted || is_kept(draft->unfinished, name, scratch) || is_leftover(name, scratch))
             unlink(arena_format(&scratch, "%s/%s", draft->unfinished, name));
     }
     review_draft_close(draft);

@@ -24,6 +24,10 @@ bool review_files_check(const char *dir, const ReviewRequest *request, Arena scr
 bool review_files_spare(const char *dir, const ReviewRequest *request, const Lines *inputs,
                         Arena scratch, Error *err);
 
+/* False where a pipe or a device stands in the folder, or right below it, or a link to one: it
+ * would be waited for, or written into, where links to files are replaced. */
+bool review_files_are_plain(const char *folder, Arena scratch, Error *err);
+
 /* A review's files while it is not finished: DIR/unfinished holds them, with
  * what goes on after a kill, until they take their places all together.
  *
@@ -41,15 +45,20 @@ bool review_files_spare(const char *dir, const ReviewRequest *request, const Lin
  * Threads  one at a time.
  * Fails    with the file or folder that cannot be written. */
 
+/* The folder itself, sweeps, frames, conditions. */
+#define REVIEW_PARTS 4
+
 typedef struct ReviewDraft {
     Arena *arena;
     const char *target;     /* DIR */
     const char *unfinished; /* DIR/unfinished */
     const char *folder;     /* DIR/unfinished/new */
     int lock;
+    bool unfinished_is_ours, is_ours[REVIEW_PARTS]; /* of DIR: made by reviews, not by the user */
 } ReviewDraft;
 
-/* Makes the folders that are not there. Work that was begun before goes on. */
+/* Makes the folders that are not there. Work that was begun before goes on. A folder that
+ * is a link is refused: nothing is written or removed behind one. */
 bool review_draft_open(const char *target, Arena *arena, ReviewDraft *out, Error *err);
 
 /* Is anything there of a review that was stopped? */
@@ -63,5 +72,5 @@ bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena 
 /* Nothing is left to go on with. */
 void review_draft_finish(ReviewDraft *draft);
 
-/* After a failure: what was found stays; folders with nothing in them go. */
+/* After a failure: what was found stays; folders of reviews with nothing in them go. */
 void review_draft_close(ReviewDraft *draft);

@@ -43,7 +43,9 @@ void review_folder_responses(ReviewFolder *folder, Arena *arena) {
 /* Responses outlive the review: their folder is no draft. */
 static bool open_responses(ReviewFolder *folder, Arena *arena, Error *err) {
     review_folder_responses(folder, arena);
-    return folder_make(folder->responses, err);
+    if (!folder->has_own_responses) return folder_make(folder->responses, err);
+    return folder_make_own(folder->responses, &folder->responses_are_new, err) &&
+           review_files_are_plain(folder->responses, *arena, err);
 }
 
 bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err) {
@@ -59,13 +61,19 @@ bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err) {
     return false;
 }
 
+/* As far as there are none. */
+static void remove_responses(const ReviewFolder *folder) {
+    bool is_ours = folder->responses_are_new || folder->draft.is_ours[0];
+    if (folder->has_own_responses && is_ours) rmdir(folder->responses);
+}
+
 void review_folder_close(ReviewFolder *folder) {
-    if (folder->has_own_responses) rmdir(folder->responses);
+    remove_responses(folder);
     review_draft_close(&folder->draft);
 }
 
 void review_folder_finish(ReviewFolder *folder) {
-    if (folder->has_own_responses) rmdir(folder->responses);
+    remove_responses(folder);
     review_draft_finish(&folder->draft);
 }
 

@@ -34,7 +34,8 @@ typedef struct ReviewFolder {
     ReviewDraft draft;
     const char *name;            /* where its files are written: the draft's folder */
     const char *responses_shown; /* as review.json names the folder */
-    bool has_own_responses;      /* DIR/responses */
+    bool has_own_responses;      /* DIR/responses ... */
+    bool responses_are_new;      /* ... which was not there */
 } ReviewFolder;
 
 /* Sets where responses are. */
