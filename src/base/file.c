@@ -84,11 +84,16 @@ bool file_read_start(const char *path, size_t max_bytes, Arena *arena, FileBytes
     return file_read_pieces(path, &how, arena, out, err);
 }
 
+FileBytes file_unmarked(FileBytes bytes) {
+    size_t mark = bytes.size >= 3 && !memcmp(bytes.data, "\xEF\xBB\xBF", 3) ? 3 : 0;
+    return (FileBytes){bytes.data + mark, bytes.size - mark};
+}
+
 bool file_text(const char *path, const FileBytes *bytes, const char **out, Error *err) {
-    const char *text = (const char *)bytes->data;
-    if (memchr(text, 0, bytes->size))
+    const char *text = (const char *)file_unmarked(*bytes).data;
+    if (memchr(bytes->data, 0, bytes->size))
         return error_at(err, ERROR_INPUT, path, "", "has zero bytes, required: text in UTF-8");
-    *out = text + (strncmp(text, "\xEF\xBB\xBF", 3) ? 0 : 3);
+    *out = text;
     return true;
 }
 

@@ -37,8 +37,11 @@ typedef struct FilePieces {
 bool file_read_pieces(const char *path, const FilePieces *how, Arena *arena, FileBytes *out,
                       Error *err);
 
-/* The bytes as text: behind the byte order mark that spreadsheets like to write. Zero bytes, as
- * UTF-16 has them, would end it early: an ERROR_INPUT that names `path`. */
+/* Behind the byte order mark that editors and spreadsheets like to write, where there is one. */
+FileBytes file_unmarked(FileBytes bytes);
+
+/* The bytes as text: behind its mark. Zero bytes, as UTF-16 has them, would end it early: an
+ * ERROR_INPUT that names `path`. */
 bool file_text(const char *path, const FileBytes *bytes, const char **out, Error *err);
 
 /* True when something that can be opened for reading stands there. */

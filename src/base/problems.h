@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* problems.h -- collects everything that is wrong with the user's files, not just the first.
+/* problems.h -- collects everything that is wrong with the user's files, not just the first; of
+ * one kind, which is one format, a hundred, and in one more entry how many there are besides.
  *
  * Memory   the list grows in its arena. Threads: one thread at a time.
  */
@@ -16,11 +17,17 @@ typedef struct Problem {
     Severity severity;
 } Problem;
 
+#define PROBLEMS_OF_KIND 100
+
+typedef struct ProblemKind ProblemKind;
+
 typedef struct Problems {
     Arena *arena;
     Problem *list;
     int count, capacity;
-    int error_count;
+    int error_count, warning_count; /* of all, listed or not */
+    ProblemKind *kinds;
+    int kind_count, kind_capacity;
 } Problems;
 
 Problems problems_start(Arena *arena);

@@ -224,7 +224,7 @@ static void print_report(const Scene *scene, const Problems *problems, Arena *ar
           "depends on\n");
     print_problems(problems);
     print("%s: %d errors, %d warnings\n", problems->error_count ? "NOT OK" : "ok",
-          problems->error_count, problems->count - problems->error_count);
+          problems->error_count, problems->warning_count);
 }
 
 /* ---- for scripts ----------------------------------------------------------------------- */

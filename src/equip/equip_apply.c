@@ -175,6 +175,7 @@ static bool equip_model_read(const char *path, Arena *arena, EquipModel *out, Er
     json = bytes;
     if (bytes.size >= GLB_HEADER && !memcmp(bytes.data, "glTF", 4))
         take_chunks(&bytes, &json, &model.bin);
+    json = file_unmarked(json);
     model.document = json_loadb((const char *)json.data, json.size, JSON_REJECT_DUPLICATES, &fault);
     if (!json_is_object(model.document)) {
         json_decref(model.document);

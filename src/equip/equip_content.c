@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/number.h"
 #include "equip/equip_picture.h"
 #include "equip/equip_shipped.h"
 #include "panel/query/panel_open.h"
@@ -44,9 +45,13 @@ static const char *words_in(const char *lines, const double box[4], Arena *arena
     int count = 0;
     for (const char *at = lines; *at && count < 64; at += strcspn(at, "\n"), at += *at != 0) {
         Word *w = &found[count];
-        if (sscanf(at, "%lf %lf %lf %lf %79[^\n]", &w->left, &w->top, &w->right, &w->bottom,
-                   w->text) == 5)
-            count += is_in(w, box);
+        double *const sides[4] = {&w->left, &w->top, &w->right, &w->bottom};
+        const char *behind = at;
+        for (int k = 0; k < 4 && behind; k++) behind = number_read(behind, sides[k]);
+        size_t blanks = behind ? strspn(behind, " ") : 0, length;
+        if (!blanks || !(length = strcspn(behind + blanks, "\n"))) continue;
+        snprintf(w->text, sizeof w->text, "%.*s", (int)length, behind + blanks);
+        count += is_in(w, box);
     }
     qsort(found, (size_t)count, sizeof *found, by_left);
     for (int i = 0; i < count; i++) text_format(&text, "%s%s", i ? " " : "", found[i].text);

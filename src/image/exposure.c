@@ -2,10 +2,10 @@
 #include "image/exposure.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/mathf.h"
+#include "base/number.h"
 
 #define KEY_LOW 0.05
 #define KEY_HIGH 0.60
@@ -25,21 +25,15 @@ double exposure_ev_of_grey(double grey_cd_m2) {
     return log2(grey_cd_m2 / EXPOSURE_METER_CD_M2);
 }
 
-static bool parse_number(const char *text, double *out) {
-    char *end;
-    *out = strtod(text, &end);
-    return end != text && !*end && isfinite(*out);
-}
-
 bool exposure_parse(const char *text, ExposureRequest *out, Error *err) {
     ExposureRequest request = {EXPOSURE_AUTO, 0};
     bool ok = !strcmp(text, "auto");
     if (!strncmp(text, "white:", 6)) {
         request.kind = EXPOSURE_WHITE;
-        ok = parse_number(text + 6, &request.value) && request.value > 0;
+        ok = number_is(text + 6, &request.value) && request.value > 0;
     } else if (!ok) {
         request.kind = EXPOSURE_EV;
-        ok = parse_number(text, &request.value) && fabs(request.value) <= 60;
+        ok = number_is(text, &request.value) && fabs(request.value) <= 60;
     }
     if (!ok)
         return error_set(err, ERROR_USAGE,

@@ -2,6 +2,7 @@
 #include "image/frame.h"
 
 #include <assert.h>
+#include <limits.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -9,6 +10,7 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
+#include "base/number.h"
 #include "image/colour.h"
 
 #define MAX_FILE_BYTES ((size_t)4 << 30)
@@ -130,10 +132,10 @@ int frame_id_of(const FrameImage *frame, const char *what, const char *name) {
     for (int i = 0; i < frame->attribute_count; i++) {
         const ExrAttribute *a = &frame->attributes[i];
         size_t length = strlen(prefix);
-        int id;
+        uint64_t id;
         if (a->kind == EXR_STRING && !strncmp(a->name, prefix, length) && !strcmp(a->text, name) &&
-            sscanf(a->name + length, "%d", &id) == 1)
-            return id;
+            number_read_count(a->name + length, &id) && id <= INT_MAX)
+            return (int)id;
     }
     return -1;
 }

@@ -2,10 +2,10 @@
 #include "image/frame_view.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/mathd.h"
+#include "base/number.h"
 #include "base/units.h"
 
 /* ---- Radiance's words, read -------------------------------------------------------------- */
@@ -35,9 +35,8 @@ static double *slot_of(ViewWords *words, char letter, int *count) {
 
 static bool read_numbers(const char **at, int count, double *out) {
     for (int i = 0; i < count; i++) {
-        char *end;
-        out[i] = strtod(*at, &end);
-        if (end == *at || !isfinite(out[i])) return false;
+        const char *end = number_read(*at, &out[i]);
+        if (!end || (*end && *end != ' ' && *end != '\t')) return false;
         *at = end;
     }
     return true;
@@ -56,11 +55,11 @@ static bool read_words(const char *text, ViewWords *out, Error *err) {
             out->type = word[3];
             continue;
         }
-        double *slot = length == 3 ? slot_of(out, word[2], &count) : NULL;
-        if (!slot || !read_numbers(&at, count, slot))
+        double more, *slot = length == 3 ? slot_of(out, word[2], &count) : NULL;
+        if (!slot || !read_numbers(&at, count, slot) || number_read(at, &more))
             return error_set(err, ERROR_INPUT,
                              "VIEW=: '%.40s', required: an option of a view "
-                             "with its numbers",
+                             "with its numbers and no more, blanks between",
                              word);
     }
     return true;

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "image/radiance_file.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/number.h"
 
 /* ---- the header -------------------------------------------------------------------------- */
 
@@ -28,6 +30,8 @@ static bool next_line(RadianceHeader *in) {
     if (length > LINE_MAX_BYTES - 1) length = LINE_MAX_BYTES - 1;
     memcpy(in->text, in->next, length);
     in->text[length] = 0;
+    for (size_t i = 0; i < length; i++)
+        if (!in->text[i]) in->text[i] = '\1'; /* a zero byte ends no line: what is behind counts */
     in->next = stop + 1;
     in->line++;
     return true;
@@ -44,12 +48,11 @@ static bool line_is_wrong(const RadianceHeader *in, const char *wanted) {
 static bool line_numbers(const RadianceHeader *in, int count, double *out) {
     const char *at = strchr(in->text, '=') + 1;
     for (int i = 0; i < count; i++) {
-        char *after;
-        out[i] = strtod(at, &after);
-        if (after == at || !isfinite(out[i])) return false;
+        const char *after = number_read(at, &out[i]);
+        if (!after || (*after && *after != ' ' && *after != '\t')) return false;
         at = after;
     }
-    return at[strspn(at, " \t")] == 0;
+    return at[strspn(at, " \t")] == 0 && strlen(in->text) < LINE_MAX_BYTES - 1;
 }
 
 /* Takes off again what the values were multiplied by. */
@@ -95,6 +98,8 @@ static bool read_variable(const RadianceHeader *in, bool *is_xyz, RadianceFile *
         return divide_by(in, 3, "COLORCORR= and three numbers above 0", out);
     if (begins(in->text, "PRIMARIES=")) return read_primaries(in, out);
     if (begins(in->text, "FORMAT=")) return read_format(in, is_xyz);
+    if (begins(in->text, "VIEW=") && strlen(in->text) == LINE_MAX_BYTES - 1)
+        return line_is_wrong(in, "VIEW= and no more than 500 letters");
     if (begins(in->text, "VIEW="))
         out->view = arena_string(in->arena, in->text + 5, strlen(in->text + 5));
     return true;
@@ -103,13 +108,18 @@ static bool read_variable(const RadianceHeader *in, bool *is_xyz, RadianceFile *
 /* "-Y 32 +X 64": 32 scan lines from the top (-Y: Y grows upwards), 64 pixels from the left. */
 static bool read_size(RadianceHeader *in, RadianceFile *out) {
     static const char wanted[] = "-Y HEIGHT +X WIDTH, or another order of X and Y, 1 to 65536";
-    char sign[2], axis[2], rest;
-    int size[2];
+    char sign[2], axis[2];
+    uint64_t size[2];
     if (!next_line(in))
         return error_at(in->err, ERROR_INPUT, in->name, "", "the header ends before the size");
-    if (sscanf(in->text, "%c%c %d %c%c %d %c", &sign[0], &axis[0], &size[0], &sign[1], &axis[1],
-               &size[1], &rest) != 6)
-        return line_is_wrong(in, wanted);
+    const char *at = in->text;
+    for (int i = 0; i < 2; i++, at += strspn(at, " \t")) {
+        if (!*at || !at[1]) return line_is_wrong(in, wanted);
+        sign[i] = at[0], axis[i] = at[1];
+        at = number_read_count(at + 2 + strspn(at + 2, " \t"), &size[i]);
+        if (!at) return line_is_wrong(in, wanted);
+    }
+    if (*at) return line_is_wrong(in, wanted);
     bool is_known = (axis[0] == 'Y' && axis[1] == 'X') || (axis[0] == 'X' && axis[1] == 'Y');
     for (int i = 0; i < 2; i++)
         is_known &= (sign[i] == '-' || sign[i] == '+') && size[i] >= 1 && size[i] <= 65536;
@@ -125,6 +135,17 @@ static bool read_size(RadianceHeader *in, RadianceFile *out) {
         (from_right ? out->width - 1 : 0) + (from_below ? (long)(out->height - 1) * out->width : 0);
     out->line_step = by_rows ? down : across;
     out->pixel_step = by_rows ? across : down;
+    return true;
+}
+
+/* What all lines of the header come to, as far as values can be multiplied by it. */
+static bool check_scale(const RadianceHeader *in, const RadianceFile *made) {
+    for (int i = 0; i < 3; i++)
+        if (!(made->scale[i] >= (double)FLT_MIN && made->scale[i] <= (double)FLT_MAX))
+            return error_at(in->err, ERROR_INPUT, in->name, "header",
+                            "EXPOSURE= and COLORCORR= together divide by %.6g, required: a number "
+                            "from 1e-38 to 1e38",
+                            1 / made->scale[i]);
     return true;
 }
 
@@ -154,7 +175,7 @@ bool radiance_open(const void *bytes, size_t size, const char *name, Arena *aren
     bool is_xyz = false;
     while (next_line(&in) && in.text[0])
         if (!read_variable(&in, &is_xyz, &made)) return false;
-    if (!read_size(&in, &made)) return false;
+    if (!check_scale(&in, &made) || !read_size(&in, &made)) return false;
     if (is_xyz) set_primaries(XYZ, &made);
     set_unit(&made);
     made.pixels = (const unsigned char *)in.next;

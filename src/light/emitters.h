@@ -14,7 +14,7 @@
  * Threads: const after emitters_build (emitters_build.h).
  */
 #pragma once
-#include "base/alias.h"
+#include "light/alias.h"
 #include "light/emission.h"
 #include "light/lit_point.h"
 #include "spectrum/spectrum.h"

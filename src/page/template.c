@@ -2,8 +2,9 @@
 #include "page/template.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/number.h"
 
 #define DEPTH_MOST 32 /* sections and templates within each other */
 #define NAME_MOST 64
@@ -149,7 +150,9 @@ static const char *file_text(const char *name) {
 static const json_t *member_of(const json_t *value, const char *name, size_t length) {
     if (json_is_null(value)) return value;
     if (!json_is_array(value)) return json_object_getn(value, name, length);
-    const json_t *item = json_array_get(value, (size_t)strtoul(name, NULL, 10));
+    uint64_t at = 0;
+    number_read_count(name, &at);
+    const json_t *item = json_array_get(value, at);
     return item ? item : json_null();
 }
 

@@ -2,10 +2,10 @@
 #include "sky/epw.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/file.h"
+#include "base/number.h"
 
 #define WEATHER_BYTES ((size_t)64 << 20)
 #define HOURS_MAX 200000
@@ -97,10 +97,9 @@ static bool bad_field(const EpwReader *reader, EpwField field, const char *text,
 /* *out: the number; of a missing one field.missing or more. */
 static bool number(const EpwReader *reader, EpwField field, const char *text, double *out,
                    Error *err) {
-    char *after;
-    double value = strtod(text, &after);
-    bool is_number =
-        after != text && !after[strspn(after, " \t")] && isfinite(value) && !strpbrk(text, "xX");
+    double value = 0;
+    const char *after = number_read(text, &value);
+    bool is_number = after && !after[strspn(after, " \t")];
     bool is_none = field.missing > 0 && value >= field.missing && value <= MISSING_MOST;
     bool is_within = value >= field.low && value <= field.high;
     if (!is_number || (!is_none && !is_within) || (field.is_whole && value != floor(value)))
@@ -212,9 +211,9 @@ static bool read_hour(EpwReader *reader, char *field[], int count, Weather *weat
 static bool read_header(char *field[], int count, Weather *out) {
     static const char offset[] = "Irradiance Time Offset (h):";
     for (int i = 1; i < count && !strncmp(field[0], "COMMENTS", 8); i++) {
-        char *at = strstr(field[i], offset), *after;
-        double value = at ? strtod(at + sizeof offset - 1, &after) : 0;
-        if (!at || after == at + sizeof offset - 1 || !(fabs(value) <= 24)) continue;
+        const char *at = strstr(field[i], offset);
+        double value;
+        if (!at || !number_read(at + sizeof offset - 1, &value) || !(fabs(value) <= 24)) continue;
         out->has_comment_offset = true;
         out->comment_offset_h = value;
     }

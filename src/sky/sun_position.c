@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "sky/sun_position.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/calendar.h"
 #include "base/mathd.h"
+#include "base/number.h"
 #include "base/units.h"
 #include "sky/sky_degrees.h"
 
@@ -290,30 +292,38 @@ static bool time_in_range(const SkyTime *t) {
            fabs(t->zone_h) <= 14;
 }
 
+/* One or two digits at *at, which moves behind them; before: what stands in front, 0: nothing. */
+static bool take_digits(const char **at, char before, int *out) {
+    const char *digit = *at + (before != 0);
+    if ((before && **at != before) || !isdigit((unsigned char)*digit)) return false;
+    *out = *digit++ - '0';
+    if (isdigit((unsigned char)*digit)) *out = 10 * *out + *digit++ - '0';
+    *at = digit;
+    return true;
+}
+
 /* "Z", "+02:00" or "-0330" at `text`; false: anything else. */
 static bool parse_zone(const char *text, double *zone_h) {
-    int hours = 0, minutes = 0, used = 0;
+    int hours, minutes;
     if (!strcmp(text, "Z")) return true;
-    if (*text != '+' && *text != '-') return false;
-    if (sscanf(text + 1, "%2d:%2d%n", &hours, &minutes, &used) != 2 || text[1 + used]) {
-        used = 0;
-        if (sscanf(text + 1, "%2d%2d%n", &hours, &minutes, &used) != 2 || text[1 + used])
-            return false;
-    }
-    if (hours < 0 || minutes < 0 || minutes > 59) return false;
+    const char *at = text + 1;
+    if ((*text != '+' && *text != '-') || !take_digits(&at, 0, &hours) ||
+        !take_digits(&at, *at == ':' ? ':' : 0, &minutes) || *at || minutes > 59)
+        return false;
     *zone_h = (*text == '-' ? -1 : 1) * (hours + minutes / 60.0);
     return true;
 }
 
 bool sky_time_parse(const char *text, const char *place, SkyTime *out, Error *err) {
     SkyTime t = {0};
-    int used = 0, more = 0;
-    bool ok = sscanf(text, "%d-%2d-%2dT%2d:%2d%n", &t.year, &t.month, &t.day, &t.hour, &t.minute,
-                     &used) == 5 &&
-              used;
-    const char *rest = text + used;
-    if (ok && sscanf(rest, ":%lf%n", &t.second, &more) == 1) rest += more;
-    if (!ok || !parse_zone(rest, &t.zone_h) || !time_in_range(&t))
+    uint64_t year = 0;
+    const char *at = number_read_count(text + (*text == '-' || *text == '+'), &year);
+    bool ok = at && year <= 9999 && take_digits(&at, '-', &t.month) &&
+              take_digits(&at, '-', &t.day) && take_digits(&at, 'T', &t.hour) &&
+              take_digits(&at, ':', &t.minute);
+    t.year = *text == '-' ? -(int)year : (int)year;
+    if (ok && *at == ':' && isdigit((unsigned char)at[1])) at = number_read(at + 1, &t.second);
+    if (!ok || !at || !parse_zone(at, &t.zone_h) || !time_in_range(&t))
         return error_at(err, ERROR_INPUT, place, "",
                         "'%s' is no moment, required: a date, time and zone such as "
                         "2026-06-21T08:30+02:00",

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "spectrum/spectral_table.h"
 
 #define MAX_POINTS 4096 /* 0.1 nm over the visible range */
@@ -70,9 +71,9 @@ static bool is_blank(const char *text) {
 static bool parse_row(const char *line, int columns, double number[1 + COLUMNS_MAX]) {
     char between[1 + COLUMNS_MAX] = {0};
     for (int i = 0; i <= columns; i++) {
-        char *end;
-        number[i] = strtod(line, &end);
-        if (end == line) return false;
+        while (*line == ' ' || *line == '\t') line++;
+        const char *end = number_read(line, &number[i]);
+        if (!end) return false;
         while (*end == ' ' || *end == '\t') end++;
         if (i < columns && (*end == ',' || *end == ';')) between[i] = *end++;
         if (i && i < columns && between[i] != between[i - 1]) return false;
@@ -82,9 +83,10 @@ static bool parse_row(const char *line, int columns, double number[1 + COLUMNS_M
 }
 
 /* Of a line that is no row: a comma between digits may be the reason, unless commas part
- * numbers with points. */
+ * numbers with points, or a word is it. */
 static const char *comma_hint(const char *line) {
-    if (strchr(line, '.') && !strchr(line, ';')) return "";
+    if ((strchr(line, '.') && !strchr(line, ';')) || line[strspn(line, " \t\r+-.,;0123456789eE")])
+        return "";
     for (const char *at = strchr(line, ','); at; at = strchr(at + 1, ','))
         if (at > line && isdigit((unsigned char)at[-1]) && isdigit((unsigned char)at[1]))
             return " — a decimal comma? Required are decimal points";

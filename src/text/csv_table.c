@@ -3,10 +3,10 @@
 
 #include <ctype.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/file.h"
+#include "base/number.h"
 #include "text/nearest_word.h"
 
 #define FILE_BYTES_MAX ((size_t)4 << 30)
@@ -60,17 +60,11 @@ static bool next_line(Scan *scan, const char **begin, const char **stop) {
     return false;
 }
 
-/* A byte order mark, which spreadsheets like to write, is no part of the first name. */
-static const char *skip_mark(const char *text, const char *stop) {
-    return stop - text >= 3 && !memcmp(text, "\xEF\xBB\xBF", 3) ? text + 3 : text;
-}
-
 static bool read_names(Scan *scan, CsvTable *table, Error *err) {
     const char *text, *stop;
     if (!next_line(scan, &text, &stop))
         return error_at(err, ERROR_INPUT, table->file, "",
                         "is empty, required: a header line and rows of numbers");
-    text = skip_mark(text, stop);
     scan->separator = find_separator(text, stop);
     table->name = ARENA_NEW(scan->arena, const char *, CSV_COLUMNS_MAX);
     while (table->columns < CSV_COLUMNS_MAX) {
@@ -110,12 +104,10 @@ static bool read_row(Scan *scan, const CsvTable *table, const char *text, const 
                      float *cell) {
     const char *line = text;
     for (int c = 0; c < table->columns; c++) {
-        char *after;
         while (text < stop && is_blank(*text)) text++;
         if (text >= stop || *text == scan->separator) return bad_cell(scan, table, c, text, stop);
-        cell[c] = strtof(text, &after);
-        if (after == text || after > stop || !isfinite(cell[c]))
-            return bad_cell(scan, table, c, text, stop);
+        const char *after = number_read_float(text, &cell[c]);
+        if (!after || after > stop) return bad_cell(scan, table, c, text, stop);
         const char *begin = text;
         text = after;
         while (text < stop && is_blank(*text)) text++;
@@ -145,8 +137,9 @@ static int count_lines(const char *text, const char *end) {
 bool csv_table_read(const char *file, Arena *arena, CsvTable *out, Error *err) {
     FileBytes bytes;
     if (!file_read(file, FILE_BYTES_MAX, arena, &bytes, err)) return false;
-    const char *text = (const char *)bytes.data;
-    Scan scan = {text, text + bytes.size, 0, ',', arena, err};
+    FileBytes unmarked = file_unmarked(bytes);
+    const char *text = (const char *)unmarked.data;
+    Scan scan = {text, text + unmarked.size, 0, ',', arena, err};
     CsvTable table = {.file = file, .bytes = bytes.size};
     if (!read_names(&scan, &table, err) || !check_names(&scan, &table, err)) return false;
     int most = count_lines(scan.next, scan.end);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "print/printable.h"
 
 json_t *json_text(const char *text) {
@@ -77,7 +78,9 @@ static void print_real(const Printer *out, double value) {
     char number[40];
     for (int digits = out->digits.digits; digits <= MOST_DIGITS; digits++) {
         snprintf(number, sizeof number, "%.*g", digits, value);
-        if (out->digits.is_cut || strtod(number, NULL) == value) break;
+        double again = 0;
+        number_read(number, &again);
+        if (out->digits.is_cut || again == value) break;
     }
     text_add(out->text, number);
     if (!strpbrk(number, ".e")) text_add(out->text, ".0");

@@ -29,7 +29,8 @@ bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err) {
     FileBytes bytes;
     if (!file_read(file, JSON_FILE_BYTES_MAX, arena, &bytes, err)) return false;
     json_error_t fault;
-    json_t *root = json_loadb((const char *)bytes.data, bytes.size, JSON_REJECT_DUPLICATES, &fault);
+    FileBytes text = file_unmarked(bytes);
+    json_t *root = json_loadb((const char *)text.data, text.size, JSON_REJECT_DUPLICATES, &fault);
     if (!root) {
         char place[64];
         snprintf(place, sizeof place, "line %d", fault.line);

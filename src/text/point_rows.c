@@ -3,11 +3,11 @@
 
 #include <ctype.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/file.h"
+#include "base/number.h"
 
 #define FILE_BYTES_MAX ((size_t)1 << 30)
 #define COLUMNS 6
@@ -124,12 +124,11 @@ static bool read_header(const PointLines *in, const PointWords *words, int order
 }
 
 static bool read_number(const PointLines *in, const char *word, int length, double *out) {
-    char text[64], *end;
+    char text[64];
     if (length >= (int)sizeof text) return bad_line(in, "holds ", word, length);
     memcpy(text, word, (size_t)length);
     text[length] = '\0';
-    *out = strtod(text, &end);
-    if (*end || end == text || !isfinite(*out) || !(fabs(*out) <= 1e9))
+    if ((int)strlen(text) != length || !number_is(text, out) || !(fabs(*out) <= 1e9))
         return bad_line(in, "holds no number up to 1e9, but ", word, length);
     return true;
 }
@@ -162,9 +161,9 @@ bool point_rows_read(const char *file, Arena *arena, FacingPoint **list, int *co
     int order[COLUMNS] = {0, 1, 2, 3, 4, 5};
     bool is_first = true;
     if (!file_read(file, FILE_BYTES_MAX, arena, &bytes, err)) return false;
+    bytes = file_unmarked(bytes);
     PointLines in = {.file = file, .next = (const char *)bytes.data, .arena = arena, .err = err};
     in.end = in.next + bytes.size;
-    if (bytes.size >= 3 && !memcmp(in.next, "\xEF\xBB\xBF", 3)) in.next += 3;
     *list = ARENA_NEW(arena, FacingPoint, count_lines(&in));
     *count = 0;
     *err = (Error){0};

@@ -43,11 +43,17 @@ RADIANCE = (
     (f"PRIMARIES={SWAPPED}\n", RED, (WHITE[1], WHITE[0], WHITE[2])),
     (f"PRIMARIES= {EQUAL_ENERGY}\n", (1, 1, 1), WHITE),
 )
-# header, what the message says, its line
+TOGETHER = "EXPOSURE= and COLORCORR= together divide"
+# header, what the message says, its line (0: of all of the header)
 REFUSED = (
     ("EXPOSURE=zero\n", "'EXPOSURE=zero', required: EXPOSURE= and a number above 0", 3),
     ("A=1\nEXPOSURE=-1\n", "'EXPOSURE=-1', required:", 4),
     ("EXPOSURE=0\n", "", 3), ("EXPOSURE=1 2\n", "", 3), ("EXPOSURE=\n", "", 3),
+    ("EXPOSURE=1e300\nEXPOSURE=1e300\n", f"{TOGETHER} by inf", 0),
+    ("EXPOSURE=1e-300\nCOLORCORR=1 1e-300 1\n", f"{TOGETHER} by 1e-300", 0),
+    ("EXPOSURE=1e39\n", f"{TOGETHER} by 1e+39", 0), ("EXPOSURE=0x1p3\n", "", 3),
+    ("EXPOSURE=1\0garbage\n", "", 3), ("EXPOSURE=1,5\n", "", 3),
+    ("EXPOSURE=1" + " " * 600 + "x\n", "", 3), ("VIEW=-vta" + " " * 600 + "-vh 9\n", "", 3),
     ("EXPOSURE=nan\n", "", 3), ("EXPOSURE=inf\n", "", 3),
     ("COLORCORR=1 1\n", "'COLORCORR=1 1', required: COLORCORR= and three numbers above 0", 3),
     ("COLORCORR=1 0 1\n", "", 3),
@@ -122,7 +128,7 @@ def check_radiance(report, pictures):
         pictures.put("bad.hdr", radiance(header, (1, 1, 1)))
         done = pictures.run("sky", "--environment", "hdri:bad.hdr")
         report.claim(done.returncode == 3 and f"bad.hdr: {message}" in done.stderr
-                     and done.stderr.endswith(f"(line {line})\n"),
+                     and done.stderr.endswith(f"(line {line})\n" if line else "(header)\n"),
                      f"{header!r}: {done.returncode}, {done.stderr}")
     pictures.put("turned.hdr", radiance("", (1, 1, 1)).replace(b"-Y 32 +X 64", b"-Y 32 -Z 64"))
     done = pictures.run("sky", "--environment", "hdri:turned.hdr")

@@ -2,7 +2,6 @@
 /* The ground floor: numbers, vectors, samples, memory and messages. */
 #include "fixture.h"
 
-#include "base/alias.h"
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/mathf.h"
@@ -289,42 +288,6 @@ TEST(points_of_a_choice_stay_spread) {
     }
 }
 
-/* ---- alias tables -------------------------------------------------------------------- */
-
-/* Draws every number there is, once. */
-static void assert_probabilities_exact(const double *weights, int count, Arena arena) {
-    AliasTable table = alias_build(weights, count, &arena);
-    uint32_t *drawn = ARENA_NEW(&arena, uint32_t, count);
-    double sum = 0, total = 0;
-    for (uint32_t k = 0; k < 1u << 24; k++) {
-        float prob;
-        int i = alias_sample(&table, (float)k * 0x1p-24f, &prob);
-        drawn[i]++;
-        assert_true(prob == table.slots[i].prob);
-    }
-    for (int i = 0; i < count; i++) sum += weights[i];
-    for (int i = 0; i < count; i++) {
-        assert_true((float)drawn[i] * 0x1p-24f == table.slots[i].prob);
-        assert_near(table.slots[i].prob, weights[i] / sum, 2e-3 * weights[i] / sum + 0x1p-22);
-        if (weights[i] == 0) assert_int_equal(drawn[i], 0);
-        total += (double)table.slots[i].prob;
-    }
-    assert_near(total, 1, 1e-6);
-}
-
-ARENA_TEST(alias_tables_know_their_exact_probabilities) {
-    static double weights[100000];
-    uint32_t seed = 3;
-    assert_probabilities_exact((double[]){7}, 1, arena);
-    assert_probabilities_exact((double[]){0, 1, 0, 3, 0}, 5, arena);
-    for (int i = 0; i < 100000; i++)
-        weights[i] = pow((double)unit_float(seed = hash_u32(seed + 1)), 6);
-    weights[77] = 1e4; /* the sun among stars */
-    weights[78] = 0;
-    assert_probabilities_exact(weights, 1000, arena);
-    assert_probabilities_exact(weights, 100000, arena);
-}
-
 /* ---- sort ---------------------------------------------------------------------------- */
 
 TEST(a_ranked_value_is_that_of_the_sorted_list) {
@@ -540,6 +503,31 @@ ARENA_TEST(problems_keep_their_order_and_their_texts) {
     assert_false(problems_verdict(&problems, &err));
     error_line(&err, line, sizeof line);
     assert_string_equal(line, "a.gltf: /nodes/0: bad 0 (and 100 more: see `parhelion check`)");
+}
+
+ARENA_TEST(a_hundred_of_one_kind_are_listed) {
+    enum { MANY = 250000 };
+    Problems problems = problems_start(&arena);
+    Error err;
+    char line[2048];
+    for (int i = 0; i < MANY; i++) {
+        problems_add(&problems, SEVERITY_WARNING, "a.gltf", "/x", "odd %d", i);
+        if (i % 1000 == 0) problems_add(&problems, SEVERITY_ERROR, "a.gltf", "", "bad %d", i);
+        if (i % 1000 == 0) problems_add(&problems, SEVERITY_WARNING, "", "", "%s", "apart");
+    }
+    assert_int_equal(problems.count, 101 + 101 + MANY / 1000);
+    assert_int_equal(problems.error_count, MANY / 1000);
+    assert_int_equal(problems.warning_count, MANY + MANY / 1000);
+    int found = 0;
+    for (int i = 0; i < problems.count; i++) {
+        const Problem *one = &problems.list[i];
+        if (!strcmp(one->message, "and 249900 more like 'odd 0...'")) found += !one->path[0];
+        if (!strcmp(one->message, "and 150 more like 'bad 0...'")) found += 10;
+    }
+    assert_int_equal(found, 11);
+    assert_false(problems_verdict(&problems, &err));
+    error_line(&err, line, sizeof line);
+    assert_string_equal(line, "a.gltf: bad 0 (and 249 more: see `parhelion check`)");
 }
 
 ARENA_TEST(a_single_error_is_its_own_verdict) {

@@ -3,7 +3,44 @@
 #include "light_fixture.h"
 
 #include "scene/point/coverage.h"
+#include "light/alias.h"
 #include "light/solid_angle.h"
+
+/* ---- alias tables -------------------------------------------------------------------- */
+
+/* Draws every number there is, once. */
+static void assert_probabilities_exact(const double *weights, int count, Arena arena) {
+    AliasTable table = alias_build(weights, count, &arena);
+    uint32_t *drawn = ARENA_NEW(&arena, uint32_t, count);
+    double sum = 0, total = 0;
+    for (uint32_t k = 0; k < 1u << 24; k++) {
+        float prob;
+        int i = alias_sample(&table, (float)k * 0x1p-24f, &prob);
+        drawn[i]++;
+        assert_true(prob == table.slots[i].prob);
+    }
+    for (int i = 0; i < count; i++) sum += weights[i];
+    for (int i = 0; i < count; i++) {
+        assert_true((float)drawn[i] * 0x1p-24f == table.slots[i].prob);
+        assert_near(table.slots[i].prob, weights[i] / sum, 2e-3 * weights[i] / sum + 0x1p-22);
+        if (weights[i] == 0) assert_int_equal(drawn[i], 0);
+        total += (double)table.slots[i].prob;
+    }
+    assert_near(total, 1, 1e-6);
+}
+
+ARENA_TEST(alias_tables_know_their_exact_probabilities) {
+    static double weights[100000];
+    uint32_t seed = 3;
+    assert_probabilities_exact((double[]){7}, 1, arena);
+    assert_probabilities_exact((double[]){0, 1, 0, 3, 0}, 5, arena);
+    for (int i = 0; i < 100000; i++)
+        weights[i] = pow((double)unit_float(seed = hash_u32(seed + 1)), 6);
+    weights[77] = 1e4; /* the sun among stars */
+    weights[78] = 0;
+    assert_probabilities_exact(weights, 1000, arena);
+    assert_probabilities_exact(weights, 100000, arena);
+}
 
 /* ---- triangles as a point sees them ------------------------------------------------------ */
 

@@ -134,6 +134,16 @@ MEMORY_TEST(a_wrong_view_is_told) {
         {"-vta -vh nan", "'-vh nan'"},
         {"-vta -vd 0 0 1 -vu 0 0 2", "not along one line"},
         {"-vtv -vq 4", "'-vq 4', required: an option of a view"},
+        {"-vta -vh 180,5 -vv 180", "'-vh 180,5 "},
+        {"-vta -vh 180x", "'-vh 180x'"},
+        {"-vta -vh 0x1p7", "'-vh 0x1p7'"},
+        {"-vta -vh inf", "'-vh inf'"},
+        {"-vta -vh 1e999", "'-vh 1e999'"},
+        {"-vta -vh 180 5", "'-vh 180 5'"},
+        {"-vta -vp 1,2,3", "'-vp 1,2,3'"},
+        {"-vta -vp 1 2", "'-vp 1 2'"},
+        {"-vta -vp 1 2 3 4", "'-vp 1 2 3 4'"},
+        {"-vta -vh 1\1garbage", "'-vh 1"},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         FrameImage frame = uniform_frame(4, 4, 1, arena);

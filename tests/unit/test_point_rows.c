@@ -53,6 +53,8 @@ ARENA_TEST(what_is_no_point_is_refused_with_its_line) {
         {"0 0 1e400 0 0 1\n", "line 1", "'1e400'"},
         {"0 0 2e9 0 0 1\n", "line 1", "'2e9'"},
         {"0 0 1x 0 0 1\n", "line 1", "'1x'"},
+        {"0 0 0x1p7 0 0 1\n", "line 1", "'0x1p7'"},
+        {"0 0 1e 0 0 1\n", "line 1", "'1e'"},
         {"0,,0,0,0,1\n", "line 1", "has no number before ','"},
         {",0,0,0,0,1\n", "line 1", "has no number before ','"},
         {"0,0,0,0,0,1,\n", "line 1", "ends with ','"},
@@ -74,6 +76,15 @@ ARENA_TEST(what_is_no_point_is_refused_with_its_line) {
         if (!strstr(err.text, cases[i].says) || strcmp(err.path, cases[i].line) != 0)
             fail_msg("case %d: %s (%s)", i, err.text, err.path);
     }
+}
+
+ARENA_TEST(a_zero_byte_ends_no_number) {
+    static const char text[] = "0 0 1\0garbage 0 0 1\n";
+    FacingPoint *list;
+    int count;
+    const char *path = in_folder("points.txt");
+    assert_done(file_write(path, text, sizeof text - 1, &err));
+    assert_fails(point_rows_read(path, &arena, &list, &count, &err), "holds no number");
 }
 
 TEST_PROGRAM(make_folder, clear_folder)

@@ -130,7 +130,7 @@ static void assert_patch_refused(FileBytes bytes, size_t at, const void *value, 
 
 /* With the right checksum: light that is not finite, a level that would take the memory. */
 ARENA_TEST(what_cannot_be_is_refused) {
-    enum { AT_LEVEL = 32, AT_KEPT = 44, AT_LAMPS = 56, AT_DISPLAYS = 64, HEAD = 72 };
+    enum { AT_LEVEL = 32, AT_KEPT = 44, AT_ERROR = 48, AT_LAMPS = 56, AT_DISPLAYS = 64, HEAD = 72 };
     FileBytes bytes = write_one(&arena);
     const int32_t level = RESPONSE_LEVEL + 1;
     const double bad[] = {NAN, INFINITY, -INFINITY};
@@ -140,6 +140,7 @@ ARENA_TEST(what_cannot_be_is_refused) {
     for (int i = 0; i < 3; i++) {
         const float value = (float)bad[i];
         size_t at = HEAD + sizeof identity - 1 + (size_t)kept * sizeof kept;
+        assert_patch_refused(bytes, AT_ERROR, &bad[i], sizeof bad[i], arena);
         assert_patch_refused(bytes, AT_LAMPS, &bad[i], sizeof bad[i], arena);
         assert_patch_refused(bytes, AT_DISPLAYS, &bad[i], sizeof bad[i], arena);
         for (; at + 8 < bytes.size; at += 11 * sizeof value)

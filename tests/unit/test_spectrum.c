@@ -291,7 +291,11 @@ TEST(a_bad_curve_file_is_refused_with_its_line) {
         {" 400\n500,1\n", "line 1: found \" 400\", required: two numbers"},
         {"0.4,1\n0.7,2\n", "wavelengths from 0.4 to 0.7 nm, required from 400 to 700"},
         {"900,1\n1e3,2\n", "wavelengths from 900 to 1000 nm, required from 400 to 700"},
-        {"400,nan\n", "line 1: wavelength 400 nm with value nan: required: finite numbers"},
+        {"400,nan\n", "line 1: found \"400,nan\", required: two numbers: nm,value"},
+        {"400,inf\n500,1\n", "line 1: found \"400,inf\", required: two numbers"},
+        {"400,1\n500,0x1p7\n", "line 2: found \"500,0x1p7\", required: two numbers"},
+        {"400,1\n500,1e999\n", "line 2: found \"500,1e999\", required: two numbers"},
+        {"400,1\n500,5%\n", "line 2: found \"500,5%\", required: two numbers"},
         {"-5,1\n", "line 1: wavelength -5 nm with value 1: required: finite numbers, nm above "
                    "0"},
         {"400,1e31\n", "value 1e+31: required: finite numbers, nm above 0, up to 1e+12"},
@@ -345,7 +349,7 @@ TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line) {
         {"400,1,-2\n", "with n 1 and k -2"},
         {"400,0,0\n", "not both 0"},
         {"400,101,0\n", "from 0 to 100"},
-        {"400,1,nan\n", "line 1: wavelength 400 nm with n 1 and k nan"},
+        {"400,1,nan\n", "line 1: found \"400,1,nan\", required: three numbers: nm,n,k"},
         {"500,1,0\n400,1,0\n", "line 2: wavelength 400 nm after 500 nm"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

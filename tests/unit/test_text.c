@@ -2,6 +2,8 @@
 /* Texts that grow, escapes, characters of UTF-8, base64 and the nearest word. */
 #include "fixture.h"
 
+#include "base/count.h"
+#include "base/number.h"
 #include "print/utf8.h"
 #include "text/base64.h"
 #include "text/json_text.h"
@@ -149,6 +151,52 @@ TEST(advice_names_the_near_one_and_as_many_as_fit) {
         for (const char *at = list; *at && at != more; at++) listed += *at == ',';
         assert_true((int)strlen(text) < size && listed + left == 12);
     }
+}
+
+/* ---- numbers ----------------------------------------------------------------------------- */
+
+TEST(numbers_end_where_their_letters_do) {
+    static const struct {
+        const char *text, *rest; /* NULL: it begins with none */
+        double value;
+    } cases[] = {
+        {"0", "", 0},         {"-0", "", 0},          {"+5", "", 5},        {"1.5", "", 1.5},
+        {".5", "", 0.5},      {"5.", "", 5},          {"-.25e2", "", -25},  {"1e3", "", 1000},
+        {"1E+3", "", 1000},   {"1e-3x", "x", 1e-3},   {"180,5", ",5", 180}, {"1e", "e", 1},
+        {"1e+", "e+", 1},     {"1.2.3", ".3", 1.2},   {"007", "", 7},       {"1 2", " 2", 1},
+        {"10x20", "x20", 10}, {"1e-400", "", 0},      {"2%", "%", 2},       {"1d3", "d3", 1},
+        {"3f", "f", 3},       {"1_000", "_000", 1},   {"1'000", "'000", 1}, {"0e5x", "x", 0},
+        {"", NULL, 0},        {" 1", "", 1},          {" \t-1 ", " ", -1},  {"\n1", NULL, 0},
+        {"- 1", NULL, 0},     {"x", NULL, 0},         {".", NULL, 0},       {"-", NULL, 0},
+        {"+", NULL, 0},       {"--1", NULL, 0},       {"-.e1", NULL, 0},    {"0x1p7", NULL, 0},
+        {"0X10", NULL, 0},    {"-0x1", NULL, 0},      {"nan", NULL, 0},     {"NaN(1)", NULL, 0},
+        {"inf", NULL, 0},     {"-Infinity", NULL, 0}, {"1e999", NULL, 0},   {"-1e999", NULL, 0},
+        {"e5", NULL, 0},      {",5", NULL, 0},        {"\xD9\xA1", NULL, 0}};
+    for (int i = 0; i < COUNT_OF(cases); i++) {
+        double value = 7, whole = 7;
+        float single = 7;
+        const char *text = cases[i].text, *rest = cases[i].rest;
+        const char *end = number_read(text, &value), *end_single = number_read_float(text, &single);
+        if (!rest != !end || end != end_single || (rest && strcmp(end, rest) != 0) ||
+            value != (rest ? cases[i].value : 7) || single != (float)value ||
+            number_is(text, &whole) != (rest && !*rest))
+            fail_msg("'%s': %g, then '%s'", text, value, end ? end : "none");
+    }
+    double value;
+    float single;
+    assert_non_null(number_read("1e39", &value)); /* beyond a float alone */
+    assert_null(number_read_float("1e39", &single));
+}
+
+TEST(counts_are_digits_alone) {
+    static const char *const none[] = {"", "-1", "+1", " 1", "x", "18446744073709551616", "0x"};
+    uint64_t count = 0;
+    assert_string_equal(number_read_count("18446744073709551615:x", &count), ":x");
+    assert_true(count == UINT64_MAX);
+    assert_string_equal(number_read_count("007", &count), "");
+    assert_true(count == 7);
+    for (int i = 0; i < COUNT_OF(none) - 1; i++) assert_null(number_read_count(none[i], &count));
+    assert_string_equal(number_read_count(none[COUNT_OF(none) - 1], &count), "x");
 }
 
 TEST_PROGRAM(make_folder, remove_folder)

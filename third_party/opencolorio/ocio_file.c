@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "opencolorio/ocio_file.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/file.h"
+#include "base/number.h"
 
 static bool refuse(const char *path, const char *found, const char *required, Error *err) {
     return error_at(err, ERROR_INPUT, path, "", "%s, required %s", found, required);
@@ -32,8 +32,9 @@ static bool is_xml(const FileBytes *bytes) {
 static bool check_length(const char *path, const FileBytes *bytes, Error *err) {
     const char *text = (const char *)bytes->data, *length = strstr(text, "Length");
     if (strncmp(text, "Version", 7) != 0 || !length) return true;
-    double rows = strtod(length + 6, NULL);
-    return rows <= (double)bytes->size ||
+    double rows = 0;
+    length += 6 + strspn(length + 6, " \t");
+    return (number_read(length, &rows) && rows <= (double)bytes->size) ||
            error_at(err, ERROR_INPUT, path, "",
                     "has Length %g in %zu bytes, required a row for each", rows, bytes->size);
 }

@@ -3,6 +3,7 @@
 
 #include <assert.h>
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +11,7 @@
 
 #include "base/count.h"
 #include "base/file.h"
+#include "base/number.h"
 #include "base/parallel.h"
 #include "print/print.h"
 #include "bvh/bvh.h"
@@ -41,11 +43,9 @@ typedef struct Parser {
 bool cli_numbers(const char *text, int count, double *out) {
     double values[NUMBERS_MAX];
     for (int i = 0; i < count; i++) {
-        char *end;
-        if (*text == ' ' || *text == '\t' || *text == '\n') return false;
-        values[i] = strtod(text, &end);
-        if (end == text || !isfinite(values[i])) return false;
-        if (*end != (i + 1 < count ? ',' : '\0')) return false;
+        const char *end = number_read(text, &values[i]);
+        if (!end || *text == ' ' || *text == '\t' || *end != (i + 1 < count ? ',' : '\0'))
+            return false;
         text = end + 1;
     }
     memcpy(out, values, sizeof *out * (size_t)count);
@@ -117,22 +117,22 @@ static bool read_numbers(const Parser *in, const Option *option, const char *tex
 }
 
 static bool read_integer(const Parser *in, const Option *option, const char *text) {
-    char *end;
-    errno = 0;
-    long value = strtol(text, &end, 10);
-    if (end == text || *end || errno || *text == ' ')
-        return bad_value(in, option, text, "a whole number");
+    uint64_t count;
+    bool is_below = *text == '-';
+    const char *end = number_read_count(text + (is_below || *text == '+'), &count);
+    if (!end || *end || count > LONG_MAX) return bad_value(in, option, text, "a whole number");
+    long value = is_below ? -(long)count : (long)count;
     if (!inside_limits(in, option, (double)value)) return false;
     *(long *)option->out = value;
     return true;
 }
 
 static bool read_size(const Parser *in, const Option *option, const char *text) {
-    char *end_w, *end_h = NULL;
-    long width = strtol(text, &end_w, 10);
-    long height = *end_w == 'x' ? strtol(end_w + 1, &end_h, 10) : 0;
-    bool reads = end_w != text && end_h && end_h != end_w + 1 && !*end_h;
-    if (!reads || width < 1 || height < 1 || width > SIZE_MAX_PIXELS || height > SIZE_MAX_PIXELS)
+    uint64_t width, height;
+    const char *at = number_read_count(text, &width);
+    at = at && *at == 'x' ? number_read_count(at + 1, &height) : NULL;
+    if (!at || *at || width < 1 || height < 1 || width > SIZE_MAX_PIXELS ||
+        height > SIZE_MAX_PIXELS)
         return bad_value(in, option, text, "a size in pixels such as 1280x720, each 1 to 65536");
     ((int *)option->out)[0] = (int)width;
     ((int *)option->out)[1] = (int)height;

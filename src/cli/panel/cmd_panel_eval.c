@@ -3,10 +3,10 @@
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"
+#include "base/number.h"
 #include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
@@ -56,9 +56,8 @@ static double range_at(const PanelRange *range, int i) {
 static bool parse_range(const char **text, PanelRange *out) {
     double *const to[3] = {&out->first, &out->last, &out->step};
     for (int i = 0; i < 3; i++) {
-        char *after;
-        *to[i] = strtod(*text, &after);
-        if (after == *text || !isfinite(*to[i])) return false;
+        const char *after = number_read(*text, to[i]);
+        if (!after) return false;
         *text = after;
         if (i < 2 && *(*text)++ != ':') return false;
     }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* panel import: the files of a laboratory as one measurement set. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"
 #include "print/print.h"
+#include "base/number.h"
 #include "base/reference.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
@@ -226,10 +226,9 @@ static bool add_gloss(const CliTexts *texts, Arena *arena, Gloss *gloss, Error *
     if (texts->count) *gloss = (Gloss){0};
     for (int i = 0; i < texts->count; i++) {
         const char *angle, *value;
-        char *after[2];
+        double numbers[2];
         if (!cli_name_value("--gloss", texts->list[i], arena, &angle, &value, err)) return false;
-        double numbers[2] = {strtod(angle, &after[0]), strtod(value, &after[1])};
-        if (after[0] == angle || *after[0] || after[1] == value || *after[1])
+        if (!number_is(angle, &numbers[0]) || !number_is(value, &numbers[1]))
             return error_set(err, ERROR_USAGE,
                              "--gloss is '%s', required: an angle and gloss "
                              "units, as 60=82.5",

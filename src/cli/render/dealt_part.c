@@ -1,18 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/render/dealt_part.h"
 
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "text/text.h"
 
 bool dealt_part_parse(const char *text, DealtPart *out) {
-    char *end = NULL;
-    unsigned long number = strtoul(text, &end, 10);
-    unsigned long count = *end == '/' ? strtoul(end + 1, &end, 10) : 0;
-    if (text[strspn(text, "0123456789/")] || *end || number < 1 || number > count ||
-        count > DEALT_PARTS_MAX)
-        return false;
+    uint64_t number, count;
+    const char *at = number_read_count(text, &number);
+    at = at && *at == '/' ? number_read_count(at + 1, &count) : NULL;
+    if (!at || *at || number < 1 || number > count || count > DEALT_PARTS_MAX) return false;
     *out = (DealtPart){(uint32_t)number, (uint32_t)count};
     return true;
 }

@@ -2,29 +2,20 @@
 #include "cli/render/path_options.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/mathd.h"
+#include "base/number.h"
 #include "base/units.h"
 #include "film/film_sample.h"
 
 #define MOST_DEGREES 360
 
-static bool read_number(const char **text, double *out) {
-    char *end;
-    *out = strtod(*text, &end);
-    bool is_some = end != *text && isfinite(*out);
-    *text = end;
-    return is_some;
-}
-
 /* An extinction ratio E:1 is light that is let through over light that is not. */
 static bool read_sunglasses(const char *text, PolarisedEye *eye, Error *err) {
-    const char *at = text;
+    const char *at;
     double degrees, extinction = (double)INFINITY;
-    bool is_read =
-        read_number(&at, &degrees) && fabs(degrees) <= MOST_DEGREES &&
-        (!*at || (*at++ == ':' && read_number(&at, &extinction) && !*at && extinction >= 1));
+    bool is_read = (at = number_read(text, &degrees)) && fabs(degrees) <= MOST_DEGREES &&
+                   (!*at || (*at == ':' && number_is(at + 1, &extinction) && extinction >= 1));
     if (!is_read)
         return error_set(err, ERROR_USAGE,
                          "--sunglasses %.80s: required: DEG or DEG:EXTINCTION, degrees from "

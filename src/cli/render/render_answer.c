@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "base/machine.h"
+#include "base/number.h"
 #include "print/print.h"
 #include "base/progress.h"
 #include "base/units.h"
@@ -456,11 +457,12 @@ bool render_print_replay(const RenderRequest *request, const Scene *scene,
 static void set_time(FrameImage *frame, Arena *arena) {
     const char *epoch = getenv("SOURCE_DATE_EPOCH");
     if (!epoch) return;
-    char *end;
-    time_t seconds = (time_t)strtoll(epoch, &end, 10);
+    uint64_t count;
+    const char *end = number_read_count(epoch, &count);
+    time_t seconds = end ? (time_t)count : 0;
     struct tm date;
     char text[32];
-    if (end == epoch || *end || !gmtime_r(&seconds, &date)) return;
+    if (!end || *end || !gmtime_r(&seconds, &date)) return;
     strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &date);
     frame_set_string(frame, "capDate", text, arena);
     frame_set_values(frame, "utcOffset", EXR_FLOAT, (const double[]){0}, arena);

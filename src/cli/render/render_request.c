@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "base/count.h"
+#include "base/number.h"
 #include "cli/render/render_request.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/options/look_options.h"
@@ -84,10 +84,10 @@ const char *render_layer_list(unsigned layers, Arena *arena) {
 
 /* A:B, half-open. */
 static bool parse_samples(const char *text, RenderOptions *options, Error *err) {
-    char *end = NULL;
-    unsigned long first = strtoul(text, &end, 10);
-    unsigned long last = *end == ':' ? strtoul(end + 1, &end, 10) : 0;
-    if (strchr(text, '-') || *end || first >= last || last > FILM_SAMPLES_MAX)
+    uint64_t first, last;
+    const char *at = number_read_count(text, &first);
+    at = at && *at == ':' ? number_read_count(at + 1, &last) : NULL;
+    if (!at || *at || first >= last || last > FILM_SAMPLES_MAX)
         return error_set(err, ERROR_USAGE,
                          "--samples %s: required: A:B, whole numbers with 0 <= A < B <= "
                          "%u",

@@ -2,9 +2,9 @@
 #include "cli/render/render_setup.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "base/units.h"
 #include "camera/camera.h"
 
@@ -19,9 +19,9 @@ static int find_camera(const Scene *scene, const char *wanted) {
         if (!strcmp(scene->cameras[i].node_name, wanted)) return i;
     for (int i = 0; i < scene->camera_count; i++)
         if (!strcmp(scene->cameras[i].camera_name, wanted)) return i;
-    char *end;
-    long index = strtol(wanted, &end, 10);
-    bool is_index = *wanted && !*end && index >= 0 && index < scene->camera_count;
+    uint64_t index;
+    const char *end = number_read_count(wanted, &index);
+    bool is_index = end && !*end && index < (uint64_t)scene->camera_count;
     return is_index ? (int)index : NO_ID;
 }
 

@@ -11,6 +11,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
+#include "base/number.h"
 #include "cli/options/cli.h"
 #include "render/identity.h"
 #include "review/engine/condition_file.h"
@@ -158,12 +159,13 @@ bool review_merge_find(const char *const *folders, int count, Arena *arena, Revi
 
 /* "3 of 7" */
 static int id_of(const MergePart *part, int condition_count, Arena scratch) {
-    char none;
-    int number, of;
+    uint64_t number, of;
+    const char *at;
     Lines values = condition_identity_values(part->identity, "condition", &scratch);
-    bool is_one =
-        values.count == 1 && sscanf(values.list[0], "%d of %d%c", &number, &of, &none) == 2;
-    return is_one && of == condition_count && number >= 1 && number <= of ? number - 1 : -1;
+    bool is_one = values.count == 1 && (at = number_read_count(values.list[0], &number)) &&
+                  !strncmp(at, " of ", 4) && (at = number_read_count(at + 4, &of)) && !*at;
+    bool is_there = is_one && of == (uint64_t)condition_count && number >= 1 && number <= of;
+    return is_there ? (int)number - 1 : -1;
 }
 
 static bool is_of_request(const MergePart *part, const ReviewRun *run, Arena scratch, Error *err) {

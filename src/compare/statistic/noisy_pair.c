@@ -3,8 +3,9 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/number.h"
 
 #define LAYERS_WANTED "--layers variance,halves,samples"
 /* Sample counts that differ by no more than this share make noise of one shape. */
@@ -23,10 +24,11 @@ static void read_layer(const FrameImage *frame, const char *layer, const float *
 /* "parhelion:samples" is "A:B", half-open. */
 static double stated_samples(const FrameImage *frame) {
     const char *text = frame_string(frame, "parhelion:samples");
-    char *end = NULL;
-    double first = text ? strtod(text, &end) : 0;
-    double last = end && *end == ':' ? strtod(end + 1, NULL) : 0;
-    return last > first ? last - first : (double)NAN;
+    uint64_t first, last;
+    const char *at = text ? number_read_count(text, &first) : NULL;
+    if (at && *at == ':') at = number_read_count(at + 1, &last);
+    else at = NULL;
+    return at && !*at && last > first ? (double)(last - first) : (double)NAN;
 }
 
 /* A count: whole, none below 0; NULL: every value is one that the program could have written. */

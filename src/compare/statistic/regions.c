@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "compare/statistic/regions.h"
 
+#include <limits.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "measure/display_part.h"
 
 #define DISPLAY_PREFIX "parhelion:display."
@@ -29,9 +30,11 @@ typedef struct Region {
 /* ---- which there are --------------------------------------------------------------------- */
 
 static int display_of(const ExrAttribute *a) {
-    bool is_display =
-        a->kind == EXR_STRING && !strncmp(a->name, DISPLAY_PREFIX, sizeof DISPLAY_PREFIX - 1);
-    return is_display ? atoi(a->name + sizeof DISPLAY_PREFIX - 1) : -1;
+    uint64_t id;
+    bool is_display = a->kind == EXR_STRING &&
+                      !strncmp(a->name, DISPLAY_PREFIX, sizeof DISPLAY_PREFIX - 1) &&
+                      number_read_count(a->name + sizeof DISPLAY_PREFIX - 1, &id) && id <= INT_MAX;
+    return is_display ? (int)id : -1;
 }
 
 static int list_regions(const NoisyPair *pair, const FrameImage *frame, Arena *arena,

@@ -2,11 +2,11 @@
 /* EULUMDAT (.ldt): one value a line, in the order that A. Stockmar laid down in 1990. */
 #include "import/luminaire/eulumdat.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/file.h"
+#include "base/number.h"
 #include "import/luminaire/luminaire_doubts.h"
 #include "import/luminaire/luminaire_opening.h"
 #include "import/luminaire/luminaire_scan.h"
@@ -261,12 +261,11 @@ static bool is_eulumdat(const char *file, const char *head, size_t size) {
     if (!strcasecmp(path_ending(file), ".ldt")) return true;
     const char *line = memchr(head, '\n', size);
     for (int i = 0; i < 6 && line; i++) {
-        char *after;
-        double value = strtod(line + 1, &after);
+        double value = 0;
+        const char *after = number_read(line + 1, &value);
         const char *next = memchr(line + 1, '\n', size - (size_t)(line + 1 - head));
-        while (*after == ' ' || *after == '\r') after++;
-        if (after == line + 1 || after != next || value < 0 || value > LUMINAIRE_ANGLES_MAX)
-            return false;
+        while (after && (*after == ' ' || *after == '\r')) after++;
+        if (!after || after != next || value < 0 || value > LUMINAIRE_ANGLES_MAX) return false;
         line = next;
     }
     return line != NULL;

@@ -3,11 +3,11 @@
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/count.h"
+#include "base/number.h"
 #include "spectrum/illuminant.h"
 
 #define INTENSITY_MOST_CD 1e12
@@ -99,8 +99,12 @@ static double kelvins_in(const char *text, CctSource source) {
             at++;
             continue;
         }
-        char *after;
-        double number = strtod(at, &after);
+        double number;
+        const char *after = number_read(at, &number);
+        if (!after) { /* of a size that is no temperature */
+            at++;
+            continue;
+        }
         double kelvin = kelvins_of(number, at > text ? at[-1] : ' ', after, source);
         if (kelvin > 0 && found > 0 && kelvin != found) return 0;
         if (kelvin > 0) found = kelvin;

@@ -6,11 +6,11 @@
  * frame: the mirror direction is at phi_i + 180. Angles are radians in the files of Cornell's
  * gonioreflectometer; a file with a theta above 1.6 or a phi above 6.3 is in degrees. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/file.h"
+#include "base/number.h"
 #include "base/units.h"
 #include "import/scatter/scan.h"
 #include "import/scatter/scatter.h"
@@ -38,10 +38,10 @@ typedef struct Astm {
 
 /* "465nm" or "465 nm". */
 static bool is_wavelength(const char *name, double *nm) {
-    char *unit;
-    double value = strtod(name, &unit);
-    while (*unit == ' ') unit++;
-    if (unit == name || strcasecmp(unit, "nm") || !(value > 0)) return false;
+    double value;
+    const char *unit = number_read(name, &value);
+    while (unit && *unit == ' ') unit++;
+    if (!unit || strcasecmp(unit, "nm") || !(value > 0)) return false;
     *nm = value;
     return true;
 }
@@ -125,7 +125,7 @@ static bool read_header(Astm *in, Error *err) {
     for (const char *line; (line = scan_line(&in->scan));) {
         double number;
         if (!strncasecmp(line, "NUM_POINTS", 10)) {
-            if (!scan_to_number(line + 10, &number) || number < 1 || number > IMPORT_ROWS_MAX)
+            if (!number_is(line + 10, &number) || number < 1 || number > IMPORT_ROWS_MAX)
                 return scan_fail(&in->scan, err, "NUM_POINTS is '%.40s', required: 1 to %d",
                                  line + 10, IMPORT_ROWS_MAX);
             in->stated_rows = (int)number;

@@ -3,11 +3,11 @@
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/file.h"
+#include "base/number.h"
 #include "import/set/import.h"
 
 #define BYTE_ORDER_MARK "\xEF\xBB\xBF"
@@ -83,14 +83,6 @@ bool scan_accept(WordScan *scan, const char *word) {
     return true;
 }
 
-bool scan_to_number(const char *word, double *out) {
-    char *stop;
-    double value = strtod(word, &stop);
-    if (stop == word || *stop || !isfinite(value)) return false;
-    *out = value;
-    return true;
-}
-
 /* No word of a number is longer: what is longer is not copied. */
 bool scan_number(WordScan *scan, const char *what, double *out, Error *err) {
     char text[64];
@@ -102,7 +94,7 @@ bool scan_number(WordScan *scan, const char *what, double *out, Error *err) {
     size_t copied = length < sizeof text ? length : sizeof text - 1;
     memcpy(text, begin, copied);
     text[copied] = 0;
-    if (length < sizeof text && scan_to_number(text, out)) return true;
+    if (length < sizeof text && number_is(text, out)) return true;
     return scan_fail(scan, err, "%s is '%.*s', required: a number", what, WORD_SHOWN_MAX, text);
 }
 

@@ -66,8 +66,5 @@ bool scan_check_end(const WordScan *scan, Error *err);
 bool scan_fail(const WordScan *scan, Error *err, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* The whole word as a finite number. */
-bool scan_to_number(const char *word, double *out);
-
 /* Do the first bytes of a file hold this word at the beginning of a line (case matters)? */
 bool scan_head_has(const char *head, size_t size, const char *line_start);

@@ -11,6 +11,7 @@
 
 #include "base/file.h"
 #include "base/mathd.h"
+#include "base/number.h"
 #include "base/units.h"
 #include "import/scatter/scan.h"
 #include "import/scatter/scatter.h"
@@ -206,7 +207,7 @@ static bool speos_text_read(const char *file, Arena *arena, Speos *out, Error *e
     const char *title = scan_line(&in.scan);
     const char *version = title ? strrchr(title, 'v') : NULL;
     double number;
-    if (!version || !scan_to_number(version + 1, &number) || number < 8)
+    if (!version || !number_is(version + 1, &number) || number < 8)
         return scan_fail(&in.scan, err, "the version is '%.20s', required: v8.0 or later",
                          version ? version : "");
     out->is_spectral = !strstr(title, "Anisotropic");

@@ -12,6 +12,7 @@
 
 #include "base/count.h"
 #include "base/file.h"
+#include "base/number.h"
 #include "import/scatter/scan.h"
 #include "import/scatter/scatter.h"
 
@@ -189,7 +190,7 @@ static bool number_before(const char *begin, const char *stop, double *out) {
     if (!length || length >= sizeof number) return false;
     memcpy(number, digit, length);
     number[length] = 0;
-    return scan_to_number(number, out);
+    return number_is(number, out);
 }
 
 /* The number after "(nm) =" or "(nm):". */

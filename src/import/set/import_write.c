@@ -4,10 +4,10 @@
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "base/count.h"
 #include "base/file.h"
+#include "base/number.h"
 #include "panel/set/level_table.h"
 #include "panel/set/set_writer.h"
 #include "panel/set/specular_table.h"
@@ -42,7 +42,8 @@ static void add_value(Text *text, double value) {
     float wanted = (float)value;
     for (int digits = 6; digits <= 9; digits++) {
         snprintf(shortest, sizeof shortest, "%.*g", digits, (double)wanted);
-        if (digits == 9 || strtof(shortest, NULL) == wanted) break;
+        float again;
+        if (digits == 9 || (number_read_float(shortest, &again) && again == wanted)) break;
     }
     text_format(text, ",%s", shortest);
 }

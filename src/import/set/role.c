@@ -4,8 +4,9 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/number.h"
 
 #define WORDS_MAX 64
 #define WORD_LENGTH 24
@@ -40,9 +41,7 @@ static int cut_fields(const char *text, char *copy, size_t size, const char *fie
 }
 
 static bool field_number(const char *text, double low, double high, double *out) {
-    char *after;
-    *out = strtod(text, &after);
-    return after != text && !*after && *out >= low && *out <= high;
+    return number_is(text, out) && *out >= low && *out <= high;
 }
 
 static bool parse_light(const char *const *field, int count, Role *role) {
@@ -116,7 +115,7 @@ static int cut_words(const char *text, RoleWord *word) {
                  isdigit((unsigned char)*text) || (*text == '.' && isdigit((unsigned char)text[1]));
                  text++)
                 if (n < WORD_LENGTH - 1) digits[n++] = *text;
-            word[count++].number = strtod(digits, NULL);
+            number_read(digits, &word[count++].number);
         } else if (is_letter(*text)) {
             for (int n = 0; is_letter(*text); text++)
                 if (n < WORD_LENGTH - 1) word[count].text[n++] = (char)tolower(*text);

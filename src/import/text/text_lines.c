@@ -4,11 +4,11 @@
 #include <ctype.h>
 #include <limits.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/file.h"
+#include "base/number.h"
 #include "print/utf8.h"
 #include "import/set/import.h"
 
@@ -190,7 +190,7 @@ int text_cell_find(const char *const *list, TextCell cell) {
 }
 
 bool text_number(TextCell cell, char decimal, double *out) {
-    char plain[CELL_DIGITS_MAX + 1], *after;
+    char plain[CELL_DIGITS_MAX + 1];
     bool has_digit = false;
     if (cell.length > 2 && !memcmp(cell.text + cell.length - 2, DEGREE_SIGN, 2)) cell.length -= 2;
     if (cell.length < 1 || cell.length > CELL_DIGITS_MAX) return false;
@@ -206,10 +206,7 @@ bool text_number(TextCell cell, char decimal, double *out) {
     }
     plain[cell.length] = 0;
     if (!has_digit) return false;
-    double value = strtod(plain, &after);
-    if (*after || !isfinite(value)) return false;
-    *out = value;
-    return true;
+    return number_is(plain, out);
 }
 
 bool text_is_masked(TextCell cell) {

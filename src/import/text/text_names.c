@@ -2,11 +2,11 @@
 #include "import/text/text_names.h"
 
 #include <ctype.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/count.h"
+#include "base/number.h"
 
 #define NAME_LENGTH 64
 
@@ -102,8 +102,7 @@ static int read_number(TextCell cell, int i, Parts *parts) {
         i++;
     }
     digits[count] = 0;
-    parts->number = strtod(digits, NULL);
-    parts->has_number = true;
+    parts->has_number = number_read(digits, &parts->number) != NULL;
     return i;
 }
 

@@ -3,11 +3,11 @@
 
 #include <fnmatch.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"
 #include "base/file.h"
+#include "base/number.h"
 #include "text/nearest_word.h"
 
 const TextKey text_keys[] = {
@@ -68,9 +68,8 @@ static bool bad_value(const TextKey *key, const char *value, Error *err) {
 }
 
 static bool number_of(const char *value, double low, double high, double *out) {
-    char *after;
-    double number = strtod(value, &after);
-    if (after == value || *after || !(number >= low && number <= high)) return false;
+    double number;
+    if (!number_is(value, &number) || !(number >= low && number <= high)) return false;
     *out = number;
     return true;
 }

@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "import/set/import.h"
 #include "import/text/text_blocks.h"
 #include "import/text/text_names.h"
@@ -45,11 +45,10 @@ static bool key_is(const KeyValue *pair, const char *const *names) {
 
 /* The number at the value's beginning, with a decimal point or comma. */
 static bool value_number(const KeyValue *pair, double *out) {
-    char digits[32] = {0}, *after;
+    char digits[32] = {0};
     for (int i = 0; i < pair->value.length && i < 31; i++)
         digits[i] = pair->value.text[i] == ',' ? '.' : pair->value.text[i];
-    *out = strtod(digits, &after);
-    return after != digits && *out >= -1e6 && *out <= 1e6;
+    return number_read(digits, out) && *out >= -1e6 && *out <= 1e6;
 }
 
 static void read_azimuth(TextMetadata *metadata, TextLine line, int index) {

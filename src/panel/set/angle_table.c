@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/number.h"
 #include "base/sort.h"
 #include "base/units.h"
 #include "text/csv_table.h"
@@ -300,9 +301,8 @@ bool angle_table_read_xyz(const char *file, const char *name, Arena *arena, Angl
 
 static bool is_wavelength_column(const CsvTable *csv, int column, const float *wavelength_nm,
                                  int count) {
-    char *after;
-    float nm = strtof(csv->name[column], &after);
-    if (after == csv->name[column]) return false;
+    float nm;
+    if (!number_read_float(csv->name[column], &nm)) return false;
     for (int w = 0; w < count; w++)
         if (fabsf(nm - wavelength_nm[w]) < 1e-3f) return true;
     return false;
@@ -311,10 +311,9 @@ static bool is_wavelength_column(const CsvTable *csv, int column, const float *w
 /* Column of a wavelength: its number, with or without "nm" behind it; or "brdf". */
 static int wavelength_column(const CsvTable *csv, float nm, int count) {
     for (int c = 0; c < csv->columns; c++) {
-        char *after;
-        float value = strtof(csv->name[c], &after);
-        if (after != csv->name[c] && fabsf(value - nm) < 1e-3f && (!*after || !strcmp(after, "nm")))
-            return c;
+        float value;
+        const char *after = number_read_float(csv->name[c], &value);
+        if (after && fabsf(value - nm) < 1e-3f && (!*after || !strcmp(after, "nm"))) return c;
     }
     return count == 1 ? csv_table_column(csv, "brdf") : -1;
 }
@@ -381,9 +380,8 @@ static bool same_grid(const CsvTable *a, const CsvTable *b, Error *err) {
 }
 
 static bool grid_azimuth(const CsvTable *csv, int column, float *phi_deg, Error *err) {
-    char *after;
-    *phi_deg = strtof(csv->name[column], &after);
-    return (after != csv->name[column] && !*after && isfinite(*phi_deg)) ||
+    const char *after = number_read_float(csv->name[column], phi_deg);
+    return (after && !*after) ||
            error_at(err, ERROR_INPUT, csv->file, "header line",
                     "column '%s' is no azimuth, required: phi in degrees", csv->name[column]);
 }

@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "base/mathd.h"
+#include "base/number.h"
 #include "base/units.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_opened.h"
@@ -441,28 +442,38 @@ bool panel_export(const Panel *panel, const char *name, const ExportOptions *opt
 
 /* Codes of "black", "white 255", "green 31". */
 static bool emission_codes(const char *table, double rgb[3]) {
-    char word[8], after;
+    char word[8] = "";
     double code = 0;
+    size_t letters = strspn(table, "abcdefghijklmnopqrstuvwxyz");
     rgb[0] = rgb[1] = rgb[2] = 0;
     if (!strcmp(table, "black")) return true;
-    if (sscanf(table, "%7[a-z] %lf%c", word, &code, &after) != 2 || !(code >= 0 && code <= 255))
+    if (letters >= sizeof word || !number_is(table + letters, &code) || !(code >= 0 && code <= 255))
         return false;
+    memcpy(word, table, letters);
     for (int p = 0; p < 3; p++)
         if (!strcmp(word, "white") || !strcmp(word, primary_names[p])) rgb[p] = code;
     return rgb[0] + rgb[1] + rgb[2] > 0;
 }
 
+/* Behind these words and a number; NULL: something else stands at `text`. */
+static const char *take(const char *text, const char *words, double *out) {
+    const char *at = text + strlen(words);
+    return strncmp(text, words, strlen(words)) ? NULL : number_read(at, out);
+}
+
+static const char *behind_degrees(const char *text) {
+    return text && !strncmp(text, " deg", 4) ? text + 4 : NULL;
+}
+
 /* Light of "brdf 30", "brdf 30 deg", "brdf 30 at 90", "brdf 30 deg, light from 90 deg". */
 static bool brdf_light(const char *table, Light *light) {
-    int length = 0;
     *light = (Light){0, 180};
-    if (sscanf(table, "brdf %lf%n", &light->theta_deg, &length) != 1) return false;
-    table += length;
-    if (!strncmp(table, " deg", 4)) table += 4;
-    length = 0;
-    if (*table && sscanf(table, ", light from %lf deg%n", &light->phi_deg, &length) != 1)
-        sscanf(table, " at %lf%n", &light->phi_deg, &length);
-    if (*table && (!length || table[length])) return false;
+    const char *at = take(table, "brdf ", &light->theta_deg), *behind = behind_degrees(at);
+    if (behind) at = behind;
+    if (at && *at)
+        at = *at == ',' ? behind_degrees(take(at, ", light from ", &light->phi_deg))
+                        : take(at, " at ", &light->phi_deg);
+    if (!at || *at) return false;
     return light->theta_deg >= 0 && light->theta_deg < 90 && fabs(light->phi_deg) <= 360;
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/count.h"
+#include "base/number.h"
 #include "panel/set/primary_bands.h"
 #include "record/rows.h"
 
@@ -33,9 +34,7 @@ static const RecordRow LEVEL_TABLE = TABLE("table", table, NULL);
 
 static bool check_level(const JsonView *view, void *item, Error *err) {
     ManifestLevel *level = item;
-    char *after;
-    level->level = strtod(level->name, &after);
-    return (after != level->name && !*after && level->level > 0 && level->level <= 255) ||
+    return (number_is(level->name, &level->level) && level->level > 0 && level->level <= 255) ||
            record_fails(view, level->name, err,
                         "is no grey level, required: a number above 0 "
                         "and up to 255");

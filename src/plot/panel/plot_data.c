@@ -2,9 +2,9 @@
 #include "plot/panel/plot_data.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/file.h"
+#include "base/number.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "panel/query/panel_emission.h"
@@ -19,9 +19,8 @@
 /* Reads a number above 0 and moves behind it. */
 static bool next_number(const char *option, const char *text, const char **at, double *out,
                         Error *err) {
-    char *after;
-    *out = strtod(*at, &after);
-    if (after == *at || !(*out > 0 && *out <= LARGEST))
+    const char *after = number_read(*at, out);
+    if (!after || !(*out > 0 && *out <= LARGEST))
         return error_set(err, ERROR_USAGE,
                          "%s is '%s', required: numbers above 0 and up to "
                          "1e7 with commas between",

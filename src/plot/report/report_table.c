@@ -2,9 +2,9 @@
 #include "plot/report/report_table.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "page/page.h"
 #include "panel/set/set_writer.h"
 #include "text/json_text.h"
@@ -126,7 +126,9 @@ json_t *report_values(const Report *report) {
 /* ---- JSON and CSV ------------------------------------------------------------------------ */
 
 static json_t *cell_json(const ReportCell *cell) {
-    return cell->is_number ? json_real(strtod(cell->text, NULL)) : json_text(cell->text);
+    double number;
+    bool is_number = cell->is_number && number_read(cell->text, &number);
+    return is_number ? json_real(number) : json_text(cell->text);
 }
 
 json_t *report_json(const Report *report) {

@@ -5,7 +5,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/file.h>
@@ -16,6 +15,7 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/lines.h"
+#include "base/number.h"
 #include "keep/kept.h"
 #include "review/output/review_json.h"
 #include "review/output/review_link.h"
@@ -205,13 +205,14 @@ static bool may_be_summary(const char *name, const ReviewRequest *request, Arena
 /* "frames/1-CONDITION-EYE.png", "sweeps/1-CONDITION-EYE-SYMBOL.csv". */
 static bool may_be_numbered(const char *name, const ReviewRequest *request, Arena scratch) {
     const char *in_folder = strchr(name, '/') + 1;
-    long number = strtol(in_folder, NULL, 10);
+    uint64_t number;
+    if (!number_read_count(in_folder, &number)) return false;
     for (int c = 0; c < request->condition_count; c++)
         for (int e = 0; e < request->eye_count; e++) {
             Arena own = scratch;
             const char *start =
-                words_file_name(arena_format(&own, "%ld-%s-%s", number, request->conditions[c].name,
-                                             request->eyes[e].name),
+                words_file_name(arena_format(&own, "%llu-%s-%s", (unsigned long long)number,
+                                             request->conditions[c].name, request->eyes[e].name),
                                 &own);
             if (!starts_alike(in_folder, start)) continue;
             if (name[0] == 's' || is_rest_of_frame(in_folder + strlen(start))) return true;

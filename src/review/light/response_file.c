@@ -74,7 +74,8 @@ static bool check_facts(const KeptReader *reader, const ResponseFacts *facts, Er
     bool is_sound = facts->level >= 0 && facts->level <= RESPONSE_LEVEL && facts->paths > 0 &&
                     facts->cells == 2 * (int32_t)geodesic_count(facts->level) && facts->kept >= 0 &&
                     facts->kept <= facts->cells && isfinite(facts->lamps) &&
-                    isfinite(facts->displays);
+                    isfinite(facts->displays) && isfinite(facts->relative_error) &&
+                    facts->relative_error >= 0;
     return (is_sound || kept_damaged(reader, err, "its head cannot be")) &&
            kept_has_left(reader, body_bytes(facts->kept), err);
 }

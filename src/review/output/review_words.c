@@ -3,9 +3,9 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "plot/draw/ticks.h"
 #include "review/private_image.h"
 #include "review/quantity.h"
@@ -82,7 +82,8 @@ static const char *with_unit(const LimitVerdict *limit, const char *figure, Aren
 
 /* Rounded to the limit's other side, or onto it, a figure would belie its verdict. */
 static bool is_belied(const LimitVerdict *limit, const char *figure) {
-    double shown = strtod(figure, NULL);
+    double shown = 0;
+    number_read(figure, &shown);
     double is = limit->found - limit->value, looks = shown - limit->value;
     return isfinite(limit->found) && is != 0 && !(is * looks > 0);
 }

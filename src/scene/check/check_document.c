@@ -2,24 +2,21 @@
 #include "scene/check/check_document.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"
+#include "base/number.h"
 
 /* "major.minor", digits only; false when the text is anything else. */
-static bool parse_version(const char *text, long *major, long *minor) {
-    char *end;
-    if (text[0] < '0' || text[0] > '9') return false;
-    *major = strtol(text, &end, 10);
-    if (*end != '.' || end[1] < '0' || end[1] > '9') return false;
-    *minor = strtol(end + 1, &end, 10);
-    return *end == '\0';
+static bool parse_version(const char *text, uint64_t *major, uint64_t *minor) {
+    const char *end = number_read_count(text, major);
+    end = end && *end == '.' ? number_read_count(end + 1, minor) : NULL;
+    return end && !*end;
 }
 
 /* As a number that orders versions; -1: there is none that can be read. */
 static double version_of(const DocumentCheck *check, const GltfValue *value) {
-    long major, minor;
+    uint64_t major, minor;
     if (!value || value->kind != GLTF_STRING) return -1;
     if (parse_version(value->text, &major, &minor)) return 1e6 * (double)major + (double)minor;
     check_fails(check, value, "is \"%.40s\", a version like \"2.0\" is required", value->text);
@@ -218,20 +215,32 @@ static void check_members(const DocumentCheck *check, const GltfValue *environme
                     "skipped");
 }
 
+/* Does the text begin with digits and marks as `shape` has them? */
+static bool has_shape(const char *text, const char *shape) {
+    for (; *shape; shape++, text++)
+        if (*shape == '0' ? *text < '0' || *text > '9' : *text != *shape) return false;
+    return true;
+}
+
+static int two_digits(const char *at) {
+    return 10 * (at[0] - '0') + at[1] - '0';
+}
+
 /* ISO 8601 with minutes, and optional seconds, and the offset from UTC. */
 static bool is_moment(const char *text) {
-    int year, month, day, hour, minute, second = 0, used = 0, more = 0, off_hour, off_minute, tail;
-    if (sscanf(text, "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) != 5 ||
-        used != 16)
+    const char *at = text + strlen("2026-06-21T08:30");
+    if (!has_shape(text, "0000-00-00T00:00")) return false;
+    int month = two_digits(text + 5), day = two_digits(text + 8);
+    if (month < 1 || month > 12 || day < 1 || day > 31 || two_digits(text + 11) > 24 ||
+        two_digits(text + 14) > 59)
         return false;
-    if (sscanf(text + used, ":%2d%n", &second, &more) == 1 && more == 3) used += more;
-    if (month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 24 || minute < 0 ||
-        minute > 59 || second < 0 || second > 60)
-        return false;
-    if (strcmp(text + used, "Z") == 0) return true;
-    return (text[used] == '+' || text[used] == '-') &&
-           sscanf(text + used + 1, "%2d:%2d%n", &off_hour, &off_minute, &tail) == 2 && tail == 5 &&
-           text[used + 6] == '\0' && off_hour <= 14 && off_minute <= 59;
+    if (has_shape(at, ":00")) {
+        if (two_digits(at + 1) > 60) return false;
+        at += 3;
+    }
+    if (strcmp(at, "Z") == 0) return true;
+    return (*at == '+' || *at == '-') && has_shape(at + 1, "00:00") && !at[6] &&
+           two_digits(at + 1) <= 14 && two_digits(at + 4) <= 59;
 }
 
 static void check_time_and_place(const DocumentCheck *check, const GltfValue *environment) {

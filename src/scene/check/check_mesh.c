@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/check/check_mesh.h"
 
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "scene/check/check_material.h"
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
@@ -36,9 +36,9 @@ static int match(const Format *format, const char *name) {
     if (strncmp(name, format->prefix, length) != 0) return -1;
     const char *rest = name + length;
     if (format->prefix[length - 1] != '_') return rest[0] ? -1 : 0;
-    size_t digits = strspn(rest, "0123456789");
-    if (!digits || digits > 4 || rest[digits] || (rest[0] == '0' && digits > 1)) return -1;
-    return atoi(rest);
+    uint64_t number;
+    const char *end = number_read_count(rest, &number);
+    return !end || *end || end - rest > 4 || (*rest == '0' && end - rest > 1) ? -1 : (int)number;
 }
 
 static const Format *format_of(const char *name) {

@@ -4,9 +4,9 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "scene/check/our_extensions.h"
 #include "scene/check/schema_extensions.h"
 #include "scene/gltf/accessor.h"
@@ -106,9 +106,12 @@ static void list_choices(const Rule *rule, char *out, size_t size) {
         snprintf(out + used, size - used, "%s", rule->of);
         return;
     }
-    for (const char *word = rule->of; *word; word += 4 + (word[4] == '|'))
+    for (const char *word = rule->of; *word; word += 4 + (word[4] == '|')) {
+        uint64_t code = 0;
+        number_read_count(word, &code);
         used += (size_t)snprintf(out + used, size - used, "%s%s", word == rule->of ? "" : "|",
-                                 component_name(atoi(word)));
+                                 component_name((int)code));
+    }
 }
 
 static void check_choice(const DocumentCheck *check, const GltfValue *value, const Rule *rule) {

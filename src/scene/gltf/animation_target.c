@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/gltf/animation_target.h"
 
-#include <stdlib.h>
+#include <limits.h>
 #include <string.h>
+
+#include "base/number.h"
 
 #define EXTENSION "KHR_animation_pointer"
 #define NODES "/nodes/"
@@ -25,10 +27,9 @@ static bool find_path(const char *name, AnimationPath *out) {
 
 /* The number at *text, which is moved behind it and the slash; -1: there is none. */
 static int take_index(const char **text) {
-    char *end;
-    size_t digits = strspn(*text, "0123456789");
-    if (!digits || digits > 9 || (digits > 1 && **text == '0') || (*text)[digits] != '/') return -1;
-    long index = strtol(*text, &end, 10);
+    uint64_t index;
+    const char *end = number_read_count(*text, &index);
+    if (!end || *end != '/' || index > INT_MAX || (end - *text > 1 && **text == '0')) return -1;
     *text = end + 1;
     return (int)index;
 }

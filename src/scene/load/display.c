@@ -3,9 +3,9 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_place.h"
@@ -124,10 +124,10 @@ static void set_content(Loader *load, int display_id, const char *option, const 
 /* Percent. Below 1 a share may be meant, above 100 what was measured is left: both are said
  * with the unit behind them. */
 static void set_level(Loader *load, int display_id, const char *option, const char *value) {
-    char *end;
-    double percent = strtod(value, &end);
-    bool has_unit = strcmp(end, "%") == 0;
-    if (end == value || (*end && !has_unit) || !(percent >= 0 && percent <= 1e4)) {
+    double percent;
+    const char *end = number_read(value, &percent);
+    bool has_unit = end && strcmp(end, "%") == 0;
+    if (!end || (*end && !has_unit) || !(percent >= 0 && percent <= 1e4)) {
         option_error(load, option,
                      "\"%.100s\" is no percentage; a number from 0 to 10000 is "
                      "required%s",

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/load/luminaire.h"
 
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "scene/gltf/document.h"
 #include "scene/load/profiles.h"
 #include "scene/load/wearer.h"
@@ -127,9 +127,8 @@ static void report_unknown(Loader *load, const char *name) {
 
 /* A number, with or without the unit behind it. */
 static bool read_number(const char *text, const char *unit, double low, double high, double *out) {
-    char *end;
-    *out = strtod(text, &end);
-    return end != text && (!*end || !strcmp(end, unit)) && *out >= low && *out <= high;
+    const char *end = number_read(text, out);
+    return end && (!*end || !strcmp(end, unit)) && *out >= low && *out <= high;
 }
 
 static void set_level(PunctualLight *light, double percent) {

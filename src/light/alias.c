@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "base/alias.h"
+#include "light/alias.h"
 
 /* Vose's two stacks: slots poorer than average are filled up from richer ones. Scratch is
  * taken from the arena's copy and given back. */
