@@ -16,8 +16,11 @@ Units: cd m^-2, W m^-2 sr^-1 nm^-1, sr^-1, nm, radians; codes 0 to 255. parhelio
 the library this module calls, has all of it.
 
 The library is the file that PARHELION_PANEL_LIBRARY names, else one beside this module or in
-the folders of libraries of the same installation, else the system's. A Panel may be asked by
-many threads at once.
+the folders of libraries of the same installation, else the system's.
+
+A Panel is constant: many threads may ask it at once, also while one closes it; copies share what
+was opened, and so do processes after a fork. It cannot be pickled: a process that was not forked
+opens the file itself.
 """
 import ctypes
 import ctypes.util
@@ -120,29 +123,50 @@ def _array(name, value, width):
     return array
 
 
+class _Opened:
+    """What the library opened: freed with the last Panel, copy or question that has it."""
+
+    def __init__(self, panel, close):
+        self.panel, self._close = panel, close
+
+    def __del__(self):
+        self._close(self.panel)
+
+    def __copy__(self):
+        return self
+
+    def __deepcopy__(self, _):
+        return self
+
+    def __reduce__(self):
+        raise PanelError("a Panel cannot be pickled: open its file in each process")
+
+
 class Panel:
     """An open panel file, or the bytes of one. Raises PanelError, or MemoryError where there is
     not enough memory."""
 
+    _opened = None
+
     def __init__(self, source):
-        self._panel = None
         library, error = _library(), ctypes.create_string_buffer(2048)
         panel = ctypes.c_void_p()
         into = (ctypes.byref(panel), error, len(error))
         if isinstance(source, (bytes, bytearray)):
             status = library.parhelion_panel_open_memory(bytes(source), len(source), *into)
         else:
-            status = library.parhelion_panel_open(os.fsencode(source), *into)
+            path = os.fsencode(source)
+            if b"\0" in path:
+                raise PanelError(f"{source!r} has a zero byte, required: a path without")
+            status = library.parhelion_panel_open(path, *into)
         if status:
             words = error.value.decode("utf-8", "replace")
             raise MemoryError(words) if status == NO_MEMORY else PanelError(words)
-        self._panel = panel.value
+        self._opened = _Opened(panel.value, library.parhelion_panel_close)
 
     def close(self):
-        """Frees the panel; it cannot be asked afterwards."""
-        if self._panel:
-            _library().parhelion_panel_close(self._panel)
-        self._panel = None
+        """It cannot be asked afterwards; frees the panel when no copy and no question has it."""
+        self._opened = None
 
     def __enter__(self):
         return self
@@ -150,18 +174,16 @@ class Panel:
     def __exit__(self, *_):
         self.close()
 
-    def __del__(self):
-        self.close()
-
     def _open(self):
-        if not self._panel:
+        opened = self._opened
+        if not opened:
             raise PanelError("the panel is closed")
-        return self._panel
+        return opened
 
     def info(self):
         """What the file holds, as a dictionary."""
-        told = _Info(size=ctypes.sizeof(_Info))
-        _library().parhelion_panel_info(self._open(), ctypes.byref(told))
+        told, opened = _Info(size=ctypes.sizeof(_Info)), self._open()
+        _library().parhelion_panel_info(opened.panel, ctypes.byref(told))
         out = {name: bool(told.flags >> bit & 1) for bit, name in enumerate(FLAGS)}
         for name in ("emission_nm", "reflection_nm"):
             out[name] = tuple(getattr(told, name))
@@ -197,8 +219,9 @@ class Panel:
             made.append(numpy.empty(shape + last, kind))
         pointers = [_pointer(array, BYTES if array is not None and array.dtype == numpy.uint8
                              else FLOATS) for array in made]
+        opened = self._open()
         status = getattr(_library(), f"parhelion_panel_{name}")(
-            self._open(), ctypes.byref(questions), *pointers)
+            opened.panel, ctypes.byref(questions), *pointers)
         if status:
             raise PanelError(f"{name}: the library refuses the question ({status})")
         return made

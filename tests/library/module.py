@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """module.py BUILD_DIR -- parhelion_panel.py: shapes and broadcasting, what is refused and in
-which words, where it finds the library, threads, draws of the reflection and of the emission
-against their densities, what is measured, and the example that draws a viewing cone. Ends with
-what a question costs, which nothing is claimed of.
+which words, copies, forks and pickles, where it finds the library, threads, draws of the
+reflection and of the emission against their densities, what is measured, and the example that
+draws a viewing cone. Ends with what a question costs, which nothing is claimed of.
 """
+import copy
+import multiprocessing
+import multiprocessing.pool
 import os
+import pathlib
+import pickle
 import shutil
 import subprocess
 import sys
@@ -102,6 +107,94 @@ def check_refused(report, folder):
         report.claim(all(told.get(key) == value for key, value in here.items())
                      and sum(key.startswith(f"ParhelionPanel{name}") for key in told)
                      == len(here), f"the module's {name} is not the header's: {here}")
+
+
+def in_fork(call):
+    """What a forked process says, and how it ended."""
+    read, write = os.pipe()
+    child = os.fork()
+    if not child:
+        try:
+            said = repr(call())
+        except Exception as fault:  # pylint: disable=broad-except
+            said = f"{type(fault).__name__}: {fault}"
+        os.write(write, said.encode())
+        sys.stdout.flush()
+        sys.exit(0)  # with what __del__ frees
+    os.close(write)
+    with os.fdopen(read) as file:
+        said = file.read()
+    return said, os.waitpid(child, 0)[1]
+
+
+def check_copies(report):
+    """Copied, pickled, forked, closed: the same answers, or one exception; never a crash."""
+    from parhelion_panel import Panel, PanelError
+    ask = ([0, 0.6, 0.8], [10, 20, 30])
+    wanted = Panel(PANEL).emission_xyz(*ask).tolist()
+
+    class Derived(Panel):
+        pass
+    for make in (copy.copy, copy.deepcopy, lambda p: copy.deepcopy({"a": [p, p]})["a"][1],
+                 lambda p: copy.copy(copy.copy(p)), lambda p: copy.deepcopy(copy.copy(p))):
+        for kind in (Panel, Derived):
+            for closes_first in (True, False):
+                one = kind(PANEL)
+                two = make(one)
+                (one if closes_first else two).close()
+                left = two if closes_first else one
+                closed = one if closes_first else two
+                del one, two
+                report.claim(left.emission_xyz(*ask).tolist() == wanted
+                             and type(left) is kind, "a copy answers otherwise")
+                report.claim("closed" in refusal(closed.info), "a closed copy is asked")
+                left.close()
+                left.close()
+                report.claim("closed" in refusal(left.info), "closed twice, asked")
+    panel = Panel(PANEL)
+    for thing in (panel, [panel], {"p": panel}, copy.copy(panel), panel.info):
+        for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+            said = refusal(lambda thing=thing, p=protocol: pickle.dumps(thing, p))
+            report.claim("cannot be pickled: open its file in each process" in said,
+                         f"pickled, {protocol}: {said!r}")
+    for method in ("spawn", "forkserver"):
+        worker = multiprocessing.get_context(method).Process(target=print, args=(panel,))
+        report.claim("cannot be pickled" in refusal(worker.start), f"a process by {method}")
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        said = refusal(lambda: pool.map(Panel.info, [panel] * 4))
+        report.claim("cannot be pickled" in said, f"a pool: {said!r}")
+        try:
+            pool.apply(Panel, (PANEL,))
+            said = "done"
+        except multiprocessing.pool.MaybeEncodingError as fault:
+            said = str(fault)
+        report.claim("cannot be pickled" in said, f"a pool's answer: {said!r}")
+    for call, says in ((lambda: panel.emission_xyz(*ask).tolist(), repr(wanted)),
+                       (lambda: panel.close() or panel.info(), "PanelError: the panel is closed"),
+                       (panel.close, "None"),
+                       (lambda: copy.deepcopy(panel).emission_xyz(*ask).tolist(), repr(wanted))):
+        report.claim(in_fork(call) == (says, 0), f"forked: {in_fork(call)}, not {says}")
+    report.claim(panel.emission_xyz(*ask).tolist() == wanted, "after forks")
+    for source in ("a\0b", PANEL + "\0", "\0", pathlib.Path("a\0b")):
+        said = refusal(lambda source=source: Panel(source))
+        report.claim("has a zero byte" in said and "\n" not in said, f"{source!r}: {said!r}")
+    empty = Panel.__new__(Panel)
+    report.claim("closed" in refusal(empty.info) and empty.close() is None, "never opened")
+    questions = Questions(4000, 3)
+    for _ in range(20):  # what is asked while another thread closes is answered, or refused
+        shared = Panel(PANEL)
+
+        def use(i, shared=shared):
+            if i == 3:
+                return shared.close()
+            try:
+                return shared.emission_xyz(questions.viewer, questions.code)
+            except PanelError as fault:
+                return str(fault)
+        with ThreadPoolExecutor(4) as pool:
+            answers = list(pool.map(use, range(12)))
+        report.claim(all(a is None or isinstance(a, numpy.ndarray) or "closed" in a
+                         for a in answers), "closed while it is asked")
 
 
 def check_found(report, build, folder):
@@ -278,6 +371,7 @@ def main():
         check_shapes(report, panel)
         check_info(report, panel)
         check_refused(report, folder)
+        check_copies(report)
         check_found(report, build, folder)
         check_threads(report, panel)
         check_draws(report, panel)
