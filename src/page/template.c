@@ -120,22 +120,8 @@ static void add_plain(const Render *r, const char *at, const char *end) {
     }
 }
 
-/* RFC 4180: a cell with a comma or a quote stands in quotes, quotes doubled. No text has a
- * line's end as it may be shown. */
-static void add_csv(Text *csv, const char *text) {
-    bool is_quoted = strpbrk(text, ",\"") != NULL;
-    if (is_quoted) text_add(csv, "\"");
-    for (size_t plain; *text; text += plain) {
-        plain = strcspn(text, "\"");
-        text_add_printable(csv, text, plain);
-        if (text[plain]) text_add(csv, "\"\"");
-        plain += text[plain] != '\0';
-    }
-    if (is_quoted) text_add(csv, "\"");
-}
-
 static void add_words(const Render *r, const char *words) {
-    if (r->is_csv) add_csv(r->to, words);
+    if (r->is_csv) text_add_cell(r->to, words);
     else escape_markup(r->to, words);
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/file_write.h"
+#include "base/number.h"
 #include "print/printable.h"
 #include "print/utf8.h"
 
@@ -61,6 +62,26 @@ void text_add_printable(Text *text, const char *bytes, size_t size) {
         taken = printable_next(bytes, size, one);
         text_add(text, one);
     }
+}
+
+/* inf and nan as printf has them are none. */
+static bool is_formula(const char *text) {
+    double number;
+    bool is_word = *text && (!strcmp(text + 1, "inf") || !strcmp(text + 1, "nan"));
+    return *text && strchr("=+-@", *text) && !is_word && !number_is(text, &number);
+}
+
+void text_add_cell(Text *csv, const char *text) {
+    bool is_quoted = strpbrk(text, ",\"") != NULL;
+    if (is_quoted) text_add(csv, "\"");
+    if (is_formula(text)) text_add(csv, "'");
+    for (size_t plain; *text; text += plain) {
+        plain = strcspn(text, "\"");
+        text_add_printable(csv, text, plain);
+        if (text[plain]) text_add(csv, "\"\"");
+        plain += text[plain] != '\0';
+    }
+    if (is_quoted) text_add(csv, "\"");
 }
 
 void escape_markup(Text *text, const char *string) {

@@ -38,6 +38,10 @@ void text_add_printable(Text *text, const char *bytes, size_t size);
  * adds nothing. */
 void escape_markup(Text *text, const char *string);
 
+/* A cell of CSV (RFC 4180): in quotes where a comma or a quote is in it. A spreadsheet takes what
+ * begins with = + - or @ for a formula: unless it is a number, an apostrophe stands before it. */
+void text_add_cell(Text *csv, const char *text);
+
 /* A word as a POSIX shell reads it: itself, or in single quotes. */
 const char *escape_shell(const char *word, Arena *arena);
 

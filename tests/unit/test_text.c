@@ -153,6 +153,41 @@ TEST(advice_names_the_near_one_and_as_many_as_fit) {
     }
 }
 
+ARENA_TEST(a_cell_is_no_formula) {
+    static const char *const cells[][2] = {{"", ""},
+                                           {"a", "a"},
+                                           {"a,b", "\"a,b\""},
+                                           {"5\"", "\"5\"\"\""},
+                                           {"=1+1", "'=1+1"},
+                                           {"=", "'="},
+                                           {"@SUM(A1)", "'@SUM(A1)"},
+                                           {"+1-1", "'+1-1"},
+                                           {"-", "'-"},
+                                           {"-a", "'-a"},
+                                           {"-5", "-5"},
+                                           {"+5.5e3", "+5.5e3"},
+                                           {"-.5", "-.5"},
+                                           {"-inf", "-inf"},
+                                           {"-nan", "-nan"},
+                                           {"-0x10", "'-0x10"},
+                                           {"+49 170", "'+49 170"},
+                                           {"=\"a\",b", "\"'=\"\"a\"\",b\""},
+                                           {"-1,5", "\"'-1,5\""},
+                                           {"'=1", "'=1"},
+                                           {" =1", " =1"},
+                                           {"a=1", "a=1"},
+                                           {"@", "'@"},
+                                           {"\t=1", "\\u0009=1"},
+                                           {"-infinity", "'-infinity"},
+                                           {"==", "'=="}};
+    for (int i = 0; i < COUNT_OF(cells); i++) {
+        Text text = {.arena = &arena};
+        text_add(&text, "");
+        text_add_cell(&text, cells[i][0]);
+        assert_string_equal(text.data, cells[i][1]);
+    }
+}
+
 /* ---- numbers ----------------------------------------------------------------------------- */
 
 TEST(numbers_end_where_their_letters_do) {

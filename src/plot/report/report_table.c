@@ -150,17 +150,6 @@ json_t *report_json(const Report *report) {
     return tables;
 }
 
-/* In quotes where a comma, a quote or a line's end is in it (RFC 4180). */
-static void add_field(Text *csv, const char *text) {
-    if (!strpbrk(text, ",\"\r\n")) {
-        text_add(csv, text);
-        return;
-    }
-    text_add(csv, "\"");
-    for (; *text; text++) text_format(csv, *text == '"' ? "\"\"" : "%c", *text);
-    text_add(csv, "\"");
-}
-
 static Text table_csv(const ReportTable *table, Arena *arena) {
     Text csv = {.arena = arena};
     for (int c = 0; c < table->column_count; c++)
@@ -169,7 +158,7 @@ static Text table_csv(const ReportTable *table, Arena *arena) {
     for (int r = 0; r < table->row_count; r++) {
         for (int c = 0; c < table->column_count; c++) {
             if (c) text_add(&csv, ",");
-            add_field(&csv, table->row[r][c].text);
+            text_add_cell(&csv, table->row[r][c].text);
         }
         text_add(&csv, "\n");
     }
