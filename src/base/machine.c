@@ -108,3 +108,15 @@ size_t machine_address_space_left(void) {
     size_t mapped = own_bytes().mapped;
     return mapped < limit.rlim_cur ? (size_t)limit.rlim_cur - mapped : 0;
 }
+
+/* A quarter of it was enough for every command (tests/hostile/fault_machine.py). */
+#define STACK_KILOBYTES 512
+
+bool machine_check_stack(Error *err) {
+    struct rlimit stack;
+    if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= STACK_KILOBYTES * 1024)
+        return true;
+    return error_set(err, ERROR_MACHINE,
+                     "a stack may have %llu kB here, required: %d — ulimit -s %d",
+                     (unsigned long long)stack.rlim_cur / 1024, STACK_KILOBYTES, STACK_KILOBYTES);
+}

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* machine.h -- what this process may use of the machine.
  *
- * Threads  no shared state.  Fails  never.
+ * Threads  no shared state.  Fails  machine_check_stack alone.
  */
 #pragma once
 #include <stddef.h>
+
+#include "base/error.h"
 
 /* Bytes: the machine's memory, or what the process's control group (a container's, a batch
  * system's) may have of it. */
@@ -20,6 +22,10 @@ size_t machine_group_bytes(const char *own_groups, const char *root);
 
 /* The most bytes of memory that the process has held at once so far. */
 double machine_peak_bytes(void);
+
+/* False, an ERROR_MACHINE, where a limit (ulimit -s) leaves threads too little of a stack: one
+ * that is used up ends the process without a line. */
+bool machine_check_stack(Error *err);
 
 /* Bytes of machine_installed_bytes that this process does not hold yet. */
 size_t machine_memory_left(void);

@@ -20,7 +20,7 @@
 
 static Outcome run_command(int argc, char **argv, Error *err) {
     const Command *command = command_find(command_table, command_count, NULL, argv[1], err);
-    if (!command) return OUTCOME_FAILED;
+    if (!command || !machine_check_stack(err)) return OUTCOME_FAILED;
     image_file_take_share();
     /* address space: what is touched counts */
     Arena arena = arena_reserve(machine_memory_bytes());

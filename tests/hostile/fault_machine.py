@@ -76,6 +76,31 @@ def check_few_threads(bench):
                         f"{name} with {count} threads: other bytes")
 
 
+def check_small_stack(bench):
+    """One line where a stack is too small for some command; from there on all of them work."""
+    make_inputs(bench)
+    scene, panel = bench.file("in", "scene.gltf"), bench.file("in", "x.panel")
+    commands = [("check", scene), ("sky", "--environment", "constant:100"),
+                ("render", scene, "-o", bench.file("f.exr"), "--size", "9x9", "--spp", "1",
+                 "--environment", "constant:100"),
+                ("develop", bench.file("in", "frame.exr"), "-o", bench.file("f.png")),
+                ("measure", bench.file("in", "frame.exr")), ("panel", "info", panel),
+                ("panel", "plot", panel, "-o", bench.file("p.svg")),
+                ("panel", "report", panel, "-o", bench.file("p.html")),
+                ("panel", "fit", bench.file("in", "white.csv"), "-o", bench.file("w.panel")),
+                ("review", os.path.join(ROOT, "scenes", "glance.review.json"), "--dry-run")]
+    for kilobytes in (64, 511, 512):
+        for words in commands:
+            limit = kilobytes << 10
+            done = bench.run(*words, limits=[(resource.RLIMIT_STACK, limit)])
+            is_enough = kilobytes >= 512
+            if is_enough and bench.is_sanitized:
+                continue
+            is_line = done.stderr.count("\n") == 1 and "required: 512 — " in done.stderr
+            bench.claim(done.returncode == (0 if is_enough else 5) and (is_enough or is_line),
+                        f"{words[:2]} with {kilobytes} kB: {done.returncode} {done.stderr[:200]}")
+
+
 def check_review_without_threads(bench):
     """Its ray tracers follow each other, and none can have a thread of its own."""
     cases = os.path.join(ROOT, "..", "shared", "data", "cases", "faults")
@@ -168,5 +193,5 @@ def check_dropped(bench):
                 "of 1024 samples (5", "left out")
 
 
-CHECKS = (check_few_threads, check_review_without_threads, check_control_group, check_dropped)
+CHECKS = (check_few_threads, check_small_stack, check_review_without_threads, check_control_group, check_dropped)
 MORE = ()
