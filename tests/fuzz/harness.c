@@ -17,6 +17,7 @@ static Arena whole;
 static char folder[512];
 static int files_made;
 static const FuzzTarget *running;
+static long refusals;
 
 /* ---- claims ------------------------------------------------------------------------------ */
 
@@ -26,7 +27,12 @@ void fuzz_claim(bool holds, const char *what) {
     abort();
 }
 
+long fuzz_refusals(void) {
+    return refusals;
+}
+
 void fuzz_claim_refusal(const Error *err) {
+    refusals++;
     char line[4096];
     error_line(err, line, sizeof line);
     bool is_ours = err->code == ERROR_INPUT || err->code == ERROR_USAGE ||

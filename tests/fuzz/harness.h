@@ -67,6 +67,9 @@ void fuzz_claim(bool holds, const char *what);
 /* A refusal has a code that fits and one line of text that says something. */
 void fuzz_claim_refusal(const Error *err);
 
+/* How many there were so far. */
+long fuzz_refusals(void);
+
 /* ---- mutation ---------------------------------------------------------------------------- */
 
 /* libFuzzer's own mutation; the replay program has one that changes nothing. */
@@ -81,7 +84,7 @@ uint32_t fuzz_random(uint64_t *state);
 FuzzMutate fuzz_mutate_json, fuzz_mutate_glb, fuzz_mutate_png, fuzz_mutate_panel,
     fuzz_mutate_checkpoint, fuzz_mutate_field, fuzz_mutate_response;
 
-FuzzMake fuzz_make_field, fuzz_make_response, fuzz_make_condition;
+FuzzMake fuzz_make_field, fuzz_make_response, fuzz_make_condition, fuzz_make_part;
 
 /* ---- targets ----------------------------------------------------------------------------- */
 

@@ -6,11 +6,13 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "render/identity.h"
+#include "base/file.h"
+#include "film/film_add.h"
 #include "film/film_frame.h"
 #include "film/film_merge.h"
 #include "harness.h"
 #include "render/checkpoint.h"
+#include "render/identity.h"
 
 #define FILM_BYTES_MAX ((size_t)1 << 24) /* the program compares with the machine's memory */
 
@@ -79,6 +81,29 @@ void fuzz_checkpoint(const uint8_t *data, size_t size, Arena *arena) {
 }
 
 /* ---- parts of a frame -------------------------------------------------------------------- */
+
+/* Of one sample a pixel or some, with few layers or with all. */
+size_t fuzz_make_part(uint8_t *data, size_t max_size, unsigned number, Arena *arena) {
+    static const unsigned layers[] = {0, LAYER_VARIANCE, LAYER_DEPTH | LAYER_NORMAL, LAYER_ALL};
+    Error err = {0};
+    FileBytes bytes;
+    const char *path = fuzz_path("made.exr", arena), *const names[] = {"lamp"};
+    const FilmLights lights = {1, names};
+    if (number > 3) return 0;
+    Film *film = film_create(4, 3, (FilmRect){1, 0, 4, 2}, layers[number], &lights, arena);
+    for (uint32_t i = 0; i < 1 + number; i++)
+        for (int at = 0; at < 6; at++) {
+            FilmSample sample = {.sample_index = i, .xyz = {1, 2, 3}, .hit = true, .depth = 2};
+            film_add_sample(film, 1 + at % 3, at / 3, &sample);
+        }
+    FrameImage frame = film_to_frame(film, 0, arena);
+    const FilmPart part = film_part_of(film, 0, 1 + number);
+    film_part_attach(&frame, film, &part, arena);
+    fuzz_claim(frame_write(path, &frame, &err) && file_read(path, max_size, arena, &bytes, &err),
+               "a part can be written");
+    memcpy(data, bytes.data, bytes.size);
+    return bytes.size;
+}
 
 void fuzz_part(const uint8_t *data, size_t size, Arena *arena) {
     Error err = {0};

@@ -22,7 +22,7 @@ const FuzzTarget fuzz_targets[] = {
     {"cli", fuzz_cli, NULL, 256, NULL},
     {"uri", fuzz_uri, NULL, 256, NULL},
     {"exr", fuzz_frame, NULL, 4096, NULL},
-    {"part", fuzz_part, NULL, 16384, NULL},
+    {"part", fuzz_part, NULL, 16384, NULL, fuzz_make_part},
     {"image", fuzz_image, NULL, 4096, NULL},
     {"png", fuzz_image, fuzz_mutate_png, 2048, NULL},
     {"checkpoint", fuzz_checkpoint, fuzz_mutate_checkpoint, 8192, NULL},
