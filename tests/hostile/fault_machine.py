@@ -193,5 +193,6 @@ def check_dropped(bench):
                 "of 1024 samples (5", "left out")
 
 
-CHECKS = (check_few_threads, check_small_stack, check_review_without_threads, check_control_group, check_dropped)
+CHECKS = (check_few_threads, check_small_stack, check_review_without_threads,
+          check_control_group, check_dropped)
 MORE = ()

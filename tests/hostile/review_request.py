@@ -391,6 +391,42 @@ def check_moments(report, requests):
                      f"{symbol}: status {status}: {said}")
 
 
+def check_marks(report, requests):
+    """A byte order mark before JSON is passed over at every door; two, or UTF-16, are no JSON."""
+    with open(requests.path("plain.json"), "w", encoding="utf-8") as file:
+        json.dump(PLAIN, file)
+    panels = os.path.join(ROOT, "assets", "panels")
+    shutil.copy(os.path.join(panels, "ips_cluster.recipe.json"), requests.path("recipe.json"))
+    shutil.copy(os.path.join(ROOT, "scenes", "after_dark.profile.json"),
+                requests.path("own.profile.json"))
+    with open(requests.path("white.csv"), "w", encoding="utf-8") as file:
+        file.write("theta,phi,X,Y,Z\n0,0,90,100,80\n30,0,80,90,70\n60,0,50,60,40\n")
+    with open(requests.path("set.json"), "w", encoding="utf-8") as file:
+        file.write('{"emission": {"white": "white.csv"}}')
+    for name, words in (("plain.json", ("review", "plain.json", "--dry-run")),
+                        ("dash.gltf", ("check", "dash.gltf")),
+                        ("recipe.json", ("panel", "simulate", "recipe.json", "-o", "sim",
+                                         "--grid", "2x3")),
+                        ("set.json", ("panel", "fit", "set.json", "-o", "x.panel")),
+                        ("own.profile.json", ("review", "plain.json", "--dry-run", "--profile",
+                                              "own.profile.json"))):
+        with open(requests.path(name), "rb") as file:
+            text = file.read()
+        wanted = requests.run(*words)
+        report.claim(wanted[0] == 0, f"{name}: {wanted}")
+        for what, before, code, status in (
+                ("a mark", b"\xef\xbb\xbf", "utf-8", 0), ("two", b"\xef\xbb\xbf" * 2, "utf-8", 3),
+                ("UTF-16", b"", "utf-16", 3), ("a part", b"\xef\xbb", "utf-8", 3)):
+            with open(requests.path(name), "wb") as file:
+                file.write(before + text.decode().encode(code))
+            found = requests.run(*words)
+            report.claim(found == wanted if not status else found[0] == 3 and
+                         (words[0] == "check" or is_refusal(*found)),
+                         f"{what} before {name}: {found}")
+        with open(requests.path(name), "wb") as file:
+            file.write(text)
+
+
 def check_output(report, requests):
     """What cannot be written over is told before any work, and nothing stands beside it."""
     for name in ("review.json", "index.html", "run.json", "cases.csv"):
@@ -430,6 +466,7 @@ def main(program, step):
         check_pictures(report, requests)
         check_explain(report, requests)
         check_moments(report, requests)
+        check_marks(report, requests)
         check_output(report, requests)
         check_full(report, requests, step == 1)
     report.finish()
