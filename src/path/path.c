@@ -280,26 +280,41 @@ PathContext path_context_sketch(const Scene *scene, const Bvh *bvh, const Lights
     return path_context_relight(&context, lights, arena);
 }
 
-PathContext path_context_relight(const PathContext *before, const Lights *lights, Arena *arena) {
-    PathContext context = *before;
-    const BeamTools tools = {context.scene, context.bvh, lights, context.tables,
-                             context.is_of_frame};
-    context.lights = lights;
-    context.guide = NULL;
-    const SunlitTools sun = {context.scene, context.bvh, lights};
-    context.sunlit = sunlit_build(&sun, arena);
+/* How often each set of lights is sampled, and each mirror searched, of what is known of them. */
+static PathContext weigh(PathContext context, const BeamTools *tools, Arena *arena) {
+    const SunlitTools sun = {tools->scene, tools->bvh, tools->lights};
     Wavelengths middle;
     wavelengths_sample(0.5f, &middle);
     PlateView plates = plate_view(&context, &middle);
     context.selection = light_selection_build(&sun, &context.sunlit, &plates, arena);
     for (int set = 0; set < BEAM_SETS; set++)
+        context.beams[set] =
+            mirror_beams_weighed(&context.beams[set], tools, &context.selection, arena);
+    return context;
+}
+
+PathContext path_context_relight(const PathContext *before, const Lights *lights, Arena *arena) {
+    PathContext context = *before;
+    const BeamTools tools = {context.scene, context.bvh, lights, context.tables,
+                             context.is_of_frame};
+    const SunlitTools sun = {context.scene, context.bvh, lights};
+    context.lights = lights;
+    context.guide = NULL;
+    context.sunlit = sunlit_build(&sun, arena);
+    for (int set = 0; set < BEAM_SETS; set++)
         if (set == BEAMS_OF_SUN || !context.knows_lamps)
             context.beams[set] = mirror_beams_build(&tools, (BeamSet)set, arena);
     context.knows_lamps = true;
-    for (int set = 0; set < BEAM_SETS; set++)
-        context.beams[set] =
-            mirror_beams_weighed(&context.beams[set], &tools, &context.selection, arena);
-    return context;
+    return weigh(context, &tools, arena);
+}
+
+PathContext path_context_relevel(const PathContext *before, const Lights *lights, Arena *arena) {
+    PathContext context = *before;
+    const BeamTools tools = {context.scene, context.bvh, lights, context.tables,
+                             context.is_of_frame};
+    context.lights = lights;
+    context.guide = NULL;
+    return weigh(context, &tools, arena);
 }
 
 void path_context_know_lamps(PathContext *context, const Lights *lights, Arena *arena) {

@@ -32,6 +32,10 @@ PathContext path_context_sketch(const Scene *scene, const Bvh *bvh, const Lights
  * the light of lamps, is shared with `before`. */
 PathContext path_context_relight(const PathContext *before, const Lights *lights, Arena *arena);
 
+/* The same scene under the same sky, with other levels of its displays: what the sun's rays do is
+ * shared with `before`, too. The same bits as path_context_relight. */
+PathContext path_context_relevel(const PathContext *before, const Lights *lights, Arena *arena);
+
 /* Finds, for all contexts that are relit from this one, what mirrors do with the scene's lamps. */
 void path_context_know_lamps(PathContext *context, const Lights *lights, Arena *arena);
 

@@ -20,7 +20,7 @@
 #define TWILIGHT_ALONE (-4 * PI / 180) /* and is all there is */
 #define DARK (-27 * PI / 180) /* the floor's edge so far over the sun: nothing is left to add */
 #define RELIEF_LOWEST_M 20.0  /* over the deck: nearer it has no relief */
-#define LIGHT_BYTES ((size_t)64 << 20) /* address space for one diffuse_light_build */
+#define LIGHT_BYTES ((size_t)64 << 20) /* address space for a thread's flat lights */
 
 /* Tables that the rays share. */
 typedef struct Builder {
@@ -28,7 +28,7 @@ typedef struct Builder {
     DiffuseLight light[SUN_ANGLES];
     double first_zenith; /* of light[0]'s sun */
     BeamTable beam;
-    Arena *arena; /* of the flat lights: one each */
+    Arena *arena; /* of the flat lights: one a thread */
 } Builder;
 
 /* ---- shared tables ----------------------------------------------------------------------- */
@@ -38,8 +38,7 @@ static void fill_light(void *context, int item, int worker) {
     const AtmosphereInput *in = &b->atmosphere->input;
     DiffuseInput input = {&b->atmosphere->optics, in->floor_m, in->air.ground_albedo,
                           cos_d(b->first_zenith + item * SUN_STEP), 0};
-    (void)worker;
-    diffuse_light_build(&input, &b->arena[item], &b->light[item]);
+    diffuse_light_build(&input, &b->arena[worker], &b->light[item]);
 }
 
 /* ---- one point --------------------------------------------------------------------------- */
@@ -249,13 +248,13 @@ static Spectrum *spectra(Arena *arena, size_t count) {
     return arena_alloc(arena, sizeof(Spectrum), 64, count);
 }
 
-/* Flat layers by day. One arena a light, so that threads can fill them side by side. */
-static void build_flat_lights(Builder *b, Arena *scratch) {
-    b->arena = ARENA_NEW(scratch, Arena, SUN_ANGLES);
-    for (int i = 0; i < SUN_ANGLES; i++) b->arena[i] = arena_reserve(LIGHT_BYTES);
+/* Flat layers by day. One arena a thread: what it solves a light in, it solves the next in. */
+static void build_flat_lights(Builder *b, int threads, Arena *scratch) {
+    b->arena = ARENA_NEW(scratch, Arena, threads);
+    for (int i = 0; i < threads; i++) b->arena[i] = arena_reserve(LIGHT_BYTES);
     b->first_zenith = PI / 2 - b->atmosphere->input.sun_elevation - SUN_STEP * (SUN_ANGLES / 2);
     b->first_zenith = fmax(0, fmin(PI - SUN_STEP * (SUN_ANGLES - 1), b->first_zenith));
-    parallel_for(b->atmosphere->input.threads, SUN_ANGLES, fill_light, b);
+    parallel_for(threads, SUN_ANGLES, fill_light, b);
 }
 
 static void build_sphere_lights(Builder *b, Arena *scratch) {
@@ -271,6 +270,7 @@ static void build_sphere_lights(Builder *b, Arena *scratch) {
 static void build_tables(Atmosphere *out, const AirOptics *optics, bool in_twilight,
                          Arena scratch) {
     const AtmosphereInput *in = &out->input;
+    int threads = in->threads < SUN_ANGLES ? in->threads : SUN_ANGLES;
     Builder *b = arena_alloc(&scratch, sizeof *b, 64, 1);
     b->atmosphere = out;
     if (in_twilight) {
@@ -278,14 +278,14 @@ static void build_tables(Atmosphere *out, const AirOptics *optics, bool in_twili
         build_sphere_lights(b, &scratch);
     } else {
         beam_table_build(optics, in->floor_m, in->threads, &scratch, &b->beam);
-        build_flat_lights(b, &scratch);
+        build_flat_lights(b, threads, &scratch);
     }
     parallel_for(in->threads, 2 * ATMOSPHERE_ROWS, fill_row, b);
     double sine = sin_d(in->sun_elevation);
     BeamHeight height = beam_table_height(&b->beam, in->observer_m);
     beam_table_passing(&b->beam, &height, sine, &out->sun_passing);
     out->floor_exitance = floor_radiance(b, in->floor_m, sine) * spectrum_all(PI_F);
-    for (int i = 0; i < SUN_ANGLES && b->arena; i++) arena_release(&b->arena[i]);
+    for (int i = 0; i < threads && b->arena; i++) arena_release(&b->arena[i]);
 }
 
 static void take_tables(Atmosphere *out, Arena *arena) {

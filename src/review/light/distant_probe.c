@@ -19,9 +19,11 @@
 typedef struct SkyProbe {
     DistantProbe *of;
     const int *cells;
-    const float *shares; /* [i][band] of cells[i], first and rest together */
+    const Spectrum *shares; /* by band, of cells[i], first and rest together */
+    const Spectrum *groups; /* by group, likewise */
     int count;
 } SkyProbe;
+_Static_assert(RESPONSE_GROUPS == SPECTRUM_LANES, "a cell's groups fill a spectrum's lanes");
 
 /* A row of the table over all probes, so that each sky is looked up once. */
 typedef struct SkySum {
@@ -30,7 +32,8 @@ typedef struct SkySum {
     int probe_count, row, cell_count, first_azimuth;
     const bool *is_asked; /* [cell] by any of the probes */
     const SunAngles *at;  /* [cell] of the vehicle */
-    float *bands;         /* [worker][cell][band], cd m^-2 */
+    Spectrum *bands;      /* [worker][cell], cd m^-2 */
+    float *light;         /* [worker][cell] their sums */
 } SkySum;
 
 /* A total without each of the groups in turn, by their parts of white light. */
@@ -69,41 +72,47 @@ static BrightSamples read_white(const Response *response, const WhiteSamples *wh
     return bright;
 }
 
-static void look_up(const SkySum *sum, int azimuth, float *bands) {
+static void look_up(const SkySum *sum, int azimuth, Spectrum *bands, float *light) {
     double turn = 360.0 * azimuth / SKY_AZIMUTHS;
-    for (int cell = 0; cell < sum->cell_count; cell++)
-        if (sum->is_asked[cell])
-            light_bands_sky(sum->sky, (float)radians_from_degrees(sum->at[cell].elevation_deg),
-                            (float)radians_from_degrees(sum->at[cell].azimuth_deg - turn),
-                            bands + (size_t)cell * LIGHT_BANDS);
+    for (int cell = 0; cell < sum->cell_count; cell++) {
+        float of_cell[LIGHT_BANDS];
+        if (!sum->is_asked[cell]) continue;
+        light_bands_sky(sum->sky, (float)radians_from_degrees(sum->at[cell].elevation_deg),
+                        (float)radians_from_degrees(sum->at[cell].azimuth_deg - turn), of_cell);
+        memcpy(&bands[cell], of_cell, sizeof bands[cell]);
+        light[cell] = 0;
+        for (int b = 0; b < LIGHT_BANDS; b++) light[cell] += of_cell[b];
+    }
 }
 
-static void sum_probe(const SkyProbe *probe, const float *sky, size_t place) {
+/* In single precision: some thousands of positive terms keep five digits. */
+static void sum_probe(const SkyProbe *probe, const Spectrum *bands, const float *light,
+                      size_t place) {
     const Response *response = &probe->of->response;
-    double total = 0;
-    WhiteSamples white = {{{0}}};
+    Spectrum total = {0}, groups[RESPONSE_CLASSES] = {{0}};
+    WhiteSamples white;
+    double sum = 0;
     for (int i = 0; i < probe->count; i++) {
-        const float *bands = sky + (size_t)probe->cells[i] * LIGHT_BANDS;
-        const float *shares = probe->shares + (size_t)i * LIGHT_BANDS;
-        float light = 0;
-        for (int b = 0; b < LIGHT_BANDS; b++) {
-            total += (double)shares[b] * (double)bands[b];
-            light += bands[b];
-        }
-        add_white(response, probe->cells[i], (double)light, &white);
+        int cell = probe->cells[i];
+        total += probe->shares[i] * bands[cell];
+        groups[cell % RESPONSE_CLASSES] += probe->groups[i] * light[cell];
     }
-    probe->of->sky[place] = total;
+    for (int c = 0; c < RESPONSE_CLASSES; c++)
+        for (int k = 0; k < RESPONSE_GROUPS; k++) white.of[c][k] = (double)groups[c][k];
+    for (int b = 0; b < LIGHT_BANDS; b++) sum += (double)total[b];
+    probe->of->sky[place] = sum;
     probe->of->sky_bright[place] =
-        read_white(response, &white, total, probe->of->sky_without + place * RESPONSE_GROUPS);
+        read_white(response, &white, sum, probe->of->sky_without + place * RESPONSE_GROUPS);
 }
 
 static void sum_sky(void *user, int item, int worker) {
     const SkySum *sum = user;
     int azimuth = (sum->first_azimuth + item) % SKY_AZIMUTHS;
-    float *bands = sum->bands + (size_t)worker * (size_t)sum->cell_count * LIGHT_BANDS;
-    look_up(sum, azimuth, bands);
+    Spectrum *bands = sum->bands + (size_t)worker * (size_t)sum->cell_count;
+    float *light = sum->light + (size_t)worker * (size_t)sum->cell_count;
+    look_up(sum, azimuth, bands, light);
     for (int i = 0; i < sum->probe_count; i++)
-        sum_probe(&sum->probes[i], bands, (size_t)(sum->row * SKY_AZIMUTHS + azimuth));
+        sum_probe(&sum->probes[i], bands, light, (size_t)(sum->row * SKY_AZIMUTHS + azimuth));
 }
 
 static bool sends_anything(const Response *response, int cell) {
@@ -120,17 +129,26 @@ static SunAngles vehicle_angles(const Setup *setup, Vec3 direction) {
     return angles;
 }
 
+static Spectrum *new_spectra(Arena *arena, size_t count) {
+    return arena_alloc(arena, sizeof(Spectrum), _Alignof(Spectrum), count);
+}
+
 static SkyProbe sky_probe(DistantProbe *probe, bool *is_asked, Arena *scratch) {
     const Response *response = &probe->response;
     int all = response->cells.count;
     int *cells = ARENA_NEW(scratch, int, all);
-    float *shares = ARENA_NEW(scratch, float, (size_t)all *LIGHT_BANDS);
-    SkyProbe out = {probe, cells, shares, 0};
+    Spectrum *shares = new_spectra(scratch, (size_t)all);
+    Spectrum *groups = new_spectra(scratch, (size_t)all);
+    SkyProbe out = {probe, cells, shares, groups, 0};
     for (int cell = 0; cell < all; cell++) {
-        size_t from = (size_t)cell * LIGHT_BANDS, to = (size_t)out.count * LIGHT_BANDS;
+        size_t from = (size_t)cell * LIGHT_BANDS;
+        Spectrum rest;
         if (!sends_anything(response, cell)) continue;
-        for (size_t b = 0; b < LIGHT_BANDS; b++)
-            shares[to + b] = response->first[from + b] + response->rest[from + b];
+        memcpy(&shares[out.count], response->first + from, sizeof *shares);
+        memcpy(&rest, response->rest + from, sizeof rest);
+        memcpy(&groups[out.count], response->groups + 2 * (size_t)cell * RESPONSE_GROUPS,
+               sizeof *groups);
+        shares[out.count] += rest;
         cells[out.count++] = cell;
         is_asked[cell] = true;
     }
@@ -175,7 +193,8 @@ static bool sum_skies(DistantProbe *const *probes, int count, const DistantTools
                   .first_azimuth = tools->table->first_azimuth,
                   .is_asked = is_asked,
                   .at = at,
-                  .bands = ARENA_NEW(&scratch, float, (size_t)threads *(size_t)cells *LIGHT_BANDS)};
+                  .bands = new_spectra(&scratch, (size_t)threads * (size_t)cells),
+                  .light = ARENA_NEW(&scratch, float, (size_t)threads *(size_t)cells)};
     for (; sum.row < rows; sum.row++) {
         Arena room = scratch;
         sum.sky = sky_table_make(tools->table, sum.row, &room, err);

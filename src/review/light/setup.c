@@ -304,7 +304,7 @@ static bool set_levels(Setup *setup, const ReviewLevel *level) {
 /* Under the same sky. */
 static void light_again(Setup *setup, Arena *arena) {
     const Lights *lights = lights_with_levels(setup->context.lights, arena);
-    setup->context = path_context_relight(&setup->context, lights, arena);
+    setup->context = path_context_relevel(&setup->context, lights, arena);
 }
 
 static const ReviewLevel *level_of(const Setup *setup) {
