@@ -36,6 +36,7 @@ static bool read_condition(const ReviewRun *run, int id, Arena *arena, Condition
                            Error *err) {
     MomentGuide guide = {.room = arena_reserve(GUIDE_BYTES)};
     ReviewRun own = *run;
+    guide.skies.room = &guide.room;
     own.means.moment_guide = &guide;
     bool ok = read_with_variants(&own, id, arena, out, err);
     arena_release(&guide.room);

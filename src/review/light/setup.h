@@ -16,11 +16,12 @@
 
 #define SETUP_BOUNCES 64
 
-/* The guide of a review's moment, which its variants take over: a guide directs paths and biases
+/* What a condition's variants take over: the skies of its sweep, or the guide of its moment: a guide directs paths and biases
  * no reading, and readings with one guide have more of their noise in common, so that their
  * difference is sharper than they are. */
 typedef struct MomentGuide {
-    Arena room;                   /* of the guide */
+    Arena room;
+    SkiesKept skies;              /* of room */
     const ReviewRequest *request; /* NULL: there is none yet */
     const LightGuide *guide;
     GuideScene scene;

@@ -90,7 +90,8 @@ SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_
         arena_alloc(arena, sizeof(float[LIGHT_BANDS]), _Alignof(float), (size_t)count),
         count,
         0,
-        SKY_AZIMUTHS};
+        SKY_AZIMUTHS,
+        NULL};
 }
 
 void sky_table_between(SkyTable *table, double low_deg, double high_deg) {
@@ -116,9 +117,29 @@ static DaylightInput row_input(const SkyTable *table, int row) {
     return input;
 }
 
+struct KeptSky {
+    DaylightInput input;
+    const Daylight *sky;
+    const KeptSky *before;
+};
+
+/* Inputs are the same where all their bytes are: one that differs in none but its padding is
+ * made again. */
+static const Daylight *build_once(SkiesKept *kept, const DaylightInput *input, Error *err) {
+    for (const KeptSky *k = kept->first; k; k = k->before)
+        if (!memcmp(&k->input, input, sizeof *input)) return k->sky;
+    KeptSky *fresh = ARENA_NEW(kept->room, KeptSky, 1);
+    memcpy(&fresh->input, input, sizeof *input);
+    fresh->sky = build_sky(input, kept->room, err);
+    fresh->before = kept->first;
+    if (fresh->sky) kept->first = fresh;
+    return fresh->sky;
+}
+
 const Daylight *sky_table_make(SkyTable *table, int row, Arena *arena, Error *err) {
     DaylightInput input = row_input(table, row);
-    const Daylight *sky = build_sky(&input, arena, err);
+    const Daylight *sky =
+        table->kept ? build_once(table->kept, &input, err) : build_sky(&input, arena, err);
     if (sky) light_bands_sun(sky, table->sun_bands[row]);
     return sky;
 }

@@ -38,6 +38,13 @@ void light_bands_sun(const Daylight *daylight, float bands[LIGHT_BANDS]);
 
 #define SKY_AZIMUTHS 72 /* of the sun in a turn */
 
+/* Skies that were made, for other tables that have them. */
+typedef struct KeptSky KeptSky;
+typedef struct SkiesKept {
+    Arena *room; /* megabytes a sky */
+    const KeptSky *first;
+} SkiesKept;
+
 /* Clear skies by the sun's elevation, the earth 1 au away: readings are scaled to each sun's
  * light, the night's own background with them (within 0.4 % at -12 degrees). */
 typedef struct SkyTable {
@@ -47,6 +54,7 @@ typedef struct SkyTable {
     int count;
     int first_azimuth, azimuths; /* those of SKY_AZIMUTHS that are made, on from the
                                     first; no other may be read */
+    SkiesKept *kept;             /* where its skies are looked for, and left; NULL: nowhere */
 } SkyTable;
 
 /* Elevations that reach from `low` to `high`; `like` gives air and ground. Its skies are made

@@ -357,6 +357,9 @@ static bool make_skies(Sweep *sweep, Arena *scratch, Error *err) {
     like.has_time = false;
     like.threads = setup->tools.threads;
     sweep->table = sky_table_start(&like, low, high, scratch);
+    MomentGuide *shared = sweep->run->means.moment_guide;
+    if (shared && (sweep->run->request->variant_count || sweep->run->base))
+        sweep->table.kept = &shared->skies;
     if (setup->condition->kind == CONDITION_SUN_SWEEP) {
         const ReviewRange *azimuths = &setup->condition->azimuth_deg;
         double heading = sweep->suns.list[0].heading_deg; /* of all of them */
