@@ -66,6 +66,7 @@ static RenderOptions options_of(const FrameArgs *args) {
                            .height = all.y1,
                            .crop = all,
                            .end_sample = is_preview ? FRAMES_PREVIEW_SAMPLES : FRAMES_SAMPLES,
+                           .guided_samples = is_preview ? FRAMES_PREVIEW_SAMPLES : 0,
                            .noise = is_preview ? 0 : request->frames.noise,
                            .max_bounces = SETUP_BOUNCES,
                            .noise_area = {all, FILM_ALL_PIXELS},
@@ -219,7 +220,9 @@ static bool render(const FrameArgs *args, FrameKept *kept, const SceneCamera *ca
     const Setup *setup = args->setup;
     RenderSetup render = {
         .kernel = setup->tools.kernel, .bvh = setup->bvh, .context = setup->context};
-    TrainOptions train = {setup->tools.kernel, options->threads, true, 0};
+    const double pixels = (double)options->width * (double)options->height;
+    TrainOptions train = {setup->tools.kernel, options->threads, true,
+                          pixels * options->guided_samples};
     Arena *arena = kept->arena;
     if (!frame_kept_begin(kept, options, err)) return false;
     render.camera = camera_from_scene(camera, options->width, options->height);
