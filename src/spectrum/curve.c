@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "spectrum/curve_header.h"
 #include "spectrum/spectral_table.h"
 
 #define MAX_POINTS 4096 /* 0.1 nm over the visible range */
@@ -58,6 +59,7 @@ typedef struct Points {
     double nm[MAX_POINTS], value[COLUMNS_MAX][MAX_POINTS];
     int count, columns;
     CurveRange range; /* of one column */
+    CurveHeader header;
 } Points;
 
 /* Nothing but white space from here on? */
@@ -66,19 +68,23 @@ static bool is_blank(const char *text) {
     return *text == '\0';
 }
 
-/* The wavelength and `columns` numbers, with a comma, semicolon or white space between, the
- * same in all of the row. */
-static bool parse_row(const char *line, int columns, double number[1 + COLUMNS_MAX]) {
+/* As many numbers as the header names, with a comma, semicolon or white space between, the
+ * same in all of the row; out: as nm, then values, in the units that are asked for. */
+static bool parse_row(const char *line, const Points *points, double out[1 + COLUMNS_MAX]) {
     char between[1 + COLUMNS_MAX] = {0};
-    for (int i = 0; i <= columns; i++) {
+    double number[1 + COLUMNS_MAX];
+    int last = points->columns;
+    for (int i = 0; i <= last; i++) {
         while (*line == ' ' || *line == '\t') line++;
         const char *end = number_read(line, &number[i]);
         if (!end) return false;
         while (*end == ' ' || *end == '\t') end++;
-        if (i < columns && (*end == ',' || *end == ';')) between[i] = *end++;
-        if (i && i < columns && between[i] != between[i - 1]) return false;
+        if (i < last && (*end == ',' || *end == ';')) between[i] = *end++;
+        if (i && i < last && between[i] != between[i - 1]) return false;
         line = end;
     }
+    for (int i = 0; i <= last; i++)
+        out[i] = number[points->header.place[i]] * (i ? points->header.value : points->header.nm);
     return is_blank(line);
 }
 
@@ -178,25 +184,50 @@ static bool is_header(const char *line) {
     return !strchr("+-.0123456789", line[strspn(line, " \t")]);
 }
 
+static bool take_header(const char *line, const char *path, const char *place, Points *points,
+                        Error *err) {
+    const char *why =
+        curve_header_read(line, 1 + points->columns,
+                          points->columns == 1 && points->range == CURVE_AMOUNTS, &points->header);
+    return !why ||
+           error_at(err, ERROR_INPUT, path, place, "its header \"%.60s\" states %s", line, why);
+}
+
+/* A comment before the first row that names as many columns is their header too. */
+static bool take_comment(const char *line, const char *path, const char *place, Points *points,
+                         Error *err) {
+    CurveHeader found;
+    line += strspn(line, "# \t");
+    curve_header_read(line, 1 + points->columns, true, &found);
+    return !found.names_wavelength || take_header(line, path, place, points, err);
+}
+
 /* One line may be a header: the first that is neither blank nor a comment. */
 static bool read_points(const char *text, const char *path, Points *points, Error *err) {
     char line[512], place[32];
     bool may_be_header = true;
     const char *names = points->columns == 1 ? "two numbers: nm,value" : "three numbers: nm,n,k";
+    points->header = curve_header_none();
     if (strncmp(text, "\xef\xbb\xbf", 3) == 0) text += 3; /* an editor's mark of UTF-8 */
     for (int row = 1; *text; row++) {
         double number[1 + COLUMNS_MAX] = {0};
         text = next_line(text, line, sizeof line);
-        if (line[0] == '#' || is_blank(line)) continue;
+        line[strcspn(line, "\r\n")] = '\0';
         snprintf(place, sizeof place, "line %d", row);
-        if (parse_row(line, points->columns, number)) {
+        if (is_blank(line)) continue;
+        if (line[0] == '#') {
+            if (may_be_header && !take_comment(line, path, place, points, err)) return false;
+            continue;
+        }
+        if (parse_row(line, points, number)) {
             if (!add_row(points, path, place, number, err)) return false;
         } else if (!may_be_header || !is_header(line)) {
-            line[strcspn(line, "\r\n")] = '\0';
             return error_at(err, ERROR_INPUT, path, place,
                             "found \"%.60s\", required: "
                             "%s%s",
                             line, names, comma_hint(line));
+        } else if (!take_header(line, path, place, points, err)) {
+            return false;
         }
         may_be_header = false;
     }
@@ -205,32 +236,38 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
     return check_reach(points, path, err);
 }
 
-static bool no_memory(const char *path, Error *err) {
-    return error_at(err, ERROR_MEMORY, path, NULL, "no memory to read it");
+/* NULL: refused; else to be freed. */
+static Points *read_file(const char *text, const char *path, int columns, CurveRange range,
+                         CurveNotes *notes, Error *err) {
+    Points *points = calloc(1, sizeof *points);
+    if (!points) error_at(err, ERROR_MEMORY, path, NULL, "no memory to read it");
+    if (!points) return NULL;
+    points->columns = columns;
+    points->range = range;
+    if (!read_points(text, path, points, err)) {
+        free(points);
+        return NULL;
+    }
+    if (notes) notes->beyond = beyond_of(points);
+    if (notes) memcpy(notes->unknown, points->header.unknown, sizeof notes->unknown);
+    return points;
 }
 
-bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out, double *beyond,
-                 Error *err) {
-    Points *points = calloc(1, sizeof *points);
-    if (!points) return no_memory(path, err);
-    points->columns = 1;
-    points->range = range;
-    bool ok = read_points(text, path, points, err);
-    if (ok) curve_from_points(points->nm, points->value[0], points->count, out);
-    if (ok && beyond) *beyond = beyond_of(points);
+bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out,
+                 CurveNotes *notes, Error *err) {
+    Points *points = read_file(text, path, 1, range, notes, err);
+    if (points) curve_from_points(points->nm, points->value[0], points->count, out);
+    bool ok = points != NULL;
     free(points);
     return ok;
 }
 
-bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, double *beyond,
+bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, CurveNotes *notes,
                        Error *err) {
-    Points *points = calloc(1, sizeof *points);
-    if (!points) return no_memory(path, err);
-    points->columns = 2;
-    bool ok = read_points(text, path, points, err);
-    if (ok) curve_from_points(points->nm, points->value[0], points->count, n);
-    if (ok) curve_from_points(points->nm, points->value[1], points->count, k);
-    if (ok && beyond) *beyond = beyond_of(points);
+    Points *points = read_file(text, path, 2, CURVE_NUMBERS, notes, err);
+    if (points) curve_from_points(points->nm, points->value[0], points->count, n);
+    if (points) curve_from_points(points->nm, points->value[1], points->count, k);
+    bool ok = points != NULL;
     free(points);
     return ok;
 }

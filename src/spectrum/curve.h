@@ -56,17 +56,27 @@ double curve_beyond(double first_nm, double last_nm, CurveEnds dark);
     "%s: %.2g %% of V(lambda) is extrapolated: its end values stand " \
     "for what is missing of %d to %d nm"
 
-/* A CSV of `nm,value` rows (header line and # comments allowed) in memory, terminated; path: of
- * the file, for messages, which name the line of a value that is out of range. It is refused
- * where it does not reach (above); CURVE_AMOUNTS may end in the dark. *beyond (or NULL):
- * curve_beyond. */
-bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out, double *beyond,
-                 Error *err);
+/* What is not wrong with a file, but to be said. */
+typedef struct CurveNotes {
+    double beyond;    /* curve_beyond */
+    char unknown[40]; /* a unit of its header that is not known; "" */
+} CurveNotes;
+
+/* File, unit. */
+#define CURVE_UNIT_WARNING \
+    "%s: its header has the unit (%s), which is not known: its values are taken as they stand"
+
+/* A CSV of `nm,value` rows (# comments and a header line, which is heeded: curve_header.h) in
+ * memory, terminated; path: of the file, for messages, which name the line of a value that is
+ * out of range. It is refused where it does not reach (above); CURVE_AMOUNTS may end in the
+ * dark. notes: or NULL. */
+bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out,
+                 CurveNotes *notes, Error *err);
 
 #define INDEX_MAX 100.0
 
 /* The same of a refractive index n + ik, rows `nm,n,k`; both 0 to INDEX_MAX, never both 0. */
-bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, double *beyond,
+bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, CurveNotes *notes,
                        Error *err);
 
 /* Value of every lane's wavelength. */

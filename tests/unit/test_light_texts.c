@@ -450,20 +450,20 @@ TEST(a_spectrum_reaches_what_is_seen_and_says_what_it_extrapolates) {
                  {"550,.1\n600,1\n650,0\n", false, false, 0, 0},
                  {"400,.1\n600,1\n650,0\n", false, true, 2e-6, 0.0005}};
     Curve curve;
-    double beyond;
+    CurveNotes notes;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         for (int light = 0; light < 2; light++) {
             CurveRange range = light ? CURVE_AMOUNTS : CURVE_SHARES;
-            bool ok = curve_parse(cases[i].text, "x.csv", range, &curve, &beyond, why());
+            bool ok = curve_parse(cases[i].text, "x.csv", range, &curve, &notes, why());
             if (ok != (light ? cases[i].is_light : cases[i].is_read))
                 fail_msg("%s %d", cases[i].text, light);
-            if (ok) assert_in(beyond, cases[i].low, cases[i].high);
+            if (ok) assert_in(notes.beyond, cases[i].low, cases[i].high);
             else assert_error_has(why(), "required from 400 to 700 nm or beyond");
         }
     assert_false(
         curve_parse_index("410,1,2\n780,1,2\n", "x.csv", &curve, &(Curve){0}, NULL, why()));
     assert_error_has(why(), "from 410 to 780 nm, required from 400 to 700 nm or beyond");
-    const char *um = "um,value\n.38,.5\n.78,.5\n";
+    const char *um = "value of what\n.38,.5\n.78,.5\n";
     assert_false(curve_parse(um, "x.csv", CURVE_SHARES, &curve, NULL, why()));
     assert_error_has(why(), "in micrometres? Required are nm");
 }

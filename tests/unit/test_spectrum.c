@@ -332,6 +332,136 @@ TEST(a_value_out_of_range_is_refused_with_its_line) {
     assert_done(curve_parse("400,0\n700,1\n", "x.csv", CURVE_SHARES, &curve, NULL, &err));
 }
 
+/* Rows 400 to 700 with .5, 80 or the like, as shares; what the header must make of them. */
+TEST(a_header_is_read_by_its_words) {
+    static const struct {
+        const char *header, *row;
+        double value;     /* at 550 nm; < 0: refused */
+        const char *says; /* then, or of a unit that is not known */
+    } cases[] = {
+        {"nm,value", "%.9g,.5", 0.5, ""},
+        {"nm,%R", "%.9g,80", 0.8, ""},
+        {"nm,%R", "%.9g,.8", 0.008, ""},
+        {"Wavelength (nm), Reflectance (%)", "%.9g,80", 0.8, ""},
+        {"wavelength [nm];transmittance [%]", "%.9g;80", 0.8, ""},
+        {"wavelength {nm}\tT {%}", "%.9g\t80", 0.8, ""},
+        {"Wavelength, nm, Reflectance, %", "%.9g,80", 0.8, ""},
+        {"wavelength_nm,reflectance_percent", "%.9g,80", 0.8, ""},
+        {"lambda/nm R/%", "%.9g 80", 0.8, ""},
+        {"Wavelength (nm) Total Reflectance (%)", "%.9g 80", 0.8, ""},
+        {"\"Wavelength [nm]\",\"%T\"", "%.9g,80", 0.8, ""},
+        {"nm,R per cent", "%.9g,80", 0.8, ""},
+        {"nm,R (0-100)", "%.9g,80", 0.8, ""},
+        {"nm,R [\xe2\x80\xb0]", "%.9g,80", 0.08, ""},
+        {"# nm,%R", "%.9g,80", 0.8, ""},
+        {"reflectance (%),wavelength (nm)", "80,%.9g", 0.8, ""},
+        {"\xce\xbb [nm],R(\xce\xbb)", "%.9g,.5", 0.5, ""},
+        {"nm,Paint K", "%.9g,.5", 0.5, ""},
+        {"nm,ABS plastic", "%.9g,.5", 0.5, ""},
+        {"nm,a leaf", "%.9g,.5", 0.5, ""},
+        {"nm,R (SCI)", "%.9g,.5", 0.5, ""},
+        {"nm,R (furlongs)", "%.9g,.5", 0.5, "furlongs"},
+        {"nm,50% grey", "%.9g,.5", -1, "may be a name or a unit"},
+        {"nm,absorbance", "%.9g,.3", -1, "an absorbance A"},
+        {"nm,Abs", "%.9g,.3", -1, "an absorbance A"},
+        {"nm,A", "%.9g,.3", -1, "an absorbance A"},
+        {"nm,OD", "%.9g,.3", -1, "an absorbance A"},
+        {"wavelength (nm),optical density", "%.9g,.3", -1, "an absorbance A"},
+        {"nm,absorptance (%)", "%.9g,3", -1, "what is absorbed"},
+        {"nm,alpha (cm-1)", "%.9g,.3", -1, "what is absorbed"},
+        {"nm,transmission loss (dB)", "%.9g,.3", -1, "what is absorbed"},
+        {"nm,T (dB)", "%.9g,.3", -1, "a logarithm"},
+        {"nm,log R", "%.9g,.3", -1, "a logarithm"},
+        {"nm,n", "%.9g,.5", -1, "a refractive index"},
+        {"nm,extinction coefficient k", "%.9g,.5", -1, "a refractive index"},
+        {"nm,eps2", "%.9g,.5", -1, "a permittivity"},
+        {"nm,counts", "%.9g,.5", -1, "no share"},
+        {"nm,radiance (W/sr/m2/nm)", "%.9g,.5", -1, "no share"},
+        {"nm,R x1000 (x1000)", "%.9g,.5", -1, "scaled"},
+        {"wavenumber (cm-1),R", "%.9g,.5", -1, "no wavelengths"},
+        {"eV,R", "%.9g,.5", -1, "no wavelengths"},
+        {"nm,photon flux", "%.9g,.5", -1, "a number of photons"},
+    };
+    static Curve curve;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[400];
+        size_t length = (size_t)snprintf(text, sizeof text, "%s\n", cases[i].header);
+        CurveNotes notes;
+        for (int nm = 400; nm <= 700; nm += 100) {
+            const char *at = strstr(cases[i].row, "%.9g");
+            length += (size_t)snprintf(text + length, sizeof text - length, "%.*s%d%s\n",
+                                       (int)(at - cases[i].row), cases[i].row, nm, at + 4);
+        }
+        bool ok = curve_parse(text, "x.csv", CURVE_SHARES, &curve, &notes, why());
+        if (ok != (cases[i].value >= 0)) fail_msg("%s", cases[i].header);
+        if (ok && fabs((double)curve.value[550 - 360] - cases[i].value) > 1e-6)
+            fail_msg("%s: %g", cases[i].header, (double)curve.value[550 - 360]);
+        if (ok) assert_string_equal(notes.unknown, cases[i].says);
+        else assert_error_has(why(), cases[i].says);
+    }
+}
+
+/* Light of 0 at 400 and 1 at 700 nm, or an index of 0.9 and 6. */
+TEST(a_header_gives_the_unit_of_wavelengths_and_the_order_of_n_and_k) {
+    static const struct {
+        const char *header;
+        double nm; /* one of them in the header's unit */
+    } units[] = {{"nm,value", 1},
+                 {"wavelength (um),value", 1e-3},
+                 {"\xc2\xb5m,value", 1e-3},
+                 {"\xb5m,value", 1e-3},
+                 {"Wavelength [microns];value", 1e-3},
+                 {"wavelength (\xc3\x85),value", 10},
+                 {"Angstrom,value", 10},
+                 {"wavelength / A,photometer", 10},
+                 {"wavelength (m),value", 1e-9},
+                 {"Wavelength,value", 1}};
+    static const struct {
+        const char *header;
+        int n; /* column, 0 to 2; -1: refused */
+        int k;
+    } orders[] = {{"nm,n,k", 1, 2},
+                  {"nm,k,n", 2, 1},
+                  {"k,n,nm", 1, 0},
+                  {"n;k;wavelength (nm)", 0, 1},
+                  {"wavelength extinction index", 2, 1},
+                  {"Wavelength (nm),Refractive index n,Extinction coefficient k", 1, 2},
+                  {"nm,imag,real", 2, 1},
+                  {"nm,kappa,n", 2, 1},
+                  {"nm,n(\xce\xbb),k(\xce\xbb)", 1, 2},
+                  {"nm,foo,n", 2, 1},
+                  {"# nm,k,n", 2, 1},
+                  {"nm,silver,of 1972", 1, 2},
+                  {"nm,eps1,eps2", -1, 0},
+                  {"nm,e1,e2", -1, 0},
+                  {"nm,Re(eps),Im(eps)", -1, 0},
+                  {"nm,R,T", -1, 0},
+                  {"nm,n (%),k (%)", -1, 0}};
+    static Curve one, n, k;
+    char text[400];
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+        char mark = strchr(units[i].header, ';') ? ';' : ',';
+        snprintf(text, sizeof text, "%s\n%.9g%c0\n%.9g%c1\n", units[i].header, 400 * units[i].nm,
+                 mark, 700 * units[i].nm, mark);
+        if (!curve_parse(text, "x.csv", CURVE_AMOUNTS, &one, NULL, why()) ||
+            fabs((double)one.value[550 - 360] - 0.5) > 1e-6)
+            fail_msg("%s", units[i].header);
+    }
+    for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
+        double row[2][3] = {{400, 400, 400}, {700, 700, 700}};
+        for (int r = 0; r < 2 && orders[i].n >= 0; r++) {
+            row[r][orders[i].n] = 0.9;
+            row[r][orders[i].k] = 6;
+        }
+        snprintf(text, sizeof text, "%s\n%g %g %g\n%g %g %g\n", orders[i].header, row[0][0],
+                 row[0][1], row[0][2], row[1][0], row[1][1], row[1][2]);
+        bool ok = curve_parse_index(text, "x.csv", &n, &k, NULL, why());
+        if (ok != (orders[i].n >= 0) ||
+            (ok && (fabsf(n.value[9] - 0.9f) > 1e-6f || fabsf(k.value[9] - 6) > 1e-6f)))
+            fail_msg("%s", orders[i].header);
+    }
+}
+
 TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line) {
     static Curve n, k;
     assert_done(curve_parse_index("nm,n,k\n400,0.5,2\n500 1 4\n700,1,4\n", "metal.csv", &n, &k,

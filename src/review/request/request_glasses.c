@@ -39,20 +39,24 @@ static bool read_curve(const JsonView *view, const RecordRow *row, void *item, E
     const char *path;
     FileBytes bytes;
     Curve *curve = ARENA_NEW(view->arena, Curve, 1);
-    double beyond;
+    CurveNotes notes;
     bool lets_some = false;
     if (!record_read_kind(view, row, &path, err) ||
         !file_read(path, CURVE_FILE_BYTES_MAX, view->arena, &bytes, err) ||
         !curve_parse(arena_string(view->arena, (const char *)bytes.data, bytes.size), path,
-                     CURVE_SHARES, curve, &beyond, err) ||
+                     CURVE_SHARES, curve, &notes, err) ||
         !request_note_file(view, path, err))
         return false;
     for (int i = 0; i < CURVE_COUNT; i++) lets_some |= curve->value[i] > 0;
     if (!lets_some)
         return record_fails(view, row->key, err, "lets no light through, required: some");
-    if (beyond > 0)
+    if (notes.beyond > 0)
         problems_add(view->problems, SEVERITY_WARNING, path, "", CURVE_BEYOND_WARNING,
-                     path_name(path), 100 * beyond, CURVE_WHOLE_FIRST_NM, CURVE_WHOLE_LAST_NM);
+                     path_name(path), 100 * notes.beyond, CURVE_WHOLE_FIRST_NM,
+                     CURVE_WHOLE_LAST_NM);
+    if (notes.unknown[0])
+        problems_add(view->problems, SEVERITY_WARNING, path, "", CURVE_UNIT_WARNING,
+                     path_name(path), notes.unknown);
     out->curve = curve;
     out->words = arena_format(view->arena, "sunglasses as %s has them", path_name(path));
     return true;

@@ -19,34 +19,35 @@ static bool read_text(GltfFile *file, const GltfValue *uri, CurveText *out) {
            file_error_within(file, uri, &err);
 }
 
-static void warn_of_beyond(GltfFile *file, const GltfValue *uri, const CurveText *from,
-                           double beyond) {
-    if (beyond > 0)
-        file_warning(file, uri, CURVE_BEYOND_WARNING, from->path, 100 * beyond,
+static void warn(GltfFile *file, const GltfValue *uri, const CurveText *from,
+                 const CurveNotes *notes) {
+    if (notes->beyond > 0)
+        file_warning(file, uri, CURVE_BEYOND_WARNING, from->path, 100 * notes->beyond,
                      CURVE_WHOLE_FIRST_NM, CURVE_WHOLE_LAST_NM);
+    if (notes->unknown[0]) file_warning(file, uri, CURVE_UNIT_WARNING, from->path, notes->unknown);
 }
 
 bool curve_file_read(GltfFile *file, const GltfValue *uri, CurveRange range, Curve *out) {
     Error err;
     CurveText from;
-    double beyond;
+    CurveNotes notes;
     if (!read_text(file, uri, &from)) return false;
-    if (!curve_parse(from.text, from.path, range, out, &beyond, &err))
+    if (!curve_parse(from.text, from.path, range, out, &notes, &err))
         return file_error_within(file, uri, &err);
-    warn_of_beyond(file, uri, &from, beyond);
+    warn(file, uri, &from, &notes);
     return true;
 }
 
 const OpticalConstants *curve_file_index(GltfFile *file, const GltfValue *uri) {
     Error err;
     CurveText from;
-    double beyond;
+    CurveNotes notes;
     if (!uri || !read_text(file, uri, &from)) return NULL;
     OpticalConstants *out = ARENA_NEW(file->load->arena, OpticalConstants, 1);
-    if (!curve_parse_index(from.text, from.path, &out->n, &out->k, &beyond, &err)) {
+    if (!curve_parse_index(from.text, from.path, &out->n, &out->k, &notes, &err)) {
         file_error_within(file, uri, &err);
         return NULL;
     }
-    warn_of_beyond(file, uri, &from, beyond);
+    warn(file, uri, &from, &notes);
     return out;
 }
