@@ -65,6 +65,33 @@ static void judge_equality(Comparison *out) {
                                                  : "");
 }
 
+static bool is_rendered_here(const CompareInput *input) {
+    return input->kind == INPUT_FRAME && frame_attribute(&input->frame, "parhelion:unit");
+}
+
+/* Figures and noise are those of R, G and B. Other channels of one's own frames are layers of
+ * the same samples, and are named; those of other programs' files (a second eye, a depth) and
+ * alpha may be anything, and must be equal. */
+static void judge_others(Comparison *out) {
+    bool is_own = is_rendered_here(&out->reference) && is_rendered_here(&out->test);
+    Lines *to = is_own ? &out->notes : &out->reasons;
+    const char *names = "", *last = "";
+    int count = 0;
+    for (int i = 0; i < out->channels.count; i++) {
+        const char *name = out->channels.list[i].name, *dot = strchr(name, '.');
+        if (!out->channels.list[i].differing || (!name[1] && strchr("RGB", name[0]))) continue;
+        name = is_own && dot ? arena_string(to->arena, name, (size_t)(dot - name)) : name;
+        if (!strcmp(name, last)) continue;
+        if (count < 8) names = arena_format(to->arena, "%s%s%s", names, count ? ", " : "", name);
+        last = name;
+        count++;
+    }
+    if (count)
+        lines_add(to, "%s differ that no figure is of: %s%s%s", is_own ? "layers" : "channels",
+                  names, count > 8 ? arena_format(to->arena, " and %d more", count - 8) : "",
+                  is_own ? "" : arena_format(to->arena, " (--ignore %s leaves one out)", last));
+}
+
 static void judge(const CompareOptions *options, Comparison *out) {
     out->judged_by = JUDGED_BY_LIMITS;
     if (options->wants_stat || (options->threshold_count == 0 && out->has_stat)) {
@@ -75,6 +102,7 @@ static void judge(const CompareOptions *options, Comparison *out) {
         judge_equality(out);
     }
     judge_limits(options, out);
+    if (out->judged_by != JUDGED_BY_EQUALITY) judge_others(out);
 }
 
 /* ---- sentences --------------------------------------------------------------------------- */

@@ -170,7 +170,8 @@ static void read_codes(const Image *image, long whole_pixels, Arena *arena, Comp
 static bool read_picture(FileBytes bytes, long whole_pixels, Arena *arena, CompareInput *input,
                          Error *err) {
     Image image;
-    if (!image_read_memory(bytes.data, bytes.size, input->name, arena, &image, err)) return false;
+    if (!image_read_first(bytes.data, bytes.size, input->name, arena, &image, err)) return false;
+    input->pages = picture_pages(bytes.data, bytes.size);
     if (image.format == IMAGE_RGBA32F) {
         LightFile file = light_file_of_floats(&image, arena);
         return take_light(&file, arena, input, err);

@@ -14,6 +14,7 @@
 #include "compare/metrics/planes.h"
 #include "image/light/light_file.h"
 #include "image/light/picture_tags.h"
+#include "image/picture_pages.h"
 
 typedef enum InputKind { INPUT_FRAME, INPUT_PICTURE } InputKind;
 
@@ -28,6 +29,7 @@ typedef struct CompareInput {
     Problems problems;      /* of reading it */
     int bits;               /* pictures: 8 or 16 */
     PictureTags tags;       /* pictures: what their file states */
+    PicturePages pages;     /* what else the file holds; the first is looked at */
     const float *lights[3]; /* pictures that are not sRGB: the light of each of their codes */
     bool has_alpha;         /* pictures: it is not 1 everywhere */
     const float *alpha;     /* pictures: 0 .. 1; NULL when all of it is 1 */

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "compare/selection.h"
 
+#include <math.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "measure/display_part.h"
 #include "image/image.h"
 #include "image/layer_view.h"
+
+#define MASK_BYTES_MAX ((size_t)1 << 30)
 
 /* The pixels that the input has, as a window with its origin at the display window's. */
 static ExrWindow extent_of(const CompareInput *input) {
@@ -55,21 +59,49 @@ static bool apply_regions(const CompareInput *input, const SelectionRequest *req
     return true;
 }
 
+static float code_of(const Image *image, size_t i) {
+    return image->format == IMAGE_RGBA8    ? (float)((const uint8_t *)image->pixels)[i] / 255
+           : image->format == IMAGE_RGBA16 ? (float)((const uint16_t *)image->pixels)[i] / 65535
+                                           : ((const float *)image->pixels)[i];
+}
+
 /* Any code above 0 in red, green or blue. */
 static bool is_lit(const Image *image, size_t i) {
-    for (size_t c = 4 * i; c < 4 * i + 3; c++) {
-        if (image->format == IMAGE_RGBA8 && ((const uint8_t *)image->pixels)[c]) return true;
-        if (image->format == IMAGE_RGBA16 && ((const uint16_t *)image->pixels)[c]) return true;
-        if (image->format == IMAGE_RGBA32F && ((const float *)image->pixels)[c] > 0) return true;
+    return code_of(image, 4 * i) > 0 || code_of(image, 4 * i + 1) > 0 ||
+           code_of(image, 4 * i + 2) > 0;
+}
+
+/* What says in two ways whether a pixel counts: colour and alpha, or a code that a JPEG has
+ * rounded. */
+static bool check_mask(const Image *image, bool is_jpeg, const char *path, Error *err) {
+    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
+        int x = (int)(i % (size_t)image->width), y = (int)(i / (size_t)image->width);
+        float red = code_of(image, 4 * i), green = code_of(image, 4 * i + 1);
+        float blue = code_of(image, 4 * i + 2), alpha = code_of(image, 4 * i + 3);
+        float most = fmaxf(red, fmaxf(green, blue));
+        if (is_jpeg && most > 0 && most < 1)
+            return error_at(err, ERROR_INPUT, path, "",
+                            "the mask is a JPEG, which rounds its codes (%.0f at pixel %d,%d), "
+                            "required: black and white, as a PNG has them",
+                            (double)most * 255, x, y);
+        if (most > 0 && alpha < 1)
+            return error_at(err, ERROR_INPUT, path, "",
+                            "the mask is transparent where it is not black (pixel %d,%d), "
+                            "required: black and white without alpha",
+                            x, y);
     }
-    return false;
+    return true;
 }
 
 static bool apply_mask(const CompareInput *input, const char *path, Arena scratch,
                        unsigned char *counts, Error *err) {
     Image image;
+    FileBytes bytes;
     const Planes *planes = &input->light;
-    if (!image_read(path, &scratch, &image, err)) return false;
+    if (!file_read(path, MASK_BYTES_MAX, &scratch, &bytes, err) ||
+        !image_read_memory(bytes.data, bytes.size, path, &scratch, &image, err) ||
+        !check_mask(&image, bytes.size > 3 && !memcmp(bytes.data, "\xff\xd8\xff", 3), path, err))
+        return false;
     if (image.width != planes->width || image.height != planes->height)
         return error_at(err, ERROR_INPUT, path, "", "the mask has %d x %d pixels, %s has %d x %d",
                         image.width, image.height, input->name, planes->width, planes->height);

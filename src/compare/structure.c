@@ -366,6 +366,22 @@ static void compare_parts(const CompareInput *reference, const CompareInput *tes
     }
 }
 
+/* Pixels are those of the first pages. Of others it is known whether they are the same bytes. */
+static void compare_pages(const PicturePages *a, const PicturePages *b, Lines *reasons,
+                          Lines *notes) {
+    if (a->count != b->count)
+        lines_add(reasons, "the numbers of %s differ: %d in the reference, %d in the test",
+                  a->count > 1 ? a->name : b->name, a->count, b->count);
+    else if (a->digest != b->digest)
+        lines_add(reasons,
+                  "%s behind the first differ in their bytes (%d of them): pixels are compared of "
+                  "the first alone; make each a picture of its own to compare it",
+                  a->name, a->count - 1);
+    else if (a->count > 1)
+        lines_add(notes, "of %d %s the first are compared, the others are the same bytes", a->count,
+                  a->name);
+}
+
 static void note_problems(const Problems *problems, Lines *notes) {
     for (int i = 0; i < problems->count; i++) {
         const Problem *p = &problems->list[i];
@@ -394,6 +410,7 @@ static bool same_string(const FrameImage *a, const FrameImage *b, const char *na
 Structure structure_compare(const CompareInput *reference, const CompareInput *test,
                             const CompareRules *rules, Arena *arena, Lines *reasons, Lines *notes) {
     Structure out = {.same_pixels = compare_sizes(reference, test, reasons)};
+    compare_pages(&reference->pages, &test->pages, reasons, notes);
     if (reference->kind == INPUT_PICTURE) {
         compare_pictures(reference, test, rules, reasons, notes);
         return out;

@@ -8,6 +8,9 @@
 #include <math.h>
 #include <stdbool.h>
 
+/* x, y of what has X, Y and Z for its primaries. */
+static const double XYZ_CHROMATICITIES[8] = {1, 0, 0, 1, 0, 0, 1 / 3.0, 1 / 3.0};
+
 /* Rows; out = m * in. */
 typedef struct ColourMatrix {
     double m[3][3];

@@ -282,14 +282,33 @@ static void spread_grey(FrameImage *frame, Arena *arena) {
     }
 }
 
+/* Channels X, Y and Z without R are CIE XYZ, whatever the chromaticities. */
+static bool rename_xyz(FrameImage *frame) {
+    static const char *const NAMES[3] = {"R", "G", "B"};
+    ExrChannel *found[3] = {NULL};
+    for (int i = 0; i < frame->channel_count; i++) {
+        const char *name = frame->channels[i].name;
+        if (name[0] && !name[1] && strchr("XYZ", name[0]))
+            found[name[0] - 'X'] = &frame->channels[i];
+    }
+    if (!found[0] || !found[1] || !found[2] || frame_channel(frame, "R")) return false;
+    for (int c = 0; c < 3; c++) found[c]->name = NAMES[c];
+    return true;
+}
+
 static bool apply_statements(FrameImage *frame, Arena *arena, Error *err) {
     const ExrAttribute *white = frame_attribute(frame, "whiteLuminance");
     StatedLight stated = {.white = white ? white->values[0] : 1};
     if (!check_statements(frame, err)) return false;
     stated.has_matrix = frame_needs_rec709(frame, &stated.matrix);
+    const StatedLight xyz = {true, rec709_from_primaries(XYZ_CHROMATICITIES), stated.white};
+    bool is_xyz = rename_xyz(frame);
     spread_grey(frame, arena);
-    if (!stated.has_matrix && stated.white == 1) return true;
-    for (int i = 0; i < frame->channel_count; i++) convert_layer(frame, i, &stated, *arena);
+    if (!stated.has_matrix && !is_xyz && stated.white == 1) return true;
+    for (int i = 0; i < frame->channel_count; i++) {
+        bool is_own = !strcmp(frame->channels[i].name, "R");
+        convert_layer(frame, i, is_xyz && is_own ? &xyz : &stated, *arena);
+    }
     if (stated.white != 1) {
         frame_set_values(frame, "whiteLuminance", EXR_FLOAT, &ONE, arena);
         frame_set_values(frame, "parhelion:whiteLuminance", EXR_FLOAT, &stated.white, arena);

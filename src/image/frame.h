@@ -109,8 +109,8 @@ bool frame_write(const char *path, const FrameImage *frame, Error *err);
 /* The first part of an OpenEXR file, which is flat; a data window that reaches out of the
  * display window is kept so. What the file states of its light is applied: layers R, G, B are
  * times its whiteLuminance and of Rec.709, whatever its chromaticities (layer albedo: these
- * alone), and a channel Y without R becomes R, G and B. What was stated is kept as
- * "parhelion:whiteLuminance" and "parhelion:chromaticities". */
+ * alone); X, Y and Z without R are CIE XYZ and become R, G and B, and so does Y alone, a grey. What
+ * was stated is kept as "parhelion:whiteLuminance" and "parhelion:chromaticities". */
 bool frame_read(const char *path, Arena *arena, FrameImage *out, Error *err);
 
 /* What takes the colours that the attributes state to Rec.709; false where they are that

@@ -4,6 +4,7 @@
 #include <ctype.h>
 #include <stddef.h>
 #include <string.h>
+#include <strings.h>
 #include <webp/decode.h>
 #include <zlib.h>
 
@@ -11,6 +12,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "image/frame.h"
+#include "image/picture_pages.h"
 #include "image/plain/plain_jpeg.h"
 #include "image/plain/plain_png.h"
 #include "image/radiance_file.h"
@@ -49,6 +51,20 @@ static const Signature SIGNATURES[] = {
     {"pnm", "P6", 0, 2},
 };
 
+/* TGA has no mark before its pixels: a head of colours or greys that says no more than the file
+ * holds, or a mark at its end. */
+static bool is_targa(const unsigned char *bytes, size_t size) {
+    if (size >= 44 && !memcmp(bytes + size - 18, "TRUEVISION-XFILE.", 18)) return true;
+    if (size < 19 || bytes[1] || bytes[3] || bytes[4] || bytes[5] || bytes[6] || bytes[7])
+        return false;
+    unsigned kind = bytes[2] & 7u, depth = bytes[16];
+    size_t width = bytes[12] | (size_t)bytes[13] << 8, height = bytes[14] | (size_t)bytes[15] << 8;
+    bool is_packed = bytes[2] == 10 || bytes[2] == 11;
+    return (bytes[2] == kind || is_packed) && width && height && bytes[17] < 0x40 &&
+           ((kind == 2 && (depth == 24 || depth == 32)) || (kind == 3 && depth == 8)) &&
+           (is_packed || 18 + bytes[0] + width * height * depth / 8 <= size);
+}
+
 static const char *format_of(const unsigned char *bytes, size_t size, const char *name) {
     for (int i = 0; i < COUNT_OF(SIGNATURES); i++) {
         const Signature *s = &SIGNATURES[i];
@@ -56,7 +72,8 @@ static const char *format_of(const unsigned char *bytes, size_t size, const char
             return s->format;
     }
     size_t length = strlen(name);
-    return length > 4 && !strcmp(name + length - 4, ".tga") ? "targa" : NULL;
+    bool is_named = length > 4 && !strcasecmp(name + length - 4, ".tga");
+    return is_named || is_targa(bytes, size) ? "targa" : NULL;
 }
 
 static uint32_t u32_at(const unsigned char *p) {
@@ -212,7 +229,48 @@ static void spread(ImageFormat format, const void *from, Swizzle s, size_t count
     }
 }
 
-static bool decode_pixels(ImageDecoder *decoder, Arena *arena, Image *out, Error *err) {
+/* A file in memory. */
+typedef struct Encoded {
+    const char *format, *name;
+    const unsigned char *bytes;
+    size_t size;
+} Encoded;
+
+/* Whether the file says that its colours are multiplied by alpha: ExtraSamples of a TIFF (6.0,
+ * section 18), the attributes type of a TGA 2.0. */
+static bool is_associated(const Encoded *file) {
+    const unsigned char *end = file->bytes + file->size;
+    if (!strcmp(file->format, "tiff")) {
+        const Tiff tiff = tiff_open(file->bytes, file->size);
+        TiffList kind = tiff_list(&tiff, 338);
+        return kind.count && tiff_number(&tiff, kind.at, kind.width) == 1;
+    }
+    if (strcmp(file->format, "targa") != 0 || file->size < 44 ||
+        memcmp(end - 18, "TRUEVISION-XFILE.", 18) != 0)
+        return false;
+    size_t at = __builtin_bswap32(u32_at(end - 26));
+    return at && at + 494 < file->size && file->bytes[at + 494] == 4;
+}
+
+/* Colours of codes once more without their alpha, rounded. */
+static void straighten_codes(ImageFormat format, size_t count, void *pixels) {
+    const double full = format == IMAGE_RGBA8 ? 255 : 65535;
+    for (size_t i = 0; i < 4 * count; i++) {
+        uint8_t *bytes = pixels;
+        uint16_t *words = pixels;
+        size_t alpha = i | 3;
+        double own = format == IMAGE_RGBA8 ? bytes[i] : words[i];
+        double share = (format == IMAGE_RGBA8 ? bytes[alpha] : words[alpha]) / full;
+        double code = share > 0 && i != alpha ? fmin(own / share, full) : own;
+        if (format == IMAGE_RGBA8) bytes[i] = (uint8_t)(code + 0.5);
+        else words[i] = (uint16_t)(code + 0.5);
+    }
+}
+
+static void straighten(float rgba[4]);
+
+static bool decode_pixels(const Encoded *file, ImageDecoder *decoder, Arena *arena, Image *out,
+                          Error *err) {
     static const ImageFormat FORMATS[] = {
         [PIXEL_U8] = IMAGE_RGBA8, [PIXEL_U16] = IMAGE_RGBA16, [PIXEL_F32] = IMAGE_RGBA32F};
     ImageFileInfo info = image_decoder_info(decoder);
@@ -229,18 +287,16 @@ static bool decode_pixels(ImageDecoder *decoder, Arena *arena, Image *out, Error
     if (!image_decoder_read(decoder, raw, err)) return false;
     if (raw != pixels)
         spread(image.format, raw, swizzle_of(info.channels, info.alpha_channel), count, pixels);
+    if (info.alpha_channel >= 0 && is_associated(file)) {
+        if (image.format != IMAGE_RGBA32F) straighten_codes(image.format, count, pixels);
+        for (size_t i = 0; i < count && image.format == IMAGE_RGBA32F; i++)
+            straighten((float *)pixels + 4 * i);
+    }
     *arena = kept;
     image.pixels = pixels;
     *out = image;
     return true;
 }
-
-/* A file in memory. */
-typedef struct Encoded {
-    const char *format, *name;
-    const void *bytes;
-    size_t size;
-} Encoded;
 
 static bool decode_other(const Encoded *file, Arena *arena, Image *out, Error *err) {
     ImageDecoder *decoder;
@@ -251,7 +307,7 @@ static bool decode_other(const Encoded *file, Arena *arena, Image *out, Error *e
         return error_set(err, ERROR_INPUT, "damaged png picture: %s", why);
     if (!image_decoder_create(file->format, file->name, file->bytes, file->size, &decoder, err))
         return false;
-    bool ok = decode_pixels(decoder, arena, out, err);
+    bool ok = decode_pixels(file, decoder, arena, out, err);
     image_decoder_destroy(decoder);
     return ok;
 }
@@ -356,6 +412,7 @@ enum { RED, GREEN, BLUE, ALPHA };
 typedef struct ExrPlanes {
     const ExrPicture *picture;
     float *rgba[4]; /* alpha may be NULL; a grey picture has one plane thrice */
+    bool is_xyz;
 } ExrPlanes;
 
 static int channel_index(const ExrPicture *picture, const char *name) {
@@ -364,17 +421,19 @@ static int channel_index(const ExrPicture *picture, const char *name) {
     return -1;
 }
 
-/* Reads R, G, B (or Y) and A only. */
+/* Reads R, G, B (or X, Y, Z, or Y) and A only. */
 static bool read_planes(ExrReader *reader, Arena *arena, ExrPlanes *out, Error *err) {
-    static const char *const NAMES[4] = {"R", "G", "B", "A"};
+    static const char *const NAMES[4] = {"R", "G", "B", "A"}, *const XYZ[3] = {"X", "Y", "Z"};
     const ExrPicture *picture = exr_reader_picture(reader);
     size_t count = (size_t)(picture->data.x1 - picture->data.x0) *
                    (size_t)(picture->data.y1 - picture->data.y0);
     float **planes = ARENA_NEW(arena, float *, picture->channel_count);
     bool grey = channel_index(picture, "R") < 0 && channel_index(picture, "Y") >= 0;
     out->picture = picture;
+    out->is_xyz = grey && channel_index(picture, "X") >= 0 && channel_index(picture, "Z") >= 0;
     for (int c = 0; c < 4; c++) {
-        int i = channel_index(picture, grey && c != ALPHA ? "Y" : NAMES[c]);
+        const char *name = c == ALPHA || !grey ? NAMES[c] : out->is_xyz ? XYZ[c] : "Y";
+        int i = channel_index(picture, name);
         out->rgba[c] = NULL;
         if (i < 0 && c == ALPHA) continue;
         if (i < 0)
@@ -422,7 +481,9 @@ static bool decode_exr(ExrReader *reader, Arena *arena, Image *out, Error *err) 
     ExrPlanes from;
     ColourMatrix matrix;
     if (!read_planes(reader, &scratch, &from, err)) return false;
-    place_pixels(&from, frame_needs_rec709(picture, &matrix) ? &matrix : NULL, pixels);
+    bool has_matrix = frame_needs_rec709(picture, &matrix) || from.is_xyz;
+    if (from.is_xyz) matrix = rec709_from_primaries(XYZ_CHROMATICITIES);
+    place_pixels(&from, has_matrix ? &matrix : NULL, pixels);
     *arena = kept;
     image.pixels = pixels;
     *out = image;
@@ -443,8 +504,8 @@ static bool decode(const Encoded *file, Arena *arena, Image *out, Error *err) {
 
 /* ---- any picture ---------------------------------------------------------------------- */
 
-bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *arena, Image *out,
-                       Error *err) {
+bool image_read_first(const void *bytes, size_t size, const char *name, Arena *arena, Image *out,
+                      Error *err) {
     const Encoded file = {format_of(bytes, size, name), name, bytes, size};
     bool ok;
     if (!file.format) {
@@ -455,6 +516,12 @@ bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *
         ok = check_whole(file.format, bytes, size, err) && decode(&file, arena, out, err);
     }
     return ok || error_in_file(err, name);
+}
+
+bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *arena, Image *out,
+                       Error *err) {
+    return picture_pages_check(bytes, size, name, err) &&
+           image_read_first(bytes, size, name, arena, out, err);
 }
 
 bool image_read(const char *path, Arena *arena, Image *out, Error *err) {

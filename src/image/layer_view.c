@@ -181,8 +181,7 @@ static void convert(LayerView *view, const ColourMatrix *matrix, Arena *arena) {
 }
 
 static void convert_xyz(LayerView *view, Arena *arena) {
-    static const double XYZ_PRIMARIES[8] = {1, 0, 0, 1, 0, 0, 1 / 3.0, 1 / 3.0};
-    ColourMatrix matrix = rec709_from_primaries(XYZ_PRIMARIES);
+    ColourMatrix matrix = rec709_from_primaries(XYZ_CHROMATICITIES);
     convert(view, &matrix, arena);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* tiff_directory.h -- numbers in the first directory of a TIFF, or of what Exif states, which
- * is one (TIFF 6.0, section 2).
+/* tiff_directory.h -- numbers in the directories of a TIFF, one a page, or of what Exif states,
+ * which is one (TIFF 6.0, section 2).
  *
  * Memory   a view of the bytes. Threads: pure functions. Fails: never.
  */
@@ -30,15 +30,30 @@ static inline uint64_t tiff_number(const Tiff *tiff, uint64_t at, unsigned width
     return value;
 }
 
-/* The numbers of one entry of the first directory; count 0: it has none. */
+/* The numbers of one entry of a directory; count 0: it has none. */
 typedef struct TiffList {
     uint64_t at, count;
     unsigned width; /* bytes of one */
 } TiffList;
 
-static inline TiffList tiff_list(const Tiff *tiff, unsigned tag) {
-    unsigned wide = tiff->is_wide ? 8 : 4, head = tiff->is_wide ? 8 : 2;
-    uint64_t at = tiff_number(tiff, wide, wide), entries = tiff_number(tiff, at, head);
+static inline unsigned tiff_wide(const Tiff *tiff) {
+    return tiff->is_wide ? 8 : 4;
+}
+
+static inline uint64_t tiff_first(const Tiff *tiff) {
+    return tiff_number(tiff, tiff_wide(tiff), tiff_wide(tiff));
+}
+
+/* The directory behind that which stands at `at`; 0: it is the last. */
+static inline uint64_t tiff_next(const Tiff *tiff, uint64_t at) {
+    unsigned wide = tiff_wide(tiff), head = tiff->is_wide ? 8 : 2;
+    uint64_t entries = tiff_number(tiff, at, head);
+    return entries < tiff->size ? tiff_number(tiff, at + head + entries * (4 + 2 * wide), wide) : 0;
+}
+
+static inline TiffList tiff_list_in(const Tiff *tiff, uint64_t at, unsigned tag) {
+    unsigned wide = tiff_wide(tiff), head = tiff->is_wide ? 8 : 2;
+    uint64_t entries = tiff_number(tiff, at, head);
     at += head;
     for (uint64_t i = 0; i < entries && at < tiff->size; i++, at += 4 + 2 * wide) {
         if (tiff_number(tiff, at, 2) != tag) continue;
@@ -52,4 +67,9 @@ static inline TiffList tiff_list(const Tiff *tiff, unsigned tag) {
         return out;
     }
     return (TiffList){0, 0, 0};
+}
+
+/* Of the first directory. */
+static inline TiffList tiff_list(const Tiff *tiff, unsigned tag) {
+    return tiff_list_in(tiff, tiff_first(tiff), tag);
 }

@@ -134,11 +134,15 @@ static bool describe(ExrReader *reader, Error *err) {
     if (header.hasType() && header.type().rfind("deep", 0) == 0)
         return error_set(err, ERROR_INPUT, "a deep picture, a flat one is required");
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
-        if (c.channel().xSampling != 1 || c.channel().ySampling != 1 ||
-            is_one_of(c.name(), {"RY", "BY"}))
+        if (is_one_of(c.name(), {"RY", "BY"}))
             return error_set(err, ERROR_INPUT,
-                             "channel %s is sampled every %d x %d pixels (luminance-chroma "
-                             "coding), one value for each pixel is required",
+                             "channel %s: luminance and chroma (Y, RY, BY), channels R, G and B "
+                             "are required",
+                             c.name());
+        if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
+            return error_set(err, ERROR_INPUT,
+                             "channel %s is sampled every %d x %d pixels, one value for each "
+                             "pixel is required",
                              c.name(), c.channel().xSampling, c.channel().ySampling);
         reader->channels.push_back({c.name(), c.channel().type == Imf::UINT, nullptr});
     }

@@ -30,6 +30,17 @@ static bool read_size(HeaderPlace *place, uint32_t *out) {
     return true;
 }
 
+/* What the library in use would call damage: 0 to 9 are none to DWAB, of OpenEXR 2.2. */
+static bool check_compression(const char *name, unsigned kind, Error *err) {
+    static const char *const NEWER[] = {" (HTJ2K256)", " (HTJ2K32)", " (ZSTD)"};
+    enum { KNOWN = 10 };
+    if (strcmp(name, "compression") != 0 || kind < KNOWN) return true;
+    return error_set(err, ERROR_INPUT,
+                     "is compressed in a way %u%s that is newer than the library here reads, "
+                     "required: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA or DWAB",
+                     kind, kind < KNOWN + 3 ? NEWER[kind - KNOWN] : "");
+}
+
 bool exr_check_header(const unsigned char *bytes, size_t size, size_t file_size, Error *err) {
     HeaderPlace place = {bytes, FIRST_HEADER, size};
     bool is_multipart = size > VERSION_AT && bytes[VERSION_AT] & MULTIPART;
@@ -51,6 +62,7 @@ bool exr_check_header(const unsigned char *bytes, size_t size, size_t file_size,
                              "%zu",
                              name, length, file_size - place.at);
         if (length > size - place.at) return true;
+        if (length == 1 && !check_compression(name, bytes[place.at], err)) return false;
         place.at += length;
     }
     return true;

@@ -61,6 +61,11 @@ static bool open_input(ImageDecoder *decoder, const char *format, const char *na
                          "%d x %d x %d pixels of %d channels, a flat picture is required",
                          spec.width, spec.height, spec.depth, spec.nchannels);
     }
+    const int colours = spec.nchannels - (spec.alpha_channel >= 0);
+    if (colours != 1 && colours != 3)
+        return error_set(err, ERROR_INPUT,
+                         "%d channels besides alpha, greys or red, green and blue are required",
+                         colours);
     ImageFileInfo *info = &decoder->info;
     info->width = spec.width;
     info->height = spec.height;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/count.h"
+#include "image/picture_pages.h"
 #include "image/radiance_file.h"
 
 #define MAX_FILE_BYTES ((size_t)4 << 30)
@@ -43,6 +44,9 @@ static bool read_exr(FileBytes bytes, const char *name, Arena *arena, Problems *
     if (out->frame.more_parts)
         problems_add(problems, SEVERITY_WARNING, name, "",
                      "has %d parts: the first one alone is read", out->frame.more_parts + 1);
+    if (frame_attribute(&out->frame, "multiView"))
+        problems_add(problems, SEVERITY_WARNING, name, "multiView",
+                     "has several views: R, G and B are the first one's, the others are layers");
     warn_of_colour_space(&out->frame, name, problems);
     return true;
 }
@@ -106,12 +110,13 @@ static bool read_floats(FileBytes bytes, const char *name, Arena *arena, LightFi
                         Error *err) {
     Image image;
     Error why;
-    if (!image_read_memory(bytes.data, bytes.size, name, arena, &image, &why))
+    if (!image_read_first(bytes.data, bytes.size, name, arena, &image, &why))
         return is_no_light(name, bytes.size, err);
     if (image.format != IMAGE_RGBA32F)
         return error_at(err, ERROR_INPUT, name, "",
                         "holds display codes, required: linear light — an OpenEXR or Radiance "
                         "HDR picture");
+    if (!picture_pages_check(bytes.data, bytes.size, name, err)) return false;
     *out = light_file_of_floats(&image, arena);
     return true;
 }

@@ -19,7 +19,8 @@ typedef struct Statements {
     size_t icc_size;
     bool has_icc, has_srgb, has_primaries, has_cicp;
     double gamma, chromaticities[8];
-    unsigned char cicp[4];
+    unsigned char cicp[4]; /* ITU-T H.273, of a DPX what means the same */
+    int dpx_transfer;      /* 0: none is stated */
     Arena *arena;
 } Statements;
 
@@ -137,11 +138,29 @@ static void read_webp(const unsigned char *bytes, size_t size, Statements *out) 
     }
 }
 
+/* SMPTE 268M, of the first element: what its codes are of light, and of which primaries (bytes
+ * 801, 802). 0, 4 and 255 state nothing. */
+static void read_dpx(const unsigned char *bytes, size_t size, Statements *out) {
+    static const unsigned char PRIMARIES[] = {[6] = 1, [7] = 5, [8] = 6, [9] = 6, [10] = 5};
+    static const unsigned char CURVES[] = {
+        [2] = 8, [5] = 1, [6] = 1, [7] = 6, [8] = 6, [9] = 6, [10] = 6};
+    unsigned transfer = size > 803 ? bytes[801] : 0, primaries = size > 803 ? bytes[802] : 0;
+    if (transfer == 0 || transfer == 4 || transfer == 255) return;
+    out->dpx_transfer = (int)transfer;
+    out->has_cicp = true;
+    out->cicp[0] = primaries < sizeof PRIMARIES && PRIMARIES[primaries] ? PRIMARIES[primaries] : 1;
+    bool is_read = transfer < sizeof CURVES && CURVES[transfer];
+    out->cicp[1] = is_read ? CURVES[transfer] : (unsigned char)(128 | transfer); /* no code's */
+    out->cicp[2] = 0;
+    out->cicp[3] = 1;
+}
+
 static Statements find_statements(const unsigned char *bytes, size_t size, Arena *arena) {
     Statements out = {.orientation = 1, .arena = arena};
     if (size < 16) return out;
     if (!memcmp(bytes, "\x89PNG\r\n\x1a\n", 8)) read_png(bytes, size, &out);
     if (!memcmp(bytes, "\xff\xd8\xff", 3)) read_jpeg(bytes, size, &out);
+    if (!memcmp(bytes, "SDPX", 4) || !memcmp(bytes, "XPDS", 4)) read_dpx(bytes, size, &out);
     if (!memcmp(bytes, "II", 2) || !memcmp(bytes, "MM", 2)) read_tiff(bytes, size, &out);
     bool is_webp = !memcmp(bytes, "RIFF", 4) && !memcmp(bytes + 8, "WEBP", 4);
     if (is_webp) read_webp(bytes, size, &out);
@@ -207,6 +226,24 @@ static bool plain_light(const Statements *in, IccLight *out) {
     return true;
 }
 
+static const char *dpx_transfer_name(int transfer) {
+    static const char *const NAMES[] = {"",
+                                        "printing density",
+                                        "linear",
+                                        "logarithmic",
+                                        "",
+                                        "SMPTE 274M",
+                                        "BT.709",
+                                        "BT.601, 625 lines",
+                                        "BT.601, 525 lines",
+                                        "NTSC",
+                                        "PAL",
+                                        "linear depth",
+                                        "homogeneous depth",
+                                        "ADX"};
+    return transfer < COUNT_OF(NAMES) ? NAMES[transfer] : "not in SMPTE 268M";
+}
+
 PictureTags picture_tags_read(const void *bytes, size_t size, Arena *arena) {
     const Statements in = find_statements(bytes, size, arena);
     const unsigned char *c = in.cicp;
@@ -214,7 +251,10 @@ PictureTags picture_tags_read(const void *bytes, size_t size, Arena *arena) {
         .orientation = in.orientation, .words = "", .is_srgb = true, .is_known = true};
     if (in.has_cicp) {
         out.is_known = cicp_light(c, &out.light);
-        out.words = arena_format(arena, "cICP %d/%d/%d/%d", c[0], c[1], c[2], c[3]);
+        out.words = in.dpx_transfer
+                        ? arena_format(arena, "DPX transfer %d (%s)", in.dpx_transfer,
+                                       dpx_transfer_name(in.dpx_transfer))
+                        : arena_format(arena, "cICP %d/%d/%d/%d", c[0], c[1], c[2], c[3]);
     } else if (in.has_icc) {
         out.is_known = in.icc && icc_read(in.icc, in.icc_size, &out.light);
         out.words = arena_format(arena, "an ICC profile (%s)",

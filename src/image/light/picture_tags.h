@@ -3,7 +3,8 @@
  * which light they mean.
  *
  * Read     PNG: cICP, iCCP, sRGB, gAMA, cHRM (the first of these that is there counts), eXIf;
- *          JPEG and WebP: ICC profile, Exif's orientation; TIFF: both. (PNG, third edition;
+ *          JPEG and WebP: ICC profile, Exif's orientation; TIFF: both; DPX: transfer and
+ *          primaries. (PNG, third edition;
  *          ICC.1:2022; Exif 2.32; ITU-T H.273.) Profiles of a matrix and curves, or of one
  *          curve for greys, are understood; tables and others (CMYK), PQ and HLG are not.
  *          What is sRGB within what 8 bits can show is sRGB; so is a gAMA of 1/2.2 by itself.

@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "image/picture_pages.h"
+
+#include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/count.h"
+#include "image/tiff_directory.h"
+
+#define PAGES_MAX 65536
+
+static uint64_t mixed(uint64_t digest, const void *bytes, size_t size) {
+    return XXH3_64bits_withSeed(bytes, size, digest);
+}
+
+static void add_list(const Tiff *tiff, TiffList list, uint64_t *digest) {
+    for (uint64_t i = 0; i < list.count && i < tiff->size; i++) {
+        uint64_t number = tiff_number(tiff, list.at + i * list.width, list.width);
+        *digest = mixed(*digest, &number, sizeof number);
+    }
+}
+
+/* Its strips or tiles, and what decides what they show. */
+static void add_page(const Tiff *tiff, uint64_t at, PicturePages *out) {
+    static const unsigned short DECIDING[] = {256, 257, 258, 259, 262, 266, 274, 277,  284,
+                                              317, 320, 322, 323, 338, 339, 347, 34675};
+    static const unsigned short PIXELS[2][2] = {{273, 279}, {324, 325}};
+    for (int i = 0; i < COUNT_OF(DECIDING); i++)
+        add_list(tiff, tiff_list_in(tiff, at, DECIDING[i]), &out->digest);
+    for (int k = 0; k < 2; k++) {
+        TiffList where = tiff_list_in(tiff, at, PIXELS[k][0]);
+        TiffList length = tiff_list_in(tiff, at, PIXELS[k][1]);
+        for (uint64_t i = 0; i < where.count && i < length.count && i < tiff->size; i++) {
+            uint64_t from = tiff_number(tiff, where.at + i * where.width, where.width);
+            uint64_t bytes = tiff_number(tiff, length.at + i * length.width, length.width);
+            if (from <= tiff->size && bytes <= tiff->size - from)
+                out->digest = mixed(out->digest, tiff->bytes + from, bytes);
+        }
+    }
+}
+
+/* NewSubfileType 1 and SubfileType 2 are smaller copies (TIFF 6.0, section 8). */
+static void count_tiff(const unsigned char *bytes, size_t size, PicturePages *out) {
+    Tiff tiff = tiff_open(bytes, size);
+    out->name = "pages";
+    uint64_t at = tiff_next(&tiff, tiff_first(&tiff));
+    for (int i = 0; at && at < size && i < PAGES_MAX; i++, at = tiff_next(&tiff, at)) {
+        TiffList kind = tiff_list_in(&tiff, at, 254), old = tiff_list_in(&tiff, at, 255);
+        bool is_copy = kind.count && tiff_number(&tiff, kind.at, kind.width) & 1;
+        is_copy |= old.count && tiff_number(&tiff, old.at, old.width) == 2;
+        if (is_copy) continue;
+        out->count++;
+        add_page(&tiff, at, out);
+    }
+}
+
+/* Blocks (GIF89a): the first byte says which; data are pieces with their length before them. */
+static void count_gif(const unsigned char *bytes, size_t size, PicturePages *out) {
+    int images = 0;
+    size_t at = 13, second = size;
+    out->name = "frames";
+    if (size < 14) return;
+    if (bytes[10] & 0x80) at += (size_t)6 << (bytes[10] & 7);
+    while (at + 2 < size && (bytes[at] == 0x21 || bytes[at] == 0x2c)) {
+        bool is_image = bytes[at] == 0x2c;
+        if (is_image && ++images == 2) second = at;
+        if (is_image && at + 10 >= size) break;
+        if (is_image) at += 11 + (bytes[at + 9] & 0x80 ? (size_t)6 << (bytes[at + 9] & 7) : 0);
+        else at += 2;
+        while (at < size && bytes[at]) at += 1 + (size_t)bytes[at];
+        at++;
+    }
+    if (images < 2) return;
+    out->count = images;
+    out->digest = mixed(out->digest, bytes + second, size - second);
+}
+
+static uint32_t u32_at(const unsigned char *p) {
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
+}
+
+/* fcTL begins a frame, fdAT has its pixels (PNG, third edition, 11.3.6); the still picture is a
+ * frame only where one begins before it. */
+static void count_png(const unsigned char *bytes, size_t size, PicturePages *out) {
+    int begun = 0;
+    bool is_behind = false;
+    out->name = "frames";
+    for (size_t at = 8; at + 12 <= size;) {
+        size_t length = u32_at(bytes + at);
+        const unsigned char *name = bytes + at + 4;
+        if (length > size - at - 12) return;
+        bool is_start = !memcmp(name, "fcTL", 4), is_frame = !memcmp(name, "fdAT", 4);
+        is_behind |= !memcmp(name, "IDAT", 4);
+        begun += is_start && is_behind;
+        if (is_behind && (is_start || is_frame))
+            out->digest = mixed(out->digest, name + 8, length < 4 ? 0 : length - 4);
+        at += 12 + length;
+    }
+    out->count += begun;
+}
+
+/* Their number stands at byte 770 (SMPTE 268M). */
+static void count_dpx(const unsigned char *bytes, size_t size, PicturePages *out) {
+    if (size < 772) return;
+    int count = bytes[0] == 'S' ? bytes[770] << 8 | bytes[771] : bytes[771] << 8 | bytes[770];
+    out->name = "elements";
+    if (count < 2 || count > 8) return;
+    out->count = count;
+    out->digest = mixed(out->digest, bytes, size);
+}
+
+PicturePages picture_pages(const void *bytes, size_t size) {
+    PicturePages out = {.count = 1, .name = "pages"};
+    if (size < 16) return out;
+    if (!memcmp(bytes, "\x89PNG\r\n\x1a\n", 8)) count_png(bytes, size, &out);
+    if (!memcmp(bytes, "GIF8", 4)) count_gif(bytes, size, &out);
+    if (!memcmp(bytes, "II*\0", 4) || !memcmp(bytes, "MM\0*", 4) || !memcmp(bytes, "II+\0", 4) ||
+        !memcmp(bytes, "MM\0+", 4))
+        count_tiff(bytes, size, &out);
+    if (!memcmp(bytes, "SDPX", 4) || !memcmp(bytes, "XPDS", 4)) count_dpx(bytes, size, &out);
+    return out;
+}
+
+bool picture_pages_check(const void *bytes, size_t size, const char *name, Error *err) {
+    PicturePages pages = picture_pages(bytes, size);
+    return pages.count == 1 || error_at(err, ERROR_INPUT, name, "",
+                                        "holds %d %s, required: one picture that stands still",
+                                        pages.count, pages.name);
+}
