@@ -53,6 +53,12 @@ static int open_regular(const char *path, size_t max_bytes, size_t *size, Error 
     return file;
 }
 
+/* What a checkout without Git LFS has in a file's place. */
+static bool is_lfs_pointer(const unsigned char *bytes, size_t size) {
+    static const char BEGIN[] = "version https://git-lfs.github.com/spec/";
+    return size >= sizeof BEGIN - 1 && !memcmp(bytes, BEGIN, sizeof BEGIN - 1);
+}
+
 bool file_read_pieces(const char *path, const FilePieces *how, Arena *arena, FileBytes *out,
                       Error *err) {
     size_t size, got = 0;
@@ -70,6 +76,9 @@ bool file_read_pieces(const char *path, const FilePieces *how, Arena *arena, Fil
                         size + 1, arena_left(arena));
     if (!done) return error_at(err, ERROR_INPUT, path, "", "cannot be read: %s", strerror(reason));
     bytes[got] = 0;
+    if (is_lfs_pointer(bytes, got))
+        return error_at(err, ERROR_INPUT, path, "",
+                        "is a pointer of Git LFS, required: the file itself — git lfs pull");
     *out = (FileBytes){bytes, got};
     return true;
 }

@@ -254,7 +254,8 @@ static bool read_pairs(Arena *arena, CompareRequest *out, Error *err) {
     FileBytes bytes;
     int lines = 1;
     if (!file_read(out->pairs_file, PAIRS_BYTES, arena, &bytes, err)) return false;
-    const char *text = arena_string(arena, (const char *)bytes.data, bytes.size);
+    const char *text;
+    if (!file_text(out->pairs_file, &bytes, &text, err)) return false;
     for (const char *c = text; *c; c++) lines += *c == '\n';
     out->pairs = ARENA_NEW(arena, ComparePair, lines);
     for (int i = 1; i <= lines; i++) {

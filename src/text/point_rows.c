@@ -57,8 +57,10 @@ static bool is_mark(char c) {
     return c == ',' || c == ';';
 }
 
-/* Between two words one comma or semicolon at most: two would hide a number that is missing. */
+/* Between two words one comma or semicolon at most: two would hide a number that is missing. Where
+ * commas part some numbers they part all of a line: others may be decimal ones. */
 static bool split(const PointLines *in, const char *at, const char *stop, PointWords *out) {
+    bool has_comma = false, has_other = false;
     *out = (PointWords){.count = 0};
     for (bool expects = false;;) {
         while (at < stop && is_blank(*at)) at++;
@@ -72,6 +74,12 @@ static bool split(const PointLines *in, const char *at, const char *stop, PointW
         }
         while (at < stop && is_blank(*at)) at++;
         expects = at < stop && is_mark(*at);
+        has_comma |= expects && *at == ',';
+        has_other |= at < stop && *at != '#' && *at != ',';
+        if (has_comma && has_other)
+            return bad_line(in,
+                            "has commas, and others between its numbers (decimal commas?): ", begin,
+                            (int)(stop - begin));
         at += expects;
     }
 }

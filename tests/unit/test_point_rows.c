@@ -16,7 +16,7 @@ ARENA_TEST(rows_of_any_kind_are_points) {
     const char *path = file_of("\xEF\xBB\xBFX, Y, Z, NX, NY, NZ\r\n"
                                "1 2 3 0 0 2\r\n"
                                "# a remark\n\n"
-                               " 1.5,-2;\t3e-1 0 -1e-30 0 # behind\n"
+                               " 1.5;-2;\t3e-1 0 -1e-30 0 # behind\n"
                                "1\t2\t3\t3\t0\t4");
     static const double wanted[][6] = {
         {1, 2, 3, 0, 0, 1}, {1.5, -2, 0.3, 0, -1, 0}, {1, 2, 3, 0.6, 0, 0.8}};
@@ -58,6 +58,9 @@ ARENA_TEST(what_is_no_point_is_refused_with_its_line) {
         {"0,,0,0,0,1\n", "line 1", "has no number before ','"},
         {",0,0,0,0,1\n", "line 1", "has no number before ','"},
         {"0,0,0,0,0,1,\n", "line 1", "ends with ','"},
+        {"0,5 0,5 0,7\n", "line 1", "has commas, and others between its numbers"},
+        {"0;5,0;5,0;7\n", "line 1", "has commas, and others between its numbers"},
+        {"0 0 0 0,1 0 1\n", "line 1", "has commas, and others between its numbers"},
         {"x y z nx ny\n", "line 1", "its header ends with 'ny'"},
         {"x y z nx ny nx\n", "line 1", "names twice 'nx'"},
         {"x y z u v w\n", "line 1", "its header names 'u'"},

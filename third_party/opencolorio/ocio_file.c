@@ -39,10 +39,17 @@ static bool check_length(const char *path, const FileBytes *bytes, Error *err) {
                     "has Length %g in %zu bytes, required a row for each", rows, bytes->size);
 }
 
+static bool check_archive(const char *path, const FileBytes *bytes, Error *err) {
+    return memcmp(bytes->data, "PK\3\4", bytes->size < 4 ? bytes->size : 4) != 0 || !bytes->size ||
+           refuse(path, "is an archive (.ocioz)",
+                  "the configuration in it: unpack it, and name its config.ocio", err);
+}
+
 bool ocio_file_check(const char *path, Error *err) {
     Arena scratch = arena_reserve(OCIO_FILE_BYTES_MAX + 4096);
     FileBytes bytes;
     bool ok = file_read(path, OCIO_FILE_BYTES_MAX, &scratch, &bytes, err) &&
+              check_archive(path, &bytes, err) &&
               (is_xml(&bytes) ? check_xml(path, &bytes, err) : check_length(path, &bytes, err));
     arena_release(&scratch);
     return ok;

@@ -52,9 +52,18 @@ bool cli_numbers(const char *text, int count, double *out) {
     return true;
 }
 
+/* Names may have signs of equality as well. */
+static const char *find_equals(const char *text) {
+    const char *last = strrchr(text, '=');
+    double number;
+    for (const char *at = strchr(text, '='); at; at = strchr(at + 1, '='))
+        if (at > text && at[1] && file_exists(at + 1)) return at;
+    return last && cli_numbers(last + 1, 1, &number) ? last : strchr(text, '=');
+}
+
 bool cli_name_value(const char *option, const char *text, Arena *arena, const char **name,
                     const char **value, Error *err) {
-    const char *equals = strchr(text, '=');
+    const char *equals = find_equals(text);
     if (!equals || equals == text || !equals[1])
         return error_set(err, ERROR_USAGE,
                          "%s %s: required: NAME=VALUE, both not "

@@ -65,7 +65,8 @@ int cli_option_words(const char *word, bool has_value);
 /* `count` finite numbers with commas and nothing else; false when it is something else. */
 bool cli_numbers(const char *text, int count, double *out);
 
-/* "NAME=VALUE" cut at the first '=': *name comes from the arena, *value points into text. */
+/* "NAME=VALUE" cut at the first '=' behind which a file stands, else at the last if a number
+ * follows it, else at the first: *name comes from the arena, *value points into text. */
 bool cli_name_value(const char *option, const char *text, Arena *arena, const char **name,
                     const char **value, Error *err);
 

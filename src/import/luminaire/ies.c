@@ -424,7 +424,7 @@ static bool read_ies(const char *file, const ImportOptions *options, ImportSet *
 static bool is_ies(const char *file, const char *head, size_t size) {
     TextLine text = {head, (int)size};
     return !strncasecmp(head, "IESNA", 5) || !strcasecmp(path_ending(file), ".ies") ||
-           line_has(text, "\nTILT=");
+           line_has(text, "\nTILT=") || luminaire_scan_is_tm33(head, size);
 }
 
 const Importer importer_ies = {"ies", "IES LM-63 luminaires (.ies), as a white panel", is_ies,

@@ -11,13 +11,23 @@
 #include "spectrum/illuminant.h"
 
 #define INTENSITY_MOST_CD 1e12
+#define XML_LINES 16 /* in which a document says what it is */
 
 bool luminaire_scan_open(const char *file, const FileBytes *bytes, LuminaireNumber *number,
                          ImportSet *set, LuminaireScan *out, Error *err) {
     *out = (LuminaireScan){
         .number = number, .line = -1, .arena = set->arena, .err = err, .comma = -1, .unit = -1};
-    if (bytes) return text_file_decode(file, *bytes, ENCODING_AUTO, set->arena, &out->text, err);
-    return text_file_read(file, ENCODING_AUTO, set->arena, &out->text, err);
+    bool ok = bytes ? text_file_decode(file, *bytes, ENCODING_AUTO, set->arena, &out->text, err)
+                    : text_file_read(file, ENCODING_AUTO, set->arena, &out->text, err);
+    for (int i = 0; ok && i < out->text.count && i < XML_LINES; i++)
+        if (luminaire_scan_is_tm33(out->text.line[i].text, (size_t)out->text.line[i].length))
+            return error_at(err, ERROR_INPUT, file, "",
+                            "is of IES TM-33 (XML), required: IES LM-63 (.ies) or EULUMDAT (.ldt)");
+    return ok;
+}
+
+bool luminaire_scan_is_tm33(const char *text, size_t size) {
+    return memmem(text, size, "IESTM33", 7) || memmem(text, size, "tm33", 4);
 }
 
 bool luminaire_scan_count(LuminaireScan *scan, const char *what, int low, int high, int *out) {

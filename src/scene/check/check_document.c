@@ -104,8 +104,11 @@ void check_camera(const DocumentCheck *check, const GltfValue *camera) {
     check_depths(check, eye);
     check_depths(check, flat);
     if (tree_number(eye, "yfov", 1) >= 3.14159265358979)
-        check_warns(check, tree_member(eye, "yfov"), "is %g rad, less than pi is required",
-                    tree_number(eye, "yfov", 1));
+        check_fails(check, tree_member(eye, "yfov"),
+                    "is %g rad, less than pi is required; glTF's angles are radians, %g degrees "
+                    "are %.4g",
+                    tree_number(eye, "yfov", 1), tree_number(eye, "yfov", 1),
+                    tree_number(eye, "yfov", 1) * 3.14159265358979 / 180);
     for (int i = 0; i < 2; i++) {
         const GltfValue *mag = tree_member(flat, i ? "ymag" : "xmag");
         if (mag && mag->kind == GLTF_NUMBER && mag->number == 0)

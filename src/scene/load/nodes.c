@@ -231,6 +231,8 @@ static bool read_attribute(GltfFile *file, const GltfValue *attributes, const ch
     return true;
 }
 
+/* As many as the attributes have elements. Where none of them places an instance all stand where
+ * the node does, and one is as good: attributes of others (_ID) are not read. */
 static NodeInstances instances_of(GltfFile *file, const GltfValue *node) {
     static const float ORIGIN[3] = {0, 0, 0}, UPRIGHT[4] = {0, 0, 0, 1}, SAME[3] = {1, 1, 1};
     Arena *scratch = &file->load->scratch;
@@ -244,6 +246,7 @@ static NodeInstances instances_of(GltfFile *file, const GltfValue *node) {
         !read_attribute(file, attributes, "ROTATION", &turns, &out.count) ||
         !read_attribute(file, attributes, "SCALE", &scales, &out.count))
         return (NodeInstances){NULL, 0};
+    if (!moves && !turns && !scales) return (NodeInstances){NULL, 1};
     out.node_from_mesh = ARENA_NEW(scratch, Transform, out.count);
     for (int i = 0; i < out.count; i++)
         out.node_from_mesh[i] =
