@@ -109,6 +109,8 @@ start 'a hundred kills' resume-long python3 tests/hostile/resume.py --kills 100 
 start 'parts of every kind' merge-long python3 tests/image/merge.py --all $program
 of "$all scenes tests/hostile tests/image"
 start 'every fault' faults-long python3 tests/hostile/faults.py --all $program
+start 'every neighbour of what is read whole' read-whole-long \
+    python3 tests/hostile/read_whole.py --all $program
 of "$review scenes tests/hostile tests/image"
 start 'every key of a review' review-request-long \
     python3 tests/hostile/review_request.py --all $program

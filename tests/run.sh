@@ -58,6 +58,7 @@ start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program
 start 'what was removed says what to do' removed python3 tests/hostile/removed.py $program
 start 'what is not known is no pass' unjudged python3 tests/hostile/unjudged.py $program
+start 'files are read whole or named' read-whole python3 tests/hostile/read_whole.py $program
 start 'one judged quantity a row' judged python3 tests/hostile/judged.py $program
 start 'reviews that ask wrongly' review-request python3 tests/hostile/review_request.py $program
 start "a review's folder is the user's too" review-files \

@@ -27,7 +27,7 @@ typedef struct Image {
 /* Decodes PNG, JPEG, EXR, HDR, TIFF ... `name` is for messages, and its ending a hint.
  * Grey becomes R = G = B; alpha stays straight. Negative or non-finite floats are kept. A code
  * of a Radiance picture stands for the middle of its step, as in Radiance's tools. A file of
- * several pages or frames (plain/picture_pages.h), or with channels that are neither colour nor
+ * several pages or frames (picture_pages.h), or with channels that are neither colour nor
  * alpha, is refused. */
 bool image_read(const char *path, Arena *arena, Image *out, Error *err);
 bool image_read_memory(const void *bytes, size_t size, const char *name, Arena *arena, Image *out,

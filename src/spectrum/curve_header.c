@@ -57,7 +57,7 @@ static const struct WordRow {
     {false, REFUSED, FIRST, 0, "alpha", ABSORBED},
     {false, REFUSED, ANYWHERE, 0, "db decibel* log log10 ln logarithm*",
      "a logarithm, required: the values themselves"},
-    {false, REFUSED, ANYWHERE, 0, "photon* quanta umol mol ppfd", PHOTONS},
+    {false, REFUSED, ANYWHERE, 0, "photon photons quanta umol mol ppfd", PHOTONS},
     {false, REFUSED, BRACKETED, 0, "10 x10 1000 x1000 10000 ppm",
      "scaled, required: shares from 0 to 1, or percent"},
     {false, NAMES, ANYWHERE, 0, "fraction share ratio factor relative normali* none unitless", 0},
@@ -157,7 +157,7 @@ static void find_words(const char *line, int columns, HeaderWords *out) {
     for (int i = 0; i < out->count; i++) {
         HeaderWord *word = &out->list[i];
         word->cell = out->has_cells ? word->cell * columns / cells : 0;
-        word->is_first = !out->has_cells || !i || word[-1].cell != word->cell;
+        word->is_first = !i || word[-1].cell != word->cell;
         word->is_alone = out->has_cells;
         if (i && !strcmp(word->text, "density") && !strcmp(word[-1].text, "optical"))
             strcpy(word->text, "opticaldensity");
