@@ -204,6 +204,18 @@ ARENA_TEST(a_word_that_is_missing_is_named) {
     exr_reader_destroy(reader);
 }
 
+ARENA_TEST(a_zero_byte_ends_no_attribute) {
+    FileBytes file = encode(NULL, &arena);
+    char *text = memmem(file.data, file.size, "a picture", 9);
+    text[1] = 0;
+    ExrReader *reader = open_bytes(file);
+    const ExrPicture *picture = exr_reader_picture(reader);
+    for (int i = 0; i < picture->attribute_count; i++)
+        if (!strcmp(picture->attributes[i].name, "comments"))
+            assert_string_equal(picture->attributes[i].text, "a\1picture");
+    exr_reader_destroy(reader);
+}
+
 TEST(what_is_no_openexr_file_is_told) {
     ExrReader *reader;
     Error err = {0};

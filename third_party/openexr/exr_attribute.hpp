@@ -15,6 +15,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include <algorithm>
 #include <list>
 #include <string>
 #include <vector>
@@ -52,7 +53,10 @@ void describe_attribute(const Imf::Attribute &from, std::list<std::string> *text
 {
     if (auto s = dynamic_cast<const Imf::StringAttribute *>(&from)) {
         to->kind = EXR_STRING;
-        to->text = s->value().c_str();
+        texts->push_back(s->value());
+        /* a zero byte ends no text: what stands behind it counts */
+        std::replace(texts->back().begin(), texts->back().end(), '\0', '\1');
+        to->text = texts->back().c_str();
     } else if (auto i = dynamic_cast<const Imf::IntAttribute *>(&from)) {
         to->kind = EXR_INT;
         to->values[0] = i->value();

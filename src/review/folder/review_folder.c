@@ -43,9 +43,10 @@ void review_folder_responses(ReviewFolder *folder, Arena *arena) {
 /* Responses outlive the review: their folder is no draft. */
 static bool open_responses(ReviewFolder *folder, Arena *arena, Error *err) {
     review_folder_responses(folder, arena);
-    if (!folder->has_own_responses) return folder_make(folder->responses, err);
-    return folder_make_own(folder->responses, &folder->responses_are_new, err) &&
-           review_files_are_plain(folder->responses, *arena, err);
+    bool is_there = folder->has_own_responses
+                        ? folder_make_own(folder->responses, &folder->responses_are_new, err)
+                        : folder_make(folder->responses, err);
+    return is_there && review_files_are_plain(folder->responses, *arena, err);
 }
 
 bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err) {
