@@ -136,7 +136,8 @@ static bool read_number(const PointLines *in, const char *word, int length, doub
     if (length >= (int)sizeof text) return bad_line(in, "holds ", word, length);
     memcpy(text, word, (size_t)length);
     text[length] = '\0';
-    if ((int)strlen(text) != length || !number_is(text, out) || !(fabs(*out) <= 1e9))
+    if ((int)strlen(text) != length) return bad_line(in, "has a zero byte behind ", word, length);
+    if (!number_is(text, out) || !(fabs(*out) <= 1e9))
         return bad_line(in, "holds no number up to 1e9, but ", word, length);
     return true;
 }

@@ -87,7 +87,7 @@ ARENA_TEST(a_zero_byte_ends_no_number) {
     int count;
     const char *path = in_folder("points.txt");
     assert_done(file_write(path, text, sizeof text - 1, &err));
-    assert_fails(point_rows_read(path, &arena, &list, &count, &err), "holds no number");
+    assert_fails(point_rows_read(path, &arena, &list, &count, &err), "has a zero byte behind '1'");
 }
 
 TEST_PROGRAM(make_folder, clear_folder)

@@ -16,9 +16,9 @@
 
 #define SETUP_BOUNCES 64
 
-/* What a condition's variants take over: the skies of its sweep, or the guide of its moment: a guide directs paths and biases
- * no reading, and readings with one guide have more of their noise in common, so that their
- * difference is sharper than they are. */
+/* What a condition's variants take over: the skies of its sweep, or the guide of its moment: a
+ * guide directs paths and biases no reading, and readings with one guide have more of their noise
+ * in common, so that their difference is sharper than they are. */
 typedef struct MomentGuide {
     Arena room;
     SkiesKept skies;              /* of room */
