@@ -8,51 +8,60 @@
 #include "base/count.h"
 #include "image/tiff_directory.h"
 
-#define PAGES_MAX 65536
-
 static uint64_t mixed(uint64_t digest, const void *bytes, size_t size) {
     return XXH3_64bits_withSeed(bytes, size, digest);
 }
 
-static void add_list(const Tiff *tiff, TiffList list, uint64_t *digest) {
-    for (uint64_t i = 0; i < list.count && i < tiff->size; i++) {
-        uint64_t number = tiff_number(tiff, list.at + i * list.width, list.width);
-        *digest = mixed(*digest, &number, sizeof number);
-    }
+/* Bytes of a TIFF, fewer than `left` of which may still be looked at: pages may share them, and a
+ * small file might ask for days. */
+static bool add_bytes(const Tiff *tiff, uint64_t at, uint64_t size, uint64_t *left,
+                      uint64_t *digest) {
+    if (at > tiff->size || size > tiff->size - at || size >= *left) return false;
+    *left -= size + 1;
+    *digest = mixed(*digest, tiff->bytes + at, size);
+    return true;
 }
 
 /* Its strips or tiles, and what decides what they show. */
-static void add_page(const Tiff *tiff, uint64_t at, PicturePages *out) {
+static bool add_page(const Tiff *tiff, uint64_t at, uint64_t *left, uint64_t *digest) {
     static const unsigned short DECIDING[] = {256, 257, 258, 259, 262, 266, 274, 277,  284,
                                               317, 320, 322, 323, 338, 339, 347, 34675};
     static const unsigned short PIXELS[2][2] = {{273, 279}, {324, 325}};
-    for (int i = 0; i < COUNT_OF(DECIDING); i++)
-        add_list(tiff, tiff_list_in(tiff, at, DECIDING[i]), &out->digest);
+    bool ok = true;
+    for (int i = 0; i < COUNT_OF(DECIDING) && ok; i++) {
+        TiffList list = tiff_list_in(tiff, at, DECIDING[i]);
+        ok = list.count <= tiff->size &&
+             add_bytes(tiff, list.at, list.count * list.width, left, digest);
+    }
     for (int k = 0; k < 2; k++) {
         TiffList where = tiff_list_in(tiff, at, PIXELS[k][0]);
         TiffList length = tiff_list_in(tiff, at, PIXELS[k][1]);
-        for (uint64_t i = 0; i < where.count && i < length.count && i < tiff->size; i++) {
+        for (uint64_t i = 0; i < where.count && i < length.count && ok; i++) {
             uint64_t from = tiff_number(tiff, where.at + i * where.width, where.width);
             uint64_t bytes = tiff_number(tiff, length.at + i * length.width, length.width);
-            if (from <= tiff->size && bytes <= tiff->size - from)
-                out->digest = mixed(out->digest, tiff->bytes + from, bytes);
+            ok = add_bytes(tiff, from, bytes, left, digest);
         }
     }
+    return ok;
 }
 
-/* NewSubfileType 1 and SubfileType 2 are smaller copies (TIFF 6.0, section 8). */
+/* NewSubfileType 1 and SubfileType 2 are smaller copies (TIFF 6.0, section 8). What cannot be
+ * found page by page is all of the file. */
 static void count_tiff(const unsigned char *bytes, size_t size, PicturePages *out) {
     Tiff tiff = tiff_open(bytes, size);
-    out->name = "pages";
-    uint64_t at = tiff_next(&tiff, tiff_first(&tiff));
-    for (int i = 0; at && at < size && i < PAGES_MAX; i++, at = tiff_next(&tiff, at)) {
+    uint64_t left = 4 * (uint64_t)size, at = tiff_next(&tiff, tiff_first(&tiff));
+    bool ok = true;
+    for (; at && at < size && ok; at = tiff_next(&tiff, at)) {
+        uint64_t entries = tiff_number(&tiff, at, tiff.is_wide ? 8 : 2);
+        uint64_t unused = 0;
+        ok = entries < size && add_bytes(&tiff, at, entries * 12, &left, &unused);
         TiffList kind = tiff_list_in(&tiff, at, 254), old = tiff_list_in(&tiff, at, 255);
         bool is_copy = kind.count && tiff_number(&tiff, kind.at, kind.width) & 1;
         is_copy |= old.count && tiff_number(&tiff, old.at, old.width) == 2;
-        if (is_copy) continue;
-        out->count++;
-        add_page(&tiff, at, out);
+        out->count += !is_copy;
+        ok = ok && (is_copy || add_page(&tiff, at, &left, &out->digest));
     }
+    if (!ok) out->digest = mixed(0, bytes, size);
 }
 
 /* Blocks (GIF89a): the first byte says which; data are pieces with their length before them. */

@@ -19,6 +19,7 @@ typedef enum WordPlace { ANYWHERE, FIRST, LATER, BRACKETED, ALONE } WordPlace;
 #define ABSORBANCE "an absorbance A, required: the share of the light that is left, 10^-A"
 #define ABSORBED "what is absorbed, required: the share that is let through or reflected"
 #define LENGTHS "no wavelengths, required: nm (1e7 / cm-1, 1239.84 / eV, 299792 / THz)"
+#define UNIT "values with a unit, required: none (shares from 0 to 1; n and k)"
 #define PHOTONS "a number of photons, required: energy a nm (a photon's is 1 / wavelength)"
 
 /* The words of the wavelength's cell, then those of others; a star: what begins so. */
@@ -45,8 +46,8 @@ static const struct WordRow {
     {false, IS_K, FIRST, 0, "k", 0},
     {false, IS_N, ANYWHERE, 0, "refractive index", 0},
     {false, IS_N, FIRST, 0, "n real", 0},
-    {false, NO_AMOUNT, LATER, 0, "w mw uw sr cd cm", "no share, required: 0 to 1"},
-    {false, NO_AMOUNT, ANYWHERE, 0, "counts", "no share, required: 0 to 1"},
+    {false, NO_AMOUNT, LATER, 0, "w mw uw sr cd cm", UNIT},
+    {false, NO_AMOUNT, ANYWHERE, 0, "counts", UNIT},
     {false, REFUSED, ANYWHERE, 0, "eps eps1 eps2 epsilon epsilon1 epsilon2 epsr epsi permittivity",
      PERMITTIVITY},
     {false, REFUSED, FIRST, 0, "e1 e2", PERMITTIVITY},
@@ -193,14 +194,20 @@ static const struct WordRow *row_of(const HeaderWord *word, bool of_wavelength) 
 
 /* ---- what they say ----------------------------------------------------------------------- */
 
-/* The cell that has the wavelength's name, else that which begins with a unit of it. */
+/* The cell that has the wavelength's name, else that which begins with a unit of it, else that
+ * which has nothing else in brackets. */
 static int wavelength_cell(const HeaderWords *words, bool *is_named) {
     *is_named = true;
-    for (int wants_name = 1; wants_name >= 0; wants_name--)
+    for (int attempt = 0; attempt < 3; attempt++)
         for (int i = 0; i < words->count; i++) {
             const HeaderWord *word = &words->list[i];
-            const struct WordRow *row = word->is_bracketed ? NULL : row_of(word, true);
-            if (row && (wants_name ? row->kind == NAMES : word->is_first)) return word->cell;
+            const struct WordRow *row = row_of(word, true);
+            bool is_whole = word->is_bracketed && i && !word[-1].is_bracketed &&
+                            (i + 1 == words->count || !word[1].is_bracketed);
+            bool is_it = attempt == 0   ? !word->is_bracketed && row && row->kind == NAMES
+                         : attempt == 1 ? !word->is_bracketed && row && word->is_first
+                                        : is_whole && row && row->kind == IS_UNIT;
+            if (is_it) return word->cell;
         }
     *is_named = false;
     return 0;

@@ -247,6 +247,9 @@ def channels(bench):
     found = [float(line.split()[1]) for line in text.split("\n") if line[:2] in ("x ", "y ")]
     bench.report.claim(max(abs(f - s / sum(sums)) for f, s in zip(found, sums)) < 1e-3,
                        f"X, Y, Z: {found} for {sums}")
+    skies = [bench.says("X, Y, Z", 0, "lx", "sky", "--environment", f"hdri:{name}.exr")
+             for name in ("xyz", "709")]
+    bench.report.claim(skies[0].replace("xyz", "709") == skies[1], f"X, Y, Z: {skies}")
     pictures.write_exr(os.path.join(bench.folder, "b.exr"), W, H,
                        {**xyz, "Z": [3 * v for v in xyz["Z"]]})
     bench.says("Z three times", 1, "deltae_max is", "compare", "xyz.exr", "b.exr", "--max",

@@ -12,6 +12,7 @@
 
 #define INTENSITY_MOST_CD 1e12
 #define XML_LINES 16 /* in which a document says what it is */
+#define TM33 "IESTM33"
 
 bool luminaire_scan_open(const char *file, const FileBytes *bytes, LuminaireNumber *number,
                          ImportSet *set, LuminaireScan *out, Error *err) {
@@ -19,15 +20,16 @@ bool luminaire_scan_open(const char *file, const FileBytes *bytes, LuminaireNumb
         .number = number, .line = -1, .arena = set->arena, .err = err, .comma = -1, .unit = -1};
     bool ok = bytes ? text_file_decode(file, *bytes, ENCODING_AUTO, set->arena, &out->text, err)
                     : text_file_read(file, ENCODING_AUTO, set->arena, &out->text, err);
-    for (int i = 0; ok && i < out->text.count && i < XML_LINES; i++)
-        if (luminaire_scan_is_tm33(out->text.line[i].text, (size_t)out->text.line[i].length))
+    bool is_xml = ok && out->text.count && out->text.line[0].text[0] == '<';
+    for (int i = 0; is_xml && i < out->text.count && i < XML_LINES; i++)
+        if (memmem(out->text.line[i].text, (size_t)out->text.line[i].length, TM33, strlen(TM33)))
             return error_at(err, ERROR_INPUT, file, "",
                             "is of IES TM-33 (XML), required: IES LM-63 (.ies) or EULUMDAT (.ldt)");
     return ok;
 }
 
-bool luminaire_scan_is_tm33(const char *text, size_t size) {
-    return memmem(text, size, "IESTM33", 7) || memmem(text, size, "tm33", 4);
+bool luminaire_scan_is_tm33(const char *head, size_t size) {
+    return memmem(head, size, "<" TM33, strlen("<" TM33));
 }
 
 bool luminaire_scan_count(LuminaireScan *scan, const char *what, int low, int high, int *out) {

@@ -31,8 +31,8 @@ struct LuminaireScan {
 bool luminaire_scan_open(const char *file, const FileBytes *bytes, LuminaireNumber *number,
                          ImportSet *set, LuminaireScan *out, Error *err);
 
-/* Whether the text is of the XML that is to follow LM-63, which is not read. */
-bool luminaire_scan_is_tm33(const char *text, size_t size);
+/* Whether a file begins as one of the XML that is to follow LM-63, which is not read. */
+bool luminaire_scan_is_tm33(const char *head, size_t size);
 
 /* A whole number. */
 bool luminaire_scan_count(LuminaireScan *scan, const char *what, int low, int high, int *out);
