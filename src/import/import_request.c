@@ -130,7 +130,7 @@ bool primaries_read(const char *file, const TextOptions *options, ImportSet *set
                         "has %d wavelengths, required: "
                         "more",
                         in.rows);
-    set->spectra = (ImportSpectra){.rows = in.rows, .nm = in.value[0]};
+    set->spectra = (ImportSpectra){.file = file, .rows = in.rows, .nm = in.value[0]};
     for (int c = 1; c < COLUMNS; c++) set->spectra.value[c - 1] = in.value[c];
     return check_reach(set, file, err);
 }
@@ -367,6 +367,8 @@ static const RecordRow DECLARATION[] = {
          "A table beside the declaration: incidence, wavelength, reflectance."),
     NUMBER("specular_aperture_deg", 0, specular.aperture_deg, 0, SPECULAR_APERTURE_MOST_DEG,
            "Full angle that it was measured in; 0: the mirror alone."),
+    NUMBER("instrument_fwhm_deg", 0, instrument_fwhm_deg, INSTRUMENT_FWHM_LEAST,
+           INSTRUMENT_FWHM_MOST, "As --instrument-fwhm, for the manifest."),
     LIST("gloss", 0, gloss, gloss_count, 1, GLOSS_METERS, gloss_format,
          "What gloss meters read, one value a geometry."),
     FLAG("isotropic", 0, is_isotropic, NULL),
@@ -476,6 +478,7 @@ static bool begin(const char *const *file, int count, const ImportRequest *reque
     set->conditions = request->conditions;
     set->backlight = request->backlight;
     memcpy(set->peaks_nm, request->peaks_nm, sizeof set->peaks_nm);
+    set->instrument_fwhm_deg = request->instrument_fwhm_deg;
     set->is_isotropic = request->is_isotropic;
     set->symmetry = request->symmetry;
     set->black_is_zero = request->black_is_zero;

@@ -35,8 +35,9 @@ typedef struct ImportRequest {
     ImportSpecular specular; /* of a reflection */
     const char *root;        /* --root: where else such a file may name files; or NULL */
     const char *panel, *instrument, *date, *operator_name, *conditions, *backlight;
-    double peaks_nm[3];        /* 0: not stated */
-    const GlossReading *gloss; /* as a file has it; specular.gloss counts */
+    double instrument_fwhm_deg; /* 0: not stated */
+    double peaks_nm[3];         /* 0: not stated */
+    const GlossReading *gloss;  /* as a file has it; specular.gloss counts */
     int gloss_count;
     ImportSymmetry symmetry;
     bool is_isotropic, black_is_zero, accepts_repeats;

@@ -12,6 +12,7 @@
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_facts.h"
 #include "panel/fit/fit.h"
+#include "panel/fit/fit_judge.h"
 #include "panel/query/panel_open.h"
 
 /* The memory and CPU time of the process. */
@@ -30,7 +31,7 @@ typedef struct FitWords {
     const char *output, *root, *levels;
     int basis, wavelet, incidence; /* places in the lists of the options */
     long level;
-    double level_max, keep, max_error, error_floor, frame;
+    double level_max, keep, max_error, error_floor, frame, instrument_fwhm_deg;
     bool lobe_is_mirror, force;
 } FitWords;
 
@@ -67,6 +68,8 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
          "a narrow peak on the haze is the mirror's image as wide as the instrument, where the "
          "set does not declare that width",
          &out->lobe_is_mirror},
+        {"--instrument-fwhm", OPTION_NUMBER, "DEG", INSTRUMENT_FWHM_HELP, &out->instrument_fwhm_deg,
+         INSTRUMENT_FWHM_LEAST, INSTRUMENT_FWHM_MOST},
         {"--wavelet", OPTION_CHOICE, "principal|haar|cdf53|cdf97",
          "basis along the wavelengths: a few principal spectra, or a wavelet (default "
          "principal)",
@@ -118,6 +121,14 @@ static FitOptions options_of(const FitWords *words) {
     return fit;
 }
 
+/* Of every place; 0: as the set has it. */
+static bool declare_width(Measurement *set, double fwhm_deg) {
+    if (fwhm_deg > 0) set->instrument_fwhm_deg = fwhm_deg;
+    for (int i = 0; i < set->spot_count; i++)
+        set->spot[i].set->instrument_fwhm_deg = set->instrument_fwhm_deg;
+    return true;
+}
+
 /* Read back from the file that was written. */
 static bool add_facts(const char *path, json_t *report, Arena *arena, Error *err) {
     Panel *panel = NULL;
@@ -143,6 +154,7 @@ static Outcome run_fit(int argc, char **argv, Arena *arena, Error *err) {
     bool ok = reference_check_root(words.root, err) &&
               measurement_read_below(words.cli.arguments[0], words.root, arena, set, err) &&
               outputs_spare(&words.cli.outputs, set->inputs.list, set->inputs.count, err) &&
+              declare_width(set, words.instrument_fwhm_deg) &&
               (!words.levels ||
                measurement_read_levels(set, words.levels, words.level_max, arena, err)) &&
               panel_fit(set, &fit, words.output, arena, &report, err);
@@ -156,7 +168,10 @@ static Outcome run_fit(int argc, char **argv, Arena *arena, Error *err) {
         json_decref(report);
         return OUTCOME_FAILED;
     }
-    return outcome_of(panel_print_report(report, words.cli.json, err));
+    bool is_left_out =
+        json_is_true(json_object_get(json_object_get(report, "judged"), JUDGE_LEFT_OUT));
+    if (!panel_print_report(report, words.cli.json, err)) return OUTCOME_FAILED;
+    return is_left_out ? OUTCOME_NO : OUTCOME_DONE;
 }
 
 const Command command_panel_fit = {"fit", "measurement files to one compressed panel file",

@@ -13,6 +13,7 @@
 #include "import/import_request.h"
 #include "import/importers.h"
 #include "import/set/import_write.h"
+#include "panel/set/measured.h"
 #include "text/json_text.h"
 
 static void show_progress(void *context, int done) {
@@ -102,7 +103,7 @@ typedef struct Words {
     const char *specular, *backlight;
     double peaks_nm[3];
     bool has_peaks;
-    double aperture_deg;
+    double aperture_deg, instrument_fwhm_deg;
     CliTexts roles, skip, gloss, list[KEYS_MAX];
     const char *key[KEYS_MAX]; /* of the text tables' keys */
     double wavelength_nm, area_mm[2];
@@ -169,6 +170,8 @@ static int list_options(Words *words, Option *option, Arena *arena) {
          "full angle that --specular was measured "
          "in, degrees (default: the mirror alone)",
          &words->aperture_deg, 0, SPECULAR_APERTURE_MOST_DEG},
+        {"--instrument-fwhm", OPTION_NUMBER, "DEG", INSTRUMENT_FWHM_HELP,
+         &words->instrument_fwhm_deg, INSTRUMENT_FWHM_LEAST, INSTRUMENT_FWHM_MOST},
         {"--gloss", OPTION_TEXTS, "DEG=GU", "a gloss meter's reading at 20, 60 or 85 degrees",
          &words->gloss},
         {"--area-mm", OPTION_NUMBERS, "W,H", "luminous area for luminaire files", words->area_mm,
@@ -267,6 +270,7 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
         memcpy(request->options.area_mm, words->area_mm, sizeof request->options.area_mm);
     if (words->primaries) request->primaries = words->primaries;
     if (words->levels) request->levels = words->levels;
+    if (words->instrument_fwhm_deg > 0) request->instrument_fwhm_deg = words->instrument_fwhm_deg;
     if (words->backlight) request->backlight = words->backlight;
     if (words->has_peaks) memcpy(request->peaks_nm, words->peaks_nm, sizeof request->peaks_nm);
     if (words->panel) request->panel = words->panel;

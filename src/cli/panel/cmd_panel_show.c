@@ -18,6 +18,7 @@
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_report.h"
 #include "print/print.h"
+#include "spectrum/twice.h"
 #include "text/base64.h"
 #include "text/json_text.h"
 #include "text/text.h"
@@ -169,7 +170,6 @@ static bool show_frame(const ShowScene *scene, bool given, int size[2], double *
 #define USUAL_WIDTH_MM 300 /* where neither the panel nor the user says one */
 #define USUAL_DISTANCE_M 0.8
 #define MOST_THETA_DEG 89
-#define ASPECT_OFF 0.02 /* pixels need not be quite square */
 
 typedef struct ShowWords {
     const char *content, *size_from;
@@ -238,14 +238,14 @@ static bool read_size(const char *path, Arena scratch, double mm[2], Error *err)
 
 /* A picture fills the display: of another shape it would be stretched. */
 static bool check_shape(const ShowWords *words, const double mm[2], const Image *picture,
-                        Error *err) {
-    double shape = (double)picture->width / picture->height, display = mm[0] / mm[1];
-    if (words->has_size_mm || fabs(shape / display - 1) <= ASPECT_OFF) return true;
-    return error_at(err, ERROR_INPUT, words->content, "",
-                    "has %d x %d pixels (%.4g : 1), required: the shape of the panel's %g x %g "
-                    "mm (%.4g : 1) — fit the picture, or name the size that it fills by "
-                    "--size-mm W,H",
-                    picture->width, picture->height, shape, mm[0], mm[1], display);
+                        Arena scratch, Error *err) {
+    double shape = (double)picture->width / picture->height;
+    Twice twice = twice_shape("the display", shape, mm[0] / mm[1], &scratch);
+    return words->has_size_mm || !twice_differ(&twice) ||
+           error_at(err, ERROR_INPUT, words->content, "",
+                    "%s: %d x %d pixels on the panel's %g x %g mm — fit the picture, or name the "
+                    "size that it fills by --size-mm W,H",
+                    twice_text(&twice, &scratch), picture->width, picture->height, mm[0], mm[1]);
 }
 
 static bool find_display(ShowRun *work, const char *panel, Arena scratch, Error *err) {
@@ -261,7 +261,7 @@ static bool find_display(ShowRun *work, const char *panel, Arena scratch, Error 
         mm[1] = mm[0] * picture.height / picture.width;
     }
     for (int i = 0; i < 2; i++) work->scene.size_m[i] = mm[i] / 1e3;
-    return check_shape(words, mm, &picture, err);
+    return check_shape(words, mm, &picture, scratch, err);
 }
 
 /* ---- the render -------------------------------------------------------------------------- */

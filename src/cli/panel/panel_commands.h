@@ -3,6 +3,10 @@
 #pragma once
 #include "cli/options/command.h"
 
+#define INSTRUMENT_FWHM_HELP \
+    "how wide the instrument of the reflection sees the image of a point in a mirror: full " \
+    "width at half maximum, degrees"
+
 extern const Command command_panel;
 
 extern const Command command_panel_import;

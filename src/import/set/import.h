@@ -64,6 +64,7 @@ typedef struct ImportTable {
 
 /* Spectra of the primaries, relative. */
 typedef struct ImportSpectra {
+    const char *file;
     int rows;               /* 0: none */
     const double *nm;       /* rising */
     const double *value[4]; /* red, green, blue, black (may be NULL) */
@@ -95,9 +96,11 @@ typedef struct ImportSet {
     const char *date, *operator_name, *conditions; /* of the measurement; NULL: not stated */
     double white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
     ImportSpectra spectra;
+    double white_apart[2]; /* of a white beside primaries (panel/set/measured.h); 0, 0: none */
     const struct LevelTable *levels;      /* of white alone (panel/set/level_table.h); NULL: none */
     const struct SpecularTable *specular; /* panel/set/specular_table.h; NULL: none */
     double specular_aperture_deg;
+    double instrument_fwhm_deg;         /* 0: not stated */
     const struct Gloss *gloss;          /* in its place; NULL: none */
     const char *note[IMPORT_NOTES_MAX]; /* one line each: assumed, converted, left out */
     int note_count;

@@ -12,6 +12,7 @@
 #include "import/set/import_lights.h"
 #include "import/set/import_rows.h"
 #include "panel/set/measurement.h"
+#include "panel/set/primary_spectra.h"
 
 /* ---- the reference ---------------------------------------------------------------------- */
 
@@ -199,6 +200,49 @@ static const ImportTable *full(const ImportSet *set, ImportSource source) {
     return found;
 }
 
+/* XYZ of the innermost directions, the mean of them. */
+static void inner_xyz(const ImportTable *table, double xyz[3]) {
+    double least = 90;
+    int rows = 0;
+    for (int i = 0; i < table->rows; i++) least = fmin(least, table->theta_deg[i]);
+    xyz[0] = xyz[1] = xyz[2] = 0;
+    for (int i = 0; i < table->rows; i++) {
+        if (table->theta_deg[i] > least + SAME_ANGLE_DEG) continue;
+        for (int j = 0; j < 3; j++) xyz[j] += table->value[3 * i + j];
+        rows++;
+    }
+    for (int j = 0; j < 3; j++) xyz[j] /= rows;
+}
+
+/* Spectra have the colours that were measured of the same primaries, where these have light. */
+static bool check_spectra(const ImportSet *set, Error *err) {
+    PrimaryColours colours = {.file = set->spectra.file};
+    const ImportTable *black = full(set, IMPORT_BLACK);
+    double dark[3] = {0, 0, 0};
+    bool is_told = set->spectra.rows > 0 && full(set, IMPORT_RED);
+    if (is_told && black) inner_xyz(black, dark);
+    for (int p = 0; p < 3 && is_told; p++) {
+        import_spectrum_xyz(&set->spectra, p, colours.spectrum[p]);
+        inner_xyz(full(set, (ImportSource)p), colours.table[p]);
+        for (int j = 0; j < 3; j++) colours.table[p][j] = fmax(0, colours.table[p][j] - dark[j]);
+        is_told = colours.table[p][1] > 0;
+    }
+    return !is_told || primary_colours_check(&colours, err);
+}
+
+/* Along the normal, for the verdict. */
+static void keep_white(ImportSet *set, const ImportTable *white, const ImportTable *const part[4]) {
+    double xyz[3], one[3], sum[3] = {0, 0, 0};
+    inner_xyz(white, xyz);
+    for (int p = 0; p < 4; p++) {
+        inner_xyz(part[p], one);
+        for (int j = 0; j < 3; j++) sum[j] += (p < 3 ? 1 : -2) * one[j];
+    }
+    if (!(xyz[1] > 0) || !(sum[1] > 0)) return;
+    set->white_apart[0] = twice_share(xyz[1], sum[1]);
+    set->white_apart[1] = twice_colour(xyz, sum);
+}
+
 /* Notes by how much a measured white differs from the sum of the primaries. */
 static void note_white(ImportSet *set) {
     const ImportTable *white = full(set, IMPORT_WHITE);
@@ -226,6 +270,7 @@ static void note_white(ImportSet *set) {
         at[0] = white->theta_deg[i];
         at[1] = white->phi_deg[i];
     }
+    if (compared) keep_white(set, white, part);
     if (compared)
         import_note(set,
                     "white is %+.2f%% of red + green + blue - 2 black on the normal and "
@@ -331,6 +376,7 @@ bool import_complete(ImportSet *set, Error *err) {
         return false;
     for (int i = 0; i < set->count; i++)
         if (!check_signs(&set->table[i], err)) return false;
+    if (!check_spectra(set, err)) return false;
     qsort(set->table, (size_t)set->count, sizeof *set->table, by_light);
     return true;
 }

@@ -235,30 +235,28 @@ static bool join_sections(ImportSet *set, Error *err) {
 
 /* ---- luminance without colour ------------------------------------------------------------ */
 
-/* X/Y and Z/Y of a spectrum, by the trapezoidal rule over its own wavelengths. */
-static bool spectrum_ratios(const ImportSpectra *spectra, const double *value, double ratio[2]) {
-    double sum[3] = {0, 0, 0};
+void import_spectrum_xyz(const ImportSpectra *spectra, int p, double xyz[3]) {
+    const double *value = spectra->value[p];
+    xyz[0] = xyz[1] = xyz[2] = 0;
     for (int i = 1; i < spectra->rows; i++) {
         double step = spectra->nm[i] - spectra->nm[i - 1];
         for (int k = i - 1; k <= i; k++) {
             int at = (int)lround(spectra->nm[k]) - SPECTRAL_FIRST_NM;
             if (at < 0 || at >= SPECTRAL_COUNT) continue;
-            sum[0] += 0.5 * step * value[k] * (double)spectral_table[at].x;
-            sum[1] += 0.5 * step * value[k] * (double)spectral_table[at].y;
-            sum[2] += 0.5 * step * value[k] * (double)spectral_table[at].z;
+            xyz[0] += 0.5 * step * value[k] * (double)spectral_table[at].x;
+            xyz[1] += 0.5 * step * value[k] * (double)spectral_table[at].y;
+            xyz[2] += 0.5 * step * value[k] * (double)spectral_table[at].z;
         }
     }
-    if (!(sum[1] > 0)) return false;
-    ratio[0] = sum[0] / sum[1];
-    ratio[1] = sum[2] / sum[1];
-    return true;
 }
 
 /* Luminance alone as X, Y, Z. */
 static void add_colour(ImportSet *set, ImportTable *table) {
-    double ratio[2] = {0.95047, 1.08883}; /* D65, CIE 15 */
-    bool measured = table->source <= IMPORT_BLUE && set->spectra.rows &&
-                    spectrum_ratios(&set->spectra, set->spectra.value[table->source], ratio);
+    double ratio[2] = {0.95047, 1.08883}, xyz[3] = {0, 0, 0}; /* D65, CIE 15 */
+    if (table->source <= IMPORT_BLUE && set->spectra.rows)
+        import_spectrum_xyz(&set->spectra, (int)table->source, xyz);
+    bool measured = xyz[1] > 0;
+    if (measured) ratio[0] = xyz[0] / xyz[1], ratio[1] = xyz[2] / xyz[1];
     double *value = ARENA_NEW(set->arena, double, 3 * (size_t)table->rows);
     for (size_t i = 0; i < (size_t)table->rows; i++) {
         value[3 * i] = ratio[0] * table->value[i];

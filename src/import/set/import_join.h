@@ -17,6 +17,9 @@ int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena
 /* Removes all tables of a source. */
 void import_remove_source(ImportSet *set, ImportSource source);
 
+/* XYZ of primary p's spectrum, by the trapezoidal rule over its own wavelengths. */
+void import_spectrum_xyz(const ImportSpectra *spectra, int p, double xyz[3]);
+
 /* Joins files that hold parts of one table (sections of one azimuth, one of X, Y and Z, one
  * wavelength), so that every pattern and light has one. Luminance alone gets the chromaticity
  * of the primaries' spectra, or that of D65. Fails with the file that has a part twice or lacks

@@ -215,6 +215,11 @@ static json_t *manifest_object(SetOutput *out) {
     if (json_object_size(emission)) json_object_set(root, "emission", emission);
     json_decref(emission);
     if (set->spectra.rows) json_object_set_new(root, "primaries", json_string("primaries.csv"));
+    if (set->instrument_fwhm_deg > 0)
+        json_object_set_new(root, "instrument_fwhm_deg", number(set->instrument_fwhm_deg));
+    if (set->white_apart[0] > 0 || set->white_apart[1] > 0)
+        json_object_set_new(root, "white_apart",
+                            json_pack("[f,f]", set->white_apart[0], set->white_apart[1]));
     if (set->backlight) json_object_set_new(root, "backlight", json_text(set->backlight));
     if (set->peaks_nm[0] > 0)
         json_object_set_new(root, "peaks_nm",

@@ -74,7 +74,7 @@ static void judge_errors(Judge *judge, const FitParts *parts, const FitDeviation
         JudgedKind kind = {
             "reflection",
             "measure the peak in finer steps, declare the "
-            "instrument's width (instrument_fwhm_deg), or give more azimuths of the light",
+            "instrument's width (--instrument-fwhm), or give more azimuths of the light",
             &all->reflection, fit_required_bound(parts->options, parts->reflection->model->bound)};
         judge_kind(judge, &kind);
     }
@@ -222,16 +222,18 @@ static const char *advice_text(double width, double fwhm, Arena *arena) {
                         step, 4 * fwhm);
 }
 
-static void judge_mirror(Judge *judge, const Doubt *doubt, double fwhm_deg) {
+static void judge_mirror(Judge *judge, const Doubt *doubt, double fwhm_deg, bool has_specular) {
     Arena arena = *judge->arena;
-    judge_reason_add(judge, JUDGE_CARE,
-                     JUDGE_COARSE
-                     "with light from %s the samples, "
+    judge_reason_add(
+        judge, JUDGE_CARE,
+        JUDGE_COARSE "with light from %s the samples, "
                      "%.2g degrees apart, do not tell the mirror's image (%.2g degrees wide) "
-                     "from what is narrow in the haze: mirrors of %.2g to %.2g are possible: "
-                     "measure the specular reflectance there, or %s",
-                     incidences_text(doubt, &arena), degrees_from_radians(doubt->step), fwhm_deg,
-                     doubt->mirror[0], doubt->mirror[1], advice_text(fwhm_deg, fwhm_deg, &arena));
+                     "from what is narrow in the haze: mirrors of %.2g to %.2g are possible%s: "
+                     "measure %s%s",
+        incidences_text(doubt, &arena), degrees_from_radians(doubt->step), fwhm_deg,
+        doubt->mirror[0], doubt->mirror[1], has_specular ? " also by the specular measurement" : "",
+        has_specular ? "" : "the specular reflectance there, or ",
+        advice_text(fwhm_deg, fwhm_deg, &arena));
 }
 
 static void judge_haze(Judge *judge, const Doubt *doubt, double fwhm_deg) {
@@ -273,13 +275,23 @@ static void keep_figures(Judge *judge, const Measurement *set, const PeakMirror 
     json_decref(list);
 }
 
-static void judge_specular(Judge *judge, const Measurement *set) {
-    if (set->specular && !(set->instrument_fwhm_deg > 0))
+/* What was measured is taken, or the status says that it was not. */
+static void judge_specular(Judge *judge, const FitParts *parts) {
+    const Measurement *set = parts->set;
+    Arena arena = *judge->arena;
+    Twice worst;
+    if (reflection_parts_twice(set, &parts->reflection->parts, &worst) && twice_differ(&worst))
         judge_reason_add(judge, JUDGE_CARE,
-                         JUDGE_COARSE
-                         "the specular measurement is not "
-                         "used, for without the instrument's width the mirror's image cannot "
-                         "be taken out of the samples: declare it (instrument_fwhm_deg)");
+                         "%s: check the aperture (--specular-aperture), the unit and the "
+                         "instrument's width (--instrument-fwhm)",
+                         twice_text(&worst, &arena));
+    if (!set->specular || parts->reflection->parts.peak) return;
+    json_object_set_new(judge->figures, JUDGE_LEFT_OUT, json_true());
+    judge_reason_add(judge, JUDGE_CARE,
+                     JUDGE_COARSE
+                     "the specular measurement is not used: the samples may hold the mirror's "
+                     "image, which cannot be taken out of them without the instrument's width: "
+                     "give it as --instrument-fwhm DEG, to panel import or panel fit");
 }
 
 /* ---- rows left out ----------------------------------------------------------------------- */
@@ -456,7 +468,7 @@ static void judge_reach(Judge *judge, const FitParts *parts) {
     const Measurement *set = parts->set;
     const ReflectionParts *of = &parts->reflection->parts;
     Doubt mirror = no_doubt(), haze = no_doubt();
-    judge_specular(judge, set);
+    judge_specular(judge, parts);
     judge_held_out(judge, parts);
     judge_scattered(judge, parts);
     judge_between(judge, parts);
@@ -466,7 +478,7 @@ static void judge_reach(Judge *judge, const FitParts *parts) {
         if (of->peak[t].source == PEAK_OPEN) add_table(&mirror, incidence, &of->peak[t]);
         if (of->peak[t].has_haze_open) add_table(&haze, incidence, &of->peak[t]);
     }
-    if (mirror.count) judge_mirror(judge, &mirror, set->instrument_fwhm_deg);
+    if (mirror.count) judge_mirror(judge, &mirror, set->instrument_fwhm_deg, set->specular);
     if (haze.count) judge_haze(judge, &haze, set->instrument_fwhm_deg);
     keep_figures(judge, set, of->peak);
 }

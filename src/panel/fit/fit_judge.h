@@ -13,6 +13,9 @@
 #include "panel/fit/fit_table.h"
 #include "panel/fit/judge_reason.h"
 
+/* Of "judged": true where a measurement was given that the panel does without. */
+#define JUDGE_LEFT_OUT "specular_left_out"
+
 /* Deviations summed over all tables. */
 typedef struct FitDeviations {
     FitErrors emission, reflection;

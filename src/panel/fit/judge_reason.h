@@ -95,6 +95,12 @@ JudgeGrade judge_reason_grade(double value, double care, double unusable);
 #define JUDGE_POWER_MOST 10.0
 #define JUDGE_FALLING 0.98
 
+/* White and the sum of the primaries: LCDs add up within 3 %. */
+#define JUDGE_WHITE_APART 0.05
+
+/* A level's colour counts from this share of full level on: below it is black's. */
+#define JUDGE_LEVEL_LEAST 0.01
+
 /* Each primary's share of white: blue, the least, has 3 to 10 %. */
 #define JUDGE_PRIMARY_LEAST 0.003
 

@@ -9,6 +9,7 @@
 #include "panel/fit/common/direction_grid.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/judge_reason.h"
+#include "panel/set/primary_spectra.h"
 
 /* ---- along the normal -------------------------------------------------------------------- */
 
@@ -66,6 +67,63 @@ static void judge_white(Judge *judge, const Measurement *set, double white) {
     }
 }
 
+/* ---- measured twice ---------------------------------------------------------------------- */
+
+/* A spectrum that has not the colour of its table: light behind a pane or on a wall is by the
+ * one, what an eye sees by the other. */
+static void judge_spectra(Judge *judge, const Measurement *set) {
+    Arena arena = *judge->arena;
+    Twice worst;
+    if (primary_twice(set, &worst) && twice_differ(&worst))
+        judge_reason_add(judge, JUDGE_CARE,
+                         "%s: measure both on the same day, or check the columns of the spectra "
+                         "(primaries) and the unit of their wavelengths",
+                         twice_text(&worst, &arena));
+}
+
+/* The panel shows the sum. */
+static void judge_white_sum(Judge *judge, const Measurement *set) {
+    Arena arena = *judge->arena;
+    const Twice twice[2] = {{"white",
+                             {"its table", "the sum of its primaries' tables"},
+                             100 * set->white_apart[0],
+                             100 * JUDGE_WHITE_APART,
+                             " %"},
+                            {"white",
+                             {"its table", "the sum of its primaries' tables"},
+                             set->white_apart[1],
+                             PRIMARY_APART_UV,
+                             " in u'v'"}};
+    for (int i = 0; i < 2; i++)
+        if (twice_differ(&twice[i]))
+            judge_reason_add(judge, JUDGE_CARE,
+                             "%s: the panel will show the sum: measure all with one brightness, "
+                             "warmed up, and without what dims a bright picture",
+                             twice_text(&twice[i], &arena));
+}
+
+/* A level whose colour is another primary's: tables under each other's name. A dark level's is
+ * black's. */
+static void judge_level_colours(Judge *judge, const Measurement *set) {
+    double full[3][3], one[3];
+    if (set->is_white_only) return;
+    for (int p = 0; p < 3; p++) primary_colour(set, p, set->primary[p].level_count - 1, full[p]);
+    for (int p = 0; p < 3; p++)
+        for (int i = 0; i + 1 < set->primary[p].level_count; i++) {
+            if (added(set, p, i) < JUDGE_LEVEL_LEAST * full[p][1]) continue;
+            primary_colour(set, p, i, one);
+            for (int q = 0; q < 3; q++)
+                if (q != p && twice_colour(one, full[q]) < twice_colour(one, full[p]) &&
+                    twice_colour(one, full[p]) > PRIMARY_APART_UV)
+                    judge_reason_add(judge, JUDGE_CARE,
+                                     "%s %g is %.2g in u'v' from %s and %.2g from %s at full "
+                                     "level, required: nearest to its own: are tables exchanged?",
+                                     primary_names[p], set->primary[p].level[i],
+                                     twice_colour(one, full[q]), primary_names[q],
+                                     twice_colour(one, full[p]), primary_names[p]);
+        }
+}
+
 void judge_set_levels(Judge *judge, const Measurement *set) {
     double black = set->has_black ? inner_luminance(&set->black) : 0, white = black;
     for (int p = 0; p < 3; p++) {
@@ -73,6 +131,9 @@ void judge_set_levels(Judge *judge, const Measurement *set) {
         white += added(set, p, set->primary[p].level_count - 1);
     }
     judge_white(judge, set, white);
+    judge_spectra(judge, set);
+    judge_white_sum(judge, set);
+    judge_level_colours(judge, set);
     if (black > JUDGE_BLACK_MOST * white)
         judge_reason_add(judge, JUDGE_CARE,
                          "black shows %.3g cd/m2 and white %.3g: is it the "

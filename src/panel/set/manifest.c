@@ -284,7 +284,8 @@ static const RecordRow MANIFEST[] = {
     TEXT("note", 0, set.note, "Anything else."),
     VECTOR("pixels", 0, set.pixels, 2, 1, 65536, "Width and height."),
     VECTOR("size_mm", 0, set.size_mm, 2, 1, 1e5, "Width and height of the active area, mm."),
-    NUMBER("instrument_fwhm_deg", 0, set.instrument_fwhm_deg, 0.05, 15,
+    NUMBER("instrument_fwhm_deg", 0, set.instrument_fwhm_deg, INSTRUMENT_FWHM_LEAST,
+           INSTRUMENT_FWHM_MOST,
            "How wide the instrument sees a mirror image of a point, full width at half "
            "maximum, degrees; separates the mirror from the haze."),
     DISPLAY_TRAITS_ROWS(OWNER, set.traits),
@@ -297,6 +298,9 @@ static const RecordRow MANIFEST[] = {
            "ratios alone count."),
     PATH("primaries", 0, primaries,
          "Table of the primaries' spectra: nm, red, green, blue and maybe black; relative."),
+    VECTOR("white_apart", 0, set.white_apart, 2, 0, 1,
+           "By how much white, measured beside the primaries, and the sum of these are apart "
+           "along the normal: share of the luminance, delta u'v'."),
     CHOICE("backlight", RECORD_OPEN, set.backlight, primary_backlights,
            "Without primaries: the kind whose bands are assumed for their spectra."),
     VECTOR("peaks_nm", 0, set.peaks_nm, 3, 380, 780,

@@ -20,6 +20,9 @@
 #define MEASUREMENT_SPOTS_MAX 49
 #define MEASUREMENT_TABLES_MAX 1152 /* of reflection: incidences times azimuths */
 
+#define INSTRUMENT_FWHM_LEAST 0.05 /* degrees */
+#define INSTRUMENT_FWHM_MOST 15
+
 typedef struct Measurement {
     const char *file;                              /* the manifest */
     Lines inputs;                                  /* that, and every file that it names */
@@ -33,6 +36,8 @@ typedef struct Measurement {
     bool is_white_only;         /* primary tables are the split of a white table */
     AngleTable white;           /* of a white-only set: the table itself */
     const LevelTable *levels;   /* that gave a white-only set its levels and black; or NULL */
+    double white_apart[2];      /* of white that was measured beside the primaries and the sum of
+                                   these, along the normal: share of its luminance, delta u'v' */
     bool has_black;
     AngleTable black;
     MeasuredPrimary primary[3];

@@ -420,7 +420,9 @@ static bool read_tables(const JsonView *root, Manifest *from, Error *err) {
         return false;
     out->has_spectra = from->primaries != NULL;
     share_spectra(out);
-    return true;
+    for (int i = 0; i < out->spot_count; i++)
+        if (!primary_spectra_check(out->spot[i].set, from->primaries, err)) return false;
+    return primary_spectra_check(out, from->primaries, err);
 }
 
 /* ---- a file ------------------------------------------------------------------------------ */

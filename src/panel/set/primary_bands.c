@@ -7,6 +7,7 @@
 #include "base/count.h"
 #include "base/mathd.h"
 #include "panel/shape/spectral_warp.h"
+#include "spectrum/twice.h"
 
 const char *const primary_backlights[] = {"wled-ysf", "wled-ksf", "oled", "qd",
                                           "rgb-led",  "laser",    NULL};
@@ -60,20 +61,6 @@ typedef struct BandSearch {
     double band[3][PEAKS][3]; /* XYZ of a band at each of its peaks */
 } BandSearch;
 
-static void bands_uv(const double xyz[3], double uv[2]) {
-    double d = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
-    uv[0] = 4 * xyz[0] / d;
-    uv[1] = 9 * xyz[1] / d;
-}
-
-static double uv_apart(const double a[3], const double b[3]) {
-    double p[2], q[2];
-    bands_uv(a, p);
-    bands_uv(b, q);
-    double dx = p[0] - q[0], dy = p[1] - q[1];
-    return sqrt(dx * dx + dy * dy);
-}
-
 static double det3(const double *a, const double *b, const double *c) {
     return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
            a[2] * (b[0] * c[1] - b[1] * c[0]);
@@ -94,7 +81,7 @@ static double mix(const double *const band[3], const double xyz[3], double part[
     }
     if (is_inside) return 0;
     for (int k = 0; k < 3; k++) part[k] *= xyz[1] / fmax(found[1], 1e-300);
-    return uv_apart(found, xyz);
+    return twice_colour(found, xyz);
 }
 
 /* The misses of the three, a sum; stops beyond `most`. */
@@ -209,7 +196,7 @@ static void compare_filtered(const float narrow[3][SPECTRAL_COUNT], PrimaryBands
         double a[3], b[3], *off = f < 2 ? &out->off_uv : &out->off_edge;
         white_behind((const float(*)[SPECTRAL_COUNT])out->spectrum, f, a);
         white_behind(narrow, f, b);
-        if (a[1] > 0 && b[1] > 0) *off = fmax(*off, uv_apart(a, b));
+        if (a[1] > 0 && b[1] > 0) *off = fmax(*off, twice_colour(a, b));
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/count.h"
 #include "panel/set/angle_table.h"
+#include "panel/shape/spectral_warp.h"
 #include "spectrum/curve.h"
 #include "text/csv_table.h"
 
@@ -99,6 +100,78 @@ bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPEC
                             "column '%s' holds no light between "
                             "360 and 830 nm",
                             primary_names[p]);
+    }
+    return true;
+}
+
+/* ---- measured twice ---------------------------------------------------------------------- */
+
+/* The table that a spectrum is nearest to. Primaries of one colour (of a monochrome display)
+ * cannot be told apart: its own. */
+static int nearest_table(const PrimaryColours *colours, int p) {
+    int nearest = p;
+    double own = twice_colour(colours->spectrum[p], colours->table[p]), least = own;
+    for (int q = 0; q < 3 && own > PRIMARY_APART_UV; q++) {
+        double apart = twice_colour(colours->spectrum[p], colours->table[q]);
+        bool is_told = twice_colour(colours->table[p], colours->table[q]) > PRIMARY_APART_UV &&
+                       twice_colour(colours->spectrum[p], colours->spectrum[q]) > PRIMARY_APART_UV;
+        if (is_told && apart < least) nearest = q, least = apart;
+    }
+    return nearest;
+}
+
+bool primary_colours_check(const PrimaryColours *colours, Error *err) {
+    for (int p = 0; p < 3; p++) {
+        int q = nearest_table(colours, p);
+        if (q == p) continue;
+        return error_at(err, ERROR_INPUT, colours->file, "",
+                        "column '%s' is %.2g in u'v' from what was measured of %s and %.2g from "
+                        "%s, required: nearest to its own: are columns, or tables, exchanged?",
+                        primary_names[p], twice_colour(colours->spectrum[p], colours->table[q]),
+                        primary_names[q], twice_colour(colours->spectrum[p], colours->table[p]),
+                        primary_names[p]);
+    }
+    return true;
+}
+
+bool primary_colour(const Measurement *set, int p, int level, double xyz[3]) {
+    const AngleTable *const of[2] = {&set->primary[p].table[level], &set->black};
+    for (int b = 0; b < 1 + set->has_black; b++) {
+        int rows = 0;
+        double sum[3] = {0, 0, 0};
+        for (; rows < of[b]->rows && of[b]->theta[rows] == of[b]->theta[0]; rows++)
+            for (int j = 0; j < 3; j++) sum[j] += (double)of[b]->value[3 * rows + j];
+        for (int j = 0; j < 3; j++) xyz[j] = b ? fmax(0, xyz[j] - sum[j] / rows) : sum[j] / rows;
+    }
+    bool has_light = xyz[0] >= 0 && xyz[1] > 0 && xyz[2] >= 0;
+    for (int j = 0; j < 3 && !has_light; j++) xyz[j] = (double)xyz_from_rgb_matrix[3 * j + p];
+    return has_light;
+}
+
+/* White that is no mixture of Rec.709's has shares of its own colour as primaries. */
+bool primary_spectra_check(const Measurement *set, const char *file, Error *err) {
+    PrimaryColours colours = {.file = file};
+    if (!set->has_spectra || !set->primary[0].level_count || set->white_miss > 0) return true;
+    for (int p = 0; p < 3; p++) {
+        panel_spectrum_xyz(set->spectrum[p], colours.spectrum[p]);
+        if (!primary_colour(set, p, set->primary[p].level_count - 1, colours.table[p])) return true;
+    }
+    return primary_colours_check(&colours, err);
+}
+
+bool primary_twice(const Measurement *set, Twice *worst) {
+    *worst = (Twice){.apart = -1};
+    if (!set->has_spectra || set->is_white_only || !set->primary[0].level_count) return false;
+    for (int p = 0; p < 3; p++) {
+        double spectrum[3], table[3];
+        panel_spectrum_xyz(set->spectrum[p], spectrum);
+        if (!primary_colour(set, p, set->primary[p].level_count - 1, table)) return false;
+        Twice one = {primary_names[p],
+                     {"its spectrum", "its XYZ along the normal"},
+                     twice_colour(spectrum, table),
+                     PRIMARY_APART_UV,
+                     " in u'v'"};
+        if (!(one.apart <= worst->apart)) *worst = one;
     }
     return true;
 }

@@ -13,6 +13,7 @@
 #include "panel/fit/emission/emission_coder.h"
 #include "panel/query/panel_file.h"
 #include "panel/set/primary_bands.h"
+#include "panel/set/primary_spectra.h"
 #include "panel/shape/spectral_warp.h"
 
 #define TOLERANCE 0.0025 /* relative, where the noise does not allow more */
@@ -427,27 +428,12 @@ static int widen(const float (*spectrum)[SPECTRAL_COUNT], int *first, int *last)
     return best;
 }
 
-/* XYZ of a primary nearest to the normal, without black; one without light has Rec.709's. */
-static void colour_at_normal(const Measurement *set, int p, double xyz[3]) {
-    const MeasuredPrimary *primary = &set->primary[p];
-    const AngleTable *const of[2] = {&primary->table[primary->level_count - 1], &set->black};
-    for (int b = 0; b < 1 + set->has_black; b++) {
-        int rows = 0;
-        double sum[3] = {0, 0, 0};
-        for (; rows < of[b]->rows && of[b]->theta[rows] == of[b]->theta[0]; rows++)
-            for (int j = 0; j < 3; j++) sum[j] += (double)of[b]->value[3 * rows + j];
-        for (int j = 0; j < 3; j++) xyz[j] = b ? fmax(0, xyz[j] - sum[j] / rows) : sum[j] / rows;
-    }
-    for (int j = 0; j < 3 && !(xyz[0] >= 0 && xyz[1] > 0 && xyz[2] >= 0); j++)
-        xyz[j] = (double)xyz_from_rgb_matrix[3 * j + p];
-}
-
 static void assume_bands(const Measurement *set, Arena *arena, EmissionPrimaries *out,
                          FitNotes *notes) {
     PrimaryBands *bands = ARENA_NEW(arena, PrimaryBands, 1);
     double xyz[3][3];
     const char *missed = "", *moved = "";
-    for (int p = 0; p < 3; p++) colour_at_normal(set, p, xyz[p]);
+    for (int p = 0; p < 3; p++) primary_colour(set, p, set->primary[p].level_count - 1, xyz[p]);
     primary_bands_find(set->backlight, set->peaks_nm, (const double(*)[3])xyz, bands);
     if (set->peaks_nm[0] > 0 && memcmp(bands->peak_nm, set->peaks_nm, sizeof bands->peak_nm))
         moved = arena_format(arena,
@@ -505,11 +491,13 @@ static void write_primaries(EmissionPrimaries *out, PanelPrimariesHead head, Are
 void emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *arena,
                             EmissionPrimaries *out) {
     PanelPrimariesHead head = {.kind = PANEL_SPECTRA_STORED};
+    Twice worst;
     bool is_split =
         set->is_white_only && !(set->white_miss > 0) && !set->backlight && !(set->peaks_nm[0] > 0);
     *out = (EmissionPrimaries){.spectrum = NULL};
     if (set->has_spectra) {
         out->spectrum = (const float(*)[SPECTRAL_COUNT])set->spectrum;
+        if (primary_twice(set, &worst)) fit_note(notes, "%s", twice_text(&worst, arena));
     } else if (is_split) {
         head.kind = PANEL_SPECTRA_REC709;
         out->assumed = "spectra of the primaries assumed: the Rec.709 primaries' smooth "

@@ -8,6 +8,7 @@
 #include "base/sort.h"
 #include "base/units.h"
 #include "panel/fit/common/table_rows.h"
+#include "spectrum/twice.h"
 
 #define WINDOW_ROWS_MAX 60000
 #define ENOUGH_ROWS 1000 /* to choose widths from */
@@ -168,8 +169,9 @@ static double specular_rest(const PeakWindow *window, int wavelength, double lam
 }
 
 double peak_window_specular_miss(const PeakWindow *window, const PeakModel *model) {
-    double rest = specular_rest(window, -1, window->lambertian, model);
-    return window->specular ? sqrt(rest / window->specular->weight) : 0;
+    return twice_share(window->specular->mean, window->lambertian * aperture_leaving(window) +
+                                                   model->r +
+                                                   model->a * aperture_shape(window, model));
 }
 
 double peak_window_solve(const PeakWindow *window, int wavelength, double lambertian,

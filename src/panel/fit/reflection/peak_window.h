@@ -95,7 +95,7 @@ double peak_window_solve(const PeakWindow *window, int wavelength, double lamber
 /* Variances of r and a at the model's width and power, for rows of relative error 1. */
 void peak_window_variances(const PeakWindow *window, PeakModel *model, double variance[2]);
 
-/* By how much a model misses the specular measurement, relative to it. */
+/* By how much a model misses the specular measurement, a share of the larger. */
 double peak_window_specular_miss(const PeakWindow *window, const PeakModel *model);
 
 /* The best width for the model's power, and r, a, t. Returns the rest. */

@@ -259,7 +259,9 @@ HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scrat
         keep_rows(&one, way);
         fit_guide(&one);
         build_cells(&one);
-        compare(&one, way, model->parts->has_mirror ? CORE_FWHMS * fwhm : 0, steep, &out);
+        compare(&one, way,
+                model->parts->has_mirror && !model->parts->is_apart ? CORE_FWHMS * fwhm : 0, steep,
+                &out);
     }
     out.estimate = out.error / (is_guided(&thinned) ? 1 : CUBIC_ORDER);
     return out;

@@ -37,7 +37,15 @@ static void luminous_weights(const Measurement *set, double *luminous) {
 
 static void note_mirror(const Measurement *set, const ReflectionParts *out, FitNotes *notes) {
     int last = set->incidence_count - 1;
-    if (out->has_mirror)
+    if (out->is_apart)
+        fit_note(notes,
+                 "the samples hold no image of the mirror: it is the specular measurement (%s) "
+                 "less the haze in its aperture: luminous reflectance %.4f at %g deg, %.4f at %g "
+                 "deg",
+                 path_name(set->specular->file), out->mirror_y[0],
+                 degrees_from_radians(set->incidence[0]), out->mirror_y[last],
+                 degrees_from_radians(set->incidence[last]));
+    else if (out->has_mirror)
         fit_note(notes,
                  "a mirror image as wide as the instrument (%g deg) was moved to the "
                  "mirror part: luminous reflectance %.4f at %g deg, %.4f at %g deg",
@@ -50,11 +58,9 @@ static void note_mirror(const Measurement *set, const ReflectionParts *out, FitN
                  "no mirror part",
                  set->instrument_fwhm_deg);
     else
-        fit_note(notes, "the instrument's width is not declared (instrument_fwhm_deg): no "
+        fit_note(notes, "the instrument's width is not declared (--instrument-fwhm): no "
                         "mirror part was separated");
 }
-
-#define SPECULAR_MISS 0.05 /* relative: measurements that differ by more are two */
 
 #define REACH_DEG 10.0 /* beyond a specular table's incidences: nearer ones go without a word */
 
@@ -72,14 +78,26 @@ static void note_reach(const Measurement *set, FitNotes *notes) {
                  path_name(table->file), low, high, first, last);
 }
 
+bool reflection_parts_twice(const Measurement *set, const ReflectionParts *parts, Twice *worst) {
+    double apart = -1;
+    if (!set->specular || !parts->peak) return false;
+    for (int t = 0; t < parts->tables; t++)
+        if (parts->peak[t].source != PEAK_APART || parts->peak[t].specular_miss > 0)
+            apart = fmax(apart, parts->peak[t].specular_miss);
+    if (apart < 0) return false;
+    *worst = (Twice){"the mirror",
+                     {set->specular->is_gloss ? "the gloss" : "the specular measurement",
+                      "what the BRDF has in its aperture"},
+                     100 * apart,
+                     set->specular->is_gloss ? 100 * GLOSS_MISS : 100 * SPECULAR_MISS,
+                     " %"};
+    return true;
+}
+
 /* Where the specular measurement was needed, and where it disagrees. */
 static void note_specular(const Measurement *set, const ReflectionParts *out, FitNotes *notes) {
-    double worst = 0;
-    int used = 0;
-    for (int t = 0; t < out->tables; t++) {
-        used += out->peak[t].source == PEAK_SPECULAR;
-        worst = fmax(worst, out->peak[t].specular_miss);
-    }
+    int used = 0, apart = out->is_apart ? out->tables : 0;
+    for (int t = 0; t < out->tables; t++) used += out->peak[t].source == PEAK_SPECULAR;
     if (used)
         fit_note(notes,
                  "of %d of %d tables of reflection the mirror follows from the %s "
@@ -90,12 +108,10 @@ static void note_specular(const Measurement *set, const ReflectionParts *out, Fi
                        "all wavelengths"
                      : "specular measurement",
                  path_name(set->specular->file));
-    if (used) note_reach(set, notes);
-    if (worst > SPECULAR_MISS)
-        fit_note(notes,
-                 "the samples tell the mirror; the specular measurement (%s) differs "
-                 "from them by up to %.2g %%: check its aperture and its unit",
-                 path_name(set->specular->file), 100 * worst);
+    if (used || apart) note_reach(set, notes);
+    Twice worst;
+    if (reflection_parts_twice(set, out, &worst))
+        fit_note(notes, "%s", twice_text(&worst, notes->arena));
 }
 
 static void note_lobe(const Measurement *set, const ReflectionParts *out, FitNotes *notes) {
@@ -112,7 +128,7 @@ static void note_lobe(const Measurement *set, const ReflectionParts *out, FitNot
              set->instrument_fwhm_deg > 0
                  ? ""
                  : "; if that is the instrument's own width, say "
-                   "so (instrument_fwhm_deg) and it becomes the mirror part");
+                   "so (--instrument-fwhm) and it becomes the mirror part");
 }
 
 /* ---- one table after the other ----------------------------------------------------------- */
@@ -121,7 +137,7 @@ typedef struct PartsPass {
     const Measurement *set;
     ReflectionParts *out;
     AngleTable *table; /* of the next part */
-    bool *has_lobe;
+    bool *has_lobe, *is_apart;
     Arena *arena; /* per table */
 } PartsPass;
 
@@ -150,24 +166,48 @@ static PeakSpecular specular_of(const Measurement *set, int t, Arena *arena) {
     return out;
 }
 
+static PeakTask task_of(const PartsPass *pass, int t, PeakSpecular *specular, Arena *arena) {
+    const Measurement *set = pass->set;
+    PeakTask task = {&set->brdf[t], incidence_of(set, t),
+                     radians_from_degrees(set->instrument_fwhm_deg), pass->out->noise[t], NULL};
+    if (!set->specular) return task;
+    *specular = specular_of(set, t, arena);
+    task.specular = specular;
+    return task;
+}
+
+static void look_at_table(void *context, int t, int worker) {
+    PartsPass *pass = context;
+    const Measurement *set = pass->set;
+    ReflectionParts *out = pass->out;
+    Arena scratch = pass->arena[t];
+    PeakSpecular specular;
+    (void)worker;
+    out->noise[t] = table_noise_relative(&set->brdf[t], set->wavelength_count / 2, scratch);
+    out->dim_noise[t] = table_noise_dim(&set->brdf[t], set->wavelength_count / 2, scratch);
+    PeakTask task = task_of(pass, t, &specular, &scratch);
+    pass->is_apart[t] = set->specular && reflection_peak_is_apart(&task, scratch);
+}
+
+/* One instrument made all tables: most of them decide. */
+static bool is_apart(const PartsPass *pass) {
+    int count = 0;
+    for (int t = 0; t < pass->out->tables; t++) count += pass->is_apart[t];
+    return 2 * count > pass->out->tables;
+}
+
 static void find_mirror(void *context, int t, int worker) {
     PartsPass *pass = context;
     const Measurement *set = pass->set;
     ReflectionParts *out = pass->out;
-    double fwhm = radians_from_degrees(set->instrument_fwhm_deg);
     (void)worker;
-    out->noise[t] = table_noise_relative(&set->brdf[t], set->wavelength_count / 2, pass->arena[t]);
-    out->dim_noise[t] = table_noise_dim(&set->brdf[t], set->wavelength_count / 2, pass->arena[t]);
     pass->table[t] = set->brdf[t];
     if (!out->peak) return;
     PeakSpecular specular;
-    PeakTask task = {&set->brdf[t], incidence_of(set, t), fwhm, out->noise[t], NULL};
-    if (set->specular) {
-        specular = specular_of(set, t, &pass->arena[t]);
-        task.specular = &specular;
-    }
+    PeakTask task = task_of(pass, t, &specular, &pass->arena[t]);
     out->peak[t].reflectance = row_of(out->reflectance, set, t);
-    reflection_peak_take_mirror(&task, &pass->arena[t], &out->peak[t], &pass->table[t]);
+    (out->is_apart ? reflection_peak_take_apart : reflection_peak_take_mirror)(
+        &task, &pass->arena[t], &out->peak[t], &pass->table[t]);
 }
 
 static void find_lobe(void *context, int t, int worker) {
@@ -255,12 +295,16 @@ void reflection_parts_separate(const Measurement *set, const FitOptions *options
     out->reflectance = ARENA_NEW(arena, double, rows);
     out->lobe = ARENA_NEW(arena, double, rows);
     out->lobe_sigma = ARENA_NEW(arena, double, tables);
-    if (set->instrument_fwhm_deg > 0) out->peak = ARENA_NEW(arena, PeakMirror, tables);
     pass.table = ARENA_NEW(arena, AngleTable, tables);
     pass.has_lobe = ARENA_NEW(arena, bool, tables);
+    pass.is_apart = ARENA_NEW(arena, bool, tables);
     pass.arena = ARENA_NEW(arena, Arena, tables);
     luminous_weights(set, out->luminous);
     for (int t = 0; t < tables; t++) pass.arena[t] = arena_reserve(TABLE_BYTES);
+    parallel_for(options->threads, tables, look_at_table, &pass);
+    out->is_apart = is_apart(&pass);
+    if (set->instrument_fwhm_deg > 0 || out->is_apart)
+        out->peak = ARENA_NEW(arena, PeakMirror, tables);
     separate_mirror(&pass, options->threads, arena);
     separate_lobe(&pass, options->threads, arena);
     for (int t = 0; t < tables; t++) arena_release(&pass.arena[t]);

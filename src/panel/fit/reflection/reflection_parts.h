@@ -10,6 +10,7 @@
 #include "panel/fit/common/fit_options.h"
 #include "panel/fit/reflection/reflection_peak.h"
 #include "panel/set/measurement.h"
+#include "spectrum/twice.h"
 
 typedef struct ReflectionParts {
     int tables;
@@ -24,11 +25,22 @@ typedef struct ReflectionParts {
     double lobe_y[MEASUREMENT_INCIDENCES_MAX];
     double luminous[MEASUREMENT_WAVELENGTHS_MAX]; /* observer's weight, sum 1 */
     bool has_mirror, has_lobe;
-    PeakMirror *peak; /* per table; NULL: the instrument's width is not declared */
+    bool is_apart;    /* the mirror is the specular measurement's: the samples hold none */
+    PeakMirror *peak; /* per table; NULL: the instrument's width is not declared, and the mirror
+                         is not apart */
 } ReflectionParts;
 
 void reflection_parts_separate(const Measurement *set, const FitOptions *options, Arena *arena,
                                FitNotes *notes, ReflectionParts *out);
+
+/* Up to which both are one: relative, of what is measured twice; a gloss meter is taken for one
+ * of twice the error. */
+#define SPECULAR_MISS 0.05
+#define GLOSS_MISS 0.1
+
+/* The table whose specular measurement and samples are furthest apart; false: not both were
+ * measured, or they cannot be compared. */
+bool reflection_parts_twice(const Measurement *set, const ReflectionParts *parts, Twice *worst);
 
 /* Relative noise of a table's value f. */
 double reflection_parts_noise(const ReflectionParts *parts, int table, double f);

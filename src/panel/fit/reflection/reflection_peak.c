@@ -2,11 +2,13 @@
 #include "panel/fit/reflection/reflection_peak.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/mathd.h"
 #include "base/units.h"
 #include "panel/fit/reflection/peak_window.h"
+#include "spectrum/twice.h"
 
 #define WINDOW_FWHMS 6.0 /* rows nearer to the mirror direction than this are looked at */
 #define LOBE_FWHMS 3.0   /* the same for a lobe, whose haze need not follow the model so far */
@@ -333,6 +335,7 @@ void reflection_peak_take_mirror(const PeakTask *task, Arena *arena, PeakMirror 
     if (task->specular) {
         bool is_known = take_far(task, arena, mirror, value);
         mirror->source = is_known ? PEAK_SPECULAR : PEAK_OPEN;
+        if (mirror->range.has_model) mirror->specular_miss = specular_miss(task, mirror, arena);
         return;
     }
     if (!take_far(&alone, arena, mirror, value)) mirror->source = PEAK_OPEN;
@@ -425,4 +428,99 @@ bool reflection_peak_take_lobe(const AngleTable *slice, double incidence, double
     lobe->fwhm = fwhm;
     take_out(&window, 0, model, lobe->reflectance, copy_values(slice, arena, haze_table));
     return true;
+}
+
+/* ---- a mirror that the samples do not hold ----------------------------------------------- */
+
+#define WIDEST_IMAGE_DEG 2.0 /* of instruments that do not declare their width */
+#define WIDTH_TIMES 1.5      /* the image over a declared width, at most */
+#define APART_TIMES 1.5      /* the mirror over the most that the samples have room for */
+#define UNSEEN 0.05          /* of a sample: so much of the image goes unseen */
+#define NEAR_DEG 15.0        /* samples farther off are not asked */
+
+typedef struct PeakSample {
+    double angle, value;
+} PeakSample;
+
+static int by_angle(const void *a, const void *b) {
+    double p = ((const PeakSample *)a)->angle, q = ((const PeakSample *)b)->angle;
+    return (p > q) - (p < q);
+}
+
+/* The samples around the mirror direction, from it outwards, each raised to the largest beyond
+ * it: no peak lies higher. */
+static int collect_samples(const AngleTable *slice, double incidence, PeakSample *out) {
+    double reach = radians_from_degrees(NEAR_DEG), most = 0;
+    int count = 0;
+    for (int i = 0; i < slice->rows; i++) {
+        double angle = peak_window_angle((double)slice->theta[i], (double)slice->phi[i], incidence);
+        if (angle < reach) out[count++] = (PeakSample){angle, peak_window_row_mean(slice, i)};
+    }
+    qsort(out, (size_t)count, sizeof *out, by_angle);
+    for (int i = count; i-- > 0;) out[i].value = most = fmax(most, out[i].value);
+    return count;
+}
+
+/* Within the aperture, at most. */
+static double light_within(const PeakSample *sample, int count, double radius, double cosine) {
+    double sum = 0, inner = 0;
+    for (int i = 0; i < count && inner < radius; i++) {
+        double outer = i + 1 < count ? fmin(radius, sample[i + 1].angle) : radius;
+        sum += sample[i].value * PI * (outer * outer - inner * inner) * cosine;
+        inner = fmax(inner, outer);
+    }
+    return sum;
+}
+
+/* A Gaussian on the haze, as narrow as an instrument's image. */
+static bool has_image(const PeakTask *task, double widest, Arena scratch) {
+    ReflectionLobe lobe = {.reflectance = ARENA_NEW(&scratch, double, task->slice->channels)};
+    AngleTable rest;
+    return reflection_peak_take_lobe(task->slice, task->incidence, task->noise, &scratch, &lobe,
+                                     &rest) &&
+           lobe.fwhm <= widest;
+}
+
+bool reflection_peak_is_apart(const PeakTask *task, Arena scratch) {
+    PeakSample *sample = ARENA_NEW(&scratch, PeakSample, task->slice->rows);
+    int count = collect_samples(task->slice, task->incidence, sample), half = 0;
+    double cosine = cos_d(task->incidence), room = INFINITY;
+    double widest =
+        task->fwhm > 0 ? WIDTH_TIMES * task->fwhm : radians_from_degrees(WIDEST_IMAGE_DEG);
+    if (!count) return true;
+    if (has_image(task, widest, scratch)) return false;
+    while (half + 1 < count && sample[half].value > 0.5 * sample[0].value) half++;
+    double sigma = fmin(fmax(2 * sample[half].angle, task->fwhm), widest) / sqrt(8 * log_d(2));
+    double mirror =
+        task->specular->mean - light_within(sample, count, 0.5 * task->specular->aperture, cosine);
+    bool is_unseen = !(task->fwhm > 0);
+    for (int i = 0; i < count; i++) {
+        double x = sample[i].angle / sigma;
+        double image = exp_d(-0.5 * x * x) / (2 * PI * sigma * sigma * cosine);
+        if (image > 0) room = fmin(room, sample[i].value / image);
+        is_unseen &= task->specular->mean * image <= UNSEEN * sample[i].value;
+    }
+    return is_unseen || mirror > APART_TIMES * room;
+}
+
+/* No row has a part of the image, so that the specular equation alone sets the mirror. */
+void reflection_peak_take_apart(const PeakTask *task, Arena *arena, PeakMirror *mirror,
+                                AngleTable *haze_table) {
+    float *value = copy_values(task->slice, arena, haze_table);
+    mirror->spacing = peak_window_spacing(task->slice, task->incidence, *arena);
+    mirror->source = PEAK_APART;
+    double least = radians_from_degrees(WIDEST_IMAGE_DEG);
+    double reach =
+        fmax(2 * least, fmax(task->specular->aperture, WINDOW_STEPS * mirror->spacing.widest));
+    PeakWindow window = peak_window_collect(task->slice, task->incidence, reach, arena);
+    window.width[0] = fmax(NARROWEST_HAZE * least, 0.5 * mirror->spacing.widest);
+    window.width[1] = fmax(40 * least, WIDEST_HAZE);
+    window.specular = task->specular;
+    PeakModel model = {.width = 1, .power = LEAST_POWER};
+    if (window.count >= PEAK_RANGE_ROWS) model = peak_window_choose_haze(&window, least);
+    peak_window_solve(&window, -1, window.lambertian, &model);
+    mirror->specular_miss =
+        model.r < 0 ? twice_share(task->specular->mean - model.r, task->specular->mean) : 0;
+    window.stride = 1;
+    take_out(&window, 0, model, mirror->reflectance, value);
 }

@@ -25,7 +25,7 @@ typedef struct PeakRange {
 /* Inputs of the search for the mirror's image in a table. */
 typedef struct PeakTask {
     const AngleTable *slice;
-    double incidence, fwhm;       /* of the instrument */
+    double incidence, fwhm;       /* of the instrument; 0: not declared */
     double noise;                 /* of the slice, relative */
     const PeakSpecular *specular; /* NULL: not measured */
 } PeakTask;
@@ -34,6 +34,7 @@ typedef struct PeakTask {
 typedef enum PeakSource {
     PEAK_SAMPLES,  /* the samples: within 5 % of it, or of the least that matters */
     PEAK_SPECULAR, /* the samples and the specular measurement */
+    PEAK_APART,    /* the specular measurement alone: the samples hold no image */
     PEAK_OPEN      /* nothing: what was taken out is a guess inside the range */
 } PeakSource;
 
@@ -44,10 +45,21 @@ typedef struct PeakMirror {
     PeakModel model;         /* of the haze, where the range has one */
     double lambertian, rest; /* of the same */
     PeakSpacing spacing;     /* of the rows around the mirror direction */
-    double specular_miss;    /* of a measurement that was not needed, relative; else 0 */
+    double specular_miss;    /* between the specular measurement and what mirror and haze
+                                send into its aperture, a share of the larger */
     bool has_haze_open;      /* the haze near the mirror direction may differ by more than
                                 5 % from what was taken */
 } PeakMirror;
+
+/* Whether a specular measurement has a mirror that the samples do not hold, as of instruments
+ * that leave the mirror direction out: far more light than all that the samples have around it,
+ * or none of them near enough to have seen it. */
+bool reflection_peak_is_apart(const PeakTask *task, Arena scratch);
+
+/* The mirror is then the specular measurement less the haze in its aperture; the samples stay
+ * as they are. */
+void reflection_peak_take_apart(const PeakTask *task, Arena *arena, PeakMirror *mirror,
+                                AngleTable *haze);
 
 /* Takes the mirror's image out of one table: reflectances, and the table without it (values in
  * the arena). */

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "spectrum/twice.h"
+
+#include <math.h>
+
+double twice_share(double a, double b) {
+    double most = fmax(fabs(a), fabs(b));
+    return most > 0 ? fabs(a - b) / most : 0;
+}
+
+double twice_colour(const double a[3], const double b[3]) {
+    double p = a[0] + 15 * a[1] + 3 * a[2], q = b[0] + 15 * b[1] + 3 * b[2];
+    double du = 4 * a[0] / p - 4 * b[0] / q, dv = 9 * a[1] / p - 9 * b[1] / q;
+    return sqrt(du * du + dv * dv);
+}
+
+bool twice_differ(const Twice *twice) {
+    return !(twice->apart <= twice->most);
+}
+
+#define SHAPE_MOST 0.02
+
+Twice twice_shape(const char *thing, double picture, double place, Arena *arena) {
+    return (Twice){thing,
+                   {arena_format(arena, "its content's shape of %.4g : 1", picture),
+                    arena_format(arena, "the %.4g : 1 that it fills", place)},
+                   100 * twice_share(picture, place),
+                   100 * SHAPE_MOST,
+                   " %"};
+}
+
+const char *twice_text(const Twice *twice, Arena *arena) {
+    return arena_format(arena, "%s: %s and %s are %.2g%s apart, required: at most %.2g%s",
+                        twice->thing, twice->by[0], twice->by[1], twice->apart, twice->unit,
+                        twice->most, twice->unit);
+}
