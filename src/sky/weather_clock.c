@@ -5,11 +5,12 @@
 
 #include "base/calendar.h"
 #include "base/mathd.h"
+#include "base/sort.h"
 #include "base/units.h"
+#include "spectrum/twice.h"
 
 #define ROWS_LEAST 24 /* fewer are not enough to be sure */
 #define ROWS_MOST 20000
-#define NEAR_H (5 / 60.0) /* closure's own uncertainty: instruments, sky around the sun */
 #define CLOSES_SHARE 0.1
 #define DIRECT_LEAST_W_M2 1.0
 #define ROW_SHARE 0.2 /* a row's three irradiances agree within: instruments, a sunrise */
@@ -43,10 +44,11 @@ static ClosureRow closure_row(const Weather *weather, const WeatherHour *hour) {
                         hour->global_horizontal_w_m2 - hour->diffuse_horizontal_w_m2};
 }
 
-/* Direct light on the horizontal at an offset. */
-static double direct_at(const ClosureRow *row, double offset_h) {
+/* Of the sun's elevation at an offset from a row's label; below 0: it is down. */
+static double sine_at(const Weather *weather, const WeatherHour *hour, double offset_h) {
     double sine = sin_d(offset_h * PI / 12), cosine = cos_d(offset_h * PI / 12);
-    return row->direct * fmax(0, row->a + row->b * cosine - row->c * sine);
+    ClosureRow row = closure_row(weather, hour);
+    return row.a + row.b * cosine - row.c * sine;
 }
 
 /* Mean absolute difference: single rows that are wrong do not move its minimum much, and rows
@@ -91,10 +93,10 @@ static void choose(const Weather *weather, WeatherClock *clock) {
     if (weather->has_comment_offset && !is_known) {
         clock->source = WEATHER_CLOCK_COMMENT;
         clock->offset_h = comment_offset(weather);
-    } else if (weather->has_comment_offset && fabs(comment + hour - best) <= NEAR_H) {
+    } else if (weather->has_comment_offset && fabs(comment + hour - best) <= WEATHER_CLOCK_NEAR_H) {
         clock->source = WEATHER_CLOCK_COMMENT;
         clock->offset_h = comment + hour;
-    } else if (is_known && fabs(clock->offset_h - best) > NEAR_H) {
+    } else if (is_known && fabs(clock->offset_h - best) > WEATHER_CLOCK_NEAR_H) {
         clock->source = WEATHER_CLOCK_CLOSURE;
         clock->offset_h = best;
     }
@@ -169,8 +171,8 @@ const char *weather_clock_row_doubt(const Weather *weather, const WeatherClock *
                                     const WeatherHour *hour, Arena *arena) {
     double global = hour->global_horizontal_w_m2, diffuse = hour->diffuse_horizontal_w_m2;
     if (!hour->has_light || global < 0 || (clock->rows && !clock->closes)) return NULL;
-    ClosureRow row = closure_row(weather, hour);
-    double direct = direct_at(&row, clock->offset_h), sum = diffuse + direct;
+    double sine = sine_at(weather, hour, clock->offset_h);
+    double direct = hour->direct_normal_w_m2 * fmax(0, sine), sum = diffuse + direct;
     if (fabs(global - sum) <= ROW_SHARE * fmax(global, sum) + ROW_W_M2) return NULL;
     return arena_format(arena,
                         "has %g W/m2 of global light, but %g of diffuse and %.0f of "
@@ -182,4 +184,208 @@ const char *weather_clock_row_doubt(const Weather *weather, const WeatherClock *
 const char *weather_clock_source_text(WeatherClockSource source) {
     static const char *const texts[] = {"hour means", "comment line", "closure", "given"};
     return texts[source];
+}
+
+/* ---- what cannot be meant ---------------------------------------------------------------- */
+
+/* A clear hour is told without a unit, by how its direct and diffuse light compare; so much of
+ * the light outside the air must then arrive. No hour can have more than the sun sends. */
+
+#define SUN_W_M2 1361.0
+#define SIGN_DEG 3.0 /* a longitude so near to the other sign's is that */
+
+static void add_doubt(WeatherDoubts *doubts, const char *text) {
+    if (doubts->count < WEATHER_DOUBTS_MOST) doubts->text[doubts->count++] = text;
+}
+
+/* ---- the clock --------------------------------------------------------------------------- */
+
+static double half_turned(double degrees) {
+    return degrees - 360 * floor((degrees + 180) / 360);
+}
+
+/* What the file says of itself, or the user, needs no other reason. */
+static bool is_stated(const Weather *weather, const WeatherClock *clock) {
+    double off = clock->best_offset_h - weather->comment_offset_h;
+    bool by_file = weather->has_comment_offset &&
+                   (fabs(off) <= WEATHER_CLOCK_NEAR_H || fabs(off - 1) <= WEATHER_CLOCK_NEAR_H);
+    return by_file || (clock->source == WEATHER_CLOCK_GIVEN &&
+                       fabs(clock->offset_h - clock->best_offset_h) <= WEATHER_CLOCK_NEAR_H);
+}
+
+/* A row's instant lies in its span: elsewhere the light is that of another place's sun. */
+static void doubt_clock(const Weather *weather, const WeatherClock *clock, Arena *arena,
+                        WeatherDoubts *doubts) {
+    double half = 0.5 / weather->rows_per_hour, best = clock->best_offset_h;
+    Twice twice = {"its clock",
+                   {"the sun of its light", "the sun of its line LOCATION"},
+                   fabs(best + half),
+                   half + WEATHER_CLOCK_NEAR_H,
+                   " h"};
+    if (!clock->rows || !clock->closes || !twice_differ(&twice) || is_stated(weather, clock))
+        return;
+    double longitude = half_turned(weather->place.longitude_deg + 15 * (best + half));
+    bool is_sign = fabs(half_turned(longitude + weather->place.longitude_deg)) < SIGN_DEG;
+    add_doubt(
+        doubts,
+        arena_format(arena,
+                     "%s: the place (%.4g N, %.4g E) or the time zone (%+g h) is wrong, and so "
+                     "where the sun stands: the light of its rows belongs to %+.2f h from their "
+                     "labels, required: %g to 0; it fits longitude %.1f%s, or a zone of %+.1f h",
+                     twice_text(&twice, arena), weather->place.latitude_deg,
+                     weather->place.longitude_deg, weather->zone_h, best, -2 * half, longitude,
+                     is_sign ? " (the sign?)" : "", weather->zone_h - best - half));
+}
+
+static void doubt_closure(const WeatherClock *clock, Arena *arena, WeatherDoubts *doubts) {
+    if (!clock->rows || clock->closes) return;
+    add_doubt(
+        doubts,
+        arena_format(arena,
+                     "GHI = DHI + DNI sin(elevation) holds at no instant: the mean difference is "
+                     "at least %.1f W/m2 (%.2f h from the label; %.1f as hour means) of %.1f "
+                     "W/m2 in %d rows — their instants are taken %+.2f h from the label (%s), "
+                     "the sun may not fit their light; --weather-offset H sets them",
+                     clock->best_closure_w_m2, clock->best_offset_h, clock->means_closure_w_m2,
+                     clock->mean_global_w_m2, clock->rows, clock->offset_h,
+                     weather_clock_source_text(clock->source)));
+}
+
+/* ---- the unit ---------------------------------------------------------------------------- */
+
+#define HIGH_SINE 0.35  /* of the sun: lower, its path through the air decides */
+#define CLEAR_TIMES 3.0 /* direct on the horizontal over diffuse */
+#define CLEAR_LEAST 0.4 /* of the light outside: 0.65 to 0.8 are usual */
+#define CLEAR_MOST 1.0
+#define BLUE_LEAST 0.02 /* of a clear hour's light, diffuse: 0.06 is the clearest air's */
+#define DIM_ROWS 60     /* of a high sun, ten days or so, are not all darker than */
+#define DIM_LEAST 0.15
+#define DARK_LEAST 0.02 /* nor any few, under the heaviest clouds */
+#define ADDS_UP 0.2     /* of the global light: beside what closes, as of single rows */
+/* Of the horizontal, what no hour exceeds: Long and Dutton, BSRN Global Network recommended QC
+ * tests (2002), "physically possible". */
+#define POSSIBLE_TIMES 1.5
+#define POSSIBLE_POWER 1.2
+#define POSSIBLE_W_M2 100.0
+
+typedef struct UnitSums {
+    int high, clear, beyond, adding;
+    double *share, *blue; /* of the clear hours */
+    double brightest;     /* share of a high sun's hour */
+    double apart, global; /* sums over the hours with all three */
+    double most_w_m2;
+    const WeatherHour *worst;
+} UnitSums;
+
+/* The highest sun within a span of the row's instant. */
+static double high_sine(const Weather *weather, const WeatherHour *hour, double offset_h) {
+    double half = 0.5 / weather->rows_per_hour, most = 0;
+    for (int k = -1; k <= 1; k++) most = fmax(most, sine_at(weather, hour, offset_h + k * half));
+    return most;
+}
+
+static void add_hour(const Weather *weather, const WeatherHour *hour, double offset_h,
+                     UnitSums *sums) {
+    double sine = sine_at(weather, hour, offset_h);
+    double direct = hour->direct_normal_w_m2 * fmax(0, sine),
+           diffuse = hour->diffuse_horizontal_w_m2;
+    double sum = direct + diffuse, all = fmax(sum, hour->global_horizontal_w_m2);
+    double most =
+        POSSIBLE_TIMES * SUN_W_M2 * pow_d(high_sine(weather, hour, offset_h), POSSIBLE_POWER) +
+        POSSIBLE_W_M2;
+    if (all > most) {
+        if (all > sums->most_w_m2) sums->worst = hour, sums->most_w_m2 = all;
+        sums->beyond++;
+    }
+    if (sine < HIGH_SINE) return;
+    double share = all / (SUN_W_M2 * sine);
+    sums->high++;
+    sums->brightest = fmax(sums->brightest, share);
+    if (hour->global_horizontal_w_m2 >= 0) {
+        sums->adding++;
+        sums->apart += fabs(hour->global_horizontal_w_m2 - sum);
+        sums->global += all;
+    }
+    if (!(direct > CLEAR_TIMES * diffuse)) return;
+    sums->blue[sums->clear] = diffuse / sum;
+    sums->share[sums->clear++] = sum / (SUN_W_M2 * sine);
+}
+
+static void doubt_beyond(const UnitSums *sums, Arena *arena, WeatherDoubts *doubts) {
+    if (!sums->beyond) return;
+    add_doubt(
+        doubts,
+        arena_format(arena,
+                     "%d of its rows have more light than the sun can send, the most line %d "
+                     "with %g W/m2 on the horizontal: is its unit W/m2 (Wh/m2 of an hour), and "
+                     "are place and time zone right?",
+                     sums->beyond, sums->worst->line, sums->most_w_m2));
+}
+
+/* Of the clear hours the middle one. */
+static void doubt_clear(UnitSums *sums, Arena *arena, WeatherDoubts *doubts) {
+    double share = sort_median(sums->share, sums->clear);
+    double blue = sort_median(sums->blue, sums->clear);
+    if (share < CLEAR_LEAST || share > CLEAR_MOST)
+        add_doubt(doubts,
+                  arena_format(arena,
+                               "its %d clear hours (direct light %g times the diffuse or more, the "
+                               "sun above %.0f degrees) have %.2g %% of the light outside the air, "
+                               "required: %g to %g %%: is its unit W/m2 (Wh/m2 of an hour)%s?",
+                               sums->clear, CLEAR_TIMES, 20.0, 100 * share, 100 * CLEAR_LEAST,
+                               100 * CLEAR_MOST, share < 2e-3 * CLEAR_MOST ? ", not kW/m2" : ""));
+    else if (blue < BLUE_LEAST)
+        add_doubt(
+            doubts,
+            arena_format(arena,
+                         "its %d clear hours have %.2g %% of diffuse light, required: %g %% or "
+                         "more, as the clearest air has: is the unit of its diffuse light W/m2?",
+                         sums->clear, 100 * blue, 100 * BLUE_LEAST));
+}
+
+static void doubt_dim(const UnitSums *sums, Arena *arena, WeatherDoubts *doubts) {
+    double least = sums->high >= DIM_ROWS ? DIM_LEAST : DARK_LEAST;
+    if (sums->clear || !sums->high || sums->brightest >= least) return;
+    add_doubt(doubts,
+              arena_format(arena,
+                           "the brightest of its %d hours with the sun above 20 degrees has "
+                           "%.2g %% of the light outside the air, required: %g %% or more: is "
+                           "its unit W/m2 (Wh/m2 of an hour)?",
+                           sums->high, 100 * sums->brightest, 100 * least));
+}
+
+/* Rows without direct light, which tell no clock. */
+static void doubt_sum(const UnitSums *sums, Arena *arena, WeatherDoubts *doubts) {
+    Twice twice = {"its global light",
+                   {"its own column", "diffuse and direct light on the horizontal"},
+                   sums->global > 0 ? 100 * sums->apart / sums->global : 0,
+                   100 * ADDS_UP,
+                   " %"};
+    if (sums->adding && twice_differ(&twice))
+        add_doubt(doubts, arena_format(arena, "%s (mean of %d hours): are all columns in W/m2?",
+                                       twice_text(&twice, arena), sums->adding));
+}
+
+static void doubt_unit(const Weather *weather, const WeatherClock *clock, Arena *arena,
+                       WeatherDoubts *doubts) {
+    UnitSums sums = {.share = ARENA_NEW(arena, double, weather->count),
+                     .blue = ARENA_NEW(arena, double, weather->count)};
+    for (int i = 0; i < weather->count; i++) {
+        const WeatherHour *hour = &weather->hour[i];
+        if (hour->has_light && fmax(hour->diffuse_horizontal_w_m2, hour->direct_normal_w_m2) > 0)
+            add_hour(weather, hour, clock->offset_h, &sums);
+    }
+    doubt_beyond(&sums, arena, doubts);
+    if (sums.clear) doubt_clear(&sums, arena, doubts);
+    doubt_dim(&sums, arena, doubts);
+    if (!clock->rows) doubt_sum(&sums, arena, doubts);
+}
+
+WeatherDoubts weather_clock_doubts(const Weather *weather, const WeatherClock *clock,
+                                   Arena *arena) {
+    WeatherDoubts doubts = {0};
+    doubt_closure(clock, arena, &doubts);
+    doubt_clock(weather, clock, arena, &doubts);
+    if (!clock->rows || clock->closes) doubt_unit(weather, clock, arena, &doubts);
+    return doubts;
 }

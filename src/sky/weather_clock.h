@@ -15,6 +15,9 @@
 #include "base/arena.h"
 #include "sky/epw.h"
 
+/* Closure's own uncertainty: instruments, the sky around the sun. */
+#define WEATHER_CLOCK_NEAR_H (5 / 60.0)
+
 typedef enum WeatherClockSource {
     WEATHER_CLOCK_MEANS,   /* as the format has it */
     WEATHER_CLOCK_COMMENT, /* the file's comment */
@@ -50,3 +53,15 @@ const char *weather_clock_row_doubt(const Weather *weather, const WeatherClock *
 
 /* "hour means", ...: for people and scripts. */
 const char *weather_clock_source_text(WeatherClockSource source);
+
+#define WEATHER_DOUBTS_MOST 4
+
+/* A sentence each, without the file's name. */
+typedef struct WeatherDoubts {
+    int count;
+    const char *text[WEATHER_DOUBTS_MOST];
+} WeatherDoubts;
+
+/* What of the file cannot be meant: rows that fit no sun, a place or a time zone whose sun is
+ * not that of the light, another unit. */
+WeatherDoubts weather_clock_doubts(const Weather *weather, const WeatherClock *clock, Arena *arena);

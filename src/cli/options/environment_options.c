@@ -152,26 +152,6 @@ static bool set_sky(Change *change, const char *text, Error *err) {
 
 /* ---- a weather file's row as the light of a sky ------------------------------------------ */
 
-#define CLOCK_OFF_H 1.5 /* farther than this is no convention of instants */
-
-static void warn_of_clock(const EnvironmentWeather *weather, Problems *problems) {
-    const WeatherClock *clock = &weather->clock;
-    if (clock->rows && !clock->closes)
-        problems_add(problems, SEVERITY_WARNING, weather->file, "",
-                     "GHI = DHI + DNI sin(elevation) holds at no instant: the mean difference "
-                     "is at least %.1f W/m2 (%.2f h from the label; %.1f as hour means) of "
-                     "%.1f W/m2 in %d rows — their instants are taken %+.2f h from the label "
-                     "(%s), the sun may not fit their light; --weather-offset H sets them",
-                     clock->best_closure_w_m2, clock->best_offset_h, clock->means_closure_w_m2,
-                     clock->mean_global_w_m2, clock->rows, clock->offset_h,
-                     weather_clock_source_text(clock->source));
-    if (clock->source == WEATHER_CLOCK_CLOSURE && fabs(clock->offset_h) > CLOCK_OFF_H)
-        problems_add(problems, SEVERITY_WARNING, weather->file, "",
-                     "the light of its rows belongs to %+.2f h from their labels: its clock or "
-                     "its time zone is wrong, the rows are taken where the sun fits them",
-                     clock->offset_h);
-}
-
 const char *weather_option_text(const Environment *environment, Arena *arena) {
     const EnvironmentWeather *weather = &environment->weather;
     const WeatherClock *clock = &weather->clock;
@@ -253,8 +233,8 @@ static void warn_of_water(const WeatherArgs *args, const WeatherHour *hour, Aren
                  WATER_USUAL_CM);
 }
 
-/* Sets the light, the place and how they were found. A file that closes nowhere, or whose clock
- * is hours off, goes to *problems as a warning. */
+/* Sets the light, the place and how they were found. What of the file cannot be meant goes to
+ * *problems as a warning. */
 static bool apply_weather(const WeatherArgs *args, Environment *environment, Arena *arena,
                           Problems *problems, Error *err) {
     Weather weather;
@@ -274,7 +254,9 @@ static bool apply_weather(const WeatherArgs *args, Environment *environment, Are
                              clock};
     weather_light_take(hour, args->lux, &environment->daylight);
     if (!args->has_place) environment->daylight.where = weather.place;
-    warn_of_clock(&environment->weather, problems);
+    WeatherDoubts doubts = weather_clock_doubts(&weather, &clock, arena);
+    for (int i = 0; i < doubts.count; i++)
+        problems_add(problems, SEVERITY_WARNING, args->file, "", "%s", doubts.text[i]);
     warn_of_water(args, hour, arena, problems);
     const char *doubt = weather_clock_row_doubt(&weather, &clock, hour, arena);
     if (doubt)

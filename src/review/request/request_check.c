@@ -354,12 +354,25 @@ static bool find_frame(const RequestDoubt *doubt, const ReviewSymbol *symbol, Di
 }
 
 /* What cannot be meant; all that is named is there. Sizes are errors, the rest warnings. */
+static void doubt_weathers(const RequestCheck *check) {
+    const ReviewRequest *request = check->request;
+    for (int k = 0; k < request->weather_count; k++) {
+        const ReviewWeather *weather = &request->weathers[k];
+        WeatherDoubts doubts =
+            weather_clock_doubts(&weather->weather, &weather->clock, check->problems->arena);
+        for (int i = 0; i < doubts.count; i++)
+            problems_add(check->problems, SEVERITY_WARNING, weather->path, "", "%s",
+                         doubts.text[i]);
+    }
+}
+
 static void doubt_all(const RequestCheck *check) {
     const ReviewRequest *request = check->request;
     Arena *arena = check->problems->arena;
     DisplayFrame *frames = ARENA_NEW(arena, DisplayFrame, request->symbol_count);
     bool *has_frame = ARENA_NEW(arena, bool, request->symbol_count);
     RequestDoubt doubt = {check, frames, has_frame};
+    doubt_weathers(check);
     for (int i = 0; i < request->symbol_count; i++)
         has_frame[i] = find_frame(&doubt, &request->symbols[i], &frames[i]);
     for (int i = 0; i < request->eye_count; i++) {
