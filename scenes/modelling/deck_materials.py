@@ -81,7 +81,8 @@ DECK = {
     "seal": grey(0.020, 0.70),
     "skin": surface((0.075, 0.078, 0.080), 0.55, ior=1.45),
     "skin dark": grey(0.030, 0.62),
-    # displays: (panel, picture, white other viewers show in cd/m2)
+    # displays: (panel, picture, white other viewers show in cd/m2, flags); one picture fills
+    # windows of three shapes
     "pfd": grey(0.0, 0.25, display=("ips_cluster.panel", "pfd.png", 450.0)),
     "nav": grey(0.0, 0.25, display=("ips_cluster.panel", "nav.png", 450.0)),
     "engine": grey(0.0, 0.25, display=("ips_cluster.panel", "engine.png", 450.0)),
@@ -90,7 +91,7 @@ DECK = {
     "nav_right": grey(0.0, 0.25, display=("ips_cluster.panel", "nav.png", 450.0)),
     "cdu": grey(0.0, 0.25, display=("oled_centre.panel", "cdu.png", 300.0)),
     "tablet": grey(0.0, 0.10, display=("oled_centre.panel", "tablet.png", 300.0)),
-    "windows": grey(0.0, 0.25, display=("oled_centre.panel", "windows.png", 300.0)),
+    "windows": grey(0.0, 0.25, display=("oled_centre.panel", "windows.png", 300.0, "any_size")),
 }
 
 

@@ -159,7 +159,7 @@ def material_json(name, textures, used):
 
 def display_json(display, out, extensions, textures):
     """What other viewers show beside the measured panel: its picture at a plausible white."""
-    panel, content, white_cd_m2 = display
+    panel, content, white_cd_m2, *flags = display
     index = textures.index(f"../assets/content/{content}", NEAREST_CLAMP)
     out["doubleSided"] = False
     out["emissiveTexture"] = {"index": index}
@@ -169,6 +169,7 @@ def display_json(display, out, extensions, textures):
         "panel": f"../assets/panels/{panel}",
         "content": {"index": index, "texCoord": 0},
         "level": 1.0,
+        **dict.fromkeys(flags, True),
     }
 
 

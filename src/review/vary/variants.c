@@ -132,13 +132,13 @@ static void compare(const Profile *profile, const Review *base, ReviewVariantFou
 
 static bool check_one(const ReviewRun *run, const ReviewVariant *variant, Error *err) {
     Arena scratch = arena_reserve(SCENE_BYTES);
-    Problems problems = problems_start(&scratch); /* warnings are the review's own */
     ReviewRequest request = review_request_variant(run->request, variant, &scratch);
     SetupOptions options = {.request = &request, .means = run->means};
     Scene *scene;
-    bool ok = setup_scene(&options, &scratch, &problems, &scene, err);
+    bool ok = setup_scene(&options, &scratch, run->problems, &scene, err);
     if (ok) {
-        ok = review_request_check(&request, scene, &problems) || problems_verdict(&problems, err);
+        ok = review_request_check(&request, scene, run->problems) ||
+             problems_verdict(run->problems, err);
         scene_close(scene);
     }
     arena_release(&scratch);

@@ -2,9 +2,11 @@
 #include "scene/check/display_frame.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/mathd.h"
 #include "base/units.h"
+#include "spectrum/twice.h"
 
 #define FRONT_COS 0.5f     /* of 60 degrees */
 #define LOOK_COS 0.5       /* a camera looks at what is within 60 degrees of its axis */
@@ -60,7 +62,8 @@ bool display_frame_of(const Scene *scene, const Part *part, DisplayFrame *out) {
                           .up = vec3_normalize(s.up),
                           .normal = vec3_normalize(s.normal),
                           .width_m = s.width / s.area * (double)(s.box[1] - s.box[0]),
-                          .height_m = s.height / s.area * (double)(s.box[3] - s.box[2])};
+                          .height_m = s.height / s.area * (double)(s.box[3] - s.box[2]),
+                          .span = {s.box[1] - s.box[0], s.box[3] - s.box[2]}};
     return true;
 }
 
@@ -149,6 +152,39 @@ static void doubt_size(const Scene *scene, const Part *part, const DisplayFrame 
                  DISPLAY_MOST_M);
 }
 
+/* Rows or columns that are all alike have no shape: the picture may be stretched along them. */
+static bool has_shape(const Image *picture) {
+    static const size_t bytes[] = {[IMAGE_RGBA8] = 4, [IMAGE_RGBA16] = 8, [IMAGE_RGBA32F] = 16};
+    size_t pixel = bytes[picture->format], row = pixel * (size_t)picture->width;
+    const char *all = picture->pixels;
+    bool rows_differ = false, columns_differ = false;
+    for (int y = 0; y < picture->height && !(rows_differ && columns_differ); y++) {
+        const char *line = all + row * (size_t)y;
+        rows_differ |= memcmp(line, all, row) != 0;
+        columns_differ |= memcmp(line, line + pixel, row - pixel) != 0;
+    }
+    return rows_differ && columns_differ;
+}
+
+static void doubt_shape(const Scene *scene, const Part *part, const DisplayFrame *frame,
+                        Problems *problems) {
+    const Display *display = &scene->displays[scene->materials[part->material_id].display_id];
+    if (display->any_size || display->content.texture_id == NO_ID || !(frame->height_m > 0)) return;
+    const Image *picture = &scene->textures[display->content.texture_id].image;
+    double width = (double)frame->span[0] * picture->width;
+    double height = (double)frame->span[1] * picture->height;
+    Twice twice = twice_shape(
+        arena_format(problems->arena, "display \"%s\" on \"%s\"", display->name, part->name),
+        width / height, frame->width_m / frame->height_m, problems->arena);
+    if (!twice_differ(&twice) || !has_shape(picture)) return;
+    problems_add(problems, SEVERITY_WARNING, scene->inputs[0], "",
+                 "%s: %.5g x %.5g pixels are stretched over %.3g x %.3g m: fit the picture, or "
+                 "the texture coordinates. If it is meant: \"any_size\": true in its "
+                 "PARHELION_display",
+                 twice_text(&twice, problems->arena), width, height, frame->width_m,
+                 frame->height_m);
+}
+
 static void doubt_turn(const Scene *scene, const Part *part, const DisplayFrame *frame,
                        Problems *problems) {
     double turn;
@@ -167,6 +203,7 @@ void displays_doubt(const Scene *scene, Problems *problems) {
         DisplayFrame frame;
         if (!frame_of_part(scene, i, &frame)) continue;
         doubt_size(scene, &scene->parts[i], &frame, problems);
+        doubt_shape(scene, &scene->parts[i], &frame, problems);
         doubt_turn(scene, &scene->parts[i], &frame, problems);
     }
 }

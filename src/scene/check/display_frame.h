@@ -17,6 +17,7 @@
 typedef struct DisplayFrame {
     Vec3 centre, right, up, normal;
     double width_m, height_m; /* along the surface, of what the coordinates span */
+    float span[2];            /* that, in u and v: shares of the content */
 } DisplayFrame;
 
 /* Of one part that wears a display. False where its coordinates span no area. */
@@ -47,6 +48,6 @@ bool forward_angle_deg(const double forward[3], const double way[3], double *deg
  * looks at a display looks that way. */
 void forward_doubt(const Scene *scene, Problems *problems);
 
-/* Warnings: a size that is not built, unless the display has `any_size`; a picture that no
- * camera that looks at it sees upright. */
+/* Warnings: a size that is not built or a shape that is not the content's, unless the display
+ * has `any_size`; a picture that no camera that looks at it sees upright. */
 void displays_doubt(const Scene *scene, Problems *problems);

@@ -59,7 +59,9 @@ static const RecordRow DISPLAY[] = {
     NUMBER("max_level", 0, 1, 100,
            "How far the panel can be driven, in times of what was measured: a level above 1 "
            "has to say so."),
-    FLAG("any_size", "A width or height outside 5 mm to 1.5 m is meant."),
+    FLAG("any_size",
+         "A width or height outside 5 mm to 1.5 m, or a shape that is not its content's, is "
+         "meant."),
     COMMON};
 const RecordFormat display_extension = {
     "PARHELION_display", 1, DISPLAY,
