@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "spectrum/twice.h"
+
 #define ANGLE_SLACK 1e-6
 /* Two intensities of one direction are one if they differ by less of the larger, or by less of
  * the luminaire's largest. */
@@ -142,6 +144,18 @@ static void check_flux(const Doubting *doubting) {
                         "%g times: the intensities are taken",
                         flux, flux / in->stated_lm, in->stated_lm, in->stated_as,
                         LUMINAIRE_FLUX_MOST);
+    Twice twice = {
+        "its light",
+        {arena_format(doubting->arena, "the %.6g lm that its intensities add up to", flux),
+         arena_format(doubting->arena, "the %.6g lm that the file states (%s)", in->stated_lm,
+                      in->stated_as)},
+        100 * twice_share(flux, in->stated_lm),
+        in->is_of_lamps ? 100 * LUMINAIRE_TAKES_MOST : 100 * (LUMINAIRE_FLUX_MOST - 1),
+        " %"};
+    if (in->stated_lm > 0 && flux < in->stated_lm && twice_differ(&twice))
+        luminaire_doubt(doubting->of, doubting->arena,
+                        "%s: are they in cd, or cd per 1000 lm? They are taken",
+                        twice_text(&twice, doubting->arena));
 }
 
 void luminaire_doubts_find(Luminaire *luminaire, Arena *arena) {
