@@ -121,6 +121,8 @@ start "a sweep through a roof blind's slit" slit-sweep \
 of "$all scenes tests/hostile tests/image"
 start 'names give a terminal no commands' printed python3 tests/hostile/printed.py $program
 start 'an output never replaces an input' outputs python3 tests/hostile/outputs.py $program
+start 'what is measured twice is held against itself' twice \
+    python3 tests/hostile/twice.py --all $program
 start 'settings that cannot be meant' settings python3 tests/hostile/settings.py $program
 start 'every option given twice' options-long \
     python3 tests/hostile/options.py --all $program

@@ -316,9 +316,9 @@ static void doubt_beyond(const UnitSums *sums, Arena *arena, WeatherDoubts *doub
     add_doubt(
         doubts,
         arena_format(arena,
-                     "%d of its rows have more light than the sun can send, the most line %d "
-                     "with %g W/m2 on the horizontal: is its unit W/m2 (Wh/m2 of an hour), and "
-                     "are place and time zone right?",
+                     "rows with more light than the sun can send: %d, the most line %d with %g "
+                     "W/m2 on the horizontal: is its unit W/m2 (Wh/m2 of an hour), are place and "
+                     "time zone right, or is the row wrong?",
                      sums->beyond, sums->worst->line, sums->most_w_m2));
 }
 

@@ -48,8 +48,8 @@ TEST(what_it_rests_on_is_one_line) {
     assert_string_equal(
         review_rests_words(&review, &arena),
         "panel of cluster: measured (PX-9; conoscope, lab <B>), usable with care, coarse "
-        "(coarse: steps of 5 degrees), known within 2.0 % of what it emits and 4.0 % of what "
-        "it reflects; panel of centre: synthetic; 2 guessed materials (up to 62 % of the light "
+        "(coarse: steps of 5 degrees), within 2.0 % of its tables of emission and 4.0 % of those "
+        "of reflection; panel of centre: synthetic; 2 guessed materials (up to 62 % of the light "
         "on a symbol); the eye as given; no occupant named: nobody sits there, unless the "
         "model itself has somebody; limits as quoted, 1 of 5 read in the standard");
     review.cases[0].panel.assumed = "spectra of the primaries assumed: bands";
@@ -57,7 +57,7 @@ TEST(what_it_rests_on_is_one_line) {
         review.cases[i].extrapolated_share =
             words_same(review.cases[i].display, "centre") ? 0.004 : 0.001 * i;
     assert_non_null(strstr(review_rests_words(&review, &arena),
-                           "4.0 % of what it reflects, spectra of the primaries assumed: bands"
+                           "4.0 % of those of reflection, spectra of the primaries assumed: bands"
                            ", up to 2.3 % of the light that it reflects by directions that "
                            "were not measured; panel of centre: synthetic; 2 guessed"));
     review.cases[5].eye = "driver";

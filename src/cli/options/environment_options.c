@@ -233,6 +233,13 @@ static void warn_of_water(const WeatherArgs *args, const WeatherHour *hour, Aren
                  WATER_USUAL_CM);
 }
 
+/* A row may be the wrong one for what is wrong of all. */
+static bool add_doubt(const WeatherDoubts *doubts, Error *err) {
+    const Error before = *err;
+    return doubts->count && error_at(err, before.code, before.file, before.path, "%s — %s",
+                                     before.text, doubts->text[0]);
+}
+
 /* Sets the light, the place and how they were found. What of the file cannot be meant goes to
  * *problems as a warning. */
 static bool apply_weather(const WeatherArgs *args, Environment *environment, Arena *arena,
@@ -242,7 +249,8 @@ static bool apply_weather(const WeatherArgs *args, Environment *environment, Are
     if (!weather_read(args->file, arena, &weather, err)) return false;
     WeatherClock clock = weather_clock_find(&weather, args->offset_h, *arena);
     const WeatherHour *hour = weather_clock_row(&weather, &clock, &args->when, &apart_min);
-    if (!check_row(args, hour, apart_min, arena, err)) return false;
+    WeatherDoubts doubts = weather_clock_doubts(&weather, &clock, arena);
+    if (!check_row(args, hour, apart_min, arena, err)) return add_doubt(&doubts, err);
     environment->weather =
         (EnvironmentWeather){args->file,
                              hour->line,
@@ -254,7 +262,6 @@ static bool apply_weather(const WeatherArgs *args, Environment *environment, Are
                              clock};
     weather_light_take(hour, args->lux, &environment->daylight);
     if (!args->has_place) environment->daylight.where = weather.place;
-    WeatherDoubts doubts = weather_clock_doubts(&weather, &clock, arena);
     for (int i = 0; i < doubts.count; i++)
         problems_add(problems, SEVERITY_WARNING, args->file, "", "%s", doubts.text[i]);
     warn_of_water(args, hour, arena, problems);

@@ -199,7 +199,7 @@ static void add_stated(Text *text, const CasePanel *panel, Arena *arena) {
     if (panel->is_coarse && !panel->is_unusable) text_add(text, ", coarse");
     if (panel->reason && !panel->is_unusable) text_format(text, " (%s)", panel->reason);
     if (panel->emission_error > 0 || panel->reflection_error > 0)
-        text_format(text, ", known within %s of what it emits and %s of what it reflects",
+        text_format(text, ", within %s of its tables of emission and %s of those of reflection",
                     words_share(panel->emission_error, arena),
                     words_share(panel->reflection_error, arena));
     if (panel->assumed) text_format(text, ", %s", panel->assumed);

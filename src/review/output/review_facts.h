@@ -30,7 +30,7 @@ ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
  *
  * Memory   the arena's. Texts are UTF-8 and not escaped. Threads: pure. Fails: never. */
 
-/* "panel of cluster: synthetic, good, known within 0.6 % of what it emits and 0.5 % of what it
+/* "panel of cluster: synthetic, good, within 0.6 % of its tables of emission and 0.5 % of those
  * reflects; 11 guessed materials (up to 62 % of the light on a symbol); ...": errors of panels
  * are standard errors, which the intervals hold; shares are the greatest of this review's
  * cases, which may be a part of another's. "": nothing is known, as of an older review. */
