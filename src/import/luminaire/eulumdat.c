@@ -240,7 +240,6 @@ bool eulumdat_read_luminaire(const char *file, const FileBytes *bytes, ImportSet
     luminaire.stated_as = head.is_absolute ? "absolute"
                           : has_ratio      ? "lamps' flux times light output ratio"
                                            : "lamps' flux";
-    luminaire.is_of_lamps = !head.is_absolute && !has_ratio;
     tell_reading(&in, &luminaire);
     luminaire_doubts_find(&luminaire, set->arena);
     if (head.lamp_sets > 1)

@@ -387,7 +387,6 @@ bool ies_read_luminaire(const char *file, const FileBytes *bytes, ImportSet *set
     find_opening(&head, year, &out, set);
     out.stated_lm = head.lumens > 0 ? head.lamps * head.lumens * scale / head.multiplier : 0;
     out.stated_as = "of its lamps; the ratio is the luminaire's efficiency";
-    out.is_of_lamps = true;
     luminaire_doubts_find(&out, set->arena);
     if (head.size[2] != 0 && out.opening.shape != OPENING_POINT)
         import_note(set, "%s: luminous sides (height %g) are taken into the flat opening",

@@ -45,7 +45,6 @@ typedef struct Luminaire {
     double area_m2;            /* that it shows to the front; 0: not in the file */
     double stated_lm;          /* light of the luminaire that the file states; 0: none */
     const char *stated_as;     /* "lamp flux x light output ratio" */
-    bool is_of_lamps;          /* so much its lamps have: the luminaire takes some of it */
     double cct_k;              /* colour temperature; 0: the file states no clear one */
     const char *cct_text;      /* the file's text about colour; "": none */
     LuminaireTilt tilt;

@@ -150,7 +150,7 @@ static void check_flux(const Doubting *doubting) {
          arena_format(doubting->arena, "the %.6g lm that the file states (%s)", in->stated_lm,
                       in->stated_as)},
         100 * twice_share(flux, in->stated_lm),
-        in->is_of_lamps ? 100 * LUMINAIRE_TAKES_MOST : 100 * (LUMINAIRE_FLUX_MOST - 1),
+        100 * LUMINAIRE_TAKES_MOST,
         " %"};
     if (in->stated_lm > 0 && flux < in->stated_lm && twice_differ(&twice))
         luminaire_doubt(doubting->of, doubting->arena,

@@ -10,8 +10,8 @@
 
 #define LUMINAIRE_FLUX_MOST 1.05 /* times the light that the file states */
 
-/* Of its lamps' light a luminaire takes no more: shutters and snoots do not state lamps. */
-#define LUMINAIRE_TAKES_MOST 0.9
+/* Of what the file states a luminaire takes no more, snoots among them; coarse angles miss less. */
+#define LUMINAIRE_TAKES_MOST 0.99
 
 /* Adds to the luminaire's doubts. */
 void luminaire_doubts_find(Luminaire *luminaire, Arena *arena);
