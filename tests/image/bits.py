@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """bits.py [--small | --all | --against OTHER] PARHELION -- a frame's pixels have the same bits
-with 1, 2 and 5 threads, and a crop has those of the whole; an instruction set that is asked for
-gives the same bits on a CPU that has more. --small: one render with 2 threads of the small
-scene, for the thread sanitizer. --all: where light comes from is learnt in every scene, under
-every sky, not in one and under one; and the dashboard has more pixels and samples. --against:
-the same bits as another build's.
+with 1, 2 and 5 threads, as its denoised picture has, and a crop has those of the whole; an
+instruction set that is asked for gives the same bits on a CPU that has more. --small: one render
+with 2 threads of the small scene, for the thread sanitizer. --all: where light comes from is
+learnt in every scene, under every sky, not in one and under one; and the dashboard has more
+pixels and samples. --against: the same bits as another build's.
 """
 import argparse
 import hashlib
@@ -73,6 +73,18 @@ def digest(frame, box):
     return total.hexdigest()
 
 
+def picture(program, frame, threads):
+    """The bytes of its picture, which many threads filter and compress."""
+    out = frame + ".png"
+    done = subprocess.run([program, "develop", frame, "-o", out, "--denoise", "--adapt", "local",
+                           "--quiet", "--threads", str(threads)], capture_output=True, text=True)
+    if done.returncode != 0:
+        print(done.stdout + done.stderr)
+        return None
+    with open(out, "rb") as file:
+        return file.read()
+
+
 def compare(report, program, scenes, folder, options):
     """Threads against each other, then a crop against the whole."""
     name, out = os.path.basename(scenes[0]), os.path.join(folder, "frame.exr")
@@ -84,6 +96,11 @@ def compare(report, program, scenes, folder, options):
     for threads in (2, 5):
         report.claim(digest(frames[threads], whole.box) == digest(whole, whole.box),
                      f"{name}: {threads} threads give other bits than one")
+    alone = picture(program, out, 1)
+    report.claim(alone is not None, f"{name}: not developed")
+    for threads in (2, 5):
+        report.claim(picture(program, out, threads) == alone,
+                     f"{name}: {threads} threads give another picture than one")
     x1, y1 = whole.width - 7, whole.height - 3
     crop = render(program, scenes, out, [*options, "--crop", f"13,5,{x1},{y1}"])
     if report.claim(crop is not None and crop.box == (13, 5, x1, y1), f"{name}: crop's window"):
