@@ -89,4 +89,34 @@ TEST(emitters_of_other_levels_tell_the_same_light) {
     }
 }
 
+/* A display that dims shows paths the sun that was there before, in mirrors as well. */
+TEST(other_levels_leave_what_the_suns_rays_do) {
+    ReadingGoal goal = {.most = 4096};
+    ENDS_BY(world_end) World world = room();
+    ReadingTools tools = reading_tools(2);
+    Lights *sunny;
+    builder_part(world.scene, builder_mirror(0.6f));
+    builder_quad(world.scene, vec3(-0.3f, 0, 0.3f), vec3(0.1f, 0, 0.1f), vec3(0, 0.1f, 0));
+    world_ready(&world, 8);
+    builder_sky(world.scene, 500);
+    builder_sun(world.scene, 0.4, 0.9, 20000);
+    assert_done(lights_build(world.scene, &world.arena, &sunny, &err));
+    PathContext before = path_context_relight(&world.context, sunny, &world.arena);
+    assert_non_null(before.sunlit.nodes);
+    assert_non_null(before.beams[BEAMS_OF_SUN].mirrors);
+    world.scene->displays[0].level = 0.1f;
+    const Lights *dimmed = lights_with_levels(sunny, &world.arena);
+    PathContext relit = path_context_relight(&before, dimmed, &world.arena);
+    PathContext kept = path_context_relevel(&before, dimmed, &world.arena);
+    assert_ptr_equal(kept.beams[BEAMS_OF_SUN].mirrors, before.beams[BEAMS_OF_SUN].mirrors);
+    for (int by_meter = 0; by_meter < 2; by_meter++) {
+        ProbeAim aim = aim_of(&world, 5, by_meter);
+        aim.context = &relit;
+        double anew = reading_take(&aim, &goal, &tools, world.arena).reflected;
+        aim.context = &kept;
+        assert_true(anew > 0);
+        assert_true(reading_take(&aim, &goal, &tools, world.arena).reflected == anew);
+    }
+}
+
 TEST_PROGRAM(NULL, NULL)
