@@ -375,6 +375,32 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it) {
     }
 }
 
+TEST(a_kept_sky_is_the_one_that_would_be_made) {
+    Error err;
+    ENDS_BY(world_end) World world = world_start();
+    SkiesKept kept = {&world.arena, NULL};
+    DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
+    SkyTable own = sky_table_start(&like, 30, 36, &world.arena);
+    SkyTable first = sky_table_start(&like, 30, 36, &world.arena);
+    SkyTable again = sky_table_start(&like, 30, 36, &world.arena);
+    first.kept = again.kept = &kept;
+    for (int row = 0; row < own.count; row++) {
+        float bands[2][LIGHT_BANDS];
+        const Daylight *made = sky_table_make(&own, row, &world.arena, &err);
+        const Daylight *left = sky_table_make(&first, row, &world.arena, &err);
+        assert_true(made && left && made != left);
+        assert_ptr_equal(sky_table_make(&again, row, &world.arena, &err), left);
+        light_bands_sky(made, 0.3f, 1, bands[0]);
+        light_bands_sky(left, 0.3f, 1, bands[1]);
+        assert_memory_equal(bands[0], bands[1], sizeof bands[0]);
+        assert_memory_equal(own.sun_bands[row], again.sun_bands[row], sizeof own.sun_bands[row]);
+    }
+    again.like.albedo = 0.6;
+    const Daylight *other = sky_table_make(&again, 0, &world.arena, &err);
+    assert_ptr_not_equal(other, sky_table_make(&first, 0, &world.arena, &err));
+    assert_true(other->input.albedo == again.like.albedo);
+}
+
 /* Where it does not none lights it, sampled by itself. */
 enum { SUNS = 4000 };
 
