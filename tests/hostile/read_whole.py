@@ -334,14 +334,14 @@ def alpha(bench):
 
 
 def transfers(bench):
-    names = {1: "printing density", 2: "linear", 3: "logarithmic", 6: "BT.709", 13: "ADX"}
+    said = {2: " (linear)", 6: " (BT.709)"}
     values = codes(5)
     bench.write({"plain.dpx": dpx(values)})
     for transfer in some([2, 3, 1, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 30, 200, 254], bench):
         for end in "><"[:2 if bench.is_all else 1]:
             bench.write({"a.dpx": dpx(values, transfer, 6, end=end)})
             is_read = transfer in (2, 5, 6, 7, 8, 9, 10)
-            words = f"states DPX transfer {transfer} ({names.get(transfer, '')}"
+            words = f"states DPX transfer {transfer}{said.get(transfer, '')}"
             bench.says("DPX", 1, words if is_read else "is not read (DPX transfer", "compare",
                        "plain.dpx", "a.dpx")
             bench.says("DPX", 0, "same" if is_read else "both state the same", "compare", "a.dpx",

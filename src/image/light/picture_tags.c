@@ -226,22 +226,11 @@ static bool plain_light(const Statements *in, IccLight *out) {
     return true;
 }
 
-static const char *dpx_transfer_name(int transfer) {
-    static const char *const NAMES[] = {"",
-                                        "printing density",
-                                        "linear",
-                                        "logarithmic",
-                                        "",
-                                        "SMPTE 274M",
-                                        "BT.709",
-                                        "BT.601, 625 lines",
-                                        "BT.601, 525 lines",
-                                        "NTSC",
-                                        "PAL",
-                                        "linear depth",
-                                        "homogeneous depth",
-                                        "ADX"};
-    return transfer < COUNT_OF(NAMES) ? NAMES[transfer] : "not in SMPTE 268M";
+static const char *dpx_words(int transfer, Arena *arena) {
+    static const char *const NAMES[] = {
+        "", " (printing density)", " (linear)", " (logarithmic)", "", "", " (BT.709)"};
+    return arena_format(arena, "DPX transfer %d%s", transfer,
+                        transfer < COUNT_OF(NAMES) ? NAMES[transfer] : "");
 }
 
 PictureTags picture_tags_read(const void *bytes, size_t size, Arena *arena) {
@@ -252,8 +241,7 @@ PictureTags picture_tags_read(const void *bytes, size_t size, Arena *arena) {
     if (in.has_cicp) {
         out.is_known = cicp_light(c, &out.light);
         out.words = in.dpx_transfer
-                        ? arena_format(arena, "DPX transfer %d (%s)", in.dpx_transfer,
-                                       dpx_transfer_name(in.dpx_transfer))
+                        ? dpx_words(in.dpx_transfer, arena)
                         : arena_format(arena, "cICP %d/%d/%d/%d", c[0], c[1], c[2], c[3]);
     } else if (in.has_icc) {
         out.is_known = in.icc && icc_read(in.icc, in.icc_size, &out.light);
