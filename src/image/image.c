@@ -51,18 +51,22 @@ static const Signature SIGNATURES[] = {
     {"pnm", "P6", 0, 2},
 };
 
-/* TGA has no mark before its pixels: a head of colours or greys that says no more than the file
- * holds, or a mark at its end. */
+static size_t u16_at(const unsigned char *p) {
+    return p[0] | (size_t)p[1] << 8;
+}
+
+/* TGA has no mark before its pixels: a mark at its end, or a head that can be one and asks for no
+ * more than the file holds. */
 static bool is_targa(const unsigned char *bytes, size_t size) {
     if (size >= 44 && !memcmp(bytes + size - 18, "TRUEVISION-XFILE.", 18)) return true;
-    if (size < 19 || bytes[1] || bytes[3] || bytes[4] || bytes[5] || bytes[6] || bytes[7])
-        return false;
-    unsigned kind = bytes[2] & 7u, depth = bytes[16];
-    size_t width = bytes[12] | (size_t)bytes[13] << 8, height = bytes[14] | (size_t)bytes[15] << 8;
-    bool is_packed = bytes[2] == 10 || bytes[2] == 11;
-    return (bytes[2] == kind || is_packed) && width && height && bytes[17] < 0x40 &&
-           ((kind == 2 && (depth == 24 || depth == 32)) || (kind == 3 && depth == 8)) &&
-           (is_packed || 18 + bytes[0] + width * height * depth / 8 <= size);
+    if (size < 19 || (bytes[2] & ~0x0b) || bytes[17] >= 0x40) return false;
+    unsigned kind = bytes[2] & 3u, depth = bytes[16]; /* by a table, colours, greys */
+    size_t row = u16_at(bytes + 12) * ((depth + 7) / 8), rows = u16_at(bytes + 14);
+    size_t table = u16_at(bytes + 5) * ((bytes[7] + 7u) / 8);
+    bool has_depth =
+        kind == 2 ? depth == 15 || depth == 16 || depth == 24 || depth == 32 : depth == 8;
+    return kind && has_depth && bytes[1] == (kind == 1) && (kind == 1) == (table > 0) && row &&
+           rows && 18 + bytes[0] + table + (bytes[2] & 8 ? 1 : row * rows) <= size;
 }
 
 static const char *format_of(const unsigned char *bytes, size_t size, const char *name) {

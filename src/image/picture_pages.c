@@ -73,14 +73,15 @@ static void count_gif(const unsigned char *bytes, size_t size, PicturePages *out
     if (bytes[10] & 0x80) at += (size_t)6 << (bytes[10] & 7);
     while (at + 2 < size && (bytes[at] == 0x21 || bytes[at] == 0x2c)) {
         bool is_image = bytes[at] == 0x2c;
-        if (is_image && ++images == 2) second = at;
+        images += is_image;
         if (is_image && at + 10 >= size) break;
         if (is_image) at += 11 + (bytes[at + 9] & 0x80 ? (size_t)6 << (bytes[at + 9] & 7) : 0);
         else at += 2;
         while (at < size && bytes[at]) at += 1 + (size_t)bytes[at];
         at++;
+        if (images == 1 && is_image) second = at;
     }
-    if (images < 2) return;
+    if (images < 2 || second > size) return;
     out->count = images;
     out->digest = mixed(out->digest, bytes + second, size - second);
 }

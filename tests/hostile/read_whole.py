@@ -354,6 +354,17 @@ def transfers(bench):
 
 
 def targa(bench):
+    rows = [1 + i % 3 for i in range(W * H)]
+    heads = {"a table of colours": (1, 1, 4, 24, 8, bytes(12) + bytes(rows)),
+             "a packed table": (1, 9, 4, 24, 8, bytes(12) + b"\x87\1" * H),
+             "16 bits": (0, 2, 0, 0, 16, bytes(2 * W * H)), "greys": (0, 3, 0, 0, 8, bytes(rows)),
+             "packed colours": (0, 10, 0, 0, 24, b"\x87\1\2\3" * H),
+             "packed greys": (0, 11, 0, 0, 8, b"\x87\1" * H)}
+    for what, (mapped, kind, length, size, depth, body) in some(heads.items(), bench):
+        made = struct.pack("<BBBHHBHHHHBB", 0, mapped, kind, 0, length, size, 0, 0, W, H, depth,
+                           0x20) + body
+        bench.write({"s.gltf": square(image=(made, "image/x-tga"))})
+        bench.says(f"TGA in a buffer, {what}", 0, "ok: 0 errors", "check", "s.gltf")
     for seed in some(range(20), bench):
         made = tga(codes(seed, 3 + seed % 2), seed % 2 == 1, None if seed % 4 < 2 else 3)
         bench.write({"s.gltf": square(image=(made, "image/x-tga")), "a.tga": made, "b.bin": made})
