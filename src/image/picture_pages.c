@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "image/picture_pages.h"
 
+#include <ctype.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -120,11 +121,41 @@ static void count_dpx(const unsigned char *bytes, size_t size, PicturePages *out
     out->digest = mixed(out->digest, bytes, size);
 }
 
+/* A number of a PNM's head, behind white space and remarks; 0: none. */
+static size_t pnm_number(const unsigned char *bytes, size_t size, size_t *at) {
+    size_t number = 0;
+    for (bool is_remark = false;
+         *at < size && (is_remark || isspace(bytes[*at]) || bytes[*at] == '#'); (*at)++)
+        is_remark = (is_remark || bytes[*at] == '#') && bytes[*at] != '\n';
+    for (; *at < size && isdigit(bytes[*at]) && number < 1 << 20; (*at)++)
+        number = 10 * number + bytes[*at] - '0';
+    return number;
+}
+
+/* Pictures stand one behind the other. */
+static void count_pnm(const unsigned char *bytes, size_t size, PicturePages *out) {
+    int images = 0;
+    size_t at = 0, second = 0;
+    while (at + 2 < size && bytes[at] == 'P' && (bytes[at + 1] == '5' || bytes[at + 1] == '6')) {
+        size_t channels = bytes[at + 1] == '6' ? 3 : 1;
+        at += 2;
+        size_t width = pnm_number(bytes, size, &at), height = pnm_number(bytes, size, &at);
+        size_t most = pnm_number(bytes, size, &at);
+        at += 1 + width * height * channels * (most > 255 ? 2 : 1);
+        if (++images == 1) second = at;
+    }
+    if (images < 2) return;
+    out->count = images;
+    out->name = "pictures";
+    out->digest = mixed(out->digest, bytes + second, size - second);
+}
+
 PicturePages picture_pages(const void *bytes, size_t size) {
     PicturePages out = {.count = 1, .name = "pages"};
     if (size < 16) return out;
     if (!memcmp(bytes, "\x89PNG\r\n\x1a\n", 8)) count_png(bytes, size, &out);
     if (!memcmp(bytes, "GIF8", 4)) count_gif(bytes, size, &out);
+    if (!memcmp(bytes, "P5", 2) || !memcmp(bytes, "P6", 2)) count_pnm(bytes, size, &out);
     if (!memcmp(bytes, "II*\0", 4) || !memcmp(bytes, "MM\0*", 4) || !memcmp(bytes, "II+\0", 4) ||
         !memcmp(bytes, "MM\0+", 4))
         count_tiff(bytes, size, &out);

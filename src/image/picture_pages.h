@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* picture_pages.h -- what a picture's file holds besides the one picture that is read of it:
- * further pages of a TIFF, frames of a GIF or PNG that moves, elements of a DPX.
+ * further pages of a TIFF, frames of a GIF or PNG that moves, elements of a DPX, a PNM's further
+ * pictures.
  *
  * A TIFF's smaller copies of a page are none; what is damaged ends the count.
  * Memory   none. Threads: pure functions.

@@ -209,6 +209,9 @@ def pages(bench):
     kinds += [("tif", tiff(floats[:2], bits=32), tiff(floats[::2], bits=32), None)]
     kinds += [("gif", gif(low[:n]), gif([*low[:n - 1], low[4]]), None) for n in (3, 4)]
     kinds += [("gif", gif(low[:2], 10), gif(low[:1] + low[3:4], 20), None)]
+    ppm = [b"P6\n# a\n%d %d\n255\n" % (W, H) + bytes(page) for page in (a, b, c)]
+    kinds += [("ppm", b"".join(ppm[:2]), ppm[0] + ppm[2], None),
+              ("ppm", b"".join(ppm), ppm[0] + ppm[2] + ppm[1], None)]
     kinds += [("png", apng([a, b, c][:n], shown), apng([a, c, b][:n], shown), None)
               for n in (2, 3) for shown in (False, True)]
     for ending, one, other, alone in some(kinds, bench):
