@@ -365,8 +365,8 @@ def doors(bench):
         **{f"review --dry-run, a {name}": ["review", f"shape/{name}.review.json", "--dry-run"]
            for name in places}}
     for name, words in commands.items():
-        _, said = bench.run(*words)
-        bench.said(name, APART.search(said), said[-600:])
+        status, said = bench.run(*words)
+        bench.said(name, APART.search(said) and status == 0, said[-600:])
     _, said = bench.run("review", "shape/none.review.json", "--dry-run")
     bench.silent("review --dry-run", APART.search(said) and said)
 

@@ -121,13 +121,11 @@ def check_faults(display):
         file.write(whole[:1000])
     with open(os.path.join(display.folder, "cut.png"), "wb") as file:
         file.write(png(1, 1, [[1, 2, 3]])[:30])
-    display.place("square.png", [(9, 9, 9)] * 16, 4)
     white = ("--content", "white.png", "--png", "out.png")
     for words, what in (
             (("none.panel", *white), "none.panel"), (("cut.panel", *white), "cut.panel"),
             ((PANEL, "--content", "none.png", "--png", "out.png"), "none.png"),
             ((PANEL, "--content", "cut.png", "--png", "out.png"), "cut.png"),
-            ((PANEL, "--content", "square.png", "--png", "out.png"), "--size-mm"),
             ((PANEL, "--content", "white.png", "--png", "white.png"), "white.png"),
             ((PANEL, "--content", "white.png"), "--png"), ((PANEL, "--png", "out.png"),
                                                           "--content"),

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/units.h"
+#include "cli/options/answer.h"
 #include "cli/options/look_options.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/render/cmd_render.h"
@@ -236,16 +237,18 @@ static bool read_size(const char *path, Arena scratch, double mm[2], Error *err)
     return ok;
 }
 
-/* A picture fills the display: of another shape it would be stretched. */
-static bool check_shape(const ShowWords *words, const double mm[2], const Image *picture,
-                        Arena scratch, Error *err) {
+/* A picture fills the display: of another shape it is stretched. */
+static void warn_of_shape(const ShowWords *words, const double mm[2], const Image *picture,
+                          Arena scratch) {
     double shape = (double)picture->width / picture->height;
     Twice twice = twice_shape("the display", shape, mm[0] / mm[1], &scratch);
-    return words->has_size_mm || !twice_differ(&twice) ||
-           error_at(err, ERROR_INPUT, words->content, "",
-                    "%s: %d x %d pixels on the panel's %g x %g mm — fit the picture, or name the "
-                    "size that it fills by --size-mm W,H",
-                    twice_text(&twice, &scratch), picture->width, picture->height, mm[0], mm[1]);
+    Problems problems = problems_start(&scratch);
+    if (words->has_size_mm || !twice_differ(&twice)) return;
+    problems_add(&problems, SEVERITY_WARNING, words->content, "",
+                 "%s: %d x %d pixels on the panel's %g x %g mm — fit the picture, or name the "
+                 "size that it fills by --size-mm W,H",
+                 twice_text(&twice, &scratch), picture->width, picture->height, mm[0], mm[1]);
+    cli_print_warnings(&problems);
 }
 
 static bool find_display(ShowRun *work, const char *panel, Arena scratch, Error *err) {
@@ -261,7 +264,8 @@ static bool find_display(ShowRun *work, const char *panel, Arena scratch, Error 
         mm[1] = mm[0] * picture.height / picture.width;
     }
     for (int i = 0; i < 2; i++) work->scene.size_m[i] = mm[i] / 1e3;
-    return check_shape(words, mm, &picture, scratch, err);
+    warn_of_shape(words, mm, &picture, scratch);
+    return true;
 }
 
 /* ---- the render -------------------------------------------------------------------------- */
