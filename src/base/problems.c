@@ -7,7 +7,7 @@
 #define MORE_BYTES 160
 
 struct ProblemKind {
-    const char *format;
+    const char *format, *file;
     Severity severity;
     int count;
     const char *first; /* message */
@@ -37,18 +37,22 @@ static void count(Problems *problems, Severity severity) {
 }
 
 /* NULL for what is put together elsewhere: such messages have nothing in common. */
-static ProblemKind *kind_of(Problems *problems, Severity severity, const char *format) {
+static ProblemKind *kind_of(Problems *problems, Severity severity, const char *file,
+                            const char *format) {
     if (!strcmp(format, "%s")) return NULL;
-    for (int i = 0; i < problems->kind_count; i++)
-        if (problems->kinds[i].format == format && problems->kinds[i].severity == severity)
-            return &problems->kinds[i];
+    for (int i = problems->kind_count - 1; i >= 0; i--) {
+        ProblemKind *kind = &problems->kinds[i];
+        if (kind->format == format && kind->severity == severity && !strcmp(kind->file, file))
+            return kind;
+    }
     if (problems->kind_count == problems->kind_capacity) {
         problems->kind_capacity = problems->kind_capacity ? 2 * problems->kind_capacity : 16;
         problems->kinds = ARENA_GROW(problems->arena, ProblemKind, problems->kinds,
                                      problems->kind_count, problems->kind_capacity);
     }
     ProblemKind *made = &problems->kinds[problems->kind_count++];
-    *made = (ProblemKind){format, severity, 0, NULL, NULL};
+    *made = (ProblemKind){
+        format, arena_string(problems->arena, file, strlen(file)), severity, 0, NULL, NULL};
     return made;
 }
 
@@ -66,7 +70,7 @@ static void count_more(Problems *problems, ProblemKind *kind, const char *file) 
 void problems_add_list(Problems *problems, Severity severity, const char *file, const char *path,
                        const char *format, va_list list) {
     char message[1024];
-    ProblemKind *kind = kind_of(problems, severity, format);
+    ProblemKind *kind = kind_of(problems, severity, file ? file : "", format);
     count(problems, severity);
     if (kind && ++kind->count > PROBLEMS_OF_KIND) {
         count_more(problems, kind, file);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* problems.h -- collects everything that is wrong with the user's files, not just the first; of
- * one kind, which is one format, a hundred, and in one more entry how many there are besides.
+ * one kind, which is one format of one file, a hundred, and in one more entry how many there are
+ * besides.
  *
  * Memory   the list grows in its arena. Threads: one thread at a time.
  */

@@ -125,7 +125,7 @@ def write_files(requests):
         scene.quad(scene.lambert(0.5), [2, 0, 0], [0.1, 0, 0], [0, 0.1, 0])
         scene.write(path(name))
     with open(path("letters.png"), "wb") as file:
-        file.write(png(80, 48, [[255 * is_of_letter(x, y) for x in range(80) for _ in range(3)]
+        file.write(png(96, 48, [[255 * is_of_letter(x, y) for x in range(96) for _ in range(3)]
                                 for y in range(48)]))
     with open(path("w.epw"), "w", encoding="utf-8") as file: # no lux of its own
         file.write(EPW + "".join(weather_row(month, day, hour, 500, 100, 0)

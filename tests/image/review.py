@@ -340,7 +340,7 @@ def check_twins(report, reviewer):
 
 
 def weather_row(month, day, label, direct, diffuse, _):
-    return (f"2011,{month},{day},{label},60,x,20,12,79,100100,0,1415,288,0,{direct},{diffuse},"
+    return (f"2011,{month},{day},{label},60,x,20,12,79,100100,0,1415,288,9999,{direct},{diffuse},"
             "0,0,0,0\n")
 
 
