@@ -66,9 +66,11 @@ def cockpit(size=(0.3, 0.15), turn=0, heading=0, eye=(0, 0.2, 0.8), **display):
         c, s = math.cos(math.radians(heading)), math.sin(math.radians(heading))
         return [c * v[0] + s * v[2], v[1], c * v[2] - s * v[0]]
     scene = Scene()
-    picture = scene.image("image/png", png(40, 20, [
-        [255 * (5 < x < 30 and 4 < y < 12) for x in range(40) for _ in range(3)]
-        for y in range(20)]))
+    side = min(size) / 20
+    columns, rows = (round(x / side) for x in size)
+    picture = scene.image("image/png", png(columns, rows, [
+        [255 * (0.14 < x / columns < 0.75 and 0.22 < y / rows < 0.6) for x in range(columns)
+         for _ in range(3)] for y in range(rows)]))
     material = scene.material("screen", {"PARHELION_display": {
         "panel": "p.panel", "content": {"index": picture}, **display}})
     right, up = turned([1, 0, 0], [0, 1, 0], turn)
@@ -162,7 +164,7 @@ def check_sizes(bench):
         bench.report.claim(any(told in s and "0.005 to 1.5 m" in s for s in said),
                            f"check of {told}: {said}")
         done = bench.review(request())
-        bench.claim_said(f"a review of {told}", done, 3, told, "required 0.005 to 1.5 m",
+        bench.claim_said(f"a review of {told}", done, 3, told, "required: 0.005 to 1.5 m",
                          "/symbols/bar/display")
         cockpit(size, eye=eye, any_size=True).write(path)
         done = bench.review(request())
@@ -273,7 +275,7 @@ def check_mirrored(bench):
 
 def equipment(**display):
     return {"equip": 1, "displays": [{"name": "d", "centre_m": [0, 0, 0], "right": [0, 0, -1],
-                                      "up": [0, 1, 0], "width_m": 0.3, "height_m": 0.1,
+                                      "up": [0, 1, 0], "width_m": 0.3, "height_m": 0.1125,
                                       "panel": "ips_cluster", "content": "cluster", **display}],
             "eyes": [{"name": "e", "position_m": [0.7, 0.2, 0.1], "looks_at": "d"}]}
 
@@ -318,7 +320,7 @@ def check_keys(bench):
         scene.environment(**members)
         scene.write(os.path.join(bench.folder, "k.gltf"))
         said = bench.check("k.gltf")
-        bench.report.claim(any(f'is "{wanted}" meant?' in s for s in said),
+        bench.report.claim(any(f"the nearest known one is '{wanted}'" in s for s in said),
                            f"{members}: {said}")
 
 
