@@ -221,6 +221,8 @@ static const RecordFormat ambient_format = {"ambient", sizeof(Profile), AMBIENT,
 static const RecordRow PROFILE[] = {
     TEXT("title", MUST | RECORD_FILLED, title, "The standard's, as a report prints it."),
     TEXT("edition", MUST | RECORD_FILLED, edition, NULL),
+    TEXT("superseded_by", RECORD_FILLED, superseded_by,
+         "The standard in its place, where it is no longer in force: every report says so."),
     FLAG("veil", 0, uses_veil,
          "Contrast counts with the veil that stray light in the eye lays over it."),
     NUMBER("threshold_increment_max_pct", RECORD_OPEN | RECORD_ABOVE, increment_most_pct, 0, 1000,

@@ -50,6 +50,8 @@ typedef struct Profile {
     const char *id;     /* "iso-15008", or the file's path */
     uint64_t file_hash; /* of that file (text/json_view.h); 0: inside the program */
     const char *title, *edition;
+    const char *superseded_by; /* what stands in its place, and whence that is known; NULL: it
+                                  is in force, or nobody says */
     bool uses_veil;            /* contrast counts with the veil over it */
     double increment_most_pct; /* threshold increment of a gaze at a road by night, at
                                   most; NaN: no limit is set */

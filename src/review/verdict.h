@@ -373,6 +373,8 @@ typedef struct ReviewSweep {
                                        counts it: the verdict is the worst's, which was
                                        read again */
     double longest_failure_minutes; /* at a stretch; NaN: the sweep has no times */
+    double failed_minutes;          /* that share of the time that is swept, under one heading;
+                                       NaN likewise */
     double middle_contrast;         /* of an eye box: ratio at the worst step of its middle, whose
                                        steps these are; NaN: one point, or nothing is seen */
     ReviewCase worst;
@@ -414,9 +416,16 @@ typedef struct ReviewDifference {
 
 /* A file that was read. */
 typedef struct ReviewFile {
-    const char *path; /* as it was opened */
-    const char *xxh3; /* XXH3 64 of the bytes that were read, 16 hexadecimal digits */
+    const char *path;   /* as it was opened */
+    const char *xxh3;   /* XXH3 64 of the bytes that were read, 16 hexadecimal digits */
+    const char *sha256; /* of the same bytes, 64 digits; NULL: not known, as of a file that is
+                           another now */
 } ReviewFile;
+
+/* Of the report: texts as its author states them; NULL: not stated. */
+typedef struct ReviewDocument {
+    const char *number, *revision, *date, *author;
+} ReviewDocument;
 
 /* What a verdict rests on besides the light. */
 typedef enum RestKind {
@@ -472,6 +481,8 @@ typedef struct ReviewVariantFound {
 
 struct Review {
     const char *title, *profile; /* profile: the standard's name and edition */
+    const char *superseded_by;   /* what stands in that standard's place; NULL: it stands */
+    ReviewDocument document;
     ReviewCase *cases;
     int case_count;
     ReviewSweep *sweeps;

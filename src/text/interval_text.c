@@ -55,7 +55,7 @@ const char *interval_value_text(double value, double low, double high, Arena *ar
     double half = 0.5 * (high - low), size = fabs(value);
     if (isnan(value)) return "unknown";
     if (!(half > 1e-9 * size) || !isfinite(half)) return arena_format(arena, "%.4g", value);
-    int decimals = decimals_for(half);
+    int decimals = -place_of(half); /* without "+-" nobody reads more than one doubtful digit */
     if (size > 0 && decimals > DIGITS_ALONE - 1 - place_of(size))
         decimals = DIGITS_ALONE - 1 - place_of(size);
     return rounded(value, decimals, arena);

@@ -15,6 +15,6 @@
  * digits; one without an end "at least 12"; "unknown" for NaN. */
 const char *interval_text(double value, double low, double high, Arena *arena);
 
-/* The figure alone, "420", with as many digits; four at most, and of one without an interval
- * four. */
+/* The figure alone, "420": its last digit is that in which the half width begins; four at most,
+ * and of one without an interval four. */
 const char *interval_value_text(double value, double low, double high, Arena *arena);

@@ -135,6 +135,12 @@ def required(limit):
             UNIT.get(limit["kind"], ""))
 
 
+def bound(limit):
+    """As sentences have it."""
+    return (f"{'maximum' if limit['upper'] else 'minimum'} {limit['value']:.4g}" +
+            UNIT.get(limit["kind"], ""))
+
+
 def last_digit(shown):
     """What the last digit that is shown stands for."""
     if "." in shown:
@@ -239,11 +245,11 @@ def claim_console(report, where, written, case, limit):
         return
     verdict, rest = rows[0].split(key, 1)
     report.claim(verdict.strip() == case["verdict"], f"{where}: console says {verdict.strip()}")
-    figure = re.match(r": ([a-z ]+) (.*?), required (.*?)(?:,|$)", rest)
+    figure = re.match(r": ([a-z ]+) (.*?) \((m[a-z]+ .*?)\)(?:,|$)", rest)
     if not report.claim(bool(figure), f"{where}: console '{rest}'"):
         return
-    report.claim(figure.group(1) == WORDS[limit["kind"]] and figure.group(3) == required(limit),
-                 f"{where}: console '{rest}', expected {limit['kind']} {required(limit)}")
+    report.claim(figure.group(1) == WORDS[limit["kind"]] and figure.group(3) == bound(limit),
+                 f"{where}: console '{rest}', expected {limit['kind']} {bound(limit)}")
     claim_row(report, f"{where}: console", figure.group(2), limit)
 
 
@@ -267,10 +273,9 @@ def claim_junit(report, where, written, case, limit):
     expected = [kind[case["verdict"]]] if case["verdict"] in kind else []
     report.claim(children == expected, f"{where}: JUnit {children}, expected {expected}")
     said = test.find("system-out").text
-    report.claim(said.startswith(SAID[case["verdict"]]) and
-                 f"required {required(limit)}" in said,
-                 f"{where}: JUnit '{said}', expected {required(limit)}")
-    claim_row(report, f"{where}: JUnit", said.split(limit["name"], 1)[-1], limit)
+    report.claim(said.startswith(SAID[case["verdict"]]) and bound(limit) in said,
+                 f"{where}: JUnit '{said}', expected {bound(limit)}")
+    claim_row(report, f"{where}: JUnit", said.split(WORDS[limit["kind"]], 1)[-1], limit)
 
 
 def claim_pages(report, where, written, case, limit):
@@ -324,20 +329,21 @@ def worst_of(cases):
 def claim_answer(report, where, page, cases, verdict):
     """The headline and the grid, of all cases or of a symbol's."""
     worst = worst_of(cases)
-    report.claim(page.headline[0] == SAID[verdict], f"{where}: headline {page.headline}")
+    said = re.split(" (?:at|in|by) |; ", page.headline[0])[0]
+    report.claim(said == SAID[verdict], f"{where}: headline {page.headline}")
     report.claim(page.is_green == (verdict == "pass"), f"{where}: green {page.is_green}")
     if worst is None:
         return
     limit = judged_of(worst)
     text = page.headline[1]
     report.claim(f"{worst['symbol']}, seen by eye, {worst['condition']}" in text and
-                 f"required {required(limit)}" in text,
-                 f"{where}: headline '{text}', expected {worst['condition']} {required(limit)}")
-    claim_row(report, f"{where}: headline", text.split(limit["name"], 1)[-1], limit)
+                 bound(limit) in text,
+                 f"{where}: headline '{text}', expected {worst['condition']} {bound(limit)}")
+    claim_row(report, f"{where}: headline", text.split(WORDS[limit["kind"]], 1)[-1], limit)
     for symbol in sorted({case["symbol"] for case in cases}):
         own = worst_of([case for case in cases if case["symbol"] == symbol])
         grid = [list(map(html.unescape, cell)) for cell in page.grid]
-        cells = [cell for cell in grid if required(judged_of(own)) in cell[1] and
+        cells = [cell for cell in grid if bound(judged_of(own)) in cell[1] and
                  cell[1].startswith(SAID[own["verdict"]])]
         report.claim(any(says(cell[2], judged_of(own)) for cell in cells),
                      f"{where}: grid {page.grid} for {symbol}, {judged_of(own)['found']} "
@@ -354,8 +360,8 @@ def claim_review(report, where, written):
     report.claim(written.status == (verdict in ("fail", "cannot be judged")),
                  f"{where}: status {written.status} of {verdict}")
     last = written.console[-1] if written.console else ""
-    report.claim(last == {"pass": "pass", "fail": "FAIL"}.get(
-        verdict, SAID[verdict].lower()), f"{where}: last line '{last}'")
+    report.claim(last == written.page.headline[0] == written.review["outcome"],
+                 f"{where}: last line '{last}'")
     claim_answer(report, where, written.page, cases, verdict)
     for symbol, page in written.summaries.items():
         own = [case for case in cases if case["symbol"] == symbol]
@@ -370,9 +376,10 @@ def brightnesses(cases):
     """(case, level, remedy) of each printed brightness that the panel can show."""
     for case in cases:
         for remedy in case["remedies"]:
-            factor = re.match(r"the display ([\d.e+]+) times as bright", remedy["what"])
-            if factor and case["level"] * float(factor.group(1)) <= 1:
-                yield case, case["level"] * float(factor.group(1)), remedy
+            to = re.match(r"(?:raise the level|dim) from [\d.e-]+ % to ([\d.e-]+) %",
+                          remedy["what"])
+            if to and float(to.group(1)) <= 100:
+                yield case, float(to.group(1)) / 100, remedy
 
 
 def claim_remedies(report, where, run, cases, lights, profile):

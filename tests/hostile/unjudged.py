@@ -81,11 +81,11 @@ def claim_unjudged(report, name, reviews, document, reason, words, *options):
                  f"{name}: {case['verdict']}, {case['reason']}")
     report.claim(found["verdict"] == "cannot be judged" and not found["pass"] and
                  done.returncode == 1, f"{name}: {found['verdict']}, status {done.returncode}")
-    report.claim(headline.startswith("Cannot be judged: ") and words in headline and
+    report.claim(headline.startswith("Cannot be judged") and words in headline and
                  not is_green, f"{name}: headline '{headline}'")
     row = next(row for row in done.stdout.splitlines() if "grey, eye, bar" in row)
     report.claim(row.startswith("cannot be judged") and words in row, f"{name}: '{row}'")
-    report.claim(done.stdout.splitlines()[-1] == "cannot be judged", f"{name}: {done.stdout}")
+    report.claim(done.stdout.splitlines()[-1] == found["outcome"], f"{name}: {done.stdout}")
     report.claim(not case["remedies"], f"{name}: offers {case['remedies']}")
     report.claim(int(reviews.junit()["errors"]) >= 1, f"{name}: JUnit {reviews.junit()}")
     return case, found
@@ -106,7 +106,7 @@ def check_hidden(report, reviews):
         summary = file.read()
     report.claim("Cannot be judged" in summary and "0.00 : 1" not in summary and
                  "0 : 1" not in re.sub("<svg.*?</svg>", "", summary, flags=re.S) and
-                 "Remedy" not in summary, "hidden: the summary")
+                 "raise the level" not in summary, "hidden: the summary")
 
 
 def check_optional(report, reviews):
@@ -160,10 +160,10 @@ def check_partly_hidden(report, reviews):
                          not case["remedies"],
                          f"{cover} hidden: {case['verdict']}, {case['contrast_ratio']}")
         if cover < 0.5:
-            report.claim("plate 0 (post) hides 25" in done.stdout, done.stdout)
+            report.claim("hidden by plate 0 (post) 25" in done.stdout, done.stdout)
         else:
             report.claim(done.returncode == 1 and not is_green and
-                         "more than 50 % is required" in headline, headline)
+                         "more than 50 % needed" in headline, headline)
 
 
 def check_hidden_sweep(report, reviews):

@@ -226,7 +226,7 @@ def check_review(report, pair, with_suns):
         with open(pair.file(kind, "out/review.json"), encoding="utf-8") as file:
             found.append(json.load(file))
         for read in found[-1]["inputs"]:
-            read.pop("xxh3")  # of files that say where they stand
+            read.pop("sha256")  # of files that say where they stand
     hold(report, pair, "a review", *found)
     line = "explain", "r.json", "--paths", "1024", "--condition", "grey", "--symbol", "bar"
     hold(report, pair, "explain of a review", *both(pair, *line, "--eye", "point"))

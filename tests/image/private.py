@@ -59,7 +59,7 @@ def text_of(out, name):
 
 
 def check_views(report, done, out, pane):
-    report.claim(f"in {pane}, required >= 1; contrast" in done.stdout, "the console names it")
+    report.claim(f"in {pane} (minimum 1)" in done.stdout, "the console names it")
     report.claim("reversed left to right" in done.stdout, "and that it is reversed")
     row = next(csv.DictReader(text_of(out, "cases.csv").splitlines()))
     report.claim(row["limit_by_pane"] == pane and row["verdict"] == "fail", "the table, too")

@@ -36,7 +36,7 @@ def bytes_of(*names):
 def figures_of(folder, name):
     """Without what names the request's own file by its bytes."""
     text = bytes_of(folder, name).decode()
-    return re.sub(r'("path": "r\.json",\s*"xxh3": ")[0-9a-f]+', r"\1", text)
+    return re.sub(r'("path": "r\.json",\s*"sha256": ")[0-9a-f]+', r"\1", text)
 
 
 def is_picture(name):

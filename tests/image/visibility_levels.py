@@ -119,7 +119,7 @@ class Reviews:
             case = review["cases"][0]
             self.report.claim(case["verdict"] == verdict, f"{share}: {case['verdict']}")
             self.report.claim(case["judged"]["age_years"] == 70, f"judged: {case['judged']}")
-            self.report.claim("at 70 years, required >=" in console, console)
+            self.report.claim("at 70 years (minimum " in console, console)
             self.report.claim(case["judged"]["found"] == min(
                 v["level"] for v in case["visibility_levels"]), "another figure is judged")
         self.check_remedy(case)

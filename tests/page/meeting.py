@@ -126,25 +126,27 @@ def check_reader(report, page, index, review):
     page.resize(*SCREEN)
     page.run("scrollTo(0,0)")
     words = page.run(SEEN)
-    verdict = re.search(r"^(Fails|Passes|Too close to call|Cannot be judged)$", words, re.M)
+    verdict = re.search(r"^(Fails|Passes|Too close to call|Cannot be judged)\b", words, re.M)
     wanted = {"pass": "Passes", "fail": "Fails", "too close": "Too close to call",
               "cannot be judged": "Cannot be judged"}
     report.claim(verdict and verdict[1] == wanted[review["verdict"]], f"{index}: no verdict")
     worst = re.search(r"([^\n:]+), seen by ([^,\n]+), (.+?): ", words)
     report.claim(bool(worst), f"{index}: no worst case in {words[:200]!r}")
+    low = page.run("['.worst .shown','.worst .bars'].map(s=>document.querySelector(s)).filter("
+                   "e=>e).map(e=>e.getBoundingClientRect().bottom)")
+    report.claim(all(bottom <= SCREEN[1] for bottom in low), f"{index}: below the fold: {low}")
     if not worst:
         return
     cases = [c for c in review["cases"] + [s["worst"] for s in review["sweeps"]]
              if c["symbol"] in worst[1] and c["eye"] == worst[2] and
              worst[3].startswith(c["condition"])]
     report.claim(len(cases) >= 1, f"{index}: {worst[0]!r} is no case")
-    wanted = {"pass": ("Light from",),
-              "cannot be judged": ("Not judged", "Why", "To judge it")}
-    fails = ("Light from", "(?:Remedy|What helps)")
+    wanted = {"pass": ("Source",), "cannot be judged": ("Not judged", "Why", "What to do")}
+    fails = ("Source", "What to do")
     for name in ("When", "Rests on") + wanted.get(review["verdict"], fails):
         report.claim(re.search(rf"^{name}\n(.+)", words, re.M), f"{index}: no '{name}' in "
                      f"the first screen")
-    cause = re.search(r"^Light from\n(\d+) % (\S.*?)(?: ·|$)", words, re.M)
+    cause = re.search(r"^Source\n(\d+) % (\S.*?)(?: ·|$)", words, re.M)
     if cause and cases:
         light = cases[0]["cause_groups"]["light"]
         report.claim(not light or light[0]["what"].startswith(cause[2][:8]),

@@ -3,7 +3,7 @@
 #include "review/export/review_junit.h"
 #include "review/output/review_diff.h"
 #include "review/output/review_json.h"
-#include "review/output/review_levels.h"
+#include "review/output/review_todo.h"
 #include "review/output/review_words.h"
 #include "review_page_fixture.h"
 
@@ -30,9 +30,9 @@ TEST(levels_are_told) {
     const ReviewCase *c = &review.cases[0];
     assert_string_equal(words_levels(c, &arena), "");
     fixture_add_levels(&arena, &review);
-    assert_string_equal(words_levels(c, &arena), "visibility level 6.0 at 50 years, 3.00 at 70");
+    assert_string_equal(words_levels(c, &arena), "visibility level 6.0 at 50 years, 3.0 at 70");
     assert_string_equal(words_level(&c->visibilities[1], &arena),
-                        "3.00, 95 % sure between 2.75 and 3.25; doubtful: a <doubt>, "
+                        "3.0, 95 % sure between 2.8 and 3.2; doubtful: a <doubt>, "
                         "\"quoted\"");
     assert_string_equal(words_target(&c->visibilities[0], &arena),
                         "one of its strokes, 2.25 arc minutes wide, looked at in a glance of "
@@ -59,8 +59,8 @@ TEST(a_level_that_decides_names_its_age) {
                     .verdict = VERDICT_FAIL,
                     .visible_share = 1};
     assert_string_equal(words_reason(&c, &arena),
-                        "visibility level 2.90 at 70 years, required >= 4");
-    assert_string_equal(words_judged(&c, &arena), "visibility level 2.90 at 70 years");
+                        "visibility level 2.9 at 70 years at night (minimum 4)");
+    assert_string_equal(words_judged(&c, &arena), "visibility level 2.9 at 70 years");
 }
 
 /* Of a level that nobody publishes the reason says so. */
@@ -84,7 +84,7 @@ TEST(a_level_of_no_age_is_named) {
                     .visibility_count = 1};
     assert_string_equal(words_reason(&c, &arena),
                         "visibility level could not be found out: too old");
-    assert_non_null(strstr(words_to_judge(&c), "an observer of an age"));
+    assert_non_null(strstr(todo_of_case(&c, &arena), "an observer of an age"));
 }
 
 /* Where contrasts are the same a level that moved beyond both intervals is a change; another
@@ -121,7 +121,7 @@ TEST(junit_tells_levels) {
     assert_null(strstr(taken(path), "visibility level"));
     fixture_add_levels(&arena, &review);
     assert_done(review_junit_write(&review, path, &err));
-    assert_non_null(strstr(taken(path), "visibility level 6.0 at 50 years, 3.00 at 70"
+    assert_non_null(strstr(taken(path), "visibility level 6.0 at 50 years, 3.0 at 70"
                                         "</system-out>"));
 }
 

@@ -43,11 +43,11 @@ static Review private_review(void) {
 
 TEST(its_words_say_what_is_forbidden) {
     static const char *const BEGIN[] = {
-        "must not be read, but can be: visual security 0.17",
-        "must not be read, and surely cannot be: visual security 1.49",
-        "must not be read, and perhaps can be: visual security 1.0",
-        ("must not be read, and surely cannot be: nothing of it is seen: wheel <rim> (leather) "
-         "hides 75 %")};
+        "must not be read, but can: visual security S 0.17",
+        "must not be read, and surely cannot: visual security S 1.49",
+        "must not be read, and perhaps can: visual security S 1",
+        ("must not be read, and surely cannot: nothing of it is seen; hidden by wheel <rim> "
+         "(leather) 75 %")};
     static const int PLACES[] = {0, 1, 2, 20};
     static const Verdict VERDICTS[] = {VERDICT_FAIL, VERDICT_PASS, VERDICT_TOO_CLOSE, VERDICT_PASS};
     Review review = private_review();
@@ -57,7 +57,7 @@ TEST(its_words_say_what_is_forbidden) {
         assert_int_equal(c->verdict, VERDICTS[i]);
         if (strncmp(reason, BEGIN[i], strlen(BEGIN[i])) != 0) fail_msg("%s", reason);
         assert_int_equal(strstr(reason, "; contrast ") != NULL, i < 3);
-        assert_int_equal(strstr(reason, "required >= 1") != NULL, i < 3);
+        assert_int_equal(strstr(reason, "(minimum 1)") != NULL, i < 3);
     }
     assert_string_equal(words_judged(&review.cases[20], &arena), "hidden");
 }
@@ -148,8 +148,8 @@ TEST(junit_and_page_say_it) {
     const char *path = in_folder("t.xml");
     assert_done(review_junit_write(&review, path, &err));
     const char *xml = taken(path);
-    assert_non_null(strstr(xml, "message=\"Fails: must not be read, but can be: "));
-    assert_non_null(strstr(xml, "Passes: must not be read, and surely cannot be: nothing"));
+    assert_non_null(strstr(xml, "message=\"Fails: must not be read, but can: "));
+    assert_non_null(strstr(xml, "Passes: must not be read, and surely cannot: nothing"));
     const char *page = page_of(&(ReviewPage){.review = &review});
     assert_non_null(strstr(page, "<dt>Visual security</dt><dd>V 1.5"));
     assert_non_null(strstr(page, "allows this much"));
@@ -252,8 +252,8 @@ static Review mirrored_review(void) {
     return review;
 }
 
-static const char IN_PANE[] = "must not be read, but can be: visual security 0.31 in side "
-                              "<glass>, required >= 1; contrast 1.98 : 1, reversed left to "
+static const char IN_PANE[] = "must not be read, but can: visual security S 0.31 in side "
+                              "<glass> by day (minimum 1); contrast 2.0 : 1, reversed left to "
                               "right";
 
 /* What is said of a case is its worst image's, by the same figures everywhere. */
@@ -269,7 +269,8 @@ TEST(a_case_that_glass_lets_read_says_by_which_pane) {
     assert_done(review_csv_write(&review, in_folder("t.csv"), &err));
     assert_non_null(strstr(taken(in_folder("t.csv")), ",side <glass>\r\n"));
     assert_done(review_junit_write(&review, in_folder("t.xml"), &err));
-    assert_non_null(strstr(taken(in_folder("t.xml")), "0.31 in side &lt;glass&gt;, required"));
+    assert_non_null(
+        strstr(taken(in_folder("t.xml")), "0.31 in side &lt;glass&gt; by day (minimum"));
     const char *page = page_of(&(ReviewPage){.review = &review});
     assert_non_null(strstr(page, "<dt>… in windscreen (glass)</dt><dd>surely cannot be read"));
     assert_non_null(strstr(page, "<dt>… in side &lt;glass&gt;</dt><dd>can be read, reversed"));

@@ -30,15 +30,14 @@ TEST(what_is_not_visible_says_what_hides_it) {
     Review review = fixture_review(&arena);
     const ReviewCase *hidden = &review.cases[20];
     assert_string_equal(words_reason(hidden, &arena),
-                        "nothing of it is seen: wheel <rim> (leather) hides 75 %, "
-                        "stalk (satin) hides 12 %, driver's hand (skin) hides 6.2 %, others "
-                        "6.2 %");
+                        "nothing of it is seen; hidden by wheel <rim> (leather) 75 %, stalk "
+                        "(satin) 12 %, driver's hand (skin) 6.2 %, others 6.2 %");
     assert_string_equal(words_hiders(&review.cases[0], &arena), "");
     assert_string_equal(words_contrast(hidden, &arena), "–");
 }
 
-/* One sentence for each of what it rests on; shares are the greatest of its cases, and of a
- * part of it those of that part. */
+/* One sentence for each of what it rests on, and a few words; shares are the greatest of its
+ * cases, and of a part of it those of that part. */
 TEST(what_it_rests_on_is_one_line) {
     Review review = fixture_review(&arena);
     review.cases[0].panel = (CasePanel){
@@ -46,30 +45,31 @@ TEST(what_it_rests_on_is_one_line) {
     review.cases[3].guessed_share = 0.25;
     review.cases[5].guessed_share = 0.625;
     assert_string_equal(
-        review_rests_words(&review, &arena),
+        review_rests_words(&review, false, &arena),
         "panel of cluster: measured (PX-9; conoscope, lab <B>), usable with care, coarse "
-        "(coarse: steps of 5 degrees), within 2.0 % of its tables of emission and 4.0 % of those "
-        "of reflection; panel of centre: synthetic; 2 guessed materials (up to 62 % of the light "
-        "on a symbol); the eye as given; no occupant named: nobody sits there, unless the "
-        "model itself has somebody; limits as quoted, 1 of 5 read in the standard");
+        "(coarse: steps of 5 degrees), fit error 2.0 % in emission, 4.0 % in reflection; centre: "
+        "synthetic; 2 guessed materials (up to 62 % of the light on a symbol); eyes as given; no "
+        "occupant named, unless the model itself has somebody; limits as quoted, 1 of 5 read in "
+        "the standard");
+    assert_string_equal(review_rests_words(&review, true, &arena),
+                        "1 panel: measured, 1 panel: synthetic; 2 guessed materials; eyes as "
+                        "given; no occupant; limits: 1 read, 4 quoted");
     review.cases[0].panel.assumed = "spectra of the primaries assumed: bands";
     for (int i = 0; i < review.case_count; i++)
         review.cases[i].extrapolated_share =
             words_same(review.cases[i].display, "centre") ? 0.004 : 0.001 * i;
-    assert_non_null(strstr(review_rests_words(&review, &arena),
-                           "4.0 % of those of reflection, spectra of the primaries assumed: bands"
-                           ", up to 2.3 % of the light that it reflects by directions that "
-                           "were not measured; panel of centre: synthetic; 2 guessed"));
+    assert_non_null(strstr(review_rests_words(&review, false, &arena),
+                           "4.0 % in reflection, spectra of the primaries assumed: bands, up to "
+                           "2.3 % of its reflected light extrapolated; centre: synthetic; 2 "));
     review.cases[5].eye = "driver";
     review.cases[5].empty_seat = "back";
-    assert_non_null(strstr(review_rests_words(&review, &arena),
-                           "; no occupant named: nobody sits in the driver's seat, nor in "
-                           "another unless the model itself has somebody; limits"));
+    assert_non_null(strstr(review_rests_words(&review, false, &arena),
+                           "has somebody; empty seats: driver; limits"));
     review.case_count = 4;
     review.sweep_count = 0;
-    assert_non_null(strstr(review_rests_words(&review, &arena), "up to 25 %"));
+    assert_non_null(strstr(review_rests_words(&review, false, &arena), "up to 25 %"));
     Review older = {.title = ""};
-    assert_string_equal(review_rests_words(&older, &arena), "");
+    assert_string_equal(review_rests_words(&older, false, &arena), "");
 }
 
 TEST(no_guess_no_proposal_no_quote_is_told_where_there_is_none) {
@@ -83,18 +83,45 @@ TEST(no_guess_no_proposal_no_quote_is_told_where_there_is_none) {
                           {REST_LIMITS, REST_READ, "house", NULL, 4, 4}};
     Review review = {.rests_on = rests, .rests_on_count = 8};
     assert_string_equal(
-        review_rests_words(&review, &arena),
-        "panel of a, b: no measurement stated; 1 material without optical data, taken as "
-        "perfectly white (up to 0 % of the light on a symbol); proposed eye (co-driver), the "
+        review_rests_words(&review, false, &arena),
+        "panel of a: no measurement stated; b: no measurement stated; 1 material without optical "
+        "data, taken as white (up to 0 % of the light on a symbol); proposed eye (co-driver), the "
         "others as given; occupants: in white (none under 1 of 3 conditions); limits as read "
         "in the standard");
+}
+
+/* What no limit was held against is in the same words as the verdict, everywhere. */
+TEST(the_outcome_hides_nothing_that_was_not_judged) {
+    Review review = fixture_review(&arena);
+    review.sweep_count = 0;
+    review.case_count = 4;
+    for (int i = 0; i < 4; i++) {
+        review.cases[i].verdict = VERDICT_PASS;
+        review.cases[i].unjudged = UNJUDGED_NOT;
+        review.cases[i].ambient = i < 2 ? AMBIENT_DAY : AMBIENT_NIGHT;
+    }
+    review_decide(&review);
+    assert_string_equal(review_outcome_words(&review, &arena), "Passes");
+    review.cases[3].verdict = VERDICT_UNJUDGED;
+    review.cases[3].unjudged = UNJUDGED_LIMIT;
+    assert_string_equal(review_outcome_words(&review, &arena),
+                        "Passes at night and by day; 1 of 2 cases at night has no limit in this "
+                        "profile");
+    review.cases[2].verdict = VERDICT_UNJUDGED;
+    review.cases[2].unjudged = UNJUDGED_LIMIT;
+    assert_string_equal(review_outcome_words(&review, &arena),
+                        "Passes by day; night has no limit in this profile");
+    review.cases[0].verdict = VERDICT_FAIL;
+    review_decide(&review);
+    assert_string_equal(review_outcome_words(&review, &arena),
+                        "Fails by day; night has no limit in this profile");
 }
 
 TEST(an_empty_seat_is_named_with_its_share) {
     ReviewCase c = {.eye = "driver", .empty_seat = "Lehne (Stoff)", .empty_seat_share = 0.96};
     assert_non_null(strstr(words_empty_seat(&c, &arena),
-                           "nobody sits in the driver's seat: its back, Lehne (Stoff), causes "
-                           "96 % of what is reflected; add an occupant: `equip`"));
+                           "its back, Lehne (Stoff): 96 % of the reflected light; add an occupant: "
+                           "`equip`"));
     c.empty_seat = NULL;
     assert_string_equal(words_empty_seat(&c, &arena), "");
 }
@@ -104,7 +131,7 @@ TEST(digits_follow_the_interval) {
     assert_string_equal(words_within(417.486, 380, 455, &arena), "420");
     assert_string_equal(words_interval(380.2, 455.1, &arena), "380 to 460");
     assert_string_equal(words_within(94.5257, 94.52, 94.53, &arena), "94.53");
-    assert_string_equal(words_within(2.951, 2.931, 2.971, &arena), "2.951");
+    assert_string_equal(words_within(2.951, 2.931, 2.971, &arena), "2.95");
     assert_string_equal(words_within(12.345, NAN, NAN, &arena), words_figure(12.345, &arena));
     LimitVerdict limit = {
         .kind = "luminance", .unit = "cd/m2", .found = 417.486, .low = 380, .high = 455};
@@ -123,8 +150,8 @@ TEST(what_cannot_be_judged_says_what_would_have_it_judged) {
         Unjudged why;
         const char *reason, *mend;
     } ROWS[] = {{UNJUDGED_HIDDEN, "nothing of it is seen", "\"visible\": \"optional\""},
-                {UNJUDGED_PANEL, "not usable: 63 % of the samples", "measured anew"},
-                {UNJUDGED_DATA, "without optical data", "by `equip`"},
+                {UNJUDGED_PANEL, "not usable, by its own file: 63 % of the samples", "fitted anew"},
+                {UNJUDGED_DATA, "without optical data", "`equip`"},
                 {UNJUDGED_LIMIT, "no limit", "a profile"},
                 {UNJUDGED_FIGURE, "could not be found out", "background"}};
     for (size_t i = 0; i < sizeof ROWS / sizeof *ROWS; i++) {
@@ -138,7 +165,7 @@ TEST(what_cannot_be_judged_says_what_would_have_it_judged) {
         ReviewFacts facts = review_facts_of(&review, c, NULL, &arena);
         assert_non_null(strstr(fact(&facts, "Not judged"), words_case(c, &arena)));
         assert_non_null(strstr(fact(&facts, "Why"), ROWS[i].reason));
-        assert_non_null(strstr(fact(&facts, "To judge it"), ROWS[i].mend));
+        assert_non_null(strstr(fact(&facts, "What to do"), ROWS[i].mend));
         assert_string_equal(fact(&facts, "How often"), "");
         bool is_long = strstr(words_headline(c, &arena), "samples") != NULL;
         assert_false(is_long); /* the first line has room for the reason alone */

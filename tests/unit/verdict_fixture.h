@@ -238,8 +238,8 @@ static inline Review fixture_review(Arena *arena) {
         {REST_EYE, REST_GIVEN, "driver", NULL, 1, 1},
         {REST_OCCUPANT, REST_NOBODY, NULL, NULL, 4, 4},
         {REST_LIMITS, REST_QUOTED, "ISO 15008", NULL, 1, 5}};
-    static ReviewFile inputs[] = {{"car.gltf", "00000000deadbeef"},
-                                  {"a \"b\" & c.png", "0123456789abcdef"}};
+    static ReviewFile inputs[] = {{"car.gltf", NULL, "00000000deadbeef"},
+                                  {"a \"b\" & c.png", NULL, "0123456789abcdef"}};
     Review review = {.title = "Cluster and centre display",
                      .profile = "ISO 15008: in-vehicle visual presentation, third edition",
                      .cases = ARENA_NEW(arena, ReviewCase, 24),
@@ -404,7 +404,7 @@ static inline Review fixture_odd_review(Arena *arena) {
     review.cases[0] = wild;
     review.cases[1] = bare;
     review.sweeps[0] =
-        (ReviewSweep){WILD_NAME, WILD_NAME, WILD_NAME, 0, NAN, NAN, NAN, wild, WILD_NAME};
+        (ReviewSweep){WILD_NAME, WILD_NAME, WILD_NAME, 0, NAN, NAN, NAN, NAN, wild, WILD_NAME};
     review_decide(&review);
     return review;
 }

@@ -34,7 +34,7 @@
 
 typedef struct ReviewWords {
     const char *folder, *profile, *root, *isa, *diff, *init, *responses, *summary;
-    bool is_strict, dry_run, is_self_contained, is_alone;
+    bool is_strict, dry_run, is_self_contained, is_alone, is_without_frames;
     CliTexts only;
     StateWords state_words;
     SceneState state;
@@ -74,6 +74,8 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          &out->is_self_contained},
         {"--no-variants", OPTION_FLAG, NULL, "the review by itself, whatever variants it has",
          &out->is_alone},
+        {"--no-frames", OPTION_FLAG, NULL, "no pictures are rendered, whatever the request has",
+         &out->is_without_frames},
         {"--summary", OPTION_TEXT, "SYMBOL",
          "one page of paper about this symbol, instead of one about each", &out->summary},
         {"--only", OPTION_TEXTS, "CONDITION",
@@ -183,8 +185,17 @@ static Outcome tell_kept(const ReviewFolder *folder, Error *err) {
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
+/* Who makes the review, and what it has said. */
+typedef struct Teller {
+    const ReviewWords *words;
+    ReviewFolder *folder;
+    const Progress *progress;
+    Arena *arena;
+    bool has_told;
+} Teller;
+
 static bool spare_files(void *user, const Scene *scene, Error *err) {
-    const ReviewFolder *folder = user;
+    const ReviewFolder *folder = ((Teller *)user)->folder;
     const Lines files = {.list = scene->inputs, .count = scene->input_count};
     Arena scratch = arena_reserve(FILES_BYTES);
     bool ok = review_files_spare(folder->target, folder->request, &files, scratch, err);
@@ -192,9 +203,27 @@ static bool spare_files(void *user, const Scene *scene, Error *err) {
     return ok;
 }
 
-static bool make_all(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
-                     ReviewOutcome *outcome, Arena *arena, Error *err) {
-    run->news = (ReviewNews){spare_files, folder};
+/* All that stands without pictures is whole in its place, and said, before they are begun. */
+static bool tell_verdicts(void *user, ReviewOutcome *outcome, Error *err) {
+    Teller *to = user;
+    const Cli *cli = &to->words->cli;
+    progress_clear(to->progress);
+    if (!review_folder_write(to->folder, outcome, to->arena, err) ||
+        (!cli->json && !review_print(cli, &outcome->review, *to->arena, err)))
+        return false;
+    to->has_told = !cli->json;
+    fflush(stdout);
+    if (!cli->quiet)
+        print_to(stderr, "verdicts are there: %s/index.html; pictures follow\n",
+                 to->folder->target);
+    return true;
+}
+
+static bool make_all(Teller *teller, ReviewRun *run, ReviewOutcome *outcome, Error *err) {
+    const ReviewWords *words = teller->words;
+    ReviewFolder *folder = teller->folder;
+    Arena *arena = teller->arena;
+    run->news = (ReviewNews){spare_files, tell_verdicts, teller};
     bool ok = review_run(run, words->is_strict, arena, outcome, err);
     progress_clear(run->progress);
     cli_print_warnings(run->problems);
@@ -206,6 +235,7 @@ static bool make_all(const ReviewWords *words, ReviewFolder *folder, ReviewRun *
 
 static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run, Arena *arena,
                     Error *err) {
+    Teller teller = {words, folder, run->progress, arena, false};
     ReviewOutcome found;
     signals_watch();
     if ((!words->merge && !review_variants_check(run, err)) ||
@@ -215,14 +245,15 @@ static Outcome make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *r
     run->unfinished = folder->draft.unfinished;
     run->responses = folder->responses;
     run->responses_shown = folder->responses_shown;
-    if (!make_all(words, folder, run, &found, arena, err)) {
+    if (!make_all(&teller, run, &found, err)) {
         Outcome outcome = err->code ? tell_kept(folder, err) : report_stopped(folder, arena);
         review_folder_close(folder);
         return outcome;
     }
     progress_end(run->progress, run->progress->total);
     review_folder_finish(folder);
-    if (!review_print(&words->cli, &found.review, *arena, err)) return OUTCOME_FAILED;
+    if (!teller.has_told && !review_print(&words->cli, &found.review, *arena, err))
+        return OUTCOME_FAILED;
     return found.review.pass ? OUTCOME_DONE : OUTCOME_NO;
 }
 
@@ -284,6 +315,7 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err) {
                            .only_count = words->only.count,
                            .summary = words->summary,
                            .is_alone = words->is_alone,
+                           .is_without_frames = words->is_without_frames,
                            .is_self_contained = words->is_self_contained};
     if (!review_request_read(file, words->root, arena, &problems, &request, err))
         return OUTCOME_FAILED;
@@ -296,6 +328,7 @@ static Outcome review(const ReviewWords *words, Arena *arena, Error *err) {
         request.variant_count = 0;
         request.is_compared = false;
     }
+    if (words->is_without_frames) request.frames.worst = 0;
     if (!find_only(&request, &words->only, arena, &only, err) ||
         (words->summary && !check_symbol(&request, words->summary, *arena, err)) ||
         !review_check(&request, *arena, err) ||

@@ -9,8 +9,8 @@
 #include "review/output/review_facts.h"
 #include "review/output/review_gaze.h"
 #include "review/output/review_json.h"
-#include "review/output/review_levels.h"
 #include "review/output/review_road.h"
+#include "review/output/review_todo.h"
 #include "review/output/review_panes.h"
 #include "review/output/review_variants.h"
 #include "review/output/review_words.h"
@@ -26,7 +26,7 @@ static void print_judged(const ReviewCase *c, Arena *scratch) {
     }
     if (!limit) return;
     print(": %s %s", words_kind(limit), words_measured(limit, scratch));
-    print(", required %s", words_required(limit, scratch));
+    print(" (%s)", words_bound(limit, scratch));
     if (c->unjudged) print("; %s", words_unjudged(c, scratch));
 }
 
@@ -51,14 +51,14 @@ static void print_case(const ReviewCase *c, Arena scratch) {
     print_whole(c, &scratch);
     print_levels(c, &scratch);
     if (c->hider_count && case_is_seen(c)) print("; %s", words_hiders(c, &scratch));
-    print("%s%s\n", words_precision(c, &scratch), words_decide(c, &scratch));
+    const char *decide = words_decide(c, &scratch);
+    print("%s%s%s\n", words_precision(c, &scratch), *decide ? "; " : "", decide);
 }
 
 static void print_sweep(const ReviewSweep *s, Arena scratch) {
     bool is_sure = sweep_verdict(s) == VERDICT_FAIL || !(s->failed_share > 0);
-    print("%-16s %s, %s, %s: %sfails %s %s%s", verdict_names[sweep_verdict(s)], s->condition,
-          s->eye, s->symbol, sweep_has_box(s) ? "the middle eye " : "",
-          words_share(s->failed_share, &scratch), words_of_what(s),
+    print("%-16s %s, %s, %s: %sfails: %s%s", verdict_names[sweep_verdict(s)], s->condition, s->eye,
+          s->symbol, sweep_has_box(s) ? "middle eye " : "", words_failing(s, &scratch),
           is_sure ? "" : " by its steps alone, in none that was read again");
     if (s->longest_failure_minutes > 0)
         print(", %.4g minutes at a stretch", s->longest_failure_minutes);
@@ -87,12 +87,18 @@ static void print_gaze(const GazeFinding *g, Arena scratch) {
           review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
 }
 
+/* Below what fails. */
+static void print_todo(const char *words) {
+    if (*words) print("%-16s %s\n", "what to do", words);
+}
+
 /* A gaze at a road: its verdict, and displays that no level suits. */
 static void print_road(const GazeFinding *g, Arena scratch) {
     int count;
     if (!g->road) return;
     print("%-16s %s, %s, looking at %s: %s\n", road_outcome(g), g->condition, g->eye, g->gaze,
           road_words(g, &scratch));
+    print_todo(todo_of_road(g, &scratch));
     const char **windows = road_empty_windows(g, &count, &scratch);
     for (int i = 0; i < count; i++) print("%-16s %s\n", "no level", windows[i]);
 }
@@ -102,6 +108,7 @@ static void print_pane(const PaneFinding *f, Arena scratch) {
     if (!pane_counts(f)) return;
     print("%-16s %s, %s, %s\n", verdict_names[f->limit.verdict], f->condition, f->eye,
           review_pane_words(f, &scratch));
+    print_todo(todo_of_pane(f, &scratch));
 }
 
 /* Those, and how many there are in all. */
@@ -124,12 +131,8 @@ static void print_variant(const Review *review, const ReviewVariantFound *v, Are
               road_change_words(&change, &scratch));
 }
 
-/* Dots that go on from the line before are left out. */
 static void print_fact(const ReviewFact *fact) {
-    static const char ON[] = "… ";
-    size_t skipped = strncmp(fact->name, ON, strlen(ON)) ? 0 : strlen(ON);
-    const char *name = fact->name + skipped;
-    print("%c%-15s %s\n", tolower((unsigned char)name[0]), name + 1, fact->value);
+    print("%c%-15s %s\n", tolower((unsigned char)fact->name[0]), fact->name + 1, fact->value);
 }
 
 /* The first screen of the page, as lines: of all cases the one that decides. */
@@ -150,10 +153,9 @@ static void print_review(const Review *review, Arena scratch) {
     for (int i = 0; i < review->variant_count; i++)
         print_variant(review, &review->variants[i], scratch);
     if (worst) print_worst(review, worst, scratch);
-    const char *rests = review_rests_words(review, &scratch);
+    const char *rests = review_rests_words(review, true, &scratch);
     if (rests[0]) print("%-16s %s\n", "rests on", rests);
-    static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "cannot be judged"};
-    print("%s\n", LAST[review_verdict(review)]);
+    print("%s\n", review_outcome_words(review, &scratch));
 }
 
 bool review_print(const Cli *cli, const Review *review, Arena scratch, Error *err) {

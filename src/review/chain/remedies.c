@@ -7,11 +7,14 @@
 #include "review/judge.h"
 #include "review/private_image.h"
 #include "review/quantity.h"
+#include "review/terms.h"
 
+#define SEEN_CD_M2 0.01    /* what is darker no eye reads */
 #define BRIGHTER_MOST 10.0 /* times as bright: more is not built */
 
 typedef struct Remedying {
     const Profile *profile;
+    double level_most; /* that the display can be driven to */
     const ReviewCase *c;
     int limit; /* that it is for */
     Arena *arena;
@@ -129,14 +132,34 @@ static double brighter_for(const CaseLuminances *l, double own, double other, do
     return gain > 0 ? other * (needed - 1) / gain : (double)NAN;
 }
 
+/* Three digits, towards what surely keeps the limit. */
+static const char *level_words(double level, int away, Arena *arena) {
+    double percent = 100 * level, digit = pow_d(10, floor(log10_d(percent)) - 2);
+    double whole = floor(percent / digit + 0.5);
+    if (away > 0 && whole * digit < percent * (1 - 1e-9)) whole++;
+    if (away < 0 && whole * digit > percent * (1 + 1e-9)) whole--;
+    return arena_format(arena, "%.4g %%", whole * digit);
+}
+
+/* A level that the display has, and of which an eye sees something. */
+static bool can_be_set(const Remedying *m, double factor) {
+    const CaseLuminances *l = &m->c->luminance_cd_m2;
+    double level = factor * m->c->level;
+    return factor < 1 ? factor * fmax(l->foreground, l->background) >= SEEN_CD_M2
+                      : level <= fmax(m->level_most, m->c->level) * (1 + 1e-9);
+}
+
 /* Nothing that leaves the figure within its interval. */
 static void set_remedy(const Remedying *m, double factor, const ReviewCase *then, ReviewCase *c) {
     const LimitVerdict *before = &c->limits[m->limit], *after = &then->limits[m->limit];
     if (then->limit_count != c->limit_count ||
         !(before->is_upper ? after->found < before->low : after->found > before->high))
         return;
-    const char *what = arena_format(m->arena, "the display %.3g times as bright%s", factor,
-                                    c->must_not_be_read ? " towards this eye" : "");
+    const char *from = level_words(c->level, 0, m->arena);
+    const char *to = level_words(then->level, factor > 1 ? 1 : -1, m->arena);
+    const char *what = factor > 1 ? arena_format(m->arena, TERM_RAISE, from, to)
+                                  : arena_format(m->arena, TERM_DIM "%s", from, to,
+                                                 c->must_not_be_read ? TERM_TOWARDS : "");
     CaseRemedy *remedy = ARENA_NEW(m->arena, CaseRemedy, 1);
     *remedy = (CaseRemedy){what, then->contrast_ratio, then->level, *after, then->verdict};
     c->remedies = remedy;
@@ -148,8 +171,8 @@ static void set_remedy(const Remedying *m, double factor, const ReviewCase *then
 #define TRY_STEP 1.05 /* the panel's errors are in the interval, too */
 
 /* The least with which the limit is judged to be kept. */
-void case_remedies(const Profile *profile, ReviewCase *c, Arena *arena) {
-    Remedying m = {profile, c, limit_to_mend(c), arena};
+void case_remedies(const Profile *profile, double level_most, ReviewCase *c, Arena *arena) {
+    Remedying m = {profile, level_most, c, limit_to_mend(c), arena};
     if (c->verdict == VERDICT_UNJUDGED || m.limit < 0) return;
     bool is_private = c->must_not_be_read;
     bool wants_less = limit_wants_less(&c->limits[m.limit]);
@@ -164,7 +187,7 @@ void case_remedies(const Profile *profile, ReviewCase *c, Arena *arena) {
         double factor = rounded_out(x);
         ReviewCase sure = judged_brighter(&m, factor);
         x *= wants_less ? 1 / TRY_STEP : TRY_STEP;
-        if (is_private && factor < DIMMEST) return;
+        if (!can_be_set(&m, factor) || (is_private && factor < DIMMEST)) return;
         if (!keeps_limit(&m, &sure)) continue;
         ReviewCase then = judged_with(&m, factor, other);
         set_remedy(&m, factor, &then, c);
@@ -215,6 +238,8 @@ CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena sc
         least = fmax(least, x <= BRIGHTER_MOST ? x : (double)INFINITY);
     }
     if (least < 0) return (CaseLeast){NAN, NAN};
+    least = fmax(least,
+                 SEEN_CD_M2 / fmax(c->luminance_cd_m2.foreground, c->luminance_cd_m2.background));
     double sure = isinf(least) ? least : surely_from(&m, fmax(least, 1e-6), other);
     return (CaseLeast){least * c->level, sure * c->level};
 }

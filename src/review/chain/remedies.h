@@ -15,7 +15,7 @@
 /* The least level of the display at which a case keeps all of its limits of contrast that count
  * and are not upper ones, as it is reckoned for the remedy of brightness; its own light that is
  * reflected counts (own_reflected). Infinite: at no level up to ten times today's; NaN: it
- * cannot be judged, is dark, or has no such limit. */
+ * cannot be judged, is dark, or has no such limit. Its brighter part has 0.01 cd/m2 at least. */
 typedef struct CaseLeast {
     double level; /* the figure is on the limit */
     double sure;  /* the limit is judged to be kept; at least `level` */
@@ -26,6 +26,7 @@ CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena sc
 /* Sets the case's remedy: a brightness, for the contrast limit that is missed by most, judged as
  * the case was; where none is missed, or the case cannot be judged, there is none, nor one that
  * leaves the figure within the interval it has. Of what must not be read it is dimmer, not below
- * a hundredth. It is the brightness with which the limit is judged to be kept although as much
- * more (or less, where less contrast is required) is reflected as the interval is wide. */
-void case_remedies(const Profile *profile, ReviewCase *c, Arena *arena);
+ * a hundredth, nor below 0.01 cd m^-2; nor is it brighter than level_most. It is the brightness
+ * with which the limit is judged to be kept although as much more (or less, where less contrast is
+ * required) is reflected as the interval is wide. */
+void case_remedies(const Profile *profile, double level_most, ReviewCase *c, Arena *arena);

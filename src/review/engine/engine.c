@@ -144,9 +144,15 @@ static bool keep_parts(const ReviewRun *run, const Review *review, Conditions *a
     return true;
 }
 
+/* Pictures that are traced take as long as verdicts do: these are told before. */
+static bool make_frames(const ReviewRun *run, ReviewOutcome *out, Arena *arena, Error *err) {
+    if (!run->request->frames.worst) return true;
+    return (run->merged || !run->news.verdicts || run->news.verdicts(run->news.user, out, err)) &&
+           review_frames(run, out, arena, err);
+}
+
 static bool review_all(const ReviewRun *run, bool is_strict, Arena *arena, ReviewOutcome *out,
                        Error *err) {
-    const ReviewRequest *request = run->request;
     Review *review = &out->review;
     Conditions all;
     if (!take_all(run, arena, &all, err)) return false;
@@ -155,8 +161,8 @@ static bool review_all(const ReviewRun *run, bool is_strict, Arena *arena, Revie
     review->is_strict = is_strict;
     review_decide(review);
     join_variants(run, &all, arena, review);
-    return review_goes_on(err) && (!request->frames.worst || review_frames(run, out, arena, err)) &&
-           review_goes_on(err) && (!run->only || keep_parts(run, review, &all, *arena, err));
+    return review_goes_on(err) && make_frames(run, out, arena, err) && review_goes_on(err) &&
+           (!run->only || keep_parts(run, review, &all, *arena, err));
 }
 
 bool review_run(const ReviewRun *run, bool is_strict, Arena *arena, ReviewOutcome *out,

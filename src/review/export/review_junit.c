@@ -3,7 +3,6 @@
 
 #include "page/page.h"
 #include "review/output/review_json.h"
-#include "review/output/review_levels.h"
 #include "review/output/review_road.h"
 #include "review/output/review_panes.h"
 #include "review/output/review_words.h"
@@ -76,9 +75,8 @@ static void add_pane(json_t *list, const Review *review, const PaneFinding *f, A
 }
 
 static const char *sweep_name(const ReviewSweep *s, Arena *arena) {
-    return arena_format(arena, "%s (worst of %ld, %s %s fails%s)", words_case(&s->worst, arena),
-                        s->cases, words_share(s->failed_share, arena), words_of_what(s),
-                        sweep_has_box(s) ? " for the middle eye" : "");
+    return arena_format(arena, "%s (worst of %ld, fails: %s%s)", words_case(&s->worst, arena),
+                        s->cases, words_failing(s, arena), sweep_has_box(s) ? ", middle eye" : "");
 }
 
 bool review_junit_write(const Review *review, const char *path, Error *err) {

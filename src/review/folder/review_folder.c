@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/folder/review_folder.h"
 
+#include <nettle/sha2.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include "base/file.h"
 #include "base/file_write.h"
@@ -22,6 +26,7 @@
 #include "review/review_decide.h"
 #include "text/text.h"
 
+#define INPUT_BYTES ((size_t)1 << 34) /* address space */
 #define MAP_STEP_DEG 5
 #define MAIN_CARDS 20 /* of the page itself: it stays below 3 MB */
 #define LIVE_FILE "live.js"
@@ -76,6 +81,37 @@ void review_folder_close(ReviewFolder *folder) {
 void review_folder_finish(ReviewFolder *folder) {
     remove_responses(folder);
     review_draft_finish(&folder->draft);
+}
+
+/* ---- what was read -------------------------------------------------------------------------- */
+
+static const char *digits_of(const FileBytes *bytes, Arena *arena) {
+    struct sha256_ctx state;
+    uint8_t digest[SHA256_DIGEST_SIZE];
+    char *digits = ARENA_NEW(arena, char, 2 * SHA256_DIGEST_SIZE + 1);
+    sha256_init(&state);
+    sha256_update(&state, bytes->size, (const uint8_t *)bytes->data);
+    sha256_digest(&state, sizeof digest, digest);
+    for (int i = 0; i < SHA256_DIGEST_SIZE; i++) snprintf(digits + 2 * i, 3, "%02x", digest[i]);
+    return digits;
+}
+
+/* For people who compare files: by what everybody has a program for. None of a file that is no
+ * longer the one that was read. */
+static void hash_inputs(Review *review, Arena *arena) {
+    for (int i = 0; i < review->input_count; i++) {
+        ReviewFile *file = &review->inputs[i];
+        Arena room = arena_reserve(INPUT_BYTES);
+        FileBytes bytes;
+        Error ignored;
+        bool is_read =
+            !file->sha256 && file_read(file->path, INPUT_BYTES / 2, &room, &bytes, &ignored);
+        if (is_read && !strcmp(file->xxh3, arena_format(&room, "%016llx",
+                                                        (unsigned long long)XXH3_64bits(
+                                                            bytes.data, bytes.size))))
+            file->sha256 = digits_of(&bytes, arena);
+        arena_release(&room);
+    }
 }
 
 /* ---- sweeps ------------------------------------------------------------------------------ */
@@ -248,7 +284,9 @@ static void add_facts(const Review *review, ReviewPage *page, Arena *arena) {
                                              SOURCES_HASH)};
     for (int i = 0; i < review->input_count; i++)
         facts[page->fact_count++] = (ReviewFact){
-            review->inputs[i].path, arena_format(arena, "XXH3 %s", review->inputs[i].xxh3)};
+            review->inputs[i].path,
+            arena_format(arena, "SHA-256 %s",
+                         review->inputs[i].sha256 ? review->inputs[i].sha256 : "not known")};
     page->facts = facts;
 }
 
@@ -266,10 +304,11 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena) {
     for (int i = 0; i < folder->only_count; i++)
         text_format(&only, " --only %s", escape_shell(folder->only[i], arena));
     return arena_format(
-        arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s%s", folder->request->file,
+        arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s%s%s", folder->request->file,
         folder->target, profile, root, folder->state_text, diff, responses, summary,
         only.data ? only.data : "", folder->is_alone ? " --no-variants" : "",
-        folder->is_strict ? " --strict" : "", folder->is_self_contained ? " --self-contained" : "");
+        folder->is_without_frames ? " --no-frames" : "", folder->is_strict ? " --strict" : "",
+        folder->is_self_contained ? " --self-contained" : "");
 }
 
 /* Fills all of the page but the review. */
@@ -353,7 +392,8 @@ static bool write_run(const ReviewFolder *folder, const ReviewOutcome *outcome, 
 
 bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                          Error *err) {
-    const Review *review = &outcome->review;
+    Review *review = &outcome->review;
+    hash_inputs(review, arena);
     return write_tables(folder, outcome, arena, err) &&
            review_csv_write(review, arena_format(arena, "%s/cases.csv", folder->name), err) &&
            (!review->false_sun_count ||

@@ -27,6 +27,7 @@ typedef struct ReviewFolder {
     int threads;
     bool is_strict;
     bool is_alone;          /* --no-variants */
+    bool is_without_frames; /* --no-frames */
     bool is_self_contained; /* pictures stand in the page, not beside it */
     Review before;          /* what stood there */
     double begun_s;
@@ -56,6 +57,7 @@ void review_folder_finish(ReviewFolder *folder);
 /* The command that makes it. */
 const char *review_folder_command(const ReviewFolder *folder, Arena *arena);
 
-/* All files; they take the places of an earlier review's. Sets the names of sweeps' tables. */
+/* All files; they take the places of an earlier review's, or of this one's without its pictures.
+ * Sets the names of sweeps' tables. */
 bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                          Error *err);

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "review/output/review_todo.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 #include "text/text.h"
 
-#define MENDS_LISTED 2
 #define SHARES_LISTED 3
 
 static void add(ReviewFacts *facts, const char *name, const char *value) {
@@ -65,17 +65,17 @@ static const char *group_words(const CaseGroup *group, Arena *arena) {
 }
 
 static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *c, Arena *arena) {
-    static const char *const NAMES[CAUSE_GROUPS] = {"Light from", "… in through", "… off"};
+    static const char *const NAMES[CAUSE_GROUPS] = {"Source", "Path", "Off"};
     const char *whole = words_whole(c, arena);
     add(facts, "Seen through", glasses_words(c, arena));
-    if (whole[0]) add(facts, "Judged by", arena_format(arena, "its worst part; %s", whole));
     for (int g = 0; g < CAUSE_GROUPS; g++)
         if (c->groups[g].count) add(facts, NAMES[g], group_words(&c->groups[g], arena));
     if (!c->groups[GROUP_LIGHT].count && c->cause_count)
-        add(facts, "Why",
-            arena_format(arena, "%s of what the display reflects comes by: %s",
+        add(facts, "Source",
+            arena_format(arena, "%s of the reflected light by %s",
                          words_share(c->causes[0].share, arena),
                          words_chain(&c->causes[0], arena)));
+    if (whole[0]) add(facts, "Judged by", arena_format(arena, "worst part; %s", whole));
     add(facts, "No data", words_without_data(review, c, arena));
     add(facts, "Empty seat", words_empty_seat(c, arena));
 }
@@ -101,35 +101,19 @@ static void add_unjudged(ReviewFacts *facts, const Review *review, const ReviewC
                          Arena *arena) {
     add(facts, "Not judged", unjudged_words(review, c, arena));
     add(facts, "Why", words_unjudged(c, arena));
-    add(facts, "To judge it", words_to_judge(c));
 }
 
-/* ---- the remedy -------------------------------------------------------------------------- */
+/* ---- what to do -------------------------------------------------------------------------- */
 
-static void add_mend(ReviewFacts *facts, int *listed, bool mends, const char *words) {
-    const char *name = *listed ? "… or" : mends ? "Remedy" : "What helps";
-    add(facts, name, words);
-    ++*listed;
-}
-
-/* Variants of the whole review go before what is estimated for this case alone. */
-static void add_tried(ReviewFacts *facts, const Review *review, int *listed, Arena *arena) {
-    for (int i = 0; i < review->variant_count && *listed < MENDS_LISTED; i++) {
-        const ReviewVariantFound *v = &review->variants[i];
-        if (review_verdict(v->review) == VERDICT_PASS)
-            add_mend(facts, listed, true,
-                     arena_format(arena, "the variant '%s': everything passes", v->name));
-    }
-}
-
-static void add_mends(ReviewFacts *facts, const Review *review, const ReviewCase *c, Arena *arena) {
-    int listed = 0;
-    add_tried(facts, review, &listed, arena);
-    for (int i = 0; i < c->remedy_count && listed < MENDS_LISTED; i++) {
-        const CaseRemedy *r = &c->remedies[i];
-        add_mend(facts, &listed, r->verdict == VERDICT_PASS,
-                 arena_format(arena, "%s: %s", r->what, words_remedy(r, arena)));
-    }
+/* A variant of the whole review goes before what is reckoned for this case alone. */
+static void add_todo(ReviewFacts *facts, const Review *review, const ReviewCase *c, Arena *arena) {
+    Text text = {.arena = arena};
+    for (int i = 0; i < review->variant_count && !text.size; i++)
+        if (review_verdict(review->variants[i].review) == VERDICT_PASS)
+            text_format(&text, "variant '%s': everything passes", review->variants[i].name);
+    const char *todo = todo_of_case(c, arena);
+    if (todo[0]) text_format(&text, "%s%s", text.size ? "; or " : "", todo);
+    add(facts, "What to do", text.data ? text.data : "");
 }
 
 ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
@@ -137,9 +121,51 @@ ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
     ReviewFacts facts = {.count = 0};
     if (c->unjudged) add_unjudged(&facts, review, c, arena);
     add_when(&facts, review, c, directions, arena);
+    if (c->verdict != VERDICT_PASS) add_todo(&facts, review, c, arena);
     add_why(&facts, review, c, arena);
-    if (c->verdict != VERDICT_PASS) add_mends(&facts, review, c, arena);
     return facts;
+}
+
+/* ---- the outcome ------------------------------------------------------------------------- */
+
+/* Of what is held against limits, by light; the last one is all. */
+typedef struct Covered {
+    int judged[5], unlimited[5];
+} Covered;
+
+static Covered covered_by_limits(const Review *review) {
+    Covered out = {0};
+    for (int i = 0; i < review_case_count(review); i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        bool is_unlimited = c->unjudged == UNJUDGED_LIMIT;
+        if (!is_unlimited && !review_case_counts(c)) continue;
+        (is_unlimited ? out.unlimited : out.judged)[c->ambient]++;
+        (is_unlimited ? out.unlimited : out.judged)[4]++;
+    }
+    return out;
+}
+
+const char *review_outcome_words(const Review *review, Arena *arena) {
+    Text text = {.arena = arena};
+    Covered by = covered_by_limits(review);
+    bool has_road = false;
+    text_add(&text, words_verdict(review_verdict(review)));
+    for (int i = 0, listed = 0; i < 4 && by.unlimited[4] && by.judged[4]; i++)
+        if (by.judged[i])
+            text_format(&text, "%s %s", listed++ ? " and" : "", words_ambient((Ambient)i));
+    for (int i = 0; i < 4; i++) {
+        if (!by.unlimited[i]) continue;
+        if (by.judged[i])
+            text_format(&text, "; %d of %d cases %s %s no limit in this profile", by.unlimited[i],
+                        by.unlimited[i] + by.judged[i], words_ambient((Ambient)i),
+                        by.unlimited[i] == 1 ? "has" : "have");
+        else text_format(&text, "; %s has no limit in this profile", ambient_names[i]);
+    }
+    for (int i = 0; i < review->gaze_count; i++)
+        has_road |= review->gazes[i].road && !review->gazes[i].road->left_out &&
+                    !review->gazes[i].road->has_limit;
+    if (has_road) text_add(&text, "; glare on the road has no limit in this profile");
+    return text.data;
 }
 
 /* ---- counting ---------------------------------------------------------------------------- */
@@ -165,93 +191,71 @@ static const ReviewRest *first_of(const Review *review, RestKind kind) {
 /* "speed, centre and 3 more" */
 static const char *names_of(const Review *review, RestKind kind, RestBasis basis, Arena *arena) {
     Text text = {.arena = arena};
-    int all = 0, listed = 0;
-    for (int i = 0; i < review->rests_on_count; i++)
-        all += review->rests_on[i].kind == kind && review->rests_on[i].basis == basis;
-    for (int i = 0; i < review->rests_on_count && listed < NAMES_LISTED; i++) {
+    int listed = 0, more = 0;
+    for (int i = 0; i < review->rests_on_count; i++) {
         const ReviewRest *r = &review->rests_on[i];
         if (r->kind != kind || r->basis != basis) continue;
-        text_format(&text, "%s%s", listed ? ", " : "", r->name ? r->name : "?");
-        listed++;
+        if (listed == NAMES_LISTED) more++;
+        else text_format(&text, "%s%s", listed++ ? ", " : "", r->name ? r->name : "?");
     }
-    if (listed < all) text_format(&text, " and %d more", all - listed);
+    if (more) text_format(&text, " and %d more", more);
     return text.data ? text.data : "";
 }
 
-static void part(Text *line, const char *words) {
-    if (words[0]) text_format(line, "%s%s", line->size ? "; " : "", words);
+static const char *plural(long count) {
+    return count == 1 ? "" : "s";
 }
 
 /* ---- panels ------------------------------------------------------------------------------ */
 
-static const CasePanel *panel_of(const Review *review, const char *display) {
-    for (int i = 0; i < review_case_count(review); i++) {
-        const ReviewCase *c = review_case_at(review, i);
-        if (words_same(c->display, display)) return &c->panel;
-    }
-    return NULL;
-}
+#define EXTRAPOLATED_LEAST 0.01 /* of the reflected light that is worth a word */
 
 /* What its file says of itself (panel/query/panel_stated.h); why it is not usable is reported
- * of every case of it. */
-static void add_stated(Text *text, const CasePanel *panel, Arena *arena) {
+ * of every case of it. Of a display's cases the most that was not measured. */
+static void add_stated(Text *text, const Review *review, const char *display, Arena *arena) {
+    const CasePanel *panel = NULL;
+    double most = 0;
+    for (int i = 0; i < review_case_count(review); i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        if (!words_same(c->display, display)) continue;
+        if (!panel) panel = &c->panel;
+        most = fmax(most, c->extrapolated_share);
+    }
+    if (!panel) return;
     text_format(text, ", %s", panel->verdict ? panel->verdict : "no verdict of its own");
     if (panel->is_coarse && !panel->is_unusable) text_add(text, ", coarse");
     if (panel->reason && !panel->is_unusable) text_format(text, " (%s)", panel->reason);
     if (panel->emission_error > 0 || panel->reflection_error > 0)
-        text_format(text, ", within %s of its tables of emission and %s of those of reflection",
+        text_format(text, ", fit error %s in emission, %s in reflection",
                     words_share(panel->emission_error, arena),
                     words_share(panel->reflection_error, arena));
     if (panel->assumed) text_format(text, ", %s", panel->assumed);
-}
-
-#define EXTRAPOLATED_LEAST 0.01 /* of the reflected light that is worth a word */
-
-/* Of a display's cases, the most. */
-static void add_extrapolated(Text *text, const Review *review, const char *display, Arena *arena) {
-    double most = 0;
-    for (int i = 0; i < review_case_count(review); i++) {
-        const ReviewCase *c = review_case_at(review, i);
-        if (words_same(c->display, display)) most = fmax(most, c->extrapolated_share);
-    }
     if (most >= EXTRAPOLATED_LEAST)
-        text_format(text,
-                    ", up to %s of the light that it reflects by directions that were "
-                    "not measured",
+        text_format(text, ", up to %s of its reflected light extrapolated",
                     words_share(most, arena));
 }
 
-static const char *stated_words(const Review *review, const ReviewRest *r, Arena *arena) {
-    const CasePanel *panel = panel_of(review, r->name);
-    Text text = {.arena = arena};
-    if (r->basis == REST_MEASURED) text_format(&text, "measured (%s)", r->words);
-    else text_add(&text, r->basis == REST_SYNTHETIC ? "synthetic" : "no measurement stated");
-    if (panel) add_stated(&text, panel, arena);
-    add_extrapolated(&text, review, r->name, arena);
-    return text.data;
-}
-
-/* Displays whose panels state the same stand together. */
-static void add_panels(Text *line, const Review *review, Arena *arena) {
-    int count = review->rests_on_count;
-    const char **stated = ARENA_NEW(arena, const char *, count); /* NULL: none, or reported */
-    for (int i = 0; i < count; i++)
-        if (review->rests_on[i].kind == REST_PANEL)
-            stated[i] = stated_words(review, &review->rests_on[i], arena);
-    for (int i = 0; i < count; i++) {
-        const char *words = stated[i];
-        Text names = {.arena = arena};
-        for (int k = i; words && k < count; k++) {
-            const char *name = review->rests_on[k].name;
-            if (!stated[k] || strcmp(stated[k], words) != 0) continue;
-            text_format(&names, "%s%s", k > i ? ", " : "", name ? name : "?");
-            stated[k] = NULL;
-        }
-        if (words) part(line, arena_format(arena, "panel of %s: %s", names.data, words));
+static RestWords panel_words(const Review *review, Arena *arena) {
+    static const char *const BASES[] = {"measured", "synthetic", "no measurement stated"};
+    Text chip = {.arena = arena}, words = {.arena = arena};
+    for (int b = REST_MEASURED; b <= REST_NOT_STATED; b++) {
+        long count = count_of(review, REST_PANEL, (RestBasis)b);
+        if (count)
+            text_format(&chip, "%s%ld panel%s: %s", chip.size ? ", " : "", count, plural(count),
+                        BASES[b]);
     }
+    for (int i = 0; i < review->rests_on_count; i++) {
+        const ReviewRest *r = &review->rests_on[i];
+        if (r->kind != REST_PANEL) continue;
+        text_format(&words, "%s%s: %s", words.size ? "; " : "panel of ", r->name ? r->name : "?",
+                    BASES[r->basis]);
+        if (r->basis == REST_MEASURED) text_format(&words, " (%s)", r->words);
+        add_stated(&words, review, r->name, arena);
+    }
+    return (RestWords){"panels", chip.data, words.data};
 }
 
-/* ---- materials --------------------------------------------------------------------------- */
+/* ---- materials, eyes, occupants, limits -------------------------------------------------- */
 
 static double greatest_share(const Review *review, RestBasis basis) {
     double most = 0;
@@ -262,99 +266,96 @@ static double greatest_share(const Review *review, RestBasis basis) {
     return most;
 }
 
-static void add_materials(Text *line, const Review *review, RestBasis basis, Arena *arena) {
-    long count = count_of(review, REST_MATERIAL, basis);
-    const char *share = words_share(greatest_share(review, basis), arena);
-    const char *plural = count == 1 ? "" : "s";
-    if (!count) return;
-    part(line, basis == REST_GUESSED
-                   ? arena_format(arena,
-                                  "%ld guessed material%s (up to %s of the light on a "
-                                  "symbol)",
-                                  count, plural, share)
-                   : arena_format(arena,
-                                  "%ld material%s without optical data, taken as "
-                                  "perfectly white (up to %s of the light on a symbol)",
-                                  count, plural, share));
+static RestWords material_words(const Review *review, Arena *arena) {
+    static const RestBasis BASES[] = {REST_GUESSED, REST_WITHOUT_DATA};
+    Text chip = {.arena = arena}, words = {.arena = arena};
+    for (int b = 0; b < 2; b++) {
+        long count = count_of(review, REST_MATERIAL, BASES[b]);
+        const char *gap = words.size ? "; " : "";
+        if (!count) continue;
+        text_format(&chip, b ? "%s%ld material%s without data" : "%s%ld guessed material%s",
+                    chip.size ? ", " : "", count, plural(count));
+        text_format(&words,
+                    b ? "%s%ld material%s without optical data, taken as white (up to %s of the "
+                        "light on a symbol)"
+                      : "%s%ld guessed material%s (up to %s of the light on a symbol)",
+                    gap, count, plural(count),
+                    words_share(greatest_share(review, BASES[b]), arena));
+    }
+    return chip.size ? (RestWords){"materials", chip.data, words.data}
+                     : (RestWords){"materials", "materials as modelled",
+                                   "materials as the model states them"};
 }
 
-static void add_all_materials(Text *line, const Review *review, Arena *arena) {
-    add_materials(line, review, REST_GUESSED, arena);
-    add_materials(line, review, REST_WITHOUT_DATA, arena);
-    if (!first_of(review, REST_MATERIAL)) part(line, "materials as the model states them");
-}
-
-/* ---- eyes, occupants, limits ------------------------------------------------------------- */
-
-static void add_eyes(Text *line, const Review *review, Arena *arena) {
+static RestWords eye_words(const Review *review, Arena *arena) {
     long given = count_of(review, REST_EYE, REST_GIVEN);
     long proposed = count_of(review, REST_EYE, REST_PROPOSED);
-    if (!proposed) {
-        part(line, given == 1 ? "the eye as given" : "eyes as given");
-        return;
-    }
-    const char *names = names_of(review, REST_EYE, REST_PROPOSED, arena);
-    part(line, arena_format(arena, "proposed eye%s (%s)%s", proposed == 1 ? "" : "s", names,
-                            given ? ", the others as given" : ""));
+    if (!proposed) return (RestWords){"eyes", "eyes as given", "eyes as given"};
+    return (RestWords){"eyes",
+                       arena_format(arena, "%ld proposed eye%s", proposed, plural(proposed)),
+                       arena_format(arena, "proposed eye%s (%s)%s", plural(proposed),
+                                    names_of(review, REST_EYE, REST_PROPOSED, arena),
+                                    given ? ", the others as given" : "")};
 }
 
-/* Seats are known by their backs, where much light comes off them. */
-static const char *nobody_words(const Review *review, Arena *arena) {
-    static const char UNLESS[] = "unless the model itself has somebody";
-    int count = review_case_count(review);
-    WordList eyes = words_list(count, arena), empty = words_list(count, arena);
-    Text seats = {.arena = arena};
-    for (int i = 0; i < count; i++) {
-        const ReviewCase *c = review_case_at(review, i);
-        words_list_add(&eyes, c->eye);
-        if (c->empty_seat) words_list_add(&empty, c->eye);
-    }
-    for (int i = 0; i < empty.count; i++)
-        text_format(&seats, "%s%s's", i ? " and " : "", empty.list[i]);
-    if (!empty.count)
-        return arena_format(arena, "no occupant named: nobody sits there, %s", UNLESS);
-    if (empty.count == eyes.count)
-        return arena_format(arena, "no occupant named: nobody sits in the %s seat", seats.data);
-    return arena_format(arena,
-                        "no occupant named: nobody sits in the %s seat, nor in another "
-                        "%s",
-                        seats.data, UNLESS);
-}
-
-static void add_occupants(Text *line, const Review *review, Arena *arena) {
+/* Empty seats are known by their backs, where much light comes off them. */
+static RestWords occupant_words(const Review *review, Arena *arena) {
     const ReviewRest *first = first_of(review, REST_OCCUPANT);
     long empty = count_of(review, REST_OCCUPANT, REST_NOBODY);
-    if (!first) return;
-    if (empty == first->of) {
-        part(line, nobody_words(review, arena));
-        return;
+    int count = review_case_count(review);
+    WordList seats = words_list(count, arena);
+    Text words = {.arena = arena};
+    if (!first) return (RestWords){"occupants", NULL, NULL};
+    if (empty < first->of) {
+        const char *names = names_of(review, REST_OCCUPANT, REST_PRESENT, arena);
+        const char *rest =
+            empty ? arena_format(arena, " (none under %ld of %ld conditions)", empty, first->of)
+                  : "";
+        return (RestWords){"occupants",
+                           empty ? arena_format(arena, "occupants in %ld of %ld conditions",
+                                                first->of - empty, first->of)
+                                 : "with occupants",
+                           arena_format(arena, "occupants: %s%s", names, rest)};
     }
-    const char *names = names_of(review, REST_OCCUPANT, REST_PRESENT, arena);
-    part(line, empty ? arena_format(arena,
-                                    "occupants: %s (none under %ld of %ld "
-                                    "conditions)",
-                                    names, empty, first->of)
-                     : arena_format(arena, "occupants: %s", names));
+    for (int i = 0; i < count; i++)
+        if (review_case_at(review, i)->empty_seat)
+            words_list_add(&seats, review_case_at(review, i)->eye);
+    text_add(&words, "no occupant named, unless the model itself has somebody");
+    for (int i = 0; i < seats.count; i++)
+        text_format(&words, "%s%s", i ? ", " : "; empty seats: ", seats.list[i]);
+    return (RestWords){"occupants", "no occupant", words.data};
 }
 
-static void add_limits(Text *line, const Review *review, Arena *arena) {
+static RestWords limit_words(const Review *review, Arena *arena) {
     const ReviewRest *limits = first_of(review, REST_LIMITS);
-    if (!limits) return;
-    if (!limits->of) part(line, "a profile that sets no limit");
-    else if (limits->count == limits->of) part(line, "limits as read in the standard");
-    else if (!limits->count) part(line, "limits as quoted, none read in the standard");
-    else
-        part(line, arena_format(arena, "limits as quoted, %ld of %ld read in the standard",
-                                limits->count, limits->of));
+    if (!limits) return (RestWords){"limits", NULL, NULL};
+    if (!limits->of) return (RestWords){"limits", "no limits", "a profile that sets no limit"};
+    if (limits->count == limits->of)
+        return (RestWords){"limits", "limits read in the standard",
+                           "limits as read in the standard"};
+    return (RestWords){"limits",
+                       limits->count ? arena_format(arena, "limits: %ld read, %ld quoted",
+                                                    limits->count, limits->of - limits->count)
+                                     : "limits as quoted",
+                       arena_format(arena, "limits as quoted, %ld of %ld read in the standard",
+                                    limits->count, limits->of)};
 }
 
-const char *review_rests_words(const Review *review, Arena *arena) {
+int review_rests(const Review *review, RestWords out[REST_KINDS], Arena *arena) {
+    const RestWords all[REST_KINDS] = {panel_words(review, arena), material_words(review, arena),
+                                       eye_words(review, arena), occupant_words(review, arena),
+                                       limit_words(review, arena)};
+    int count = 0;
+    for (int i = 0; i < REST_KINDS && review->rests_on_count; i++)
+        if (all[i].chip) out[count++] = all[i];
+    return count;
+}
+
+const char *review_rests_words(const Review *review, bool is_short, Arena *arena) {
     Text line = {.arena = arena};
-    if (!review->rests_on_count) return "";
-    add_panels(&line, review, arena);
-    add_all_materials(&line, review, arena);
-    add_eyes(&line, review, arena);
-    add_occupants(&line, review, arena);
-    add_limits(&line, review, arena);
-    return line.data;
+    RestWords list[REST_KINDS];
+    int count = review_rests(review, list, arena);
+    for (int i = 0; i < count; i++)
+        text_format(&line, "%s%s", i ? "; " : "", is_short ? list[i].chip : list[i].words);
+    return line.data ? line.data : "";
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_facts.h -- what is said of a review's worst case beside its verdict, on the page's
- * first screen and on the console alike: when it is, how often, why, and the remedy; of one
+ * first screen and on the console alike: when it is, how often, what to do, and why; of one
  * that cannot be judged why that is, and what would have it judged.
  *
  * Memory   texts from the arena. Threads: pure. Fails: never.
@@ -9,7 +9,7 @@
 #include "base/arena.h"
 #include "review/verdict.h"
 
-/* "Remedy": "the display 1.54 times as bright: 2.05 : 1, required >= 2 : 1: passes". */
+/* "What to do": "raise the level from 25 % to 38.5 %: contrast 2.05 : 1 (minimum 2 : 1)". */
 typedef struct ReviewFact {
     const char *name, *value;
 } ReviewFact;
@@ -26,12 +26,20 @@ typedef struct ReviewFacts {
 ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
                             const char *const *directions, Arena *arena);
 
-/* What a review rests on, in one line that all outputs share.
- *
- * Memory   the arena's. Texts are UTF-8 and not escaped. Threads: pure. Fails: never. */
+/* "Passes by day; night has no limit in this profile": the whole review's outcome as page,
+ * console and review.json say it, with all that was not judged for want of a limit. */
+const char *review_outcome_words(const Review *review, Arena *arena);
 
-/* "panel of cluster: synthetic, good, within 0.6 % of its tables of emission and 0.5 % of those
- * reflects; 11 guessed materials (up to 62 % of the light on a symbol); ...": errors of panels
- * are standard errors, which the intervals hold; shares are the greatest of this review's
- * cases, which may be a part of another's. "": nothing is known, as of an older review. */
-const char *review_rests_words(const Review *review, Arena *arena);
+/* One of what a review rests on: "11 guessed materials", and at length. Errors of panels are
+ * standard errors, which the intervals hold; shares are the greatest of this review's cases,
+ * which may be a part of another's. */
+typedef struct RestWords {
+    const char *id; /* "panels", ... */
+    const char *chip, *words;
+} RestWords;
+
+/* How many of them; none: nothing is known, as of an older review. */
+int review_rests(const Review *review, RestWords out[REST_KINDS], Arena *arena);
+
+/* All of them in one line. */
+const char *review_rests_words(const Review *review, bool is_short, Arena *arena);

@@ -28,6 +28,7 @@ TABLE(sweep_json, ReviewSweep, OWN(TEXT, ReviewSweep, condition), OWN(TEXT, Revi
       AS_VERDICT("verdict", RECORD_WRITTEN, ReviewSweep, worst.verdict),
       OWN(COUNT, ReviewSweep, cases), OWN(FIGURE, ReviewSweep, failed_share),
       OWN(FIGURE, ReviewSweep, longest_failure_minutes),
+      LATER("failed_minutes", FIGURE, ReviewSweep, failed_minutes),
       LATER("middle_eye_contrast_ratio", FIGURE, ReviewSweep, middle_contrast),
       PART("worst", MUST, ReviewSweep, worst, case_json), OWN(TEXT, ReviewSweep, table));
 
@@ -132,7 +133,12 @@ TABLE(rest_json, ReviewRest,
       OWN(TEXT, ReviewRest, name), OWN(TEXT, ReviewRest, words), OWN(COUNT, ReviewRest, count),
       OWN(COUNT, ReviewRest, of));
 
-TABLE(files_json, ReviewFile, OWN(TEXT, ReviewFile, path), OWN(TEXT, ReviewFile, xxh3));
+TABLE(files_json, ReviewFile, OWN(TEXT, ReviewFile, path),
+      LATER("sha256", TEXT, ReviewFile, sha256));
+
+TABLE(document_json, ReviewDocument, OWN(TEXT, ReviewDocument, number),
+      OWN(TEXT, ReviewDocument, revision), OWN(TEXT, ReviewDocument, date),
+      OWN(TEXT, ReviewDocument, author));
 
 /* ---- variants ---------------------------------------------------------------------------- */
 
@@ -257,9 +263,16 @@ static json_t *write_places(const void *review) {
 
 static json_t *write_rests(const void *review) {
     Arena scratch = arena_reserve(PLACES_BYTES);
-    json_t *line = text(review_rests_words(review, &scratch));
+    json_t *line = text(review_rests_words(review, false, &scratch));
     arena_release(&scratch);
     return line;
+}
+
+static json_t *write_outcome(const void *review) {
+    Arena scratch = arena_reserve(PLACES_BYTES);
+    json_t *words = text(review_outcome_words(review, &scratch));
+    arena_release(&scratch);
+    return words;
 }
 
 static json_t *write_data_share(const void *review) {
@@ -272,7 +285,9 @@ static json_t *write_verdict(const void *review) {
 }
 
 TABLE(whole_json, Review, OWN(FLAG, Review, pass), TOLD("verdict", 0, write_verdict),
-      AS("strict", FLAG, Review, is_strict), OWN(TEXT, Review, title), OWN(TEXT, Review, profile),
+      TOLD("outcome", 0, write_outcome), AS("strict", FLAG, Review, is_strict),
+      OWN(TEXT, Review, title), PART("document", 0, Review, document, document_json),
+      OWN(TEXT, Review, profile), LATER("superseded_by", TEXT, Review, superseded_by),
       LIST("cases", MUST, Review, cases, case_count, case_json),
       LIST("sweeps", MUST, Review, sweeps, sweep_count, sweep_json),
       LIST("gazes", MUST, Review, gazes, gaze_count, gaze_json),

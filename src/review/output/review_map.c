@@ -181,35 +181,54 @@ static const char *path_line(const ReviewMap *map, const SunPath *path, Arena *a
     return line.data ? line.data : "";
 }
 
+/* In per cent of the map, from its lower left. False: it lies outside. */
+static bool set_place(json_t *to, const ReviewMap *map, double azimuth_deg, double elevation_deg) {
+    double azimuth = axis_azimuth(&map->azimuth_deg, azimuth_deg);
+    double x = axis_place(&map->azimuth_deg, azimuth) / map->azimuth_deg.count;
+    double y = axis_place(&map->elevation_deg, elevation_deg) / map->elevation_deg.count;
+    if (!(x >= 0 && x <= 1 && y >= 0 && y <= 1)) return false;
+    json_object_set_new(to, "x", json_real(100 * x));
+    json_object_set_new(to, "y", json_real(100 * y));
+    return true;
+}
+
 /* Its name stands where the sun is highest, if that is on the map. */
 static void add_path(json_t *list, const ReviewMap *map, const SunPath *path, Arena scratch) {
     int top = 0;
     json_t *to = page_add(list);
     page_set(to, "line", path_line(map, path, &scratch));
-    page_set(to, "name", NULL);
     for (int i = 1; i < path->count; i++)
         if (path->elevation_deg[i] > path->elevation_deg[top]) top = i;
-    if (path->count == 0) return;
-    double azimuth = axis_azimuth(&map->azimuth_deg, path->azimuth_deg[top]);
-    double x = axis_place(&map->azimuth_deg, azimuth) / map->azimuth_deg.count;
-    double y = axis_place(&map->elevation_deg, path->elevation_deg[top]) / map->elevation_deg.count;
-    if (x < 0 || x > 1 || y < 0 || y > 1) return;
-    page_set(to, "name", path->name);
-    json_object_set_new(to, "x", json_real(100 * x));
-    json_object_set_new(to, "y", json_real(100 * y));
+    bool is_shown =
+        path->count && set_place(to, map, path->azimuth_deg[top], path->elevation_deg[top]);
+    page_set(to, "name", is_shown ? path->name : NULL);
+}
+
+/* Where it is worst, as it was read again: of the vehicle, as the map. */
+static void set_worst(json_t *to, const ReviewMap *map, Arena *arena) {
+    const ReviewCase *c = map->of ? &map->of->worst : NULL;
+    json_t *worst = json_object();
+    bool is_shown = c && c->has_sun && map->is_of_vehicle &&
+                    set_place(worst, map, c->sun_azimuth_deg, c->sun_elevation_deg);
+    if (is_shown) page_set(worst, "sun", words_sun(c, words_directions(true), arena));
+    json_object_set_new(to, "worst_sun", is_shown ? worst : json_null());
+    if (!is_shown) json_decref(worst);
 }
 
 static json_t *azimuths(const ReviewMap *map) {
     static const char *const VEHICLE[4] = {"ahead", "right", "behind", "left"};
     static const char *const WORLD[4] = {"north", "east", "south", "west"};
     const ReviewAxis *axis = &map->azimuth_deg;
+    double range = axis->step * axis->count;
+    int step = range > 180 ? 90 : range > 60 ? 30 : 10;
     json_t *list = json_array();
-    for (int quarter = -4; quarter <= 8; quarter++) {
-        double share = axis_place(axis, 90.0 * quarter) / axis->count;
+    for (int value = -360; value <= 720; value += step) {
+        double share = axis_place(axis, value) / axis->count;
         if (share < 0 || share > 1) continue;
         json_t *tick = add_tick(list, share);
-        page_set_count(tick, "degrees", 90 * quarter);
-        page_set(tick, "name", (map->is_of_vehicle ? VEHICLE : WORLD)[(quarter + 4) % 4]);
+        int quarter = (value + 360) / 90 % 4;
+        page_set_count(tick, "degrees", value);
+        page_set(tick, "name", value % 90 ? NULL : (map->is_of_vehicle ? VEHICLE : WORLD)[quarter]);
     }
     return list;
 }
@@ -271,6 +290,7 @@ json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err) {
         return NULL;
     }
     set_axes(to, map);
+    set_worst(to, map, &scratch);
     page_set(to, "border", border(map, &scratch));
     for (int i = 0; i < map->path_count; i++) add_path(paths, map, &map->paths[i], scratch);
     json_object_set_new(to, "paths", paths);

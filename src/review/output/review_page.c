@@ -11,7 +11,6 @@
 #include "review/output/review_json.h"
 #include "review/output/review_link.h"
 #include "review/output/review_variants.h"
-#include "review/output/review_levels.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 #include "text/json_text.h"
@@ -20,96 +19,6 @@
 /* The tables of a review's page: all verdicts, the limits, what changed.
  *
  * Memory   the document's (jansson) and the arena's. Threads: one at a time. Fails: never. */
-
-#define MATRIX_COLUMNS 10
-#define MATRIX_ROWS 60
-
-/* ---- matrices ---------------------------------------------------------------------------- */
-
-/* Names from left to right and down, and the cell where two meet. */
-typedef struct Matrix {
-    const char *of; /* what all cells have in common: the eye, or the sweep's condition */
-    WordList across, down;
-    bool is_turned;
-    void (*add_cell)(const PageValues *v, json_t *cells, const struct Matrix *m, const char *across,
-                     const char *down);
-} Matrix;
-
-/* Nothing where there are too many. */
-static void add_matrix(const PageValues *v, json_t *list, const Matrix *m) {
-    if (m->across.count > MATRIX_COLUMNS || m->down.count > MATRIX_ROWS) return;
-    json_t *to = page_add(list), *rows = values_list(to, "rows");
-    page_set(to, "of", m->of);
-    page_set_flag(to, "turned", m->is_turned);
-    json_object_set_new(to, "across", json_texts(m->across.list, m->across.count));
-    for (int i = 0; i < m->down.count; i++) {
-        json_t *row = page_add(rows), *cells = values_list(row, "cells");
-        page_set(row, "name", m->down.list[i]);
-        for (int k = 0; k < m->across.count; k++)
-            m->add_cell(v, cells, m, m->across.list[k], m->down.list[i]);
-    }
-}
-
-static void add_case_cell(const PageValues *v, json_t *cells, const Matrix *m, const char *across,
-                          const char *down) {
-    values_add_case(v, cells,
-                    review_case_named(v->review, m->is_turned ? down : across, m->of,
-                                      m->is_turned ? across : down));
-}
-
-/* Conditions from left to right, unless there are more of them than symbols. */
-static Matrix matrix_of_eye(const Review *review, const char *eye, Arena *arena) {
-    WordList symbols = words_list(review->case_count, arena);
-    WordList conditions = words_list(review->case_count, arena);
-    for (int i = 0; i < review->case_count; i++) {
-        if (!words_same(review->cases[i].eye, eye)) continue;
-        words_list_add(&symbols, review->cases[i].symbol);
-        words_list_add(&conditions, review->cases[i].condition);
-    }
-    bool is_turned = conditions.count > symbols.count;
-    return (Matrix){eye, is_turned ? symbols : conditions, is_turned ? conditions : symbols,
-                    is_turned, add_case_cell};
-}
-
-static void add_sweep_cell(const PageValues *v, json_t *cells, const Matrix *m, const char *across,
-                           const char *down) {
-    const ReviewSweep *s = review_sweep_named(v->review, m->of, across, down);
-    json_t *sweeps = json_object_get(v->doc, "sweeps");
-    if (s) json_array_append(cells, json_array_get(sweeps, (size_t)(s - v->review->sweeps)));
-    else page_set(page_add(cells), "often", NULL);
-}
-
-static Matrix matrix_of_sweeps(const Review *review, const char *condition, Arena *arena) {
-    Matrix out = {condition, words_list(review->sweep_count, arena),
-                  words_list(review->sweep_count, arena), false, add_sweep_cell};
-    for (int i = 0; i < review->sweep_count; i++) {
-        if (!words_same(review->sweeps[i].condition, condition)) continue;
-        words_list_add(&out.across, review->sweeps[i].eye);
-        words_list_add(&out.down, review->sweeps[i].symbol);
-    }
-    return out;
-}
-
-/* Symbols by conditions for every eye, and by eyes for every sweep's condition; what has too
- * many has none. */
-static void values_add_matrices(const PageValues *v) {
-    const Review *review = v->review;
-    WordList eyes = words_list(review->case_count, v->arena);
-    WordList conditions = words_list(review->sweep_count, v->arena);
-    json_t *of_eyes = values_list(v->doc, "matrices");
-    json_t *of_sweeps = values_list(v->doc, "sweep_matrices");
-    for (int i = 0; i < review->case_count; i++) words_list_add(&eyes, review->cases[i].eye);
-    for (int i = 0; i < review->sweep_count; i++)
-        words_list_add(&conditions, review->sweeps[i].condition);
-    for (int i = 0; i < eyes.count; i++) {
-        Matrix m = matrix_of_eye(review, eyes.list[i], v->arena);
-        add_matrix(v, of_eyes, &m);
-    }
-    for (int i = 0; i < conditions.count; i++) {
-        Matrix m = matrix_of_sweeps(review, conditions.list[i], v->arena);
-        add_matrix(v, of_sweeps, &m);
-    }
-}
 
 /* ---- the list ---------------------------------------------------------------------------- */
 
@@ -311,7 +220,6 @@ static bool set_head(const PageValues *v, Error *err) {
     const char *title = review->title && *review->title ? review->title : "Glare review";
     json_t *elsewhere = values_object(v->doc, "elsewhere");
     page_set(v->doc, "title", title);
-    page_set_flag(v->doc, "is_beside", review->is_beside);
     page_set(elsewhere, "href", review->is_beside ? "index.html" : REVIEW_PAGE_BESIDE);
     page_set(elsewhere, "what", review->is_beside ? "the worst" : "a page of their own");
     return page_set_head(v->doc,
@@ -363,14 +271,6 @@ static void set_cards(const PageValues *v) {
 
 /* ---- sweeps ----------------------------------------------------------------------------- */
 
-/* Of what the share is that stands above it; "": there is none. */
-static const char *of_whom(const ReviewSweep *s, Arena *arena) {
-    bool fails = sweep_verdict(s) == VERDICT_FAIL, is_share = fails && s->failed_share > 0;
-    if (fails && sweep_has_box(s))
-        return arena_format(arena, "%s · worst eye ", words_middle(s, arena));
-    return is_share ? arena_format(arena, "%s · worst ", words_of_what(s)) : "";
-}
-
 static bool set_drawings(const PageValues *v, json_t *to, const ReviewSweep *s, Error *err) {
     const ReviewPage *page = v->page;
     json_t *maps = values_list(to, "maps"), *calendars = values_list(to, "calendars");
@@ -393,10 +293,8 @@ static bool set_sweep(const PageValues *v, const ReviewSweep *s, Error *err) {
     bool has_middle = has_box && s->middle_contrast > 0;
     values_set_names(to, NAMES);
     values_set_verdict(to, sweep_verdict(s));
-    page_set(to, "often", words_often(s, arena));
     page_set(to, "how_often", words_how_often(s, arena));
-    page_set(to, "of_what", words_of_what(s));
-    page_set(to, "of_whom", of_whom(s, arena));
+    page_set(to, "failing", words_failing(s, arena));
     page_set(to, "middle_figure",
              has_middle ? words_ratio_as(&s->worst, s->middle_contrast, arena) : NULL);
     page_set_flag(to, "has_box", has_box);
@@ -462,7 +360,6 @@ static bool set_all(const PageValues *v, int most, Error *err) {
         !set_sweeps(v, err))
         return false;
     set_cards(v);
-    values_add_matrices(v);
     values_add_list(v, most);
     values_add_limits(v);
     values_add_diff(v);

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/mathd.h"
 #include "page/page.h"
+#include "review/output/review_todo.h"
 #include "review/output/review_words.h"
 #include "text/interval_text.h"
 #include "text/text.h"
@@ -93,16 +93,15 @@ const char *road_words(const GazeFinding *gaze, Arena *arena) {
     as.found = age->increment_pct;
     as.low = age->increment_range.low;
     as.high = age->increment_range.high;
-    const char *required =
-        gaze_counts(gaze) ? arena_format(arena, ", required %s", words_required(&as, arena)) : "";
+    const char *bound = gaze_counts(gaze) ? words_bound(&as, arena) : "no limit in this profile";
     return arena_format(
         arena,
-        "%s%sthreshold increment %s%s, at %.4g years on a road of %.4g cd/m2 (with the "
-        "veil by CIE 135 %.3g %%)%s%s",
+        "%s%sthreshold increment %s (%s), at %.4g years on a road of %.4g cd/m2 (veil by CIE 135: "
+        "%.3g %%)%s",
         unjudged_because(road, arena),
         road->is_after_dark ? "after dark, without sun and sky: " : "", words_measured(&as, arena),
-        required, age->age_years, road->luminance_cd_m2, age->increment_by_spread_pct,
-        displays_words(age, arena), gaze_counts(gaze) ? "" : "; the profile has no limit of it");
+        bound, age->age_years, road->luminance_cd_m2, age->increment_by_spread_pct,
+        displays_words(age, arena));
 }
 
 /* ---- of variants ------------------------------------------------------------------------- */
@@ -149,8 +148,8 @@ const char *road_change_words(const RoadChange *c, Arena *arena) {
 
 static const char *percent(double level, Arena *arena) {
     if (isnan(level)) return "–";
-    if (!(level < 10)) return "more than 1000 %";              /* nobody sets more, */
-    if (level > 0 && level < 1e-5) return "less than 0.001 %"; /* nor less */
+    if (level > 1) return "100 %"; /* all that it has */
+    if (level > 0 && level < 1e-5) return "less than 0.001 %";
     return arena_format(arena, "%.3g %%", 100 * level);
 }
 
@@ -185,21 +184,20 @@ static const char *empty_words(const GazeFinding *gaze, const RoadDimming *first
     }
     if (is_beyond_displays(road, first))
         return arena_format(arena,
-                            "%s, %.4g years, roads of %s cd/m²: the limit is exceeded "
-                            "without any display's light; no level keeps it.",
+                            "%s, %.4g years, roads of %s cd/m²: the limit is exceeded without any "
+                            "display's light; no level keeps it.",
                             road_name(gaze, arena), first->age_years, roads);
     return arena_format(
         arena,
-        "%s, %.4g years, roads of %s cd/m²: no level of %s does both. Its symbols take "
-        "%s%s%s%s, and the increment is kept up to %s%s.",
+        "%s, %.4g years, roads of %s cd/m²: no level of %s does both. Minimum legible level: "
+        "%s%s%s%s; maximum for the road: %s%s.",
         road_name(gaze, arena), first->age_years, roads,
         first->display ? first->display : "all displays together",
         isfinite(last->level_least_sure) ? percent(last->level_least_sure, arena)
-                                         : "more than ten times today's level",
+                                         : "above what it has",
         last->symbol ? " (" : "", last->symbol ? last->symbol : "", last->symbol ? ")" : "",
-        last->level_most > 0 ? percent(last->level_most, arena) : "none of it",
-        last->level_most > 0 ? arena_format(arena, " at %.4g cd/m²", last->road_cd_m2)
-                             : ": the rest of the veil is too much");
+        last->level_most > 0 ? percent(last->level_most, arena) : "none, even dark",
+        last->level_most > 0 ? arena_format(arena, " at %.4g cd/m²", last->road_cd_m2) : "");
 }
 
 const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *arena) {
@@ -216,139 +214,8 @@ const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *aren
     return list;
 }
 
-/* ---- the chart --------------------------------------------------------------------------- */
-
-#define WIDTH 420.0 /* of its coordinates; the page scales it */
-#define HEIGHT 240.0
-#define LEFT 52.0
-#define RIGHT 84.0
-#define TOP 12.0
-#define BOTTOM 34.0
-#define LEVEL_SEEN 10.0 /* beyond that none is set */
-#define LEVEL_LEAST 1e-4
-
-/* In the drawing itself, so that pages without a road keep their bytes. */
-static const char STYLE[] =
-    "<style>.dimming{width:420px;max-width:100%;font:11px sans-serif}"
-    ".dimming text{fill:currentColor}.dimming .end{text-anchor:end}"
-    ".dimming .mid{text-anchor:middle}"
-    ".dimming path{fill:none;stroke:currentColor;stroke-width:1.8}"
-    ".dimming .tick{opacity:.2;stroke-width:1}.dimming .least{stroke-dasharray:7 4}"
-    ".dimming .now{stroke-dasharray:1.5 3}</style>";
-
-/* Both axes are of logarithms. */
-typedef struct ChartAxes {
-    double road_low, road_high, level_low, level_high;
-} ChartAxes;
-
-static double place(double value, double low, double high) {
-    return (log10_d(value) - log10_d(low)) / (log10_d(high) - log10_d(low));
-}
-
-static double chart_x(const ChartAxes *axes, double road) {
-    return LEFT + (WIDTH - LEFT - RIGHT) * place(road, axes->road_low, axes->road_high);
-}
-
-static double chart_y(const ChartAxes *axes, double level) {
-    double shown = fmin(fmax(level, axes->level_low), axes->level_high);
-    return TOP + (HEIGHT - TOP - BOTTOM) * (1 - place(shown, axes->level_low, axes->level_high));
-}
-
 static bool is_of(const RoadDimming *row, const char *display) {
     return !row->display == !display && words_same(row->display, display);
-}
-
-static void widen(ChartAxes *axes, double level) {
-    if (!(level > LEVEL_LEAST && level < LEVEL_SEEN)) return;
-    axes->level_low = fmin(axes->level_low, level);
-    axes->level_high = fmax(axes->level_high, level);
-}
-
-/* Whole decades of levels. False: nothing to draw. */
-static bool chart_axes(const GazeRoad *road, const char *display, ChartAxes *axes) {
-    *axes = (ChartAxes){INFINITY, 0, 1, 1};
-    for (int i = 0; i < road->dimming_count; i++) {
-        const RoadDimming *row = &road->dimming[i];
-        if (!is_of(row, display)) continue;
-        axes->road_low = fmin(axes->road_low, row->road_cd_m2);
-        axes->road_high = fmax(axes->road_high, row->road_cd_m2);
-        widen(axes, row->level_most);
-        widen(axes, row->level_least_sure);
-        widen(axes, row->level);
-    }
-    axes->level_low = pow_d(10, floor(log10_d(axes->level_low * 0.999)));
-    axes->level_high = pow_d(10, ceil(log10_d(axes->level_high * 0.999)));
-    return axes->road_low < axes->road_high;
-}
-
-static void add_grid(Text *svg, const ChartAxes *axes, const GazeRoad *road, const char *display) {
-    for (double level = axes->level_low; level <= axes->level_high * 1.001; level *= 10) {
-        double y = chart_y(axes, level);
-        text_format(svg,
-                    "<path class=\"tick\" d=\"M%.1f %.1fH%.1f\"/><text x=\"%.1f\" "
-                    "y=\"%.1f\" class=\"end\">%.4g %%</text>",
-                    LEFT, y, WIDTH - RIGHT, LEFT - 5, y + 4, 100 * level);
-    }
-    double before = -HUGE_VAL;
-    for (int i = 0; i < road->dimming_count; i++) {
-        const RoadDimming *row = &road->dimming[i];
-        double x = chart_x(axes, row->road_cd_m2);
-        if (!is_of(row, display) || row->age_years != road->ages[0].age_years || x - before < 26)
-            continue;
-        before = x;
-        text_format(svg, "<text x=\"%.1f\" y=\"%.1f\" class=\"mid\">%.4g</text>", x,
-                    HEIGHT - BOTTOM + 14, row->road_cd_m2);
-    }
-    text_format(svg, "<text x=\"%.1f\" y=\"%.1f\" class=\"mid\">road, cd/m²</text>",
-                LEFT + 0.5 * (WIDTH - LEFT - RIGHT), HEIGHT - 5);
-}
-
-static void add_line(Text *svg, const ChartAxes *axes, const GazeRoad *road, const char *display,
-                     double age) {
-    const char *step = "M";
-    double x = 0, y = 0;
-    text_add(svg, "<path class=\"most\" d=\"");
-    for (int i = 0; i < road->dimming_count; i++) {
-        const RoadDimming *row = &road->dimming[i];
-        if (!is_of(row, display) || row->age_years != age || isnan(row->level_most)) continue;
-        x = chart_x(axes, row->road_cd_m2);
-        y = chart_y(axes, row->level_most);
-        text_format(svg, "%s%.1f %.1f", step, x, y);
-        step = "L";
-    }
-    text_format(svg, "\"/><text x=\"%.1f\" y=\"%.1f\">%.4g years</text>", x + 5, y + 4, age);
-}
-
-static void add_level(Text *svg, const ChartAxes *axes, double level, const char *kind) {
-    if (!(level > LEVEL_LEAST && level < LEVEL_SEEN)) return;
-    text_format(svg, "<path class=\"%s\" d=\"M%.1f %.1fH%.1f\"/>", kind, LEFT, chart_y(axes, level),
-                WIDTH - RIGHT);
-}
-
-/* One display's levels over the road's luminance, as SVG: a line an age for what keeps the
- * limit, one for what its symbols take. display NULL: all by one factor; "": nothing to
- * draw. */
-static const char *chart_of(const GazeRoad *road, const char *display, Arena *arena) {
-    ChartAxes axes;
-    Text svg = {.arena = arena};
-    if (!chart_axes(road, display, &axes)) return "";
-    text_format(&svg,
-                "<svg class=\"dimming\" viewBox=\"0 0 %.0f %.0f\" role=\"img\" "
-                "aria-label=\"levels over the road's luminance\">",
-                WIDTH, HEIGHT);
-    text_add(&svg, STYLE);
-    add_grid(&svg, &axes, road, display);
-    for (int i = 0; i < road->dimming_count; i++) {
-        const RoadDimming *row = &road->dimming[i];
-        if (!is_of(row, display)) continue;
-        add_level(&svg, &axes, row->level_least_sure, "least");
-        add_level(&svg, &axes, row->level, "now");
-        break;
-    }
-    for (int a = 0; a < road->age_count; a++)
-        add_line(&svg, &axes, road, display, road->ages[a].age_years);
-    text_add(&svg, "</svg>");
-    return svg.data;
 }
 
 /* ---- values ------------------------------------------------------------------------------ */
@@ -399,11 +266,10 @@ static void set_row(json_t *to, const RoadDimming *row, Arena *arena) {
     page_set(to, "age", arena_format(arena, "%.4g", row->age_years));
     page_set(to, "road", arena_format(arena, "%.4g", row->road_cd_m2));
     page_set(to, "most", isnan(row->level_most) ? "–" : most);
-    page_set(
-        to, "most_range",
-        row->level_most_range.high < LEVEL_SEEN
-            ? around(100 * row->level_most_range.low, 100 * row->level_most_range.high, " %", arena)
-            : NULL);
+    page_set(to, "most_range",
+             row->level_most_range.high < 1 ? around(100 * row->level_most_range.low,
+                                                     100 * row->level_most_range.high, " %", arena)
+                                            : NULL);
     page_set(to, "window", row->window ? road_windows[row->window] : "–");
     page_set(to, "class",
              row->window == ROAD_WINDOW_EMPTY   ? "bad"
@@ -418,7 +284,7 @@ static void set_least(json_t *to, const RoadDimming *first, Arena *arena) {
     page_set(to, "symbol", first->symbol);
     page_set(to, "least",
              isnan(sure)   ? NULL
-             : isinf(sure) ? "more than ten times today's"
+             : isinf(sure) ? "above what it has"
              : !(sure > 0) ? "none"
                            : percent(sure, arena));
 }
@@ -432,7 +298,6 @@ static void add_dimming(json_t *to, const GazeRoad *road, Arena *arena) {
         if (!is_first) continue;
         json_t *of = page_add(list), *rows = new_list(of, "rows");
         set_least(of, first, arena);
-        page_set(of, "chart", chart_of(road, first->display, arena));
         for (int k = i; k < road->dimming_count; k++)
             if (is_of(&road->dimming[k], first->display))
                 set_row(page_add(rows), &road->dimming[k], arena);
@@ -447,6 +312,7 @@ static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena) {
     const char **windows = road_empty_windows(gaze, &count, arena);
     page_set(to, "name", road_name(gaze, arena));
     page_set(to, "words", road_words(gaze, arena));
+    page_set(to, "todo", todo_of_road(gaze, arena));
     page_set(to, "outcome", road_outcome(gaze));
     page_set(to, "class", gaze_counts(gaze) ? words_class(road->verdict) : "");
     page_set(to, "road", arena_format(arena, "%.4g", road->luminance_cd_m2));

@@ -13,8 +13,8 @@
 #include "review/output/review_link.h"
 #include "review/output/pane_outlines.h"
 #include "review/output/review_rays.h"
-#include "review/output/review_levels.h"
 #include "review/output/review_road.h"
+#include "review/output/review_todo.h"
 #include "review/output/review_privacy.h"
 #include "review/output/review_words.h"
 #include "review/quantity.h"
@@ -73,8 +73,6 @@ static void set_limit(json_t *to, const LimitVerdict *limit, Arena *arena) {
     values_set_verdict(to, limit->verdict);
     page_set(to, "found", isnan(limit->found) ? NULL : words_found(limit, arena));
     page_set(to, "range", words_interval(limit->low, limit->high, arena));
-    page_set(to, "sign", limit->is_upper ? "≤" : "≥");
-    page_set(to, "value", words_limit(limit, arena));
     page_set(to, "required", words_required(limit, arena));
     page_set(to, "margin", words_margin(limit->margin, arena));
     page_set_flag(to, "has_margin", !isnan(limit->margin));
@@ -141,17 +139,6 @@ static void set_causes(json_t *to, const ReviewCase *c, Arena *arena) {
     json_object_set_new(to, "other_ways", left >= 0.001 ? json_real(left) : json_null());
     page_set(to, "seat", words_empty_seat(c, arena));
     set_groups(values_object(to, "groups"), c, arena);
-}
-
-static void set_remedies(json_t *to, const ReviewCase *c, Arena *arena) {
-    page_set_flag(to, "has_remedies", c->remedy_count > 0);
-    for (int i = 0; i < c->remedy_count; i++) {
-        const CaseRemedy *r = &c->remedies[i];
-        json_t *remedy = json_array_get(json_object_get(to, "remedies"), (size_t)i);
-        bool is_told = !isnan(r->level) && r->level != c->level;
-        page_set(remedy, "result", words_remedy(r, arena));
-        json_object_set_new(remedy, "brightness", is_told ? json_real(r->level) : json_null());
-    }
 }
 
 /* ---- figures ----------------------------------------------------------------------------- */
@@ -275,6 +262,7 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
     page_set(to, "figure", words_judged(c, arena));
     page_set(to, "reason", words_reason(c, arena));
     page_set(to, "headline", words_headline(c, arena));
+    page_set(to, "todo", todo_of_case(c, arena));
     page_set(to, "unjudged", words_unjudged(c, arena));
     page_set(to, "light", words_ambient(c->ambient));
     page_set(to, "sun_words", words_sun(c, values_directions(v, c), arena));
@@ -288,7 +276,6 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
     privacy_set_values(to, c, arena);
     set_limits(to, c, arena);
     set_causes(to, c, arena);
-    set_remedies(to, c, arena);
     return set_pictures(v, to, c, err);
 }
 
@@ -343,7 +330,7 @@ static void set_verdict(json_t *to, const Review *review, const ReviewCase *wors
                                            [VERDICT_UNJUDGED] = " unknown"};
     Verdict verdict = review_verdict(review);
     page_set(to, "class", CLASSES[verdict]);
-    page_set(to, "outcome", words_verdict(verdict));
+    page_set(to, "outcome", review_outcome_words(review, arena));
     page_set(to, "lead", worst ? lead_words(review, worst, arena) : "");
 }
 
@@ -507,6 +494,20 @@ static bool set_frame(const PageValues *v, const ReviewPicture *frame, Error *er
     return values_add_picture(to, &shown, scratch, err);
 }
 
+static void set_rests(const PageValues *v) {
+    RestWords list[REST_KINDS];
+    int count = review_rests(v->review, list, v->arena);
+    json_t *rests = values_list(v->doc, "rests");
+    page_set_flag(v->doc, "has_rests", count > 0);
+    for (int i = 0; i < count; i++) {
+        json_t *rest = page_add(rests);
+        page_set(rest, "id", list[i].id);
+        page_set(rest, "at", v->review->whole ? "index.html" : "");
+        page_set(rest, "chip", list[i].chip);
+        page_set(rest, "words", list[i].words);
+    }
+}
+
 static void set_facts(const PageValues *v, const ReviewCase *c) {
     json_t *list = values_list(v->doc, "facts");
     ReviewFacts facts = review_facts_of(v->review, c, values_directions(v, c), v->arena);
@@ -521,6 +522,7 @@ bool values_add_answer(const PageValues *v, Error *err) {
     const ReviewCase *worst = review_worst(v->review, *v->arena);
     const ReviewPicture *frame = worst ? frame_of(v->page, worst) : NULL;
     set_verdict(values_object(v->doc, "answer"), v->review, worst, v->arena);
+    set_rests(v);
     if (!worst) return true;
     json_object_set(v->doc, "worst", values_of_case(v, worst));
     set_grid(v, values_object(v->doc, "grid"));

@@ -100,14 +100,10 @@ static const char *unfailed_words(const Review *review, Arena *arena) {
         if (!worst || verdict_rank(sweep_verdict(s)) > verdict_rank(sweep_verdict(worst)))
             worst = s;
     }
-    return worst ? words_often(worst, arena) : "–";
+    return worst ? words_how_often(worst, arena) : "–";
 }
 
-static const char *share_words(const ReviewSweep *s, Arena *arena) {
-    return arena_format(arena, "%s %s", words_share(s->failed_share, arena), words_of_what(s));
-}
-
-/* "3.2 % of the sun's directions"; a share of time and one of directions are two. */
+/* Time that is swept, and positions of the sun, are two. */
 static const char *failed_words(const Review *review, Arena *arena) {
     Text text = {.arena = arena};
     for (int i = 0; i < 2; i++) {
@@ -115,8 +111,8 @@ static const char *failed_words(const Review *review, Arena *arena) {
         if (!s) continue;
         bool is_bare = sweep_has_box(s) && s->failed_share > 0;
         text_format(&text, "%s%s%s", text.data ? "; " : "",
-                    is_bare ? share_words(s, arena) : words_how_often(s, arena),
-                    is_bare ? " for the middle eye" : "");
+                    is_bare ? words_failing(s, arena) : words_how_often(s, arena),
+                    is_bare ? ", middle eye" : "");
     }
     return text.data ? text.data : unfailed_words(review, arena);
 }

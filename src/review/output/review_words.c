@@ -10,8 +10,10 @@
 #include "review/private_image.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
+#include "review/terms.h"
 #include "text/interval_text.h"
 #include "text/text.h"
+#include "vision/visibility.h"
 
 bool words_same(const char *a, const char *b) {
     return !strcmp(a ? a : "", b ? b : "");
@@ -169,6 +171,14 @@ const char *words_required(const LimitVerdict *limit, Arena *arena) {
                         limit->is_advice ? " (advice)" : "");
 }
 
+const char *words_bound(const LimitVerdict *limit, Arena *arena) {
+    const char *of = words_limit(limit, arena);
+    return arena_format(arena, "%s%s",
+                        limit->is_upper ? arena_format(arena, TERM_MAXIMUM, of)
+                                        : arena_format(arena, TERM_MINIMUM, of),
+                        limit->is_advice ? ", advice" : "");
+}
+
 const char *words_verdict(Verdict verdict) {
     static const char *const WORDS[4] = {"Passes", "Fails", "Too close to call",
                                          "Cannot be judged"};
@@ -179,35 +189,36 @@ bool sweep_has_box(const ReviewSweep *sweep) {
     return !isnan(sweep->worst.eye_failed_share);
 }
 
-const char *words_often(const ReviewSweep *sweep, Arena *arena) {
-    static const char *const NAMES[4] = {"never", "at worst", "too close", "cannot be judged"};
-    Verdict verdict = sweep_verdict(sweep);
-    bool fails = verdict == VERDICT_FAIL && sweep->failed_share > 0;
-    if (verdict == VERDICT_FAIL && sweep_has_box(sweep))
-        return arena_format(arena, "%s of eyes", words_share(sweep->worst.eye_failed_share, arena));
-    return fails ? words_share(sweep->failed_share, arena) : NAMES[verdict];
+const char *words_failing(const ReviewSweep *sweep, Arena *arena) {
+    double minutes = sweep->failed_minutes;
+    if (!(sweep->failed_share > 0)) return "never";
+    if (minutes > 0)
+        return minutes < 600
+                   ? arena_format(arena, "%s minutes a year", words_figure(minutes, arena))
+                   : arena_format(arena, "%s hours a year", words_figure(minutes / 60, arena));
+    if (!isnan(sweep->longest_failure_minutes))
+        return arena_format(arena, "%s of the time", words_share(sweep->failed_share, arena));
+    return arena_format(arena, "%ld of %ld tested sun positions",
+                        lround(sweep->failed_share * (double)sweep->cases), sweep->cases);
 }
 
-const char *words_of_what(const ReviewSweep *sweep) {
-    return isnan(sweep->longest_failure_minutes) ? "of the sun's directions" : "of the time";
-}
-
-const char *words_middle(const ReviewSweep *sweep, Arena *arena) {
-    const char *often = "never";
-    if (sweep->failed_share > 0)
-        often = arena_format(arena, "%s %s", words_share(sweep->failed_share, arena),
-                             words_of_what(sweep));
-    if (!(sweep->middle_contrast > 0)) return arena_format(arena, "the middle eye %s", often);
-    return arena_format(arena, "the middle eye %s, at its own worst %s", often,
+/* "middle eye: 340 minutes a year, at its worst 1.69 : 1". */
+static const char *words_middle(const ReviewSweep *sweep, Arena *arena) {
+    const char *often = words_failing(sweep, arena);
+    if (!(sweep->middle_contrast > 0)) return arena_format(arena, "middle eye: %s", often);
+    return arena_format(arena, "middle eye: %s, at its worst %s", often,
                         words_ratio_as(&sweep->worst, sweep->middle_contrast, arena));
 }
 
 const char *words_how_often(const ReviewSweep *sweep, Arena *arena) {
-    bool is_share = sweep_verdict(sweep) == VERDICT_FAIL && sweep->failed_share > 0;
-    const char *often = words_often(sweep, arena);
-    if (sweep_has_box(sweep) && sweep_verdict(sweep) == VERDICT_FAIL)
-        return arena_format(arena, "%s at its worst, %s", often, words_middle(sweep, arena));
-    return is_share ? arena_format(arena, "%s %s", often, words_of_what(sweep)) : often;
+    static const char *const NAMES[4] = {"never", "at its worst", "too close", "cannot be judged"};
+    Verdict verdict = sweep_verdict(sweep);
+    if (verdict == VERDICT_FAIL && sweep_has_box(sweep))
+        return arena_format(arena, "%s of eyes at its worst; %s",
+                            words_share(sweep->worst.eye_failed_share, arena),
+                            words_middle(sweep, arena));
+    bool is_share = verdict == VERDICT_FAIL && sweep->failed_share > 0;
+    return is_share ? words_failing(sweep, arena) : NAMES[verdict];
 }
 
 const char *words_mark(Verdict verdict) {
@@ -248,29 +259,14 @@ const char *words_sun(const ReviewCase *c, const char *const *directions, Arena 
                         where[0] ? ", " : "", c->sun_azimuth_deg);
 }
 
-/* Why no paths decide it, and what would: "the limit lies within ...; what helps: ...". */
-static const char *words_undecidable(const ReviewCase *c, Arena *arena) {
+const char *words_decide(const ReviewCase *c, Arena *arena) {
     static const char *const WITHIN[OPEN_COUNT] = {
         [OPEN_BY_PANEL] = "the panel's own stated error",
         [OPEN_BY_SUN] = "what is known of the sun's image in the display",
-        [OPEN_BY_VEIL] = "what is known of the veil in the eye"};
-    const char *brighter = "", *helps = "";
-    if (c->open_by == OPEN_BY_IMAGE)
-        return "; the limit lies within what is known of its image in the glass, which is not "
-               "read by more paths";
-    for (int i = 0; i < c->remedy_count; i++) brighter = c->remedies[i].what;
-    if (c->open_by == OPEN_BY_PANEL)
-        helps = arena_format(arena, "; what helps: the panel measured more exactly%s%s",
-                             *brighter ? ", or " : "", brighter);
-    else if (*brighter) helps = arena_format(arena, "; what helps: %s", brighter);
-    return arena_format(arena, "; no number of paths decides it: the limit lies within %s%s",
-                        WITHIN[c->open_by], helps);
-}
-
-const char *words_decide(const ReviewCase *c, Arena *arena) {
-    if (case_is_undecidable(c)) return words_undecidable(c, arena);
-    if (c->open_by != OPEN_BY_PATHS) return "";
-    return "; more paths decide it: a lower \"contrast\" and more \"paths\" of \"precision\"";
+        [OPEN_BY_VEIL] = "what is known of the veil in the eye",
+        [OPEN_BY_IMAGE] = "what is known of its image in the glass"};
+    if (case_is_undecidable(c)) return arena_format(arena, TERM_NO_PATHS, WITHIN[c->open_by]);
+    return c->open_by == OPEN_BY_PATHS ? TERM_MORE_PATHS : "";
 }
 
 #define HIDERS_LISTED 3
@@ -282,27 +278,23 @@ const char *words_hiders(const ReviewCase *c, Arena *arena) {
         const CaseHider *hider = &c->hiders[i];
         if (i >= HIDERS_LISTED) rest += hider->share;
         else
-            text_format(&text, "%s%s hides %s", i ? ", " : "", hider->what,
+            text_format(&text, "%s%s %s", i ? ", " : "", hider->what,
                         words_share(hider->share, arena));
     }
     if (rest > 0) text_format(&text, ", others %s", words_share(rest, arena));
-    return text.data ? text.data : "";
+    return text.data ? arena_format(arena, "hidden by %s", text.data) : "";
 }
 
 const char *words_precision(const ReviewCase *c, Arena *arena) {
     if (!(c->precision_reached > c->precision_asked)) return "";
-    return arena_format(arena, "; known within %s, %s was required",
-                        words_share(c->precision_reached, arena),
+    return arena_format(arena, TERM_KNOWN_WITHIN, words_share(c->precision_reached, arena),
                         words_share(c->precision_asked, arena));
 }
 
 static const char *words_seen(const ReviewCase *c, Arena *arena) {
-    if (!(c->visible_share > 0) && c->must_not_be_read)
-        return "the middle of the eye's places sees nothing of it, but others do, and a sweep "
-               "counts by its middle";
-    if (!(c->visible_share > 0)) return "nothing of it is seen";
-    return arena_format(arena, "%s of it is seen, more than %s is required",
-                        words_share(c->visible_share, arena), words_share(SEEN_LEAST, arena));
+    if (!(c->visible_share > 0)) return c->must_not_be_read ? TERM_UNSEEN_BY_MIDDLE : TERM_UNSEEN;
+    return arena_format(arena, TERM_SEEN, words_share(c->visible_share, arena),
+                        words_share(SEEN_LEAST, arena));
 }
 
 /* Of a case whose verdict hangs on a visibility level that is not known: why there is none;
@@ -319,54 +311,22 @@ const char *words_unjudged(const ReviewCase *c, Arena *arena) {
     const LimitVerdict *limit = case_worst_limit(c);
     switch (c->unjudged) {
     case UNJUDGED_HIDDEN:
-        return arena_format(arena, "%s%s%s%s", words_seen(c, arena), c->hider_count ? ": " : "",
+        return arena_format(arena, "%s%s%s%s", words_seen(c, arena), c->hider_count ? "; " : "",
                             words_hiders(c, arena),
                             c->is_optional ? "; this eye need not see it" : "");
     case UNJUDGED_PANEL:
-        return arena_format(arena,
-                            "the panel of its display says of itself that it is not "
-                            "usable%s%s",
-                            c->panel.reason ? ": " : "", c->panel.reason ? c->panel.reason : "");
+        return arena_format(arena, TERM_PANEL_UNUSABLE "%s%s", c->panel.reason ? ": " : "",
+                            c->panel.reason ? c->panel.reason : "");
     case UNJUDGED_DATA:
-        return arena_format(arena,
-                            "%s of the light that its display reflects comes via "
-                            "materials without optical data, at most %s is accepted",
-                            words_share(c->without_data_share, arena),
+        return arena_format(arena, TERM_WITHOUT_DATA, words_share(c->without_data_share, arena),
                             words_share(UNJUDGED_DATA_SHARE, arena));
-    case UNJUDGED_LIMIT:
-        return arena_format(arena, "no limit that counts applies to it %s",
-                            words_ambient(c->ambient));
+    case UNJUDGED_LIMIT: return arena_format(arena, TERM_NO_LIMIT, words_ambient(c->ambient));
     case UNJUDGED_FIGURE:
-        return arena_format(arena, "%s could not be found out%s%s",
+        return arena_format(arena, TERM_UNKNOWN "%s%s",
                             limit && limit->name ? limit->name : "its figure",
                             level_doubted(c) ? ": " : "", level_doubted(c) ? level_doubted(c) : "");
     default: return "nothing of it is known";
     }
-}
-
-const char *words_to_judge(const ReviewCase *c) {
-    static const char *const WORDS[UNJUDGED_COUNT] = {
-        [UNJUDGED_HIDDEN] = "move what hides it, the display or the eye; or say \"visible\": "
-                            "\"optional\" of the symbol, if this eye need not see it",
-        [UNJUDGED_PANEL] = "a panel file that is usable: measured anew, or fitted anew from "
-                           "finer data (`parhelion panel info` says what this one lacks)",
-        [UNJUDGED_DATA] = "give these materials colours or spectra in the model, or by "
-                          "`equip`; `parhelion check` names them",
-        [UNJUDGED_LIMIT] = "a profile with a limit that applies in this light",
-        [UNJUDGED_FIGURE] = "a rectangle of the content that holds the symbol and its "
-                            "background"};
-    if (c->unjudged == UNJUDGED_FIGURE && level_doubted(c))
-        return "an observer of an age for which the visibility level is published";
-    return WORDS[c->unjudged] && !c->is_optional ? WORDS[c->unjudged] : "";
-}
-
-/* A contrast that is no ratio says so: a name such as "contrast" alone would not. */
-static const char *name_of(const LimitVerdict *limit, Arena *arena) {
-    LimitKind kind = limit_kind_named(limit->kind);
-    const char *name = limit->name ? limit->name : "limit";
-    bool is_other = kind == LIMIT_LUMINANCE_CONTRAST || kind == LIMIT_MODULATION;
-    if (!is_other || strstr(name, words_kind(limit))) return name;
-    return arena_format(arena, "%s (%s)", name, words_kind(limit));
 }
 
 #define EDGE_SEEN 0.005 /* of a symbol: less than that of it is none of it */
@@ -399,33 +359,37 @@ const char *words_whole(const ReviewCase *c, Arena *arena) {
                         is_edged ? "; " : "", lit);
 }
 
+/* Sizes are the same in any light. */
+static const char *light_words(const ReviewCase *c, const LimitVerdict *limit) {
+    LimitKind kind = limit_kind_named(limit->kind);
+    return kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_of_light ? words_ambient(c->ambient)
+                                                                    : "";
+}
+
 static const char *reason_of(const ReviewCase *c, Arena *arena) {
     const LimitVerdict *limit = case_worst_limit(c);
     if (case_kept_by(c) == KEPT_HIDDEN)
-        return arena_format(arena, "nothing of it is seen%s%s", c->hider_count ? ": " : "",
+        return arena_format(arena, TERM_UNSEEN "%s%s", c->hider_count ? "; " : "",
                             words_hiders(c, arena));
     if (c->verdict == VERDICT_UNJUDGED) return words_unjudged(c, arena);
-    if (!limit) return "no limit applies to it";
-    const char *name = name_of(limit, arena);
-    const char *found = words_found(limit, arena);
-    const char *required = words_required(limit, arena);
-    if (c->verdict == VERDICT_TOO_CLOSE)
-        return arena_format(arena, "%s %s, but anything between %s and %s, required %s%s%s", name,
-                            found, words_within(limit->low, limit->low, limit->high, arena),
-                            words_within(limit->high, limit->low, limit->high, arena), required,
-                            words_precision(c, arena), words_decide(c, arena));
-    return arena_format(arena, "%s %s, required %s%s", name, found, required,
-                        words_precision(c, arena));
+    if (!limit) return arena_format(arena, TERM_NO_LIMIT, words_ambient(c->ambient));
+    const char *name = words_kind(limit), *found = words_found(limit, arena);
+    const char *light = light_words(c, limit), *bound = words_bound(limit, arena);
+    const char *gap = light[0] ? " " : "";
+    const char *said =
+        c->verdict == VERDICT_TOO_CLOSE
+            ? arena_format(arena, TERM_OPEN, name, found, gap, light,
+                           words_within(limit->low, limit->low, limit->high, arena),
+                           words_within(limit->high, limit->low, limit->high, arena), bound)
+            : arena_format(arena, TERM_FOUND, name, found, gap, light, bound);
+    return arena_format(arena, "%s%s", said, words_precision(c, arena));
 }
 
-/* Of what must not be read, before the reason. */
-static const char *const FORBIDDEN[4] = {[VERDICT_PASS] = "must not be read, and surely cannot be",
-                                         [VERDICT_FAIL] = "must not be read, but can be",
-                                         [VERDICT_TOO_CLOSE] =
-                                             "must not be read, and perhaps can be",
-                                         [VERDICT_UNJUDGED] = "must not be read"};
-
 const char *words_reason(const ReviewCase *c, Arena *arena) {
+    static const char *const SO[4] = {[VERDICT_PASS] = "and surely cannot",
+                                      [VERDICT_FAIL] = "but can",
+                                      [VERDICT_TOO_CLOSE] = "and perhaps can",
+                                      [VERDICT_UNJUDGED] = "unknown"};
     const char *reason = reason_of(c, arena);
     if (!c->must_not_be_read) return reason;
     const CaseImage *image = case_image_of(c, case_worst_limit(c));
@@ -436,24 +400,21 @@ const char *words_reason(const ReviewCase *c, Arena *arena) {
         as.contrast_high = image->contrast_high;
     }
     bool has_contrast = !isnan(as.contrast_ratio);
-    return arena_format(
-        arena, "%s: %s%s%s%s", FORBIDDEN[c->verdict], reason, has_contrast ? "; contrast " : "",
-        has_contrast ? words_contrast(&as, arena) : "", image ? ", reversed left to right" : "");
+    return arena_format(arena, TERM_MUST_NOT ", %s: %s%s%s%s", SO[c->verdict], reason,
+                        has_contrast ? "; contrast " : "",
+                        has_contrast ? words_contrast(&as, arena) : "",
+                        image ? ", reversed left to right" : "");
 }
 
 const char *words_headline(const ReviewCase *c, Arena *arena) {
-    return c->unjudged == UNJUDGED_PANEL ? "the panel of its display says of itself that it is "
-                                           "not usable"
-                                         : words_reason(c, arena);
+    return c->unjudged == UNJUDGED_PANEL ? TERM_PANEL_UNUSABLE : words_reason(c, arena);
 }
 
 const char *words_remedy(const CaseRemedy *r, Arena *arena) {
-    static const char *const THEN[4] = {"passes", "still fails", "too close to call",
-                                        "cannot be judged"};
     bool is_another = r->then.verdict == VERDICT_PASS && r->verdict != VERDICT_PASS;
-    return arena_format(arena, "%s, required %s: %s", words_quantity(&r->then, arena),
-                        words_required(&r->then, arena),
-                        is_another ? "passes, another limit does not" : THEN[r->verdict]);
+    return arena_format(arena, "%s %s (%s)%s", words_kind(&r->then), words_found(&r->then, arena),
+                        words_bound(&r->then, arena),
+                        is_another ? "; another limit is not kept" : "");
 }
 
 const char *words_chain(const CaseCause *cause, Arena *arena) {
@@ -476,11 +437,54 @@ const char *words_without_data(const Review *review, const ReviewCase *c, Arena 
 }
 
 const char *words_empty_seat(const ReviewCase *c, Arena *arena) {
-    if (!c->empty_seat) return "";
+    return c->empty_seat ? arena_format(arena, TERM_EMPTY_SEAT, c->empty_seat,
+                                        words_share(c->empty_seat_share, arena))
+                         : "";
+}
+
+/* ---- visibility levels ------------------------------------------------------------------- */
+
+const char *words_levels(const ReviewCase *c, Arena *arena) {
+    Text text = {.arena = arena};
+    for (int i = 0; i < c->visibility_count; i++) {
+        const CaseVisibility *v = &c->visibilities[i];
+        if (isnan(v->level)) continue;
+        text_format(&text, "%s%s at %g%s", text.size ? ", " : "visibility level ",
+                    words_within(v->level, v->low, v->high, arena), v->age_years,
+                    text.size ? "" : " years");
+    }
+    return text.data ? text.data : "";
+}
+
+const char *words_judged_and_levels(const ReviewCase *c, Arena *arena) {
+    const char *judged = words_judged(c, arena), *levels = words_levels(c, arena);
+    return *levels ? arena_format(arena, "%s; %s", judged, levels) : judged;
+}
+
+const char *words_level(const CaseVisibility *v, Arena *arena) {
+    const char *doubt = v->doubts ? arena_format(arena, "; doubtful: %s", v->doubts) : "";
+    if (isnan(v->level)) return arena_format(arena, "–%s", doubt);
+    if (v->low == v->high) return arena_format(arena, "%s%s", words_figure(v->level, arena), doubt);
+    return arena_format(arena, "%s, 95 %% sure between %s and %s%s",
+                        words_within(v->level, v->low, v->high, arena),
+                        words_within(v->low, v->low, v->high, arena),
+                        words_within(v->high, v->low, v->high, arena), doubt);
+}
+
+const char *words_target(const CaseVisibility *v, Arena *arena) {
+    const char *glance = v->glance_s < VISIBILITY_GLANCE_LONG
+                             ? arena_format(arena, "in a glance of %g s", v->glance_s)
+                             : "for as long as it takes";
     return arena_format(arena,
-                        "nobody sits in the %s's seat: its back, %s, causes %s of what "
-                        "is reflected; add an occupant: `equip`, or \"with\" in the "
-                        "request",
-                        c->eye ? c->eye : "driver", c->empty_seat,
-                        words_share(c->empty_seat_share, arena));
+                        "one of its strokes, %s arc minutes wide, looked at %s; the eye "
+                        "adapted to %s cd/m²: background, reflected light and veil",
+                        words_figure(v->size_arcmin, arena), glance,
+                        words_figure(v->adapted_cd_m2, arena));
+}
+
+bool review_has_levels(const Review *review) {
+    bool has = false;
+    for (int i = 0; i < review_case_count(review); i++)
+        has = has || review_case_at(review, i)->visibility_count > 0;
+    return has;
 }

@@ -68,6 +68,9 @@ const char *words_limit(const LimitVerdict *limit, Arena *arena);
 /* ">= 2 : 1", "<= 2 : 1"; "(advice)" behind what is preferred and not required. */
 const char *words_required(const LimitVerdict *limit, Arena *arena);
 
+/* "minimum 2 : 1", "maximum 15 %"; ", advice" behind what is preferred and not required. */
+const char *words_bound(const LimitVerdict *limit, Arena *arena);
+
 /* "Passes", "Fails", "Too close to call", "Cannot be judged": begins a sentence. */
 const char *words_verdict(Verdict verdict);
 
@@ -75,19 +78,13 @@ const char *words_verdict(Verdict verdict);
  * worst of those at every point. */
 bool sweep_has_box(const ReviewSweep *sweep);
 
-/* How often a sweep fails: "0.5 %"; of a box "44 % of eyes", at its worst; where its worst does
- * not, or none of its steps: "never", "at worst", "too close", "cannot be judged". */
-const char *words_often(const ReviewSweep *sweep, Arena *arena);
+/* How often its steps fail: "340 minutes a year", "7 of 186 tested sun positions", "never"; of
+ * a review that says no more "0.5 % of the time". */
+const char *words_failing(const ReviewSweep *sweep, Arena *arena);
 
-/* "of the time"; of a sweep of directions alone "of the sun's directions". */
-const char *words_of_what(const ReviewSweep *sweep);
-
-/* Of a box whose worst place fails: "the middle eye 1.2 % of the time, at its own worst 1.69 :
- * 1"; "the middle eye never, ...". */
-const char *words_middle(const ReviewSweep *sweep, Arena *arena);
-
-/* The two together, where there is a share: "0.5 % of the time"; of a box "44 % of eyes at its
- * worst, the middle eye 1.2 % of the time, at its own worst 1.69 : 1". */
+/* How often a sweep fails, of a box "44 % of eyes at its worst; middle eye: ..."; where none of
+ * its steps does "at its worst", and where its worst does not "never", "too close", "cannot be
+ * judged". */
 const char *words_how_often(const ReviewSweep *sweep, Arena *arena);
 
 /* Seen without colours too: "✓", "✗", "≈", "∅". */
@@ -106,22 +103,19 @@ const char *const *words_directions(bool is_of_vehicle);
  * NULL: nobody knows, and no direction is named. */
 const char *words_sun(const ReviewCase *c, const char *const *directions, Arena *arena);
 
-/* "wheel (leather) hides 62 %, rim (steel) hides 3.1 %, others 1.0 %"; "": nothing is hidden,
+/* "hidden by wheel (leather) 62 %, rim (steel) 3.1 %, others 1.0 %"; "": nothing is hidden,
  * or that is not known. */
 const char *words_hiders(const ReviewCase *c, Arena *arena);
 
-/* Behind a case that is too close: what calls it, in which time, or why no number of paths does
- * and what would help; "": that is not known. */
+/* Of a case that is too close: what calls it, or why no number of paths does; "": that is not
+ * known. */
 const char *words_decide(const ReviewCase *c, Arena *arena);
 
 /* Why it cannot be judged: "nothing of it is seen: wheel (leather) hides 100 %". */
 const char *words_unjudged(const ReviewCase *c, Arena *arena);
 
-/* And what would have it judged. */
-const char *words_to_judge(const ReviewCase *c);
-
-/* What a remedy makes of the limit that it is for, and of the case: "luminance contrast 2.1,
- * required >= 2: passes". */
+/* What a remedy makes of the limit that it is for, and of the case: "luminance contrast 2.1
+ * (minimum 2)". */
 const char *words_remedy(const CaseRemedy *remedy, Arena *arena);
 
 /* What the worst part does not say: "mean of the symbol 1.83 : 1; 80 % of it is in the sun".
@@ -129,7 +123,7 @@ const char *words_remedy(const CaseRemedy *remedy, Arena *arena);
  * sun lies on it; "" where neither does. */
 const char *words_whole(const ReviewCase *c, Arena *arena);
 
-/* Why the case has its verdict: "contrast 1.64 : 1, required >= 2 : 1". */
+/* Why the case has its verdict: "contrast 1.64 : 1 in direct sun (minimum 2 : 1)". */
 const char *words_reason(const ReviewCase *c, Arena *arena);
 
 /* The same without what a panel says of itself at length. */
@@ -142,9 +136,29 @@ const char *words_precision(const ReviewCase *c, Arena *arena);
 /* " 62 % of it came via 9 materials without optical data ..."; "" where all have some. */
 const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena);
 
-/* "nobody sits in the driver's seat: its back, Seat_L (leather), causes 96 % of what is
- * reflected; add an occupant: `equip`"; "": somebody does, or it matters little. */
+/* Where nobody sits behind an eye: "its back, Seat_L (leather): 96 % of the reflected light; add
+ * an occupant: `equip` ..."; "": somebody does, or it matters little. */
 const char *words_empty_seat(const ReviewCase *c, Arena *arena);
 
 /* "glass Window_FL: through → seat FrontSeat_L: scatters" */
 const char *words_chain(const CaseCause *cause, Arena *arena);
+
+/* Visibility levels.
+ *
+ * Memory   the arena's. Threads: pure. Fails: never. */
+
+/* "visibility level 6.2 at 40 years, 2.9 at 70"; "": the case has none. */
+const char *words_levels(const ReviewCase *c, Arena *arena);
+
+/* Behind the figure that made the case's verdict, where it has any. */
+const char *words_judged_and_levels(const ReviewCase *c, Arena *arena);
+
+/* One of them: "2.9, 95 % sure between 2.8 and 3.0"; where the formula is doubtful also why. */
+const char *words_level(const CaseVisibility *v, Arena *arena);
+
+/* What it is of: "one of its strokes, 2.3 arc minutes wide, looked at in a glance of 0.2 s; the
+ * eye adapted to 3.4 cd/m²: ...". */
+const char *words_target(const CaseVisibility *v, Arena *arena);
+
+/* Does any case have one? */
+bool review_has_levels(const Review *review);

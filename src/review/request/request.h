@@ -15,6 +15,7 @@
 #include <stdbool.h>
 
 #include "base/lines.h"
+#include "review/verdict.h"
 #include "scene/scene.h"
 #include "sky/epw.h"
 #include "sky/weather_clock.h"
@@ -324,8 +325,9 @@ typedef struct ReviewInput {
 } ReviewInput;
 
 typedef struct ReviewRequest {
-    const char *file;    /* REVIEW.json as the user named it */
-    const char *title;   /* the file's name where none is given */
+    const char *file;  /* REVIEW.json as the user named it */
+    const char *title; /* the file's name where none is given */
+    ReviewDocument document;
     const char **scenes; /* paths, the first holds the displays */
     int scene_count;
     ReviewEye *eyes;

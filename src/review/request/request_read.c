@@ -97,6 +97,19 @@ _Static_assert(offsetof(OWNER, height) == offsetof(OWNER, width) + sizeof(int), 
 static const RecordFormat frames_format = {"frames", sizeof(OWNER), FRAMES, .doc = NULL};
 #undef OWNER
 
+/* ---- the report -------------------------------------------------------------------------- */
+
+#define OWNER ReviewDocument
+
+static const RecordRow DOCUMENT[] = {TEXT("number", 0, number, "The document's."),
+                                     TEXT("revision", 0, revision, NULL),
+                                     TEXT("date", 0, date, "As it is to be printed."),
+                                     TEXT("author", 0, author, NULL),
+                                     {0}};
+
+static const RecordFormat document_format = {"document", sizeof(OWNER), DOCUMENT, .doc = NULL};
+#undef OWNER
+
 /* ---- all of it --------------------------------------------------------------------------- */
 
 #define OWNER ReviewRequest
@@ -114,6 +127,8 @@ static bool read_profile(const JsonView *view, const RecordRow *row, void *item,
 /* In the order in which they need each other: names before who uses them. */
 static const RecordRow REVIEW[] = {
     TEXT("title", 0, title, "Default: the file's name."),
+    OBJECT("document", 0, document, document_format,
+           "What the report's head says besides, on the page and on paper."),
     FILES("scene", MUST, scenes, scene_count, 256, "The first holds the displays."),
     {"profile", RECORD_TEXT, MUST | RECORD_FILLED, RECORD_AT(OWNER, profile), .read = read_profile,
      .doc = "A list of limits: NAME of assets/profiles/NAME.json, or the path of a file, which "

@@ -607,7 +607,7 @@ static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, 
         CauseArgs causes = {&setup->tools, &aim, paths, rays, is_empty ? &seat : NULL};
         case_causes(&causes, &c, arena);
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */
-        case_remedies(tools->profile, &c, arena);
+        case_remedies(tools->profile, tools->setup->request->max_level, &c, arena);
     }
     *out = c;
     return true;

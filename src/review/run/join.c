@@ -82,6 +82,8 @@ void review_join(const ReviewRun *run, const ReviewOutcome *const *parts, int co
     reserve(parts, count, arena, out);
     out->review.title = run->request->title;
     out->review.profile = arena_format(arena, "%s, %s", profile->title, profile->edition);
+    out->review.superseded_by = profile->superseded_by;
+    out->review.document = run->request->document;
     rests_add_request(run->request, profile, &out->review, arena);
     for (int i = 0; i < count; i++) add_part(parts[i], arena, out);
 }

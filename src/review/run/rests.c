@@ -28,7 +28,8 @@ static void add_file(const char *path, const char *xxh3, Review *review, Arena *
         if (!strcmp(review->inputs[i].path, path) && !strcmp(review->inputs[i].xxh3, xxh3)) return;
     if (is_full(count))
         review->inputs = ARENA_GROW(arena, ReviewFile, review->inputs, count, 2 * count + 1);
-    review->inputs[review->input_count++] = (ReviewFile){kept(path, arena), kept(xxh3, arena)};
+    review->inputs[review->input_count++] =
+        (ReviewFile){kept(path, arena), kept(xxh3, arena), NULL};
 }
 
 static void add_hashed(const char *path, uint64_t hash, Review *review, Arena *arena) {

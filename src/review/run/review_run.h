@@ -16,10 +16,14 @@
 #include "review/suns/sweep_suns.h"
 #include "review/verdict.h"
 
+typedef struct ReviewOutcome ReviewOutcome;
+
 /* Who listens to a running review; NULL: nobody. read: gets each scene, whose files are known
- * then. Its failure ends the review. */
+ * then; verdicts: gets the review once all of it but its pictures stands. Its failure ends the
+ * review. */
 typedef struct ReviewNews {
     bool (*read)(void *user, const Scene *scene, Error *err);
+    bool (*verdicts)(void *user, ReviewOutcome *outcome, Error *err);
     void *user;
 } ReviewNews;
 
@@ -68,9 +72,9 @@ typedef struct SweepTable {
 } SweepTable;
 
 /* The review, and what its sweeps found of every sun. */
-typedef struct ReviewOutcome {
+struct ReviewOutcome {
     Review review;
     SweepTable *tables;
     int table_count;
     int responses_kept; /* of its responses: those that were not traced */
-} ReviewOutcome;
+};

@@ -80,7 +80,7 @@ Environment sweep_environment(const Setup *setup, const SweepSun *sun) {
 /* A sight's figures under every sun, which hold for its twin, too. */
 typedef struct SightFigures {
     SunFigures figures;
-    double failed_share, longest_failure_minutes;
+    double failed_share, longest_failure_minutes, failed_minutes;
 } SightFigures;
 
 /* The state of reporting a sweep's sights. */
@@ -152,6 +152,13 @@ static void states_between(void *user, const SweepSuns *suns, unsigned char *sta
     sun_figures_states(&figures, suns->count, states);
 }
 
+/* Under each of its headings. */
+static double swept_minutes(const ReviewCondition *condition, const SweepSuns *suns) {
+    double all = 0;
+    for (int i = 0; i < suns->count; i++) all += suns->list[i].minutes;
+    return all / condition->heading_count;
+}
+
 /* The skies of a weather file stand for their steps alone. */
 static void set_failures(const SweepReport *to, const Sight *sight, const SunFigures *figures,
                          ReviewSweep *out) {
@@ -169,6 +176,7 @@ static void set_failures(const SweepReport *to, const Sight *sight, const SunFig
     Failures found = sweep_failures(condition, to->suns, states, is_steady ? &args : NULL, scratch);
     out->failed_share = found.share;
     out->longest_failure_minutes = found.longest_minutes;
+    out->failed_minutes = found.share * swept_minutes(condition, to->suns);
 }
 
 /* picks: to choose it, by other paths than those of the reported reading and of explain. */
@@ -211,6 +219,7 @@ static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight) {
                          .cases = to->suns->count,
                          .symbol = arena_string(to->arena, symbol, strlen(symbol)),
                          .longest_failure_minutes = to->suns->has_time ? 0 : (double)NAN,
+                         .failed_minutes = to->suns->has_time ? 0 : (double)NAN,
                          .middle_contrast = (double)NAN};
     sweep.worst = sun_figures_unread(to->sweep, sight, to->arena);
     sweep.worst.symbol = sweep.symbol;
@@ -280,7 +289,9 @@ static SunFigures figures_of(SweepReport *to, const Sight *sight, const Sight *a
         set_failures(to, asked, &kept->figures, out);
         kept->failed_share = out->failed_share;
         kept->longest_failure_minutes = out->longest_failure_minutes;
+        kept->failed_minutes = out->failed_minutes;
     }
+    out->failed_minutes = kept->failed_minutes;
     out->failed_share = kept->failed_share;
     out->longest_failure_minutes = kept->longest_failure_minutes;
     return kept->figures;

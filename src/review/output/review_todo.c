@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/output/review_todo.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mathd.h"
+#include "review/output/review_words.h"
+#include "review/quantity.h"
+#include "review/review_decide.h"
+#include "review/terms.h"
+#include "text/text.h"
+
+#define SEEN_CD_M2 0.01 /* of an image: what is darker hardly anybody sees */
+#define LEAST_LEVEL 1e-3
+
+static void part(Text *text, const char *words) {
+    if (words[0] && !(text->data && strstr(text->data, words)))
+        text_format(text, "%s%s", text->size ? "; " : "", words);
+}
+
+/* To three digits; away: -1 down, 1 up, so that a limit is kept as it is printed. */
+static const char *figure_away(double value, int away, Arena *arena) {
+    double digit = value > 0 ? pow_d(10, floor(log10_d(value)) - 2) : 1;
+    double whole = away > 0 ? ceil(value / digit - 1e-9) : floor(value / digit + 1e-9);
+    return arena_format(arena, "%.4g", whole * digit);
+}
+
+static const char *percent(double level, int away, Arena *arena) {
+    return arena_format(arena, "%s %%", figure_away(100 * level, away, arena));
+}
+
+/* ---- a case ------------------------------------------------------------------------------ */
+
+/* Of (H f + R)/(L f + R) = C, at the greatest level, the reflected light R, veil included where
+ * the figure has it. */
+static const char *reflect_less(const ReviewCase *c, const LimitVerdict *limit, Arena *arena) {
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    double needed = ratio_from_contrast(limit_kind_named(limit->kind), limit->value);
+    double level = fmax(c->level, 1), times = level / c->level;
+    double high = fmax(l->foreground, l->background), low = fmin(l->foreground, l->background);
+    double most = times * (high - needed * low) / (needed - 1);
+    if (!(high > needed * low))
+        return arena_format(arena, TERM_CONTENT, words_figure(high / low, arena));
+    if (!(most > 0) || !isfinite(most)) return "";
+    return arena_format(arena, TERM_REFLECT_LESS, percent(level, 1, arena),
+                        figure_away(most, -1, arena), words_figure(l->reflected, arena));
+}
+
+static const char *todo_of_limit(const ReviewCase *c, const LimitVerdict *limit, Arena *arena) {
+    LimitKind kind = limit_kind_named(limit->kind);
+    const CaseRemedy *remedy = c->remedy_count ? &c->remedies[0] : NULL;
+    bool is_of_light = kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_of_light;
+    double times = limit->value / limit->found;
+    if (is_of_light && remedy && remedy->then.verdict == VERDICT_PASS &&
+        (words_same(remedy->then.name, limit->name) || remedy->verdict == VERDICT_PASS))
+        return arena_format(arena, "%s: %s", remedy->what, words_remedy(remedy, arena));
+    if (is_of_light && limit_wants_less(limit)) return TERM_NO_LEVEL_HIDES;
+    if (is_of_light) return reflect_less(c, limit, arena);
+    if (kind == LIMIT_CHARACTER_HEIGHT)
+        return limit->is_upper ? arena_format(arena, TERM_SMALLER, figure_away(times, -1, arena))
+                               : arena_format(arena, TERM_TALLER, figure_away(times, 1, arena));
+    return kind == LIMIT_STROKE_RATIO
+               ? arena_format(arena, TERM_STROKES,
+                              figure_away(times, limit->is_upper ? -1 : 1, arena))
+               : "";
+}
+
+/* Why the visibility level that a case hangs on is not known is the observer's age. */
+static bool lacks_age(const ReviewCase *c) {
+    const LimitVerdict *limit = case_worst_limit(c);
+    bool is_level = limit && limit_kind_named(limit->kind) == LIMIT_VISIBILITY_LEVEL;
+    for (int i = 0; is_level && i < c->visibility_count; i++)
+        if (isnan(c->visibilities[i].level) && c->visibilities[i].doubts) return true;
+    return false;
+}
+
+const char *todo_of_case(const ReviewCase *c, Arena *arena) {
+    static const char *const TO_JUDGE[UNJUDGED_COUNT] = {[UNJUDGED_HIDDEN] = TERM_MOVE_HIDER,
+                                                         [UNJUDGED_PANEL] = TERM_USABLE_PANEL,
+                                                         [UNJUDGED_DATA] = TERM_GIVE_DATA,
+                                                         [UNJUDGED_LIMIT] = TERM_GIVE_LIMIT,
+                                                         [UNJUDGED_FIGURE] = TERM_GIVE_BACKGROUND};
+    Text text = {.arena = arena};
+    if (c->verdict == VERDICT_UNJUDGED) {
+        if (c->is_optional || !TO_JUDGE[c->unjudged]) return "";
+        return c->unjudged == UNJUDGED_FIGURE && lacks_age(c) ? TERM_GIVE_AGE
+                                                              : TO_JUDGE[c->unjudged];
+    }
+    if (c->verdict == VERDICT_TOO_CLOSE) part(&text, words_decide(c, arena));
+    for (int i = 0; i < c->limit_count; i++) {
+        const LimitVerdict *limit = &c->limits[i];
+        bool is_open = limit->verdict == VERDICT_TOO_CLOSE && c->remedy_count;
+        if (!limit->is_advice && (limit->verdict == VERDICT_FAIL || is_open))
+            part(&text, todo_of_limit(c, limit, arena));
+    }
+    return text.data ? text.data : "";
+}
+
+/* ---- a road ------------------------------------------------------------------------------ */
+
+/* Of the road itself. display NULL: all by one factor. */
+static const RoadDimming *dimming_of(const GazeRoad *road, const char *display, double age) {
+    for (int i = 0; i < road->dimming_count; i++) {
+        const RoadDimming *row = &road->dimming[i];
+        if (row->age_years == age && row->road_cd_m2 == road->luminance_cd_m2 &&
+            !row->display == !display && words_same(row->display, display))
+            return row;
+    }
+    return NULL;
+}
+
+static const char *dim_words(const RoadDimming *row, Arena *arena) {
+    const char *to = percent(row->level_most_range.low, -1, arena);
+    if (row->level_least_sure > row->level_most_range.low)
+        return arena_format(
+            arena, TERM_NO_LEVEL_DOES_BOTH, row->display ? row->display : "the displays", to,
+            row->symbol ? row->symbol : "what is read",
+            isfinite(row->level_least_sure) ? percent(row->level_least_sure, 1, arena)
+                                            : "more than it has");
+    return row->display ? arena_format(arena, TERM_DIM_DISPLAY, row->display,
+                                       percent(row->level, 0, arena), to)
+                        : arena_format(arena, TERM_DIM_ALL, to);
+}
+
+static bool is_dimmable(const RoadDimming *row) {
+    return row && row->level_most_range.low >= LEAST_LEVEL &&
+           row->level_most_range.low < row->level;
+}
+
+/* By the one that makes most; else by all; else no display helps. */
+const char *todo_of_road(const GazeFinding *gaze, Arena *arena) {
+    const GazeRoad *road = gaze->road;
+    const RoadAge *age = gaze_counts(gaze) ? gaze_worst_age(gaze) : NULL;
+    if (!age || age->limit.verdict == VERDICT_PASS) return "";
+    double share = 0;
+    const RoadDimming *all = dimming_of(road, NULL, age->age_years);
+    for (int i = 0; i < age->display_count; i++) {
+        const RoadDimming *row = dimming_of(road, age->displays[i].display, age->age_years);
+        share += age->displays[i].share;
+        if (is_dimmable(row)) return dim_words(row, arena);
+    }
+    if (is_dimmable(all)) return dim_words(all, arena);
+    LimitVerdict rest = age->limit;
+    rest.found = fmax(1 - share, 0) * age->increment_pct;
+    rest.low = rest.high = NAN;
+    rest.unit = "%";
+    rest.age_years = 0;
+    return arena_format(arena, TERM_NOTHING_HERE, words_found(&rest, arena),
+                        words_bound(&rest, arena));
+}
+
+/* ---- an image in glass ------------------------------------------------------------------- */
+
+const char *todo_of_pane(const PaneFinding *f, Arena *arena) {
+    if (!pane_counts(f) || f->limit.verdict == VERDICT_PASS) return "";
+    double factor = f->limit.value / f->contrast_range.high;
+    return factor > 0 && factor < 1 && factor * f->image >= SEEN_CD_M2
+               ? arena_format(arena, TERM_DIM_IMAGE, f->display, percent(factor, -1, arena))
+               : arena_format(arena, TERM_NO_LEVEL_DIMS, f->display);
+}

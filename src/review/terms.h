@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* terms.h -- what a review says of a failure and what to do about it: every sentence once, so
+ * that somebody can read them aloud. Labels, terms of art first; figures come with their units.
+ *
+ * Units    as the texts say; levels in per cent of what a panel was measured with.
+ */
+#pragma once
+
+/* ---- what was found ---------------------------------------------------------------------- */
+
+#define TERM_MINIMUM "minimum %s"
+#define TERM_MAXIMUM "maximum %s"
+#define TERM_FOUND "%s %s%s%s (%s)" /* contrast 1.59 : 1 in direct sun (minimum 2 : 1) */
+#define TERM_OPEN "%s %s%s%s, 95 %% interval %s to %s (%s)"
+#define TERM_NO_LIMIT "no limit %s in this profile"
+#define TERM_KNOWN_WITHIN "; known within %s, %s required"
+#define TERM_HIDDEN_BY "hidden by %s %s"
+#define TERM_SEEN "visible: %s (more than %s needed)"
+#define TERM_UNSEEN "nothing of it is seen"
+#define TERM_UNSEEN_BY_MIDDLE \
+    "nothing of it is seen from the middle of the eye's box, by which " \
+    "a sweep counts; from other places it is"
+#define TERM_PANEL_UNUSABLE "panel not usable, by its own file"
+#define TERM_WITHOUT_DATA \
+    "%s of the reflected light via materials without optical data " \
+    "(maximum %s)"
+#define TERM_UNKNOWN "%s could not be found out"
+#define TERM_MUST_NOT "must not be read"
+
+/* ---- what to do -------------------------------------------------------------------------- */
+
+#define TERM_RAISE "raise the level from %s to %s"
+#define TERM_DIM "dim from %s to %s"
+#define TERM_DIM_DISPLAY "dim %s from %s to %s"
+#define TERM_DIM_ALL "dim all displays to %s of their levels"
+#define TERM_DIM_IMAGE "dim %s to %s of its level"
+#define TERM_TOWARDS " towards this eye"
+#define TERM_REFLECT_LESS \
+    "no level up to %s is enough; reflected light: %s cd/m² at most " \
+    "(now %s): hood, tilt or coating"
+#define TERM_CONTENT "no light or level matters: the content itself has %s : 1"
+#define TERM_NO_LEVEL_HIDES "no level hides it: a privacy state or film"
+#define TERM_NO_LEVEL_DIMS "no level is enough: move, tilt or shade %s"
+#define TERM_NOTHING_HERE "nothing here: all but the displays makes %s (%s)"
+#define TERM_NO_LEVEL_DOES_BOTH "no level of %s does both: the road allows %s, %s needs %s"
+#define TERM_TALLER "characters %s times as high"
+#define TERM_SMALLER "characters %s times as high at most"
+#define TERM_STROKES "strokes %s times as wide"
+#define TERM_MORE_PATHS \
+    "more paths decide it: a lower \"contrast\" and more \"paths\" of " \
+    "\"precision\""
+#define TERM_NO_PATHS "no number of paths decides it: the limit lies within %s"
+#define TERM_MOVE_HIDER \
+    "move what hides it, the display or the eye; or \"visible\": " \
+    "\"optional\" of the symbol, if this eye need not see it"
+#define TERM_USABLE_PANEL \
+    "a usable panel file: measured or fitted anew from finer data " \
+    "(`parhelion panel info` says what this one lacks)"
+#define TERM_GIVE_DATA \
+    "colours or spectra for these materials, in the model or by `equip`; " \
+    "`parhelion check` names them"
+#define TERM_GIVE_LIMIT "a profile with a limit that applies in this light"
+#define TERM_GIVE_BACKGROUND "a rectangle of the content that holds the symbol and its background"
+#define TERM_GIVE_AGE "an observer of an age for which the visibility level is published"
+#define TERM_EMPTY_SEAT \
+    "its back, %s: %s of the reflected light; add an occupant: `equip`, or " \
+    "\"with\" in the request"
