@@ -73,3 +73,45 @@ MeanInterval batch_interval(const BatchSums *sums) {
     double a = skewness_of(sums) / sqrt(n), t = student_quantile(n - 1);
     return (MeanInterval){mean - error * untransformed(t, a), mean - error * untransformed(-t, a)};
 }
+
+/* One end: by so much each input alone takes the figure there, in `away`. */
+static double end_of(double (*f)(const double *at, const void *user), const void *user,
+                     const IntervalInput *in, int count, bool is_low, double *away) {
+    double at[INTERVAL_INPUTS] = {0}, squares = 0, last = 0;
+    int moved = 0;
+    for (int i = 0; i < count; i++) at[i] = in[i].is;
+    double middle = f(at, user);
+    if (isnan(middle)) return middle;
+    for (int i = 0; i < count; i++) {
+        double end = is_low ? in[i].less : in[i].more;
+        away[i] = 0;
+        if (end == in[i].is) continue;
+        at[i] = end;
+        last = f(at, user);
+        away[i] = last - middle;
+        squares += away[i] * away[i];
+        moved++;
+        if (isfinite(middle)) at[i] = in[i].is;
+    }
+    if (!moved) return middle;
+    if (moved > 1 && isfinite(middle)) return middle + (is_low ? -sqrt(squares) : sqrt(squares));
+    return is_low ? fmin(last, middle) : fmax(last, middle);
+}
+
+FigureInterval interval_of(double (*f)(const double *at, const void *user), const void *user,
+                           const IntervalInput *in, int count) {
+    FigureInterval out = {0, 0, {0}, {0}};
+    out.low = end_of(f, user, in, count, true, out.below);
+    out.high = end_of(f, user, in, count, false, out.above);
+    return out;
+}
+
+double interval_share(const FigureInterval *of, bool is_below, int first, int count) {
+    const double *away = is_below ? of->below : of->above;
+    double all = 0, part = 0;
+    for (int i = 0; i < INTERVAL_INPUTS; i++) {
+        all += away[i] * away[i];
+        if (i >= first && i < first + count) part += away[i] * away[i];
+    }
+    return all > 0 ? sqrt(part / all) : 1;
+}

@@ -11,6 +11,8 @@
  * Threads  pure functions.
  */
 #pragma once
+#include <stdbool.h>
+
 #define CONFIDENCE_MISS 0.05 /* chance that a 95 % interval does not hold the true value */
 /* A normal variable lies farther out, on either side, with that chance: erfc(z / sqrt 2) */
 #define NORMAL_QUANTILE 1.959963984540054
@@ -45,3 +47,27 @@ double bright_missing(const BrightSamples *samples, double count, double repeate
 
 /* Misses the true mean with CONFIDENCE_MISS, both sides together. */
 MeanInterval batch_interval(const BatchSums *sums);
+
+/* An input of a figure: how large it is, and the ends of its own 95 % interval, the one that makes
+ * the figure less and the one that makes it more. */
+typedef struct IntervalInput {
+    double is, less, more;
+} IntervalInput;
+
+#define INTERVAL_INPUTS 8
+
+/* A figure's interval, and how far each input by itself takes it to its two ends. */
+typedef struct FigureInterval {
+    double low, high;
+    double below[INTERVAL_INPUTS], above[INTERVAL_INPUTS];
+} FigureInterval;
+
+/* The one rule for figures that are made of several: each input is moved to an end of its own
+ * interval, and what that moves the figure by is added as squares, since the inputs are
+ * independent (Zou and Donner, Stat. Med. 27 (2008) 1693-1702). An infinite figure has the ends
+ * of all inputs at once. f gets count <= INTERVAL_INPUTS values. */
+FigureInterval interval_of(double (*f)(const double *at, const void *user), const void *user,
+                           const IntervalInput *in, int count);
+
+/* Which share of the doubt below or above, 0..1, is that of inputs first .. first + count - 1? */
+double interval_share(const FigureInterval *of, bool is_below, int first, int count);

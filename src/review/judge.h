@@ -46,14 +46,32 @@ void judge_contrasts(ReviewCase *review_case, MeanInterval reflected);
  * decide it. */
 void judge_open(ReviewCase *review_case, double fixed);
 
+/* Is it required, and is there something to hold against it? */
+bool limit_counts(const LimitVerdict *limit);
+
 /* From the case's ambient, contrasts and their interval, height, stroke_ratio, visible_share,
  * panel and without_data_share: sets limits, limit_count, limit_id, margin, verdict and
  * unjudged; of one that is not too close it clears open_by. limit_id is, among the
  * contrast limits that count, the one that requires the greatest ratio; margin is its margin.
  *
- * The levels of `visibilities` are made anew of the case's luminances (visibility_figure.h); a
- * limit of visibility is about the least of them, an upper one about the greatest.
+ * The levels of `visibilities` are made anew of the case's luminances; a limit of visibility is
+ * about the least of them, an upper one about the greatest.
  *
  * A profile that uses the veil limits contrast_with_veil; its interval is that of
  * contrast_ratio seen through the veil, whose own doubt is not in it. */
 void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena);
+
+/* From what was read of a gaze and of its road: sets its limits, verdict and unjudged, and those
+ * of its road's ages. It is by night where no sun is up. It cannot be judged where more than
+ * UNJUDGED_DATA_SHARE of the road's veil came via materials without optical data, or from
+ * displays whose panels say that they are not usable. */
+void judge_gaze(GazeFinding *gaze, const Profile *profile, Arena *arena);
+
+/* Held against the most that its area allows (INFINITY: the request sets none), or the profile
+ * where that is less: sets has_limit and limit. Where it lies in no area that must be kept free
+ * nothing is required. profile: or NULL. */
+void judge_pane(struct PaneFinding *finding, const Profile *profile, Ambient ambient,
+                double contrast_most);
+
+/* Sets its limits and verdict; the sun is up. */
+void judge_false_sun(ReviewFalseSun *sun, const Profile *profile, Arena *arena);

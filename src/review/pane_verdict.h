@@ -46,12 +46,3 @@ typedef struct PaneFinding {
 
 /* image over against, and its 95 % interval. */
 void pane_set_contrast(PaneFinding *finding);
-
-/* Held against the most that an area allows: sets has_limit and limit. */
-void pane_judge(PaneFinding *finding, const char *area, double contrast_most);
-
-/* Is there an image that a limit is held against? */
-bool pane_counts(const PaneFinding *finding);
-
-/* Of those that count the worst: by verdict, then margin. NULL: none counts. */
-const PaneFinding *review_worst_pane(const Review *review);

@@ -4,40 +4,34 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/count.h"
+#include "review/quantity.h"
+#include "vision/privacy.h"
 
-/* With R, B, and factors on what the brighter and the darker part send. */
-static double ratio_at(const CaseImage *i, double r, double b, const double factors[2]) {
-    double high = fmax(i->sent_foreground, i->sent_background) * factors[0];
-    double low = fmin(i->sent_foreground, i->sent_background) * factors[1];
+/* ---- its image in glass ------------------------------------------------------------------ */
+
+enum { REFLECTANCE, AGAINST, BRIGHTER, DARKER, INPUTS };
+
+static double ratio_at(const double *at, const void *user) {
+    const CaseImage *i = user;
+    double high = fmax(i->sent_foreground, i->sent_background) * at[BRIGHTER];
+    double low = fmin(i->sent_foreground, i->sent_background) * at[DARKER];
     if (isnan(i->sent_foreground) || isnan(i->sent_background)) return (double)NAN;
-    return luminance_contrast(r * high, r * low, b);
-}
-
-static double end_of(const CaseImage *i, double emission_error, double sign) {
-    static const double AS_THEY_ARE[2] = {1, 1};
-    bool is_low = sign < 0;
-    double r = is_low ? i->reflectance_range.low : i->reflectance_range.high;
-    double b = is_low ? i->against_range.high : i->against_range.low;
-    double off = sign * INTERVAL_SIGMAS * emission_error, squares = 0;
-    const double bright[2] = {fmax(1 + off, 0), 1}, dark[2] = {1, fmax(1 - off, 0)};
-    double middle = i->contrast_ratio;
-    const double ends[] = {ratio_at(i, r, i->against, AS_THEY_ARE),
-                           ratio_at(i, i->reflectance, b, AS_THEY_ARE),
-                           ratio_at(i, i->reflectance, i->against, bright),
-                           ratio_at(i, i->reflectance, i->against, dark)};
-    if (!isfinite(middle)) return ratio_at(i, r, b, AS_THEY_ARE);
-    for (int k = 0; k < COUNT_OF(ends); k++) squares += (ends[k] - middle) * (ends[k] - middle);
-    return is_low ? fmax(middle - sqrt(squares), 1) : middle + sqrt(squares);
+    return luminance_contrast(at[REFLECTANCE] * high, at[REFLECTANCE] * low, at[AGAINST]);
 }
 
 void case_image_set_contrast(CaseImage *i, double emission_error) {
-    static const double AS_THEY_ARE[2] = {1, 1};
+    double off = INTERVAL_SIGMAS * emission_error;
+    const IntervalInput in[INPUTS] = {
+        [REFLECTANCE] = {i->reflectance, i->reflectance_range.low, i->reflectance_range.high},
+        [AGAINST] = {i->against, i->against_range.high, i->against_range.low},
+        [BRIGHTER] = {1, fmax(1 - off, 0), 1 + off},
+        [DARKER] = {1, 1 + off, fmax(1 - off, 0)}};
+    FigureInterval range = interval_of(ratio_at, i, in, INPUTS);
     i->foreground = i->reflectance * i->sent_foreground;
     i->background = i->reflectance * i->sent_background;
-    i->contrast_ratio = ratio_at(i, i->reflectance, i->against, AS_THEY_ARE);
-    i->contrast_low = end_of(i, emission_error, -1);
-    i->contrast_high = end_of(i, emission_error, 1);
+    i->contrast_ratio = ratio_at((double[INPUTS]){i->reflectance, i->against, 1, 1}, i);
+    i->contrast_low = range.low < 1 ? 1 : range.low; /* NaN stays */
+    i->contrast_high = range.high;
 }
 
 const CaseImage *case_images_scaled(const ReviewCase *c, double factor, Arena *arena) {
@@ -56,3 +50,25 @@ const CaseImage *case_image_of(const ReviewCase *c, const LimitVerdict *limit) {
         if (!strcmp(c->images[k].pane, limit->by_pane)) return &c->images[k];
     return NULL;
 }
+
+/* ---- the quantity ------------------------------------------------------------------------ */
+
+static Figure find(const Evidence *e, bool is_upper) {
+    const ReviewCase *c = e->c;
+    (void)is_upper;
+    return (Figure){.found = privacy_s_of_contrast(c->contrast_ratio),
+                    .low = privacy_s_of_contrast(c->contrast_high),
+                    .high = privacy_s_of_contrast(c->contrast_low),
+                    .sampling = {c->sampling_share[1], c->sampling_share[0]}};
+}
+
+const ReviewQuantity quantity_visual_security = {.unit = "1",
+                                                 .words = "visual security S",
+                                                 .doc =
+                                                     "Of what must not be read: log10(C/(C - 1)).",
+                                                 .of = OF_PRIVATE,
+                                                 .is_of_light = true,
+                                                 .has_one_bound = true,
+                                                 .find = find,
+                                                 .from_ratio = privacy_s_of_contrast,
+                                                 .to_ratio = privacy_contrast_of_s};

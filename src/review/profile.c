@@ -80,22 +80,26 @@ static bool read_ambients(const JsonView *view, const RecordRow *row, void *item
 
 /* Its kind was read before. */
 static bool read_unit(const JsonView *view, const RecordRow *row, void *item, Error *err) {
-    const LimitKindFacts *kind = &limit_kinds[((ProfileLimit *)item)->kind];
+    LimitKind kind = ((ProfileLimit *)item)->kind;
     RecordRow text = {.key = row->key, .kind = RECORD_TEXT};
     const char *unit;
     if (!record_read_kind(view, &text, &unit, err)) return false;
-    return !strcmp(unit, kind->unit) ||
-           record_fails(view, row->key, err, "is '%.60s', required: '%s' for %s", unit, kind->unit,
-                        kind->name);
+    return !strcmp(unit, quantities[kind]->unit) ||
+           record_fails(view, row->key, err, "is '%.60s', required: '%s' for %s", unit,
+                        quantities[kind]->unit, limit_kind_names[kind]);
 }
 
 static const char *const BOUNDS[] = {"least", "most", NULL};
 
 static bool read_bound(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    ProfileLimit *limit = item;
+    const ReviewQuantity *of = quantities[limit->kind];
     int bound;
     if (!record_read_kind(view, row, &bound, err)) return false;
-    ((ProfileLimit *)item)->is_upper = bound;
-    return true;
+    limit->is_upper = bound;
+    return !of->has_one_bound || limit->is_upper == of->is_upper ||
+           record_fails(view, row->key, err, "is '%s', required: '%s' of %s", BOUNDS[bound],
+                        BOUNDS[of->is_upper], limit_kind_names[limit->kind]);
 }
 
 #define AMBIENTS "{'enum': ['night', 'twilight', 'day', 'sun', 'any']}"
@@ -109,7 +113,8 @@ static const RecordRow LIMIT[] = {
     CHOICE("kind", MUST, kind, limit_kind_names, NULL),
     NUMBER("value", MUST | RECORD_ABOVE, value, 0, LARGEST,
            "In the kind's unit; of a modulation below 1."),
-    {"unit", RECORD_OWN, MUST, .read = read_unit, .schema = "{'enum': ['1', 'arcmin']}"},
+    {"unit", RECORD_OWN, MUST, .read = read_unit,
+     .schema = "{'enum': ['1', 'arcmin', '%', 'cd/m2']}"},
     SOURCE(source, read_in_the_standard),
     TEXT("name", 0, name, "For reports; made of kind and ambient unless it is given."),
     {"bound", RECORD_CHOICE, .read = read_bound, .words = BOUNDS},
@@ -120,7 +125,7 @@ static const RecordRow LIMIT[] = {
 
 /* "contrast ratio, day, sun" or "stroke ratio at most". */
 static const char *usual_name(const ProfileLimit *limit, Arena *arena) {
-    char *name = arena_format(arena, "%s", limit_kinds[limit->kind].name);
+    char *name = arena_format(arena, "%s", limit_kind_names[limit->kind]);
     int count = 0;
     for (char *c = name; *c; c++)
         if (*c == '_') *c = ' ';
@@ -142,24 +147,18 @@ static bool check_limit(const JsonView *view, void *item, Error *err) {
                             "leads to a limit of %g at %g arc minutes, "
                             "required: one above 0",
                             least, s->to_arcmin);
-    if (limit->kind == LIMIT_MODULATION && limit->value >= 1)
-        return record_fails(view, "value", err,
-                            "is %g, required: less than 1: no modulation "
-                            "is more",
-                            limit->value);
-    if (limit->kind == LIMIT_VISUAL_SECURITY && limit->is_upper)
-        return record_fails(view, "bound", err,
-                            "is 'most', required: 'least' of visual "
-                            "security, which limits what must not be read");
+    if (quantities[limit->kind]->has_one_bound) limit->is_upper = quantities[limit->kind]->is_upper;
+    double below = quantities[limit->kind]->below;
+    if (below > 0 && limit->value >= below)
+        return record_fails(view, "value", err, "is %g, required: less than %g: no %s is more",
+                            limit->value, below, limit_kind_names[limit->kind]);
     if (!limit->name) limit->name = usual_name(limit, view->arena);
     return true;
 }
 
 static const RecordFormat limit_format = {
     "limit", sizeof(ProfileLimit), LIMIT, .check = check_limit,
-    .rules = "{'if': {'properties': {'kind': {'const': 'character_height'}}}, "
-             "'then': {'properties': {'unit': {'const': 'arcmin'}}}, "
-             "'else': {'properties': {'unit': {'const': '1'}}}}"};
+    .doc = "Of any quantity: assets/schemas/profile.md lists them with their units."};
 
 /* ---- facts ------------------------------------------------------------------------------- */
 
@@ -238,7 +237,21 @@ static void start_profile(void *item) {
     *(Profile *)item = (Profile){.increment_most_pct = NAN};
 }
 
-const RecordFormat profile_format = {"profile", sizeof(Profile), PROFILE, .start = start_profile,
+/* Of a threshold increment the least is what displays are dimmed to. */
+static bool check_profile(const JsonView *view, void *item, Error *err) {
+    Profile *p = item;
+    (void)view, (void)err;
+    for (int i = 0; i < p->limit_count; i++)
+        if (p->limits[i].kind == LIMIT_THRESHOLD_INCREMENT && !p->limits[i].is_advice)
+            p->increment_most_pct = fmin(p->increment_most_pct, p->limits[i].value);
+    return true;
+}
+
+const RecordFormat profile_format = {"profile",
+                                     sizeof(Profile),
+                                     PROFILE,
+                                     .start = start_profile,
+                                     .check = check_profile,
                                      .doc = "assets/schemas/profile.md explains the keys."};
 
 /* ---- what must not be read --------------------------------------------------------------- */

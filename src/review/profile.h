@@ -54,12 +54,11 @@ typedef struct Profile {
                                   is in force, or nobody says */
     bool uses_veil;            /* contrast counts with the veil over it */
     double increment_most_pct; /* threshold increment of a gaze at a road by night, at
-                                  most; NaN: no limit is set */
+                                  most: its own key, or the least of `limits`; NaN: none */
     double night_below_lx, twilight_below_lx; /* of the display's face */
     const char *ambient_source;
     bool ambient_read_in_the_standard;
-    const ProfileLimit *limits; /* those of visual security are for what must not be read,
-                                   all others for all else */
+    const ProfileLimit *limits; /* each for what its quantity is of (quantity.h) */
     int limit_count;            /* 0: it sets none */
     ProfileLimit security;      /* of what must not be read, where `limits` have none for its
                                    light, or whatever they have: */

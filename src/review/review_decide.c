@@ -2,51 +2,26 @@
 #include "review/review_decide.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"
 #include "print/utf8.h"
-#include "review/pane_verdict.h"
-#include "review/quantity.h"
-#include "review/road_verdict.h"
+
+#define FINDINGS_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */
 
 Verdict sweep_verdict(const ReviewSweep *sweep) {
     return sweep->worst.verdict;
 }
 
-const ReviewSweep *review_sweep_of(const Review *review, const ReviewCase *c) {
-    for (int i = 0; i < review->sweep_count; i++)
-        if (c == &review->sweeps[i].worst) return &review->sweeps[i];
-    return NULL;
-}
-
-const ReviewCase *review_case_at(const Review *review, int i) {
-    int sweep = i - review->case_count;
-    return sweep < 0 ? &review->cases[i] : &review->sweeps[sweep].worst;
-}
-
-int review_case_count(const Review *review) {
-    return review->case_count + review->sweep_count;
-}
-
 ReviewCounts review_count(const Review *review) {
-    ReviewCounts counts = {.total = review_case_count(review)};
-    for (int i = 0; i < counts.total; i++) {
-        const ReviewCase *c = review_case_at(review, i);
-        if (review_case_counts(c)) counts.of[c->verdict]++;
+    Arena scratch = arena_reserve(FINDINGS_BYTES);
+    Findings all = review_findings(review, &scratch);
+    ReviewCounts counts = {.total = all.count};
+    for (int i = 0; i < all.count; i++) {
+        if (all.list[i].counts) counts.of[all.list[i].verdict]++;
         else counts.not_asked++;
     }
-    for (int i = 0; i < review->gaze_count; i++) {
-        if (!gaze_counts(&review->gazes[i])) continue;
-        counts.of[review->gazes[i].road->verdict]++;
-        counts.total++;
-    }
-    for (int i = 0; i < review->pane_image_count; i++) {
-        if (!pane_counts(&review->pane_images[i])) continue;
-        counts.of[review->pane_images[i].limit.verdict]++;
-        counts.total++;
-    }
+    arena_release(&scratch);
     return counts;
 }
 
@@ -83,79 +58,13 @@ bool review_decide(Review *review) {
 
 /* ---- the worst -------------------------------------------------------------------------- */
 
-/* NaN is behind every margin: nothing was held against the limit. */
-static bool is_less(double a, double b) {
-    return a < b || (isnan(b) && !isnan(a));
-}
-
-/* Advice, and what is not measured, or of a shape without strokes cannot be. */
-static bool is_listed_only(const LimitVerdict *limit) {
-    LimitKind kind = limit_kind_named(limit->kind);
-    bool may_be_missing = kind == LIMIT_STROKE_RATIO || kind == LIMIT_WIDTH_RATIO;
-    return limit->is_advice || (may_be_missing && isnan(limit->found));
-}
-
-const LimitVerdict *case_worst_limit(const ReviewCase *c) {
-    const LimitVerdict *worst = NULL;
-    bool has_contrast = c->limit_id >= 0 && c->limit_id < c->limit_count;
-    if (c->verdict == VERDICT_PASS && has_contrast) return &c->limits[c->limit_id];
-    for (int i = 0; i < c->limit_count; i++) {
-        const LimitVerdict *limit = &c->limits[i];
-        if (is_listed_only(limit) || limit->verdict != c->verdict) continue;
-        if (!worst || is_less(limit->margin, worst->margin)) worst = limit;
-    }
-    return worst || !has_contrast ? worst : &c->limits[c->limit_id];
-}
-
-static double worst_margin(const ReviewCase *c) {
-    const LimitVerdict *limit = case_worst_limit(c);
-    return limit ? limit->margin : c->margin;
-}
-
-typedef struct Ranked {
-    const ReviewCase *of;
-    int place; /* in the review */
-} Ranked;
-
-static int rank_of(const ReviewCase *c) {
-    return review_case_counts(c) ? verdict_rank(c->verdict) : -1;
-}
-
-static bool is_worse(const ReviewCase *a, const ReviewCase *b) {
-    int more = rank_of(a) - rank_of(b);
-    return more > 0 || (more == 0 && is_less(worst_margin(a), worst_margin(b)));
-}
-
-static int compare_ranked(const void *a, const void *b) {
-    const Ranked *first = a, *second = b;
-    if (is_worse(first->of, second->of)) return -1;
-    if (is_worse(second->of, first->of)) return 1;
-    return first->place - second->place;
-}
-
 const ReviewCase **review_rank(const Review *review, Arena *arena) {
-    int count = review_case_count(review);
-    Ranked *ranked = ARENA_NEW(arena, Ranked, count);
-    const ReviewCase **out = ARENA_NEW(arena, const ReviewCase *, count);
-    for (int i = 0; i < count; i++) ranked[i] = (Ranked){review_case_at(review, i), i};
-    if (count > 0) qsort(ranked, (size_t)count, sizeof *ranked, compare_ranked);
-    for (int i = 0; i < count; i++) out[i] = ranked[i].of;
+    Findings ranked = review_ranked(review, arena);
+    const ReviewCase **out = ARENA_NEW(arena, const ReviewCase *, ranked.count);
+    int count = 0;
+    for (int i = 0; i < ranked.count; i++)
+        if (ranked.list[i].c) out[count++] = ranked.list[i].c;
     return out;
-}
-
-static bool is_worse_gaze(const GazeFinding *a, const GazeFinding *b) {
-    int more = verdict_rank(a->road->verdict) - verdict_rank(b->road->verdict);
-    return more > 0 ||
-           (more == 0 && is_less(gaze_worst_age(a)->limit.margin, gaze_worst_age(b)->limit.margin));
-}
-
-const GazeFinding *review_worst_road(const Review *review) {
-    const GazeFinding *worst = NULL;
-    for (int i = 0; i < review->gaze_count; i++) {
-        const GazeFinding *g = &review->gazes[i];
-        if (gaze_counts(g) && (!worst || is_worse_gaze(g, worst))) worst = g;
-    }
-    return worst;
 }
 
 const ReviewCase *review_worst(const Review *review, Arena scratch) {
@@ -178,8 +87,8 @@ const ReviewCase *review_case_named(const Review *review, const char *condition,
     return NULL;
 }
 
-const ReviewSweep *review_sweep_named(const Review *review, const char *condition, const char *eye,
-                                      const char *symbol) {
+static const ReviewSweep *review_sweep_named(const Review *review, const char *condition,
+                                             const char *eye, const char *symbol) {
     for (int i = 0; i < review->sweep_count; i++) {
         const ReviewSweep *s = &review->sweeps[i];
         if (is_name(s->condition, condition) && is_name(s->eye, eye) && is_name(s->symbol, symbol))
@@ -236,9 +145,13 @@ ReviewPlaces *review_places(const Review *review, int *count, Arena *arena) {
 
 /* ---- names ------------------------------------------------------------------------------- */
 
+const char *words_named(const char *subject, const char *eye, const char *condition, Arena *arena) {
+    return arena_format(arena, "%s, seen by %s, %s", subject ? subject : "?", eye ? eye : "?",
+                        condition ? condition : "?");
+}
+
 const char *words_case(const ReviewCase *c, Arena *arena) {
-    return arena_format(arena, "%s, seen by %s, %s", c->symbol ? c->symbol : "?",
-                        c->eye ? c->eye : "?", c->condition ? c->condition : "?");
+    return words_named(c->symbol, c->eye, c->condition, arena);
 }
 
 const char *words_file_name(const char *text, Arena *arena) {

@@ -5,34 +5,26 @@
  */
 #pragma once
 #include "base/arena.h"
+#include "review/finding.h"
 #include "review/verdict.h"
 
-/* Sets review->pass, and returns it: of the cases and sweeps that count (review_case_counts),
- * and of the gazes at roads with a limit, none fails, and each could be judged; where the
- * review is strict none is too close either, and no material is without data. */
+/* Sets review->pass, and returns it: of the findings that count (finding.h) none fails, and each
+ * could be judged; where the review is strict none is too close either, and no material is
+ * without data. */
 bool review_decide(Review *review);
 
-/* Cases, sweeps, gazes at roads and images in panes by their verdict. */
+/* Findings by their verdict. */
 typedef struct ReviewCounts {
     int of[4];     /* by Verdict, those that count */
     int not_asked; /* those that do not */
     int total;
 } ReviewCounts;
 
-/* The sweep whose worst this is; NULL: the case is a moment's. */
-const ReviewSweep *review_sweep_of(const Review *review, const ReviewCase *c);
-
 ReviewCounts review_count(const Review *review);
-
-/* All cases, then the sweeps' worst, one by one; and how many that are. */
-const ReviewCase *review_case_at(const Review *review, int i);
-int review_case_count(const Review *review);
 
 /* By names, of which NULL is ""; NULL: there is none. */
 const ReviewCase *review_case_named(const Review *review, const char *condition, const char *eye,
                                     const char *symbol);
-const ReviewSweep *review_sweep_named(const Review *review, const char *condition, const char *eye,
-                                      const char *symbol);
 
 /* Its worst's, which fresh paths decide: steps may fail where that does not. */
 Verdict sweep_verdict(const ReviewSweep *sweep);
@@ -42,23 +34,12 @@ Verdict sweep_verdict(const ReviewSweep *sweep);
  * review that does not pass fails, unless something cannot be judged and nothing fails. */
 Verdict review_verdict(const Review *review);
 
-/* The limit that made the case's verdict: of those with that verdict the one with the least
- * margin. Where it passes, or there is none, that of the contrast: a height or a stroke is the
- * same under every light, and says nothing there. NULL: no limit counts. Whatever is printed of
- * a case beside its verdict is this limit's: figure, interval, margin. */
-const LimitVerdict *case_worst_limit(const ReviewCase *c);
-
-/* All cases and the sweeps' worst, the worst first: by verdict (fail, cannot be judged, too
- * close, pass; last what does not count), then by the margin of the worst limit, else in the
- * review's order.
- * review_case_count pointers. */
+/* Of the ranked findings (finding.h) the cases and the sweeps' worst: review_case_count pointers.
+ */
 const ReviewCase **review_rank(const Review *review, Arena *arena);
 
 /* The first of them. NULL: there are none. */
 const ReviewCase *review_worst(const Review *review, Arena scratch);
-
-/* Of the gazes at roads that count the worst: by verdict, then margin. NULL: there is none. */
-const GazeFinding *review_worst_road(const Review *review);
 
 /* A case of each display that has some, in the review's order: its panel is what they rest on.
  * review_case_count pointers, *count of them set. */
@@ -86,6 +67,7 @@ ReviewPlaces *review_places(const Review *review, int *count, Arena *arena);
  * Memory   the arena's. Threads: pure. Fails: never. */
 
 /* "speed, seen by driver, low sun". */
+const char *words_named(const char *subject, const char *eye, const char *condition, Arena *arena);
 const char *words_case(const ReviewCase *c, Arena *arena);
 
 /* A part of a file's name from texts of any kind: letters and digits stay, each other character

@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/road_verdict.h"
 
+#include "review/quantity.h"
+
 const char *const road_windows[ROAD_WINDOWS + 1] = {
     [ROAD_WINDOW_OPEN] = "open", [ROAD_WINDOW_CLOSE] = "too close", [ROAD_WINDOW_EMPTY] = "empty"};
 const char *const road_left_outs[ROAD_LEFT_OUTS + 1] = {
     [ROAD_BY_DAY] = "the sun is above the horizon",
     [ROAD_OTHER_TIME] = "the request names other conditions"};
 
-bool gaze_counts(const GazeFinding *gaze) {
-    return gaze->road && gaze->road->has_limit;
+bool road_has_limit(const GazeRoad *road) {
+    return road->age_count > 0 && road->ages[0].limit.name;
 }
 
 const RoadAge *gaze_worst_age(const GazeFinding *gaze) {
     const RoadAge *worst = NULL;
-    if (!gaze_counts(gaze)) return NULL;
+    if (!gaze->road || !road_has_limit(gaze->road)) return NULL;
     for (int i = 0; i < gaze->road->age_count; i++) {
         const RoadAge *age = &gaze->road->ages[i];
-        if (age->limit.verdict != gaze->road->verdict) continue;
-        if (!worst || age->limit.margin < worst->limit.margin) worst = age;
+        if (!worst || limit_is_worse(&age->limit, &worst->limit)) worst = age;
     }
     return worst;
 }

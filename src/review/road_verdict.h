@@ -36,7 +36,7 @@ typedef struct RoadAge {
     double increment_pct;
     MeanInterval increment_range;
     double increment_by_spread_pct; /* with the veil by CIE 135/1 in place of that */
-    LimitVerdict limit;             /* name NULL: the profile has none */
+    LimitVerdict limit;             /* judge_gaze's; name NULL: the profile has none */
     RoadDisplay *displays;          /* those that are not dark, the first age's greatest first */
     int display_count;
 } RoadAge;
@@ -82,17 +82,17 @@ struct GazeRoad {
     bool is_after_dark;        /* of a sweep: without sun and sky */
     RoadLeftOut left_out;      /* else nothing below is known */
     double without_data_share; /* of the veil, via materials without optical data */
+    double unusable_share;     /* of the first age's veil, from displays whose panels are not
+                                  usable */
     RoadAge *ages;             /* rising */
     int age_count;
-    bool has_limit;  /* it has a verdict that counts */
-    Verdict verdict; /* the worst of its ages' */
-    Unjudged unjudged;
     RoadDimming *dimming; /* by display, age, road; without a limit none */
     int dimming_count;
 };
 
-/* Does it have a verdict that counts? */
-bool gaze_counts(const GazeFinding *gaze);
+/* Has the increment a limit that counts? */
+bool road_has_limit(const GazeRoad *road);
 
-/* The age that decides: of the verdict, the one with the least margin; NULL: there is none. */
+/* The age whose increment decides: the worst (quantity.h, limit_is_worse); NULL: there is no
+ * limit. */
 const RoadAge *gaze_worst_age(const GazeFinding *gaze);

@@ -91,6 +91,8 @@ typedef struct LimitVerdict {
     Verdict verdict;
     double age_years;    /* of a visibility level: who has it; 0 or NaN: nobody */
     const char *by_pane; /* of a symbol's image in glass (private_image.h); NULL: itself */
+    double sampling[2];  /* Figure's (quantity.h) */
+    bool is_veils[2];
 } LimitVerdict;
 
 /* What a display's panel says of itself (panel/query/panel_stated.h). */
@@ -207,6 +209,8 @@ typedef struct CaseVisibility {
     double low, high;       /* 95 %: of what is reflected, of the veil, and of the panel's
                                stated errors */
     const char *doubts;     /* where the formula is doubtful; NULL: nowhere */
+    double sampling[2];     /* Figure's (quantity.h) */
+    bool is_veils[2];
 } CaseVisibility;
 
 /* A place of an eye box or ellipse, and how it sees what must not be read: read by few paths,
@@ -237,12 +241,14 @@ typedef struct ReviewCase {
     double contrast_low, contrast_high; /* 95 %: of sampling, and of the panel's stated
                                            errors (judge_contrasts) */
     double contrast_with_veil;
-    double height_arcmin; /* the foreground's extent along the content's v */
-    double stroke_ratio;  /* its strokes' width over a character's height; NaN: it has
-                             no strokes (judge.h) */
-    double jnd;           /* steps of DICOM's GSDF between the two, veil included */
-    double visibility;    /* Michelson contrast, veil included, by the least that an eye
-                             sees of strokes that wide (Barten) */
+    double sampling_share[2]; /* of what more paths lessen in the ratio's doubt below and above,
+                                 0..1 */
+    double height_arcmin;     /* the foreground's extent along the content's v */
+    double stroke_ratio;      /* its strokes' width over a character's height; NaN: it has
+                                 no strokes (judge.h) */
+    double jnd;               /* steps of DICOM's GSDF between the two, veil included */
+    double visibility;        /* Michelson contrast, veil included, by the least that an eye
+                                 sees of strokes that wide (Barten) */
     const CaseVisibility *visibilities; /* the observer's first; none: nobody asked */
     int visibility_count;
     long paths;                  /* that what is reflected was read from */
@@ -360,6 +366,10 @@ typedef struct GazeFinding {
     double contrast_left;         /* what that and the veil in the eye leave together */
     MeanInterval contrast_range;  /* of contrast_left */
     GazeRoad *road;               /* it is at a road lit by night; NULL: not stated */
+    const LimitVerdict *limits;   /* all that apply, by age where it is somebody's */
+    int limit_count;
+    Verdict verdict; /* the worst of them */
+    Unjudged unjudged;
 } GazeFinding;
 
 /* Contrast left below which a gaze is marked as poor: half is lost. No limit. */
@@ -395,6 +405,9 @@ typedef struct ReviewFalseSun {
     const char *gaze;  /* where the eye looks: a symbol's name or a gaze's */
     double angle_deg;  /* from the gaze to the image */
     double veil_cd_m2; /* that it lays over what is looked at */
+    const LimitVerdict *limits;
+    int limit_count;
+    Verdict verdict; /* the worst of them */
 } ReviewFalseSun;
 
 typedef struct ReviewResponse {

@@ -12,6 +12,7 @@
 #include "coverage_trials.h"
 #include "review/eye/eye_reading.h"
 #include "review/request/request_read.h"
+#include "review/judge.h"
 #include "review/run/road.h"
 
 #define ROUNDS 16 /* a review's */
@@ -29,7 +30,9 @@ typedef struct Roads {
 
 static GazeRoad *judged(const Roads *r, const RoadReading *reading, double limit, Arena *arena) {
     Profile profile = {.id = "one", .increment_most_pct = limit};
-    return road_of(r->setup, r->road, reading, &profile, arena);
+    GazeFinding gaze = {.road = road_of(r->setup, r->road, reading, &profile, arena)};
+    judge_gaze(&gaze, &profile, arena);
+    return gaze.road;
 }
 
 static RoadReading read_road(const Roads *r, unsigned seed, Arena *room) {

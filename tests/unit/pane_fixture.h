@@ -3,6 +3,7 @@
 #pragma once
 #include <math.h>
 
+#include "review/judge.h"
 #include "review/pane_verdict.h"
 
 /* Seen; 1 +- 0.1 against 4 +- 0.4 cd/m2. */
@@ -33,6 +34,11 @@ static inline PaneFinding fixture_pane(const char *display) {
                      .off_deg = 6.5};
     pane_set_contrast(&f);
     return f;
+}
+
+/* Held against the most that its area allows. */
+static inline void fixture_pane_judge(PaneFinding *f, double most) {
+    judge_pane(f, NULL, AMBIENT_NIGHT, most);
 }
 
 static inline PaneFinding fixture_pane_hidden(void) {

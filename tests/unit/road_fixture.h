@@ -47,8 +47,7 @@ static inline GazeRoad *fixture_road(Arena *memory, double old_pct, double half)
                        .s_p = 1.4,
                        .mesopic_cd_m2 = 0.325,
                        .ages = ARENA_NEW(memory, RoadAge, 2),
-                       .age_count = 2,
-                       .verdict = VERDICT_UNJUDGED};
+                       .age_count = 2};
     road->ages[0] = fixture_road_age(25, 0.5 * old_pct, half, displays);
     road->ages[1] = fixture_road_age(70, old_pct, half, displays);
     return road;

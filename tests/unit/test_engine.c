@@ -54,7 +54,7 @@ static bool run_request(Heard *heard, const char *unfinished, Arena *arena, Revi
                      .problems = &problems,
                      .progress = &progress,
                      .unfinished = unfinished,
-                     .news = {hear_scene, heard}};
+                     .news = {.read = hear_scene, .user = heard}};
     return review_run(&run, false, arena, out, err);
 }
 

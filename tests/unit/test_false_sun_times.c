@@ -96,7 +96,8 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found) {
     Arena scratch = arena_reserve((size_t)1 << 30);
     const Kernel *kernel;
     ReviewCondition condition = year_condition(), minutes = condition;
-    ReviewRun run = {.request = &request};
+    static const Profile none;
+    ReviewRun run = {.request = &request, .profile = &none};
     ReviewFalseSun reported[FALSE_SUNS_LISTED];
     Review out = {.false_suns = reported};
     Setup setup = {.request = &request, .condition = &condition, .scene = world.scene};

@@ -58,14 +58,14 @@ ARENA_TEST(two_per_cent_decide) {
         for (int side = -1; side <= 1; side += 2) {
             const Row *r = &ROWS[i];
             ProfileLimit limit = limit_of(r->kind, r->limit);
-            bool is_contrast = limit_kinds[r->kind].is_contrast;
+            bool is_contrast = quantity_is_contrast(r->kind);
             ReviewCase c = case_of(r->ratio * (is_contrast ? 1 + 0.02 * side : 1), 0.001);
             limit.is_upper = r->is_upper;
             c.height_arcmin = r->height * (is_contrast ? 1 : 1 + 0.02 * side);
             c = judged(c, &limit, 1, false, &arena);
             bool passes = (side > 0) != r->is_upper;
             if (c.verdict != (passes ? VERDICT_PASS : VERDICT_FAIL))
-                fail_msg("%s of %g, side %d: %s", limit_kinds[r->kind].name, r->limit, side,
+                fail_msg("%s of %g, side %d: %s", limit_kind_names[r->kind], r->limit, side,
                          verdict_names[c.verdict]);
             assert_int_equal(c.limits[0].verdict, c.verdict);
             assert_true((c.limits[0].margin > 0) == passes);
@@ -139,7 +139,7 @@ ARENA_TEST(an_interval_across_the_limit_is_too_close) {
         for (int side = -1; side <= 1; side += 2) {
             ProfileLimit limit = limit_of(ROWS[i].kind, ROWS[i].limit);
             limit.is_upper = ROWS[i].is_upper;
-            if (!limit_kinds[limit.kind].is_contrast) continue;
+            if (!quantity_is_contrast(limit.kind)) continue;
             ReviewCase c = case_of(ROWS[i].ratio * (1 + 0.02 * side), 0.03);
             c = judged(c, &limit, 1, false, &arena);
             assert_int_equal(c.verdict, VERDICT_TOO_CLOSE);

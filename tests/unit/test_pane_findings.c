@@ -45,7 +45,7 @@ static Review findings(World *world, const ReviewRequest *request) {
                    .context = world->context,
                    .tools = {.threads = 2}};
     assert_done(kernel_choose(NULL, &setup.tools.kernel, &err));
-    assert_done(setup_pane_images(&setup, &world->arena, &review, &err));
+    assert_done(setup_pane_images(&setup, NULL, &world->arena, &review, &err));
     assert_int_equal(review.pane_image_count, 1);
     return review;
 }
@@ -93,7 +93,7 @@ TEST(a_pane_that_ends_has_no_image_and_no_figure) {
     assert_string_equal(f->none, "the pane ends before it");
     assert_near(f->ends_share, 1, 1e-6);
     assert_true(isnan(f->image) && isnan(f->contrast) && isnan(f->right_deg));
-    assert_false(pane_counts(f));
+    assert_true(f->none || !f->has_limit);
 }
 
 /* ---- areas ------------------------------------------------------------------------------- */
@@ -113,7 +113,7 @@ TEST(the_area_that_allows_least_judges_an_image) {
     Review review = findings(&world, &request);
     const PaneFinding *f = &review.pane_images[0];
     assert_string_equal(f->area, "strict");
-    assert_true(pane_counts(f) && f->limit.verdict == VERDICT_FAIL);
+    assert_true(f->has_limit && f->limit.verdict == VERDICT_FAIL);
     Vec3 corner = vec3_normalize(
         vec3(display_at.x - 0.05f, display_at.y - 0.04f, -2 * PANE_M - display_at.z));
     assert_near(f->off_deg, degrees_from_radians(acos(-(double)corner.z)), 0.05);
@@ -124,7 +124,7 @@ TEST(the_area_that_allows_least_judges_an_image) {
     areas[0].within_deg = 9;
     review = findings(&world, &request);
     assert_null(review.pane_images[0].area);
-    assert_true(!pane_counts(&review.pane_images[0]) && isnan(review.pane_images[0].off_deg));
+    assert_true(!review.pane_images[0].has_limit && isnan(review.pane_images[0].off_deg));
 }
 
 /* A gaze of another eye is none of this one's; without any the way ahead counts. */

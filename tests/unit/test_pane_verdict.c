@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Displays in glass: what is said of them agrees in every figure, and decides the review. */
 #include "review/export/review_junit.h"
-#include "review/output/pane_outlines.h"
+#include "review/finding.h"
 #include "review/output/review_json.h"
 #include "review/output/review_page.h"
-#include "review/output/review_panes.h"
+#include "review/output/review_rays.h"
 #include "review/review_decide.h"
 #include "pane_fixture.h"
 #include "review_page_fixture.h"
@@ -27,9 +27,9 @@ TEST(a_verdict_follows_from_interval_and_limit) {
                                      VERDICT_PASS};
     for (int i = 0; i < 4; i++) {
         PaneFinding f = fixture_pane("a");
-        assert_false(pane_counts(&f));
-        pane_judge(&f, "road", LIMITS[i]);
-        assert_true(pane_counts(&f));
+        assert_false(f.has_limit);
+        fixture_pane_judge(&f, LIMITS[i]);
+        assert_true(f.has_limit);
         assert_int_equal(f.limit.verdict, WANTED[i]);
         assert_near(f.limit.margin, log1p(LIMITS[i]) / log1p(0.25) - 1, 1e-6);
     }
@@ -40,13 +40,13 @@ TEST(an_image_before_nothing_fails_any_limit) {
     f.against = 0;
     f.against_range = (MeanInterval){0, 0};
     pane_set_contrast(&f);
-    pane_judge(&f, "road", 1e6);
+    fixture_pane_judge(&f, 1e6);
     assert_true(isinf(f.contrast));
     assert_int_equal(f.limit.verdict, VERDICT_FAIL);
     f.image = 0;
     f.image_range = (MeanInterval){0, 0};
     pane_set_contrast(&f);
-    pane_judge(&f, "road", 0.1);
+    fixture_pane_judge(&f, 0.1);
     assert_true(f.contrast == 0);
     assert_int_equal(f.limit.verdict, VERDICT_PASS);
 }
@@ -75,15 +75,15 @@ static Review review_of(PaneFinding *list, int count) {
 TEST(what_counts_decides_the_review) {
     PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near"), fixture_pane("far")};
     Review review = review_of(list, 3);
-    assert_true(review.pass && !review_worst_pane(&review));
+    assert_true(review.pass);
     assert_int_equal(review_count(&review).total, 1);
-    pane_judge(&list[1], "road", 0.26);
+    fixture_pane_judge(&list[1], 0.26);
     review_decide(&review);
     assert_int_equal(review_verdict(&review), VERDICT_TOO_CLOSE);
-    pane_judge(&list[2], "road", 0.1);
+    fixture_pane_judge(&list[2], 0.1);
     assert_false(review_decide(&review));
     assert_int_equal(review_verdict(&review), VERDICT_FAIL);
-    assert_ptr_equal(review_worst_pane(&review), &list[2]);
+    assert_ptr_equal(review_ranked(&review, &arena).list[0].pane, &list[2]);
     assert_int_equal(review_count(&review).total, 3);
 }
 
@@ -110,7 +110,7 @@ TEST(review_json_keeps_them_and_others_have_no_such_key) {
     PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near")};
     const char *path = fresh_name(".json");
     Review review = review_of(list, 2), again;
-    pane_judge(&list[1], "road", 0.1);
+    fixture_pane_judge(&list[1], 0.1);
     assert_done(review_json_write(review_json(&review), path, &err));
     assert_done(review_json_read(path, &arena, &again, &err));
     assert_int_equal(again.pane_image_count, 2);
@@ -123,7 +123,7 @@ TEST(review_json_keeps_them_and_others_have_no_such_key) {
 TEST(every_output_has_the_same_figures) {
     PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near \"screen\"")};
     Review review = review_of(list, 2);
-    pane_judge(&list[1], "road", 0.1);
+    fixture_pane_judge(&list[1], 0.1);
     review_decide(&review);
     const char *path = fresh_name(".csv");
     assert_done(review_csv_write_pane_images(&review, path, &err));
@@ -139,7 +139,6 @@ TEST(every_output_has_the_same_figures) {
     ReviewPage page = {.review = &review};
     const char *html = page_of(&page);
     assert_non_null(strstr(html, "Displays in glass"));
-    assert_non_null(strstr(html, "points=\"-12.00,-8.00 -6.00,-8.50 -6.00,-11.00\""));
     assert_non_null(strstr(html, "9.0° up, 8.0° left"));
     assert_non_null(strstr(html, "side &lt;glass&gt;: the pane ends before it"));
     review = review_of(NULL, 0);

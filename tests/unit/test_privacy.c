@@ -291,7 +291,7 @@ ARENA_TEST(a_profile_may_limit_it_from_below_alone) {
         "\"unit\": \"1\", \"source\": \"house\", \"read_in_the_standard\": false%s}]}";
     write_text(path, arena_format(&arena, TEXT_OF, ", \"bound\": \"most\""));
     assert_false(profile_load(path, &arena, &profile, why()));
-    assert_non_null(strstr(why()->text, "required: 'least' of visual security"));
+    assert_non_null(strstr(why()->text, "required: 'least' of visual_security"));
     write_text(path, arena_format(&arena, TEXT_OF, ""));
     assert_done(profile_load(path, &arena, &profile, &err));
     assert_int_equal(profile->limits[0].kind, LIMIT_VISUAL_SECURITY);

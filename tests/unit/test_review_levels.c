@@ -94,18 +94,17 @@ TEST(levels_that_moved_are_a_change) {
     fixture_add_levels(&arena, &before);
     fixture_add_levels(&arena, &after);
     ReviewDiff same = review_diff(&before, &after, "a", "b", &arena);
-    assert_int_equal(same.count[DIFF_SAME], same.case_count + same.sweep_count + 3);
+    assert_int_equal(same.count[DIFF_SAME], same.list_count);
     CaseVisibility *v = (CaseVisibility *)(size_t)after.cases[3].visibilities;
     v[1].level += 2;
     v[1].low += 2;
     v[1].high += 2;
     ReviewDiff diff = review_diff(&before, &after, "a", "b", &arena);
     assert_int_equal(diff.count[DIFF_BETTER], 1);
-    assert_true(diff.cases[0].after == &after.cases[3]);
+    assert_true(diff.list[0].after->c == &after.cases[3]);
     json_t *json = review_diff_json(&diff);
-    json_t *levels =
-        json_object_get(json_array_get(json_object_get(json, "cases"), 0), "visibility_levels");
-    json_t *old = json_object_get(json_array_get(levels, 1), "level");
+    json_t *lines = json_object_get(json_array_get(json_object_get(json, "findings"), 0), "lines");
+    json_t *old = json_object_get(json_array_get(lines, 2), "found");
     assert_close(json_number_value(json_array_get(old, 0)), 4.5, 1e-12);
     assert_close(json_number_value(json_array_get(old, 1)), 6.5, 1e-12);
     json_decref(json);

@@ -394,6 +394,8 @@ static bool is_optional(const char *key, const json_t *object) {
                                         "sha256"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
+    bool is_gaze = json_object_get(object, "gaze") || json_object_get(object, "mirror");
+    if (is_gaze && (!strcmp(key, "verdict") || !strcmp(key, "reason"))) return true;
     return !strcmp(key, "verdict") &&
            (json_object_get(object, "cases") || json_object_get(object, "worst") ||
             json_object_get(object, "then"));
@@ -588,30 +590,29 @@ TEST(the_reason_is_a_limit_that_counts) {
 TEST(a_review_differs_from_itself_in_nothing) {
     Review review = fixture_review(&arena);
     ReviewDiff diff = review_diff(&review, &review, "a", "b", &arena);
-    assert_int_equal(diff.case_count, review.case_count);
-    assert_int_equal(diff.count[DIFF_SAME],
-                     review.case_count + review.sweep_count + review.gaze_count);
+    assert_int_equal(diff.list_count, review.case_count + review.sweep_count + review.gaze_count);
+    assert_int_equal(diff.count[DIFF_SAME], diff.list_count);
 }
 
 TEST(gazes_differ_by_the_contrast_that_is_left) {
-    static const DiffKind KINDS[] = {DIFF_WORSE, DIFF_SAME, DIFF_NEW, DIFF_GONE};
+    static const DiffKind KINDS[] = {DIFF_WORSE, DIFF_GONE, DIFF_NEW};
     Review before = fixture_review(&arena), after = fixture_review(&arena);
     after.gazes[0].contrast_range.high = before.gazes[0].contrast_range.low * 0.999;
     after.gazes[1].contrast_range.high = before.gazes[1].contrast_range.low; /* they touch */
     after.gazes[2].gaze = "mirror";
     ReviewDiff diff = review_diff(&before, &after, "a", "b", &arena);
-    json_t *json = review_diff_json(&diff), *gazes = json_object_get(json, "gazes");
-    assert_int_equal(diff.gaze_count, 4);
-    for (int i = 0; i < 4; i++) assert_int_equal(diff.gazes[i].kind, KINDS[i]);
-    json_t *gone = json_object_get(json_array_get(gazes, 3), "veil_cd_m2");
-    assert_close(json_real_value(json_array_get(gone, 0)), before.gazes[2].veil, 1e-12);
+    json_t *json = review_diff_json(&diff), *list = json_object_get(json, "findings");
+    for (int i = 0; i < 3; i++) assert_int_equal(diff.list[i].kind, KINDS[i]);
+    json_t *lines = json_object_get(json_array_get(list, 1), "lines");
+    json_t *gone = json_object_get(json_array_get(lines, 0), "found");
+    assert_close(json_real_value(json_array_get(gone, 0)), before.gazes[2].contrast_left, 1e-12);
     assert_true(json_is_null(json_array_get(gone, 1)));
     json_decref(json);
 }
 
 TEST(differences_are_named_and_come_first) {
     Review before = fixture_review(&arena), after = fixture_review(&arena);
-    static const DiffKind KINDS[] = {DIFF_BROKEN, DIFF_MENDED, DIFF_WORSE,
+    static const DiffKind KINDS[] = {DIFF_BROKEN, DIFF_MENDED, DIFF_WORSE, DIFF_WORSE,
                                      DIFF_BETTER, DIFF_GONE,   DIFF_NEW};
     before.cases[4].verdict = VERDICT_PASS; /* to what it is, or was */
     after.cases[4].verdict = VERDICT_UNJUDGED;
@@ -623,14 +624,14 @@ TEST(differences_are_named_and_come_first) {
     after.cases[23].symbol = "renamed";
     after.sweeps[0].failed_share += 0.01;
     ReviewDiff diff = review_diff(&before, &after, "a", "b", &arena);
-    assert_int_equal(diff.case_count, 25);
-    for (int i = 0; i < 25; i++) assert_int_equal(diff.cases[i].kind, i < 6 ? KINDS[i] : DIFF_SAME);
-    assert_ptr_equal(diff.cases[0].after, &after.cases[4]);
-    assert_ptr_equal(diff.cases[1].before, &before.cases[3]);
-    assert_null(diff.cases[4].after);
-    assert_string_equal(diff.cases[5].after->symbol, "renamed");
-    assert_int_equal(diff.sweeps[0].kind, DIFF_WORSE);
-    assert_int_equal(diff.sweeps[1].kind, DIFF_SAME);
+    assert_int_equal(diff.list_count, 25 + after.sweep_count + after.gaze_count);
+    for (int i = 0; i < diff.list_count; i++)
+        assert_int_equal(diff.list[i].kind, i < 7 ? KINDS[i] : DIFF_SAME);
+    assert_ptr_equal(diff.list[0].after->c, &after.cases[4]);
+    assert_ptr_equal(diff.list[1].before->c, &before.cases[3]);
+    assert_ptr_equal(diff.list[3].after->sweep, &after.sweeps[0]);
+    assert_null(diff.list[5].after);
+    assert_string_equal(diff.list[6].after->subject, "renamed");
 }
 
 TEST(differences_as_json) {
@@ -640,9 +641,10 @@ TEST(differences_as_json) {
     after.cases[3].contrast_high *= 2;
     after.case_count = 23;
     ReviewDiff diff = review_diff(&before, &after, "a<", "b", &arena);
-    json_t *json = review_diff_json(&diff), *cases = json_object_get(json, "cases");
-    json_t *ratio = json_object_get(json_array_get(cases, 0), "contrast_ratio");
-    assert_int_equal(json_array_size(cases), 24);
+    json_t *json = review_diff_json(&diff), *cases = json_object_get(json, "findings");
+    json_t *lines = json_object_get(json_array_get(cases, 0), "lines");
+    json_t *ratio = json_object_get(json_array_get(lines, 0), "found");
+    assert_int_equal(json_array_size(cases), 24 + after.sweep_count + after.gaze_count);
     assert_string_equal(json_string_value(json_object_get(json_array_get(cases, 0), "change")),
                         "better");
     assert_close(json_real_value(json_array_get(ratio, 1)),

@@ -173,8 +173,8 @@ TEST(a_difference_counts_the_other_way) {
     ReviewDiff diff = review_diff(&before, &after, "a", "b", &arena);
     assert_int_equal(diff.count[DIFF_WORSE], 1);
     assert_int_equal(diff.count[DIFF_BETTER], 1);
-    assert_ptr_equal(diff.cases[0].after, &after.cases[0]);
-    assert_int_equal(diff.cases[0].kind, DIFF_WORSE);
+    assert_ptr_equal(diff.list[0].after->c, &after.cases[0]);
+    assert_int_equal(diff.list[0].kind, DIFF_WORSE);
 }
 
 /* Of an eye box those places count from which it cannot be read; what is told is the share that
@@ -316,7 +316,7 @@ TEST(a_difference_counts_images) {
     after.cases[1].images = images;
     ReviewDiff diff = review_diff(&before, &after, "a", "b", &arena);
     assert_int_equal(diff.count[DIFF_WORSE], 1);
-    assert_ptr_equal(diff.cases[0].after, &after.cases[1]);
+    assert_ptr_equal(diff.list[0].after->c, &after.cases[1]);
 }
 
 TEST_PROGRAM(page_begin, clear_folder)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Gazes at roads: limits, what counts, and what is written of them. */
 #include "review/export/review_junit.h"
-#include "review/judge_road.h"
+#include "review/judge.h"
 #include "review/output/review_json.h"
+#include "review/finding.h"
 #include "review/output/review_page.h"
 #include "review/output/review_road.h"
 #include "review_page_fixture.h"
@@ -10,11 +11,15 @@
 
 static const Profile profile = {.increment_most_pct = 15};
 
-static GazeRoad *judged(double old_pct, double half, double unusable, double without_data) {
-    GazeRoad *road = fixture_road(&arena, old_pct, half);
-    road->without_data_share = without_data;
-    judge_road(road, &profile, unusable);
-    return road;
+/* A gaze at that road, whose names are those of the fixture's third. */
+static GazeFinding judged(double old_pct, double half, double unusable, double without_data) {
+    Review review = fixture_review(&arena);
+    GazeFinding gaze = review.gazes[2];
+    gaze.road = fixture_road(&arena, old_pct, half);
+    gaze.road->without_data_share = without_data;
+    gaze.road->unusable_share = unusable;
+    judge_gaze(&gaze, &profile, &arena);
+    return gaze;
 }
 
 /* ---- verdicts ---------------------------------------------------------------------------- */
@@ -29,10 +34,12 @@ TEST(an_increment_is_judged_by_its_whole_interval) {
                 {16.1, 1, VERDICT_FAIL},
                 {15, 0, VERDICT_PASS}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        GazeRoad *road = judged(rows[i].pct, rows[i].half, 0, 0);
-        assert_true(road->has_limit);
-        assert_int_equal(road->verdict, rows[i].verdict);
-        assert_int_equal(road->unjudged, UNJUDGED_NOT);
+        GazeFinding gaze = judged(rows[i].pct, rows[i].half, 0, 0);
+        const GazeRoad *road = gaze.road;
+        assert_true(road_has_limit(road));
+        assert_int_equal(gaze.limit_count, 2);
+        assert_int_equal(gaze.verdict, rows[i].verdict);
+        assert_int_equal(gaze.unjudged, UNJUDGED_NOT);
         assert_int_equal(road->ages[0].limit.verdict, VERDICT_PASS);
         assert_close(road->ages[1].limit.margin + 1, 15 / rows[i].pct, 1e-12);
         assert_true(road->ages[1].limit.found == rows[i].pct);
@@ -41,31 +48,32 @@ TEST(an_increment_is_judged_by_its_whole_interval) {
 }
 
 TEST(what_nobody_measured_is_not_judged) {
-    assert_int_equal(judged(2, 0.1, 0, 0.11)->verdict, VERDICT_UNJUDGED);
-    assert_int_equal(judged(2, 0.1, 0, 0.11)->unjudged, UNJUDGED_DATA);
-    assert_int_equal(judged(2, 0.1, 0.11, 0)->unjudged, UNJUDGED_PANEL);
-    assert_int_equal(judged(2, 0.1, 0.09, 0.09)->verdict, VERDICT_PASS);
-    assert_int_equal(judged((double)NAN, 0.1, 0, 0)->unjudged, UNJUDGED_FIGURE);
+    assert_int_equal(judged(2, 0.1, 0, 0.11).verdict, VERDICT_UNJUDGED);
+    assert_int_equal(judged(2, 0.1, 0, 0.11).unjudged, UNJUDGED_DATA);
+    assert_int_equal(judged(2, 0.1, 0.11, 0).unjudged, UNJUDGED_PANEL);
+    assert_int_equal(judged(2, 0.1, 0.09, 0.09).verdict, VERDICT_PASS);
+    assert_int_equal(judged((double)NAN, 0.1, 0, 0).unjudged, UNJUDGED_FIGURE);
 }
 
 TEST(without_a_limit_nothing_counts) {
     const Profile none = {.increment_most_pct = NAN};
     GazeFinding gaze = {.road = fixture_road(&arena, 40, 1)};
-    judge_road(gaze.road, &none, 0);
-    assert_false(gaze_counts(&gaze));
+    judge_gaze(&gaze, &none, &arena);
+    assert_int_equal(gaze.limit_count, 0);
     assert_null(gaze_worst_age(&gaze));
     gaze.road = fixture_road(&arena, 40, 1);
     gaze.road->left_out = ROAD_BY_DAY;
-    judge_road(gaze.road, &profile, 0);
-    assert_false(gaze_counts(&gaze));
+    judge_gaze(&gaze, &profile, &arena);
+    assert_int_equal(gaze.limit_count, 0);
     gaze.road = NULL;
-    assert_false(gaze_counts(&gaze));
+    judge_gaze(&gaze, &profile, &arena);
+    assert_int_equal(gaze.limit_count, 0);
 }
 
 /* The fixture's review, in which the third gaze is at a road by night. */
-static Review review_with(GazeRoad *road) {
+static Review review_with(GazeFinding gaze) {
     Review review = fixture_review(&arena);
-    review.gazes[2].road = road;
+    review.gazes[2] = gaze;
     return review;
 }
 
@@ -76,16 +84,17 @@ TEST(a_gaze_counts_as_a_case_does) {
     ReviewCounts more = review_count(&review);
     assert_int_equal(more.total, counts.total + 1);
     assert_int_equal(more.of[VERDICT_FAIL], counts.of[VERDICT_FAIL] + 1);
-    assert_ptr_equal(review_worst_road(&review), &review.gazes[2]);
+    Findings all = review_findings(&review, &arena);
+    assert_ptr_equal(all.list[all.count - 1].gaze, &review.gazes[2]);
     review.case_count = review.sweep_count = review.without_data_count = 0;
     assert_false(review_decide(&review));
     assert_int_equal(review_verdict(&review), VERDICT_FAIL);
-    review.gazes[2].road = judged(2, 1, 0, 0);
+    review.gazes[2] = judged(2, 1, 0, 0);
     assert_true(review_decide(&review));
-    review.gazes[2].road = judged(2, 1, 0, 1);
+    review.gazes[2] = judged(2, 1, 0, 1);
     assert_false(review_decide(&review));
     assert_int_equal(review_verdict(&review), VERDICT_UNJUDGED);
-    review.gazes[2].road = judged(15, 1, 0, 0);
+    review.gazes[2] = judged(15, 1, 0, 0);
     assert_true(review_decide(&review));
     review.is_strict = true;
     assert_false(review_decide(&review));
@@ -94,8 +103,9 @@ TEST(a_gaze_counts_as_a_case_does) {
 /* ---- what is written --------------------------------------------------------------------- */
 
 TEST(a_road_is_read_as_it_was_written) {
-    GazeRoad *road = judged(30, 1, 0, 0.05);
-    Review again, review = review_with(road);
+    GazeFinding gaze = judged(30, 1, 0, 0.05);
+    GazeRoad *road = gaze.road;
+    Review again, review = review_with(gaze);
     const char *path = fresh_name(".json");
     fixture_dimming(road);
     assert_done(review_json_write(review_json(&review), path, &err));
@@ -103,8 +113,9 @@ TEST(a_road_is_read_as_it_was_written) {
     assert_null(again.gazes[0].road);
     const GazeRoad *r = again.gazes[2].road;
     assert_same(road->mesopic_cd_m2, r->mesopic_cd_m2);
-    assert_int_equal(r->verdict, VERDICT_FAIL);
-    assert_true(r->has_limit && r->age_count == 2 && r->dimming_count == 4);
+    assert_int_equal(again.gazes[2].verdict, VERDICT_FAIL);
+    assert_int_equal(again.gazes[2].limit_count, 2);
+    assert_true(road_has_limit(r) && r->age_count == 2 && r->dimming_count == 4);
     assert_same(30, r->ages[1].increment_pct);
     assert_same(31, r->ages[1].increment_range.high);
     assert_same(15, r->ages[1].limit.value);
@@ -128,8 +139,8 @@ static const char *written(bool (*write)(const Review *, const char *, Error *),
 }
 
 TEST(tables_have_columns_of_roads_where_there_is_one) {
-    GazeRoad *road = judged(30, 1, 0, 0);
-    Review review = review_with(road), before = fixture_review(&arena);
+    GazeFinding gaze = judged(30, 1, 0, 0);
+    Review review = review_with(gaze), before = fixture_review(&arena);
     const char *old = written(review_csv_write_gazes, &before);
     const char *with = written(review_csv_write_gazes, &review);
     size_t head = strcspn(old, "\r");
@@ -139,7 +150,7 @@ TEST(tables_have_columns_of_roads_where_there_is_one) {
         strncmp(with + head, ",road_cd_m2,road_mesopic_cd_m2,threshold_increment_pct,", 54) == 0);
     assert_non_null(strstr(with, ",0.3,0.325,30,29,31,15,fail,70,27,"));
     assert_non_null(strstr(with, ",wide screen,0.8\r\n"));
-    fixture_dimming(road);
+    fixture_dimming(gaze.road);
     const char *dimming = written(review_csv_write_dimming, &review);
     assert_non_null(strstr(dimming, ",driver,road,wide screen,70,0.1,0.5,0,0,0,0.02,0.021,"
                                     "speed,empty\r\n"));
@@ -162,9 +173,9 @@ TEST(a_test_of_ci_is_made_of_each_road_that_counts) {
 }
 
 TEST(the_page_says_who_makes_it_and_what_keeps_it) {
-    GazeRoad *road = judged(30, 1, 0, 0);
-    Review review = review_with(road), before = fixture_review(&arena);
-    fixture_dimming(road);
+    GazeFinding gaze = judged(30, 1, 0, 0);
+    Review review = review_with(gaze), before = fixture_review(&arena);
+    fixture_dimming(gaze.road);
     review_decide(&review);
     ReviewPage page = {.review = &review}, old = {.review = &before};
     const char *text = page_of(&page);
@@ -182,9 +193,8 @@ TEST(a_road_that_is_left_out_says_so) {
                        .s_p = NAN,
                        .mesopic_cd_m2 = NAN,
                        .left_out = ROAD_BY_DAY,
-                       .without_data_share = NAN,
-                       .verdict = VERDICT_UNJUDGED};
-    Review review = review_with(road);
+                       .without_data_share = NAN};
+    Review review = review_with((GazeFinding){.sun_deg = 30, .road = road});
     ReviewPage page = {.review = &review};
     const char *text = page_of(&page);
     assert_non_null(strstr(text, "not evaluated: the sun is above the horizon"));
@@ -195,8 +205,7 @@ TEST(a_road_that_is_left_out_says_so) {
 
 /* What an interval says and what its verdict says is one thing. */
 TEST(words_say_the_ways_of_light) {
-    GazeFinding gaze = {
-        .condition = "night", .eye = "driver", .gaze = "road", .road = judged(30, 1, 0, 0)};
+    GazeFinding gaze = judged(30, 1, 0, 0);
     RoadDisplay *first = &gaze.road->ages[1].displays[0];
     *first = gaze.road->ages[1].displays[1];
     assert_non_null(strstr(road_words(&gaze, &arena), "cluster 10 %, 60 % by windscreen (glass)"));

@@ -5,6 +5,7 @@
 
 #include "base/count.h"
 #include "panel/query/panel_stated.h"
+#include "review/judge.h"
 #include "review/run/road.h"
 #include "vision/road_glare.h"
 #include "world_fixture.h"
@@ -57,6 +58,12 @@ static GazeRoad *road_with(World *world, const RoadReading *reading) {
     return road_of(&setup, &road, reading, &profile, &world->arena);
 }
 
+static GazeFinding gaze_with(GazeRoad *found, const Profile *limits, Arena *arena) {
+    GazeFinding out = {.condition = "night", .eye = "driver", .gaze = "road", .road = found};
+    judge_gaze(&out, limits, arena);
+    return out;
+}
+
 /* ---- levels ------------------------------------------------------------------------------ */
 
 /* A review at the level, all else as it stands, is on the limit. */
@@ -64,7 +71,7 @@ TEST(the_level_that_is_named_is_on_the_limit) {
     SCOPED_WORLD world = three_displays();
     RoadReading before = reading_of(20, 2, 3, 0, &world.arena);
     GazeRoad *found = road_with(&world, &before);
-    assert_int_equal(found->verdict, VERDICT_FAIL);
+    assert_int_equal(gaze_with(found, &profile, &world.arena).verdict, VERDICT_FAIL);
     assert_int_equal(found->age_count, 2);
     assert_close(found->ages[0].increment_pct, 25, 1e-12);
     assert_close(found->ages[0].increment_by_spread_pct, 22.5, 1e-12);
@@ -104,10 +111,6 @@ TEST(a_level_is_known_as_well_as_the_veil_is) {
 
 /* ---- the table --------------------------------------------------------------------------- */
 
-static GazeFinding gaze_with(GazeRoad *found) {
-    return (GazeFinding){.condition = "night", .eye = "driver", .gaze = "road", .road = found};
-}
-
 static const RoadDimming *row_of(const GazeRoad *of, const char *display, double age,
                                  double cd_m2) {
     for (int i = 0; i < of->dimming_count; i++) {
@@ -122,7 +125,7 @@ static const RoadDimming *row_of(const GazeRoad *of, const char *display, double
 TEST(the_table_holds_the_levels_of_every_road) {
     SCOPED_WORLD world = three_displays();
     RoadReading before = reading_of(20, 2, 3, 0.01, &world.arena);
-    GazeFinding gaze = gaze_with(road_with(&world, &before));
+    GazeFinding gaze = gaze_with(road_with(&world, &before), &profile, &world.arena);
     road_dim(&road, &profile, NULL, 0, &gaze, &world.arena);
     const GazeRoad *of = gaze.road;
     assert_int_equal(of->dimming_count, 2 * 6 * 3); /* ages, roads, two displays and all */
@@ -154,7 +157,7 @@ TEST(the_request_s_own_road_is_one_of_the_table) {
                               .dimming_count = 2};
     SCOPED_WORLD world = three_displays();
     RoadReading before = reading_of(20, 2, 3, 0, &world.arena);
-    GazeFinding gaze = gaze_with(road_with(&world, &before));
+    GazeFinding gaze = gaze_with(road_with(&world, &before), &profile, &world.arena);
     road_dim(&other, &profile, NULL, 0, &gaze, &world.arena);
     assert_int_equal(gaze.road->dimming_count, 2 * 3 * 3);
     row_of(gaze.road, "cluster", 70, ROAD);
@@ -203,7 +206,7 @@ TEST(the_window_lies_between_too_bright_and_too_dark) {
         SCOPED_WORLD world = three_displays();
         ReviewCase c = case_of(rows[i].other, &limit);
         RoadReading before = reading_of(20, 2, 3, 0.01, &world.arena);
-        GazeFinding gaze = gaze_with(road_with(&world, &before));
+        GazeFinding gaze = gaze_with(road_with(&world, &before), &profile, &world.arena);
         road_dim(&road, &limits, &c, 1, &gaze, &world.arena);
         const RoadDimming *row = row_of(gaze.road, "wide", 25, ROAD);
         /* (10 x + r) / (0.01 x + r) = 5 */
@@ -222,11 +225,12 @@ TEST(a_display_without_a_limit_has_no_table) {
     SCOPED_WORLD world = three_displays();
     Setup setup = {.request = &request, .scene = world.scene};
     RoadReading before = reading_of(20, 2, 3, 0, &world.arena);
-    GazeFinding gaze = gaze_with(road_of(&setup, &road, &before, &none, &world.arena));
+    GazeFinding gaze =
+        gaze_with(road_of(&setup, &road, &before, &none, &world.arena), &none, &world.arena);
     road_dim(&road, &none, NULL, 0, &gaze, &world.arena);
     assert_int_equal(gaze.road->dimming_count, 0);
     assert_true(isnan(gaze.road->ages[0].displays[0].level_most));
-    assert_false(gaze_counts(&gaze));
+    assert_int_equal(gaze.limit_count, 0);
     assert_close(gaze.road->ages[1].increment_pct, 50, 1e-12);
 }
 

@@ -6,6 +6,7 @@
 #include "base/count.h"
 #include "base/units.h"
 #include "review/eye/eye_reading.h"
+#include "review/judge.h"
 #include "review/run/road.h"
 #include "vision/road_glare.h"
 #include "world_fixture.h"
@@ -74,8 +75,10 @@ TEST(verdicts_are_not_wrong) {
             GazeRoad *found = road_of(&setup, &road, &reading, &profile, &room);
             Verdict never = margins[m] < 0 ? VERDICT_PASS : VERDICT_FAIL;
             Verdict right = margins[m] < 0 ? VERDICT_FAIL : VERDICT_PASS;
-            wrong += found->verdict == never;
-            decided += fabs(margins[m]) == 10 && found->verdict == right;
+            GazeFinding gaze = {.road = found};
+            judge_gaze(&gaze, &profile, &room);
+            wrong += gaze.verdict == never;
+            decided += fabs(margins[m]) == 10 && gaze.verdict == right;
         }
     }
     assert_int_equal(wrong, 0);

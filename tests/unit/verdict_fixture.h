@@ -225,9 +225,10 @@ static inline Review fixture_review(Arena *arena) {
         "Limits are those commonly quoted; the standard itself was not read for all of them."};
     static ReviewFalseSun false_suns[] = {{"a year", "driver", "ring (chrome)", 0.0003, 640, 4,
                                            "2026-10-03 06:42 UTC, heading 90 degrees", 181.5, 12.25,
-                                           31000, "speed", 24.5, 410},
+                                           31000, "speed", 24.5, 410, NULL, 0, VERDICT_PASS},
                                           {"any sun", "driver", "glass Windscreen", 0.02, NAN, NAN,
-                                           NULL, 170, 21, 7000, "road", 14, 260}};
+                                           NULL, 170, 21, 7000, "road", 14, 260, NULL, 0,
+                                           VERDICT_PASS}};
     static ReviewResponse responses[] = {
         {"speed, driver: reflected", "responses/a.response", 1200000, 4200000, 0.004},
         {"speed, driver: veil", NULL, 400000, 310000, 0.011}};
@@ -284,24 +285,67 @@ static inline Review fixture_review(Arena *arena) {
 static inline Review fixture_odd_review(Arena *arena) {
     static const char *const CHAIN[] = {WILD_NAME, "", WILD_NAME};
     static const char *const NOTES[] = {WILD_NAME, ""};
-    static const LimitVerdict LIMITS[] = {
-        {WILD_NAME, "contrast_ratio", "1", WILD_NAME, 2, false, false, false, NAN, NAN, NAN, NAN,
-         VERDICT_TOO_CLOSE, NAN, NULL},
-        {WILD_NAME, "glare", WILD_NAME, WILD_NAME, 0.1, true, true, true, 1e-9, 1e-10, 1e12,
-         1e8 - 1, VERDICT_PASS, 70, WILD_NAME}};
+    static const LimitVerdict LIMITS[] = {{WILD_NAME,
+                                           "contrast_ratio",
+                                           "1",
+                                           WILD_NAME,
+                                           2,
+                                           false,
+                                           false,
+                                           false,
+                                           NAN,
+                                           NAN,
+                                           NAN,
+                                           NAN,
+                                           VERDICT_TOO_CLOSE,
+                                           NAN,
+                                           NULL,
+                                           {0, 0},
+                                           {false, false}},
+                                          {WILD_NAME,
+                                           "glare",
+                                           WILD_NAME,
+                                           WILD_NAME,
+                                           0.1,
+                                           true,
+                                           true,
+                                           true,
+                                           1e-9,
+                                           1e-10,
+                                           1e12,
+                                           1e8 - 1,
+                                           VERDICT_PASS,
+                                           70,
+                                           WILD_NAME,
+                                           {0, 0},
+                                           {false, false}}};
     static const CaseCause CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0},
                                        {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0}};
-    static const CaseRemedy REMEDIES[] = {
-        {.what = WILD_NAME,
-         .contrast_ratio = NAN,
-         .level = NAN,
-         .then = {WILD_NAME, "glare", WILD_NAME, WILD_NAME, 2, false, false, false, NAN, NAN, NAN,
-                  NAN, VERDICT_UNJUDGED, 0, NULL},
-         .verdict = VERDICT_UNJUDGED},
-        {.what = "", .contrast_ratio = 3, .level = 4}};
+    static const CaseRemedy REMEDIES[] = {{.what = WILD_NAME,
+                                           .contrast_ratio = NAN,
+                                           .level = NAN,
+                                           .then = {WILD_NAME,
+                                                    "glare",
+                                                    WILD_NAME,
+                                                    WILD_NAME,
+                                                    2,
+                                                    false,
+                                                    false,
+                                                    false,
+                                                    NAN,
+                                                    NAN,
+                                                    NAN,
+                                                    NAN,
+                                                    VERDICT_UNJUDGED,
+                                                    0,
+                                                    NULL,
+                                                    {0, 0},
+                                                    {false, false}},
+                                           .verdict = VERDICT_UNJUDGED},
+                                          {.what = "", .contrast_ratio = 3, .level = 4}};
     static ReviewResponse responses[] = {{WILD_NAME, WILD_NAME, 0, 0, NAN}};
-    static ReviewFalseSun false_suns[] = {
-        {WILD_NAME, WILD_NAME, WILD_NAME, NAN, NAN, NAN, NULL, 0, -1, 1e9, WILD_NAME, 0.1, 3e7}};
+    static ReviewFalseSun false_suns[] = {{WILD_NAME, WILD_NAME, WILD_NAME, NAN, NAN, NAN, NULL, 0,
+                                           -1, 1e9, WILD_NAME, 0.1, 3e7, NULL, 0, VERDICT_PASS}};
     ReviewCase wild = {.condition = WILD_NAME,
                        .eye = WILD_NAME,
                        .symbol = WILD_NAME,
@@ -368,24 +412,14 @@ static inline Review fixture_odd_review(Arena *arena) {
                                    0,
                                    NAN,
                                    {NAN, NAN},
-                                   NULL},
-                                  {"",
-                                   NULL,
-                                   "",
-                                   NAN,
-                                   0,
-                                   {0, 0},
-                                   {0, 0, 0, 0, 0, 0},
-                                   0,
-                                   0,
-                                   0,
-                                   {0, 0},
                                    NULL,
                                    NULL,
-                                   NAN,
                                    0,
-                                   {0, 1},
-                                   NULL}};
+                                   VERDICT_PASS,
+                                   UNJUDGED_NOT},
+                                  {"", NULL,   "",   NAN,    0,    {0, 0},       {0, 0, 0, 0, 0, 0},
+                                   0,  0,      0,    {0, 0}, NULL, NULL,         NAN,
+                                   0,  {0, 1}, NULL, NULL,   0,    VERDICT_PASS, UNJUDGED_NOT}};
     Review review = {.title = WILD_NAME,
                      .profile = WILD_NAME,
                      .cases = ARENA_NEW(arena, ReviewCase, 2),
@@ -416,8 +450,9 @@ static inline void fixture_add_levels(Arena *arena, Review *review) {
         ReviewCase *c = &review->cases[i];
         CaseVisibility *v = ARENA_NEW(arena, CaseVisibility, 2);
         double level = isnan(c->contrast_ratio) ? NAN : 6 + i;
-        v[0] = (CaseVisibility){50,    true,  2.25,        0.2,          1,   0.0625, 3.5,
-                                0.125, level, level - 0.5, level + 0.25, NULL};
+        v[0] =
+            (CaseVisibility){50,    true,  2.25,        0.2,          1,    0.0625, 3.5,
+                             0.125, level, level - 0.5, level + 0.25, NULL, {1, 1}, {false, false}};
         v[1] = (CaseVisibility){70,
                                 false,
                                 2.25,
@@ -429,7 +464,9 @@ static inline void fixture_add_levels(Arena *arena, Review *review) {
                                 level / 2,
                                 level / 2 - 0.25,
                                 level / 2 + 0.25,
-                                "a <doubt>, \"quoted\""};
+                                "a <doubt>, \"quoted\"",
+                                {1, 1},
+                                {false, false}};
         c->visibilities = v;
         c->visibility_count = 2;
     }

@@ -11,7 +11,7 @@
 #include "review/output/review_json.h"
 #include "review/output/review_road.h"
 #include "review/output/review_todo.h"
-#include "review/output/review_panes.h"
+#include "review/output/finding_words.h"
 #include "review/output/review_variants.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
@@ -105,7 +105,7 @@ static void print_road(const GazeFinding *g, Arena scratch) {
 
 /* A display in glass that is held against a limit. */
 static void print_pane(const PaneFinding *f, Arena scratch) {
-    if (!pane_counts(f)) return;
+    if (!f->has_limit || f->none) return;
     print("%-16s %s, %s, %s\n", verdict_names[f->limit.verdict], f->condition, f->eye,
           review_pane_words(f, &scratch));
     print_todo(todo_of_pane(f, &scratch));

@@ -62,10 +62,10 @@ static int limit_to_mend(const ReviewCase *c) {
     int worst = -1;
     for (int i = 0; i < c->limit_count; i++) {
         const LimitVerdict *limit = &c->limits[i];
-        LimitKind kind = limit_kind_named(limit->kind);
+        const ReviewQuantity *of = quantity_of(limit);
         bool is_known = limit->verdict == VERDICT_FAIL || limit->verdict == VERDICT_TOO_CLOSE;
         bool is_missed = limit->margin < 0 || case_is_undecidable(c);
-        if (limit->is_advice || !is_known || !is_missed || !limit_kinds[kind].is_of_light) continue;
+        if (limit->is_advice || !is_known || !is_missed || !of->is_of_light) continue;
         if (worst < 0 || limit->margin < c->limits[worst].margin) worst = i;
     }
     return worst;
@@ -198,8 +198,7 @@ void case_remedies(const Profile *profile, double level_most, ReviewCase *c, Are
 /* ---- as dark as it may be ---------------------------------------------------------------- */
 
 static bool is_least_of_contrast(const LimitVerdict *limit) {
-    LimitKind kind = limit_kind_named(limit->kind);
-    return kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast && !limit->is_advice &&
+    return quantity_is_contrast(limit_kind_named(limit->kind)) && !limit->is_advice &&
            !limit->is_upper;
 }
 

@@ -168,7 +168,8 @@ const PackFormat condition_table = {sizeof(TableKept), table_rows, COUNT_OF(tabl
 ROWS(false_sun, TEXT(ReviewFalseSun, condition), TEXT(ReviewFalseSun, eye),
      TEXT(ReviewFalseSun, mirror), NUMBERS(ReviewFalseSun, share, longest_minutes),
      TEXT(ReviewFalseSun, when), NUMBERS(ReviewFalseSun, sun_azimuth_deg, lux),
-     TEXT(ReviewFalseSun, gaze), NUMBERS(ReviewFalseSun, angle_deg, veil_cd_m2));
+     TEXT(ReviewFalseSun, gaze), NUMBERS(ReviewFalseSun, angle_deg, veil_cd_m2),
+     LIST(ReviewFalseSun, limits, limit_count, limit), CHOICE(ReviewFalseSun, verdict, VERDICTS));
 static const PackFormat false_sun = FORMAT(false_sun, ReviewFalseSun);
 
 ROWS(response, TEXT(ReviewResponse, probe), TEXT(ReviewResponse, file),
@@ -191,15 +192,14 @@ static const PackFormat dimming = FORMAT(dimming, RoadDimming);
 
 ROWS(road, NUMBERS(GazeRoad, luminance_cd_m2, mesopic_cd_m2), FLAG(GazeRoad, is_after_dark),
      CHOICE(GazeRoad, left_out, ROAD_LEFT_OUTS), NUMBER(GazeRoad, without_data_share),
-     LIST(GazeRoad, ages, age_count, road_age), FLAG(GazeRoad, has_limit),
-     CHOICE(GazeRoad, verdict, VERDICTS), CHOICE(GazeRoad, unjudged, UNJUDGED_COUNT),
-     LIST(GazeRoad, dimming, dimming_count, dimming));
+     LIST(GazeRoad, ages, age_count, road_age), LIST(GazeRoad, dimming, dimming_count, dimming));
 static const PackFormat road = FORMAT(road, GazeRoad);
 
 ROWS(gaze, TEXT(GazeFinding, condition), TEXT(GazeFinding, eye), TEXT(GazeFinding, gaze),
      NUMBERS(GazeFinding, sun_deg, mirrored_range), TEXT(GazeFinding, mirrored_by),
      TEXT(GazeFinding, mirrored_from), NUMBERS(GazeFinding, contrast_behind_glass, contrast_range),
-     ONE(GazeFinding, road, road));
+     ONE(GazeFinding, road, road), LIST(GazeFinding, limits, limit_count, limit),
+     CHOICE(GazeFinding, verdict, VERDICTS), CHOICE(GazeFinding, unjudged, UNJUDGED_COUNT));
 static const PackFormat gaze = FORMAT(gaze, GazeFinding);
 
 ROWS(angle, {.kind = PACK_NUMBERS, .size = sizeof(double)});

@@ -3,20 +3,14 @@
 
 #include "page/page.h"
 #include "review/output/review_json.h"
+#include "review/output/finding_words.h"
 #include "review/output/review_road.h"
-#include "review/output/review_panes.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 
-/* Only a verdict that fails the review is a failure; what cannot be judged is an error: the
- * test could not be made. */
-static bool is_failure(const Review *review, Verdict verdict) {
-    return verdict == VERDICT_FAIL || (review->is_strict && verdict == VERDICT_TOO_CLOSE);
-}
-
 static json_t *causes_values(const ReviewCase *c, Arena scratch) {
     json_t *list = json_array();
-    for (int i = 0; i < c->cause_count; i++) {
+    for (int i = 0; c && i < c->cause_count; i++) {
         json_t *to = page_add(list);
         page_set(to, "share", words_share(c->causes[i].share, &scratch));
         page_set(to, "chain", words_chain(&c->causes[i], &scratch));
@@ -24,63 +18,28 @@ static json_t *causes_values(const ReviewCase *c, Arena scratch) {
     return list;
 }
 
-/* name: of the test case. */
-static void add_case(json_t *list, const Review *review, const ReviewCase *c, const char *name,
-                     Arena scratch) {
+/* Only a verdict that fails the review is a failure; what cannot be judged is an error: the
+ * test could not be made. */
+static void add_finding(json_t *list, const Review *review, const Finding *f, Arena scratch) {
     json_t *to = page_add(list);
-    bool is_error = c->verdict == VERDICT_UNJUDGED && review_case_counts(c);
-    bool fails = is_failure(review, c->verdict) && !is_error;
-    page_set(to, "name", name);
-    page_set(to, "verdict", verdict_names[c->verdict]);
-    page_set(to, "outcome", words_verdict(c->verdict));
-    page_set(to, "reason", words_reason(c, &scratch));
-    page_set(to, "sun", words_sun(c, NULL, &scratch));
-    page_set(to, "levels", words_levels(c, &scratch));
+    bool is_error = f->verdict == VERDICT_UNJUDGED && f->counts;
+    bool fails =
+        f->verdict == VERDICT_FAIL || (review->is_strict && f->verdict == VERDICT_TOO_CLOSE);
+    page_set(to, "name", finding_name(f, &scratch));
+    page_set(to, "verdict", verdict_names[f->verdict]);
+    page_set(to, "outcome", words_verdict(f->verdict));
+    page_set(to, "reason", finding_reason(f, &scratch));
+    page_set(to, "sun", f->c ? words_sun(f->c, NULL, &scratch) : "");
+    page_set(to, "levels", f->c ? words_levels(f->c, &scratch) : NULL);
     page_set_flag(to, "is_error", is_error);
     page_set_flag(to, "is_failure", fails);
-    page_set_flag(to, "is_skipped", !is_error && !fails && c->verdict != VERDICT_PASS);
-    json_object_set_new(to, "causes", causes_values(c, scratch));
-}
-
-/* A gaze at a road whose threshold increment has a limit. */
-static void add_road(json_t *list, const Review *review, const GazeFinding *gaze, Arena scratch) {
-    Verdict verdict = gaze->road->verdict;
-    json_t *to = page_add(list);
-    bool is_error = verdict == VERDICT_UNJUDGED, fails = is_failure(review, verdict);
-    page_set(to, "name", road_name(gaze, &scratch));
-    page_set(to, "verdict", verdict_names[verdict]);
-    page_set(to, "outcome", words_verdict(verdict));
-    page_set(to, "reason", road_words(gaze, &scratch));
-    page_set(to, "sun", "");
-    page_set_flag(to, "is_error", is_error);
-    page_set_flag(to, "is_failure", fails);
-    page_set_flag(to, "is_skipped", !is_error && !fails && verdict != VERDICT_PASS);
-    json_object_set_new(to, "causes", json_array());
-}
-
-/* A display in glass that the request has a limit for. */
-static void add_pane(json_t *list, const Review *review, const PaneFinding *f, Arena scratch) {
-    Verdict verdict = f->limit.verdict;
-    json_t *to = page_add(list);
-    bool is_error = verdict == VERDICT_UNJUDGED, fails = is_failure(review, verdict);
-    page_set(to, "name", review_pane_name(f, &scratch));
-    page_set(to, "verdict", verdict_names[verdict]);
-    page_set(to, "outcome", words_verdict(verdict));
-    page_set(to, "reason", review_pane_words(f, &scratch));
-    page_set(to, "sun", "");
-    page_set_flag(to, "is_error", is_error);
-    page_set_flag(to, "is_failure", fails);
-    page_set_flag(to, "is_skipped", !is_error && !fails && verdict != VERDICT_PASS);
-    json_object_set_new(to, "causes", json_array());
-}
-
-static const char *sweep_name(const ReviewSweep *s, Arena *arena) {
-    return arena_format(arena, "%s (worst of %ld, fails: %s%s)", words_case(&s->worst, arena),
-                        s->cases, words_failing(s, arena), sweep_has_box(s) ? ", middle eye" : "");
+    page_set_flag(to, "is_skipped", !is_error && !fails && f->verdict != VERDICT_PASS);
+    json_object_set_new(to, "causes", causes_values(f->c, scratch));
 }
 
 bool review_junit_write(const Review *review, const char *path, Error *err) {
-    Arena own = arena_reserve((size_t)1 << 24);
+    Arena own = arena_reserve((size_t)1 << 32);
+    Findings all = review_findings(review, &own);
     ReviewCounts counts = review_count(review);
     int close = counts.of[VERDICT_TOO_CLOSE];
     json_t *values = json_object(), *tests = json_array();
@@ -92,18 +51,7 @@ bool review_junit_write(const Review *review, const char *path, Error *err) {
     page_set_count(values, "errors", counts.of[VERDICT_UNJUDGED]);
     page_set_count(values, "skipped", counts.not_asked + (review->is_strict ? 0 : close));
     json_object_set_new(values, "tests", tests);
-    for (int i = 0; i < review_case_count(review); i++) {
-        const ReviewCase *c = review_case_at(review, i);
-        const ReviewSweep *sweep = review_sweep_of(review, c);
-        Arena scratch = own;
-        const char *name = sweep ? sweep_name(sweep, &scratch) : words_case(c, &scratch);
-        add_case(tests, review, c, name, scratch);
-    }
-    for (int i = 0; i < review->gaze_count; i++)
-        if (gaze_counts(&review->gazes[i])) add_road(tests, review, &review->gazes[i], own);
-    for (int i = 0; i < review->pane_image_count; i++)
-        if (pane_counts(&review->pane_images[i]))
-            add_pane(tests, review, &review->pane_images[i], own);
+    for (int i = 0; i < all.count; i++) add_finding(tests, review, &all.list[i], own);
     bool ok = page_write_values("review_junit.xml", values, NULL, path, err);
     arena_release(&own);
     return ok;

@@ -163,7 +163,7 @@ const char *review_outcome_words(const Review *review, Arena *arena) {
     }
     for (int i = 0; i < review->gaze_count; i++)
         has_road |= review->gazes[i].road && !review->gazes[i].road->left_out &&
-                    !review->gazes[i].road->has_limit;
+                    !road_has_limit(review->gazes[i].road);
     if (has_road) text_add(&text, "; glare on the road has no limit in this profile");
     return text.data;
 }

@@ -65,8 +65,6 @@ TABLE(road_json, GazeRoad, OWN(FIGURE, GazeRoad, luminance_cd_m2), OWN(FIGURE, G
       OWN(FIGURE, GazeRoad, mesopic_cd_m2),
       AS_WORD("not_evaluated_because", MUST | RECORD_NULL, GazeRoad, left_out, road_left_outs + 1),
       AS("after_dark", FLAG, GazeRoad, is_after_dark), OWN(FIGURE, GazeRoad, without_data_share),
-      AS("counts", FLAG, GazeRoad, has_limit), OWN(VERDICT, GazeRoad, verdict),
-      AS("reason", REASON, GazeRoad, unjudged),
       LIST("ages", MUST, GazeRoad, ages, age_count, road_age_json),
       LIST("dimming", MUST, GazeRoad, dimming, dimming_count, road_dimming_json));
 
@@ -83,7 +81,10 @@ TABLE(gaze_json, GazeFinding, OWN(TEXT, GazeFinding, condition), OWN(TEXT, GazeF
       OWN(FIGURE, GazeFinding, contrast_behind_glass), OWN(FIGURE, GazeFinding, contrast_left),
       AS("contrast_interval", RANGE, GazeFinding, contrast_range),
       {"road", RECORD_OBJECT, RECORD_APART | RECORD_BRIEF, RECORD_AT(GazeFinding, road),
-       .of = &road_json});
+       .of = &road_json},
+      LIST("limits", RECORD_BRIEF, GazeFinding, limits, limit_count, limit_json),
+      LATER("verdict", VERDICT, GazeFinding, verdict),
+      LATER("reason", REASON, GazeFinding, unjudged));
 
 TABLE(response_json, ReviewResponse, OWN(TEXT, ReviewResponse, probe),
       OWN(TEXT, ReviewResponse, file), OWN(COUNT, ReviewResponse, paths),
@@ -95,7 +96,9 @@ TABLE(false_sun_json, ReviewFalseSun, OWN(TEXT, ReviewFalseSun, condition),
       OWN(FIGURE, ReviewFalseSun, longest_minutes), OWN(TEXT, ReviewFalseSun, when),
       PART("sun", MUST, ReviewFalseSun, sun_azimuth_deg, sun_json),
       OWN(FIGURE, ReviewFalseSun, lux), OWN(TEXT, ReviewFalseSun, gaze),
-      OWN(FIGURE, ReviewFalseSun, angle_deg), OWN(FIGURE, ReviewFalseSun, veil_cd_m2));
+      OWN(FIGURE, ReviewFalseSun, angle_deg), OWN(FIGURE, ReviewFalseSun, veil_cd_m2),
+      LIST("limits", RECORD_BRIEF, ReviewFalseSun, limits, limit_count, limit_json),
+      LATER("verdict", VERDICT, ReviewFalseSun, verdict));
 
 static json_t *write_outline(const void *item) {
     const PaneFinding *f = item;

@@ -466,8 +466,7 @@ static Bars make_bars(const ReviewCase *c, Arena *arena) {
         const LimitVerdict *limit = &c->limits[c->limit_id];
         LimitKind kind = limit_kind_named(limit->kind);
         bars.has_veil = !is_of(limit, c->contrast_ratio) && is_of(limit, c->contrast_with_veil);
-        if (kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast)
-            bars.wanted = ratio_from_contrast(kind, limit->value);
+        if (quantity_is_contrast(kind)) bars.wanted = ratio_from_contrast(kind, limit->value);
         bars.words = mark_words(limit, arena);
     }
     stack(l, bright, bars.has_veil, bars.bright);

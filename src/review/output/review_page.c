@@ -92,100 +92,54 @@ static void values_add_limits(const PageValues *v) {
 
 /* ---- what changed ------------------------------------------------------------------------ */
 
-/* Its kind, and the names of what is compared: symbol or gaze, condition, eye. */
-static json_t *add_change(json_t *list, DiffKind kind, bool is_sweep, const char *const names[3]) {
-    static const char *const CLASSES[7] = {"chip bad", "chip good", "bad", "good",
-                                           "sub",      "sub",       "sub"};
-    static const char *const WORDS[7] = {"worse verdict", "better verdict", "less contrast",
-                                         "more contrast", "only before",    "only now",
-                                         "same"};
-    json_t *to = page_add(list);
-    const char *words = WORDS[kind];
-    if (is_sweep && kind == DIFF_WORSE) words = "fails more often";
-    if (is_sweep && kind == DIFF_BETTER) words = "fails less often";
-    page_set(to, "class", CLASSES[kind]);
-    page_set(to, "change", words);
-    page_set(to, "of", names[0]);
-    page_set(to, "condition", names[1]);
-    page_set(to, "eye", names[2]);
-    return to;
-}
-
 /* "a → b" */
-static void set_change(json_t *to, const char *name, const char *before, const char *after,
-                       Arena *arena) {
-    bool is_same = !strcmp(before, after);
-    page_set(to, name, is_same ? after : arena_format(arena, "%s → %s", before, after));
+static const char *change_words(const char *before, const char *after, Arena *arena) {
+    return !strcmp(before, after) ? after : arena_format(arena, "%s → %s", before, after);
 }
 
-static const char *verdict_of(const ReviewCase *c) {
-    return c ? verdict_names[c->verdict] : "–";
+/* A sweep's is how often it fails. */
+static const char *diff_figure(const Finding *f, const LimitVerdict *line, Arena *arena) {
+    if (!f || (!line && !f->sweep)) return "–";
+    if (!f->sweep) return words_quantity(line, arena);
+    return words_failing(f->sweep, arena);
 }
 
-static const char *figure_of(const ReviewCase *c, Arena *arena) {
-    return c ? words_judged_and_levels(c, arena) : "–";
+static void add_change(json_t *list, const FindingDiff *d, Arena *arena) {
+    static const char *const CLASSES[DIFF_COUNT] = {"chip bad", "chip good", "bad", "good",
+                                                    "sub",      "sub",       "sub"};
+    static const char *const WORDS[DIFF_COUNT] = {
+        "worse verdict", "better verdict", "worse", "better", "only before", "only now", "same"};
+    const Finding *either = d->after ? d->after : d->before;
+    json_t *to = page_add(list);
+    page_set(to, "class", CLASSES[d->kind]);
+    page_set(to, "change", WORDS[d->kind]);
+    page_set(to, "of", either->subject);
+    page_set(to, "condition", either->condition);
+    page_set(to, "eye", either->viewer);
+    page_set(to, "verdict",
+             change_words(d->before ? verdict_names[d->before->verdict] : "–",
+                          d->after ? verdict_names[d->after->verdict] : "–", arena));
+    page_set(to, "figure",
+             change_words(diff_figure(d->before, d->line[0], arena),
+                          diff_figure(d->after, d->line[1], arena), arena));
+    page_set(to, "margin",
+             change_words(d->line[0] ? words_margin(d->line[0]->margin, arena) : "–",
+                          d->line[1] ? words_margin(d->line[1]->margin, arena) : "–", arena));
 }
 
-static const char *margin_of(const ReviewCase *c, Arena *arena) {
-    const LimitVerdict *limit = c ? case_worst_limit(c) : NULL;
-    return limit ? words_margin(limit->margin, arena) : "–";
-}
-
-static void add_case_change(json_t *list, const CaseDiff *d, Arena *arena) {
-    const ReviewCase *either = d->after ? d->after : d->before, *b = d->before, *a = d->after;
-    json_t *to = add_change(list, d->kind, false,
-                            (const char *const[3]){either->symbol, either->condition, either->eye});
-    set_change(to, "verdict", verdict_of(b), verdict_of(a), arena);
-    set_change(to, "figure", figure_of(b, arena), figure_of(a, arena), arena);
-    set_change(to, "margin", margin_of(b, arena), margin_of(a, arena), arena);
-}
-
-static void add_sweep_change(json_t *list, const SweepDiff *d, Arena *arena) {
-    const ReviewSweep *b = d->before, *a = d->after, *either = a ? a : b;
-    json_t *to = add_change(list, d->kind, true,
-                            (const char *const[3]){either->symbol, either->condition, either->eye});
-    set_change(to, "failed", words_share(b ? b->failed_share : NAN, arena),
-               words_share(a ? a->failed_share : NAN, arena), arena);
-    set_change(to, "longest", words_minutes(b ? b->longest_failure_minutes : NAN, arena),
-               words_minutes(a ? a->longest_failure_minutes : NAN, arena), arena);
-}
-
-static const char *figure_change(double before, double after, Arena *arena) {
-    return arena_format(arena, "%s → %s", words_figure(before, arena), words_figure(after, arena));
-}
-
-static void add_gaze_change(json_t *list, const GazeDiff *d, Arena *arena) {
-    const GazeFinding *either = d->after ? d->after : d->before;
-    const GazeFinding *b = d->before ? d->before : &diff_no_gaze;
-    const GazeFinding *a = d->after ? d->after : &diff_no_gaze;
-    json_t *to = add_change(list, d->kind, false,
-                            (const char *const[3]){either->gaze, either->condition, either->eye});
-    set_change(to, "left", words_share(b->contrast_left, arena),
-               words_share(a->contrast_left, arena), arena);
-    page_set(to, "mirrored", figure_change(b->mirrored, a->mirrored, arena));
-    page_set(to, "veil", figure_change(b->veil, a->veil, arena));
-}
-
-/* All sweeps, and of the others those that are not the same: these come last. */
+/* What is the same is counted. */
 static void values_add_diff(const PageValues *v) {
     const ReviewDiff *diff = v->page->diff;
     if (!diff) return;
-    json_t *to = values_object(v->doc, "diff"), *cases = values_list(to, "cases");
-    json_t *sweeps = values_list(to, "sweeps"), *gazes = values_list(to, "gazes");
+    json_t *to = values_object(v->doc, "diff"), *changes = values_list(to, "changes");
     page_set(to, "before", diff->before_name);
     page_set(to, "now", diff->after_name);
-    for (int kind = 0; kind < 7; kind++)
+    for (int kind = 0; kind < DIFF_COUNT; kind++)
         if (kind != DIFF_GONE && kind != DIFF_NEW)
             page_set_count(to, diff_names[kind], diff->count[kind]);
-    for (int i = 0; i < diff->case_count; i++)
-        if (diff->cases[i].kind != DIFF_SAME) add_case_change(cases, &diff->cases[i], v->arena);
-    for (int i = 0; i < diff->sweep_count; i++)
-        add_sweep_change(sweeps, &diff->sweeps[i], v->arena);
-    for (int i = 0; i < diff->gaze_count; i++)
-        if (diff->gazes[i].kind != DIFF_SAME) add_gaze_change(gazes, &diff->gazes[i], v->arena);
-    page_set_flag(to, "has_cases", json_array_size(cases) > 0);
-    page_set_flag(to, "has_sweeps", json_array_size(sweeps) > 0);
-    page_set_flag(to, "has_gazes", json_array_size(gazes) > 0);
+    for (int i = 0; i < diff->list_count; i++)
+        if (diff->list[i].kind != DIFF_SAME) add_change(changes, &diff->list[i], v->arena);
+    page_set_flag(to, "has_changes", json_array_size(changes) > 0);
 }
 
 #define WORDS_BYTES ((size_t)1 << 34) /* address space */

@@ -6,15 +6,11 @@
 
 #include "page/page.h"
 #include "review/output/review_todo.h"
+#include "review/finding.h"
+#include "review/output/finding_words.h"
 #include "review/output/review_words.h"
 #include "review/terms.h"
-
-/* ---- words ------------------------------------------------------------------------------- */
-
-static const char *where_of(const PaneFinding *f, Arena *arena) {
-    return arena_format(arena, "%.1f° %s, %.1f° %s", fabs(f->up_deg), f->up_deg < 0 ? "down" : "up",
-                        fabs(f->right_deg), f->right_deg < 0 ? "left" : "right");
-}
+#include "text/text.h"
 
 static const char *figure(double value, MeanInterval range, Arena *arena) {
     return words_within(value, range.low, range.high, arena);
@@ -22,23 +18,6 @@ static const char *figure(double value, MeanInterval range, Arena *arena) {
 
 static const char *range_words(MeanInterval range, Arena *arena) {
     return words_interval(range.low, range.high, arena);
-}
-
-const char *review_pane_words(const PaneFinding *f, Arena *arena) {
-    if (f->none) return arena_format(arena, "%s in %s: no image, %s", f->display, f->pane, f->none);
-    const char *light = arena_format(
-        arena, "%s in %s, %s: %s cd/m² against %s, contrast %s (%s)", f->display, f->pane,
-        where_of(f, arena), figure(f->image, f->image_range, arena),
-        figure(f->against, f->against_range, arena), figure(f->contrast, f->contrast_range, arena),
-        range_words(f->contrast_range, arena));
-    if (!f->has_limit) return light;
-    return arena_format(arena, "%s (" TERM_MAXIMUM " towards %s)", light,
-                        words_number(f->limit.value, arena), f->area);
-}
-
-const char *review_pane_name(const PaneFinding *f, Arena *arena) {
-    return arena_format(arena, "%s in %s, seen by %s, %s", f->display, f->pane, f->eye,
-                        f->condition);
 }
 
 /* ---- values ------------------------------------------------------------------------------ */
@@ -49,7 +28,7 @@ static bool is_of_view(const PaneFinding *f, const PaneFinding *first) {
 }
 
 static void set_image(json_t *to, const PaneFinding *f, Arena *arena) {
-    page_set(to, "where", where_of(f, arena));
+    page_set(to, "where", words_pane_where(f, arena));
     page_set(to, "size", arena_format(arena, "%.1f° × %.1f°", f->width_deg, f->height_deg));
     page_set(to, "ghost",
              isnan(f->ghost_arcmin) ? NULL : arena_format(arena, "ghost %.1f′", f->ghost_arcmin));
@@ -87,7 +66,10 @@ static void add_view(const PageValues *v, json_t *list, int first) {
 
 void values_add_panes(const PageValues *v) {
     const Review *review = v->review;
-    const PaneFinding *worst = review_worst_pane(review);
+    Findings ranked = review_ranked(review, v->arena);
+    const PaneFinding *worst = NULL;
+    for (int i = ranked.count - 1; i >= 0; i--)
+        if (ranked.list[i].pane) worst = ranked.list[i].pane;
     page_set_flag(v->doc, "has_panes", review->pane_image_count > 0);
     if (!review->pane_image_count) return;
     json_t *views = values_list(v->doc, "pane_views");

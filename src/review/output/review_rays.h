@@ -10,6 +10,7 @@
 #pragma once
 #include "base/arena.h"
 #include "review/verdict.h"
+#include "review/pane_verdict.h"
 
 /* Does cause i have rays that the frame can show? */
 bool review_rays_has(const ReviewCase *c, int i);
@@ -32,3 +33,7 @@ bool review_rays_close_up(const ReviewCase *c, double box[4]);
 
 /* <svg class="rays"> of the frame's size, a group for each cause. */
 const char *review_rays_drawn(const ReviewCase *c, const char *card_id, Arena *arena);
+
+/* <svg class="rim"> of the frame's size: the images that the case's eye has in its moment.
+ * NULL: none lies before it. */
+const char *review_panes_drawn(const Review *review, const ReviewCase *c, Arena *arena);

@@ -35,12 +35,12 @@ bool review_has_dimming(const Review *review) {
 
 const char *road_outcome(const GazeFinding *gaze) {
     if (gaze->road->left_out) return "not evaluated";
-    return gaze_counts(gaze) ? verdict_names[gaze->road->verdict] : "no limit";
+    const RoadAge *age = gaze_worst_age(gaze);
+    return age ? verdict_names[age->limit.verdict] : "no limit";
 }
 
-const char *road_name(const GazeFinding *gaze, Arena *arena) {
-    return arena_format(arena, "%s, seen by %s, %s", gaze->gaze ? gaze->gaze : "?",
-                        gaze->eye ? gaze->eye : "?", gaze->condition ? gaze->condition : "?");
+static const char *road_name(const GazeFinding *gaze, Arena *arena) {
+    return words_named(gaze->gaze, gaze->eye, gaze->condition, arena);
 }
 
 /* "all straight", "72 % by windscreen (glass)": by which way most of it comes. */
@@ -70,13 +70,14 @@ static const char *displays_words(const RoadAge *age, Arena *arena) {
                         words_share(fmin(d->share, 1), arena), way_words(d, arena));
 }
 
-static const char *unjudged_because(const GazeRoad *road, Arena *arena) {
-    if (road->unjudged == UNJUDGED_DATA)
+static const char *unjudged_because(const GazeFinding *gaze, Arena *arena) {
+    const GazeRoad *road = gaze->road;
+    if (gaze->unjudged == UNJUDGED_DATA)
         return arena_format(arena,
                             "cannot be judged: %s of the veil came via materials "
                             "without optical data; ",
                             words_share(road->without_data_share, arena));
-    if (road->unjudged == UNJUDGED_PANEL)
+    if (gaze->unjudged == UNJUDGED_PANEL)
         return "cannot be judged: the panel of a display that makes more than a tenth of the "
                "veil says of itself that it is not usable; ";
     return "";
@@ -90,15 +91,16 @@ const char *road_words(const GazeFinding *gaze, Arena *arena) {
     const RoadAge *age = shown_age(gaze);
     LimitVerdict as = age->limit;
     as.unit = "%";
+    as.age_years = 0; /* told behind it */
     as.found = age->increment_pct;
     as.low = age->increment_range.low;
     as.high = age->increment_range.high;
-    const char *bound = gaze_counts(gaze) ? words_bound(&as, arena) : "no limit in this profile";
+    const char *bound = age->limit.name ? words_bound(&as, arena) : "no limit in this profile";
     return arena_format(
         arena,
         "%s%sthreshold increment %s (%s), at %.4g years on a road of %.4g cd/m2 (veil by CIE 135: "
         "%.3g %%)%s",
-        unjudged_because(road, arena),
+        unjudged_because(gaze, arena),
         road->is_after_dark ? "after dark, without sun and sky: " : "", words_measured(&as, arena),
         bound, age->age_years, road->luminance_cd_m2, age->increment_by_spread_pct,
         displays_words(age, arena));
@@ -314,17 +316,17 @@ static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena) {
     page_set(to, "words", road_words(gaze, arena));
     page_set(to, "todo", todo_of_road(gaze, arena));
     page_set(to, "outcome", road_outcome(gaze));
-    page_set(to, "class", gaze_counts(gaze) ? words_class(road->verdict) : "");
+    page_set(to, "class", road_has_limit(road) ? words_class(gaze->verdict) : "");
     page_set(to, "road", arena_format(arena, "%.4g", road->luminance_cd_m2));
     page_set(to, "s_p", isnan(road->s_p) ? NULL : arena_format(arena, "%.4g", road->s_p));
     page_set(to, "mesopic",
              isnan(road->mesopic_cd_m2) ? NULL : arena_format(arena, "%.4g", road->mesopic_cd_m2));
     page_set_flag(to, "is_evaluated", !road->left_out);
-    page_set_flag(to, "has_limit", road->has_limit);
+    page_set_flag(to, "has_limit", road_has_limit(road));
     page_set_count(to, "dimming_count", road->dimming_count);
     if (road->age_count) page_set(to, "limit", words_number(road->ages[0].limit.value, arena));
     for (int i = 0; i < road->age_count; i++)
-        set_age(page_add(ages), &road->ages[i], road->has_limit, arena);
+        set_age(page_add(ages), &road->ages[i], road_has_limit(road), arena);
     add_dimming(to, road, arena);
     for (int i = 0; i < count; i++) json_array_append_new(empty, json_string(windows[i]));
 }

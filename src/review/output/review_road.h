@@ -18,9 +18,6 @@ const char *road_words(const GazeFinding *gaze, Arena *arena);
 /* "pass", "fail", ...; "no limit", "not evaluated". */
 const char *road_outcome(const GazeFinding *gaze);
 
-/* "road, seen by driver, night". */
-const char *road_name(const GazeFinding *gaze, Arena *arena);
-
 /* Sentences on displays that no level makes both dark enough for the road and bright enough to
  * be read; *count of them. */
 const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *arena);

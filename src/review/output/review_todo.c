@@ -50,7 +50,8 @@ static const char *reflect_less(const ReviewCase *c, const LimitVerdict *limit, 
 static const char *todo_of_limit(const ReviewCase *c, const LimitVerdict *limit, Arena *arena) {
     LimitKind kind = limit_kind_named(limit->kind);
     const CaseRemedy *remedy = c->remedy_count ? &c->remedies[0] : NULL;
-    bool is_of_light = kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_of_light;
+    const ReviewQuantity *of = quantity_of(limit);
+    bool is_of_light = of && of->is_of_light;
     double times = limit->value / limit->found;
     if (is_of_light && remedy && remedy->then.verdict == VERDICT_PASS &&
         (words_same(remedy->then.name, limit->name) || remedy->verdict == VERDICT_PASS))
@@ -131,7 +132,7 @@ static bool is_dimmable(const RoadDimming *row) {
 /* By the one that makes most; else by all; else no display helps. */
 const char *todo_of_road(const GazeFinding *gaze, Arena *arena) {
     const GazeRoad *road = gaze->road;
-    const RoadAge *age = gaze_counts(gaze) ? gaze_worst_age(gaze) : NULL;
+    const RoadAge *age = gaze->road ? gaze_worst_age(gaze) : NULL;
     if (!age || age->limit.verdict == VERDICT_PASS) return "";
     double share = 0;
     const RoadDimming *all = dimming_of(road, NULL, age->age_years);
@@ -153,7 +154,7 @@ const char *todo_of_road(const GazeFinding *gaze, Arena *arena) {
 /* ---- an image in glass ------------------------------------------------------------------- */
 
 const char *todo_of_pane(const PaneFinding *f, Arena *arena) {
-    if (!pane_counts(f) || f->limit.verdict == VERDICT_PASS) return "";
+    if (!f->has_limit || f->none || f->limit.verdict == VERDICT_PASS) return "";
     double factor = f->limit.value / f->contrast_range.high;
     return factor > 0 && factor < 1 && factor * f->image >= SEEN_CD_M2
                ? arena_format(arena, TERM_DIM_IMAGE, f->display, percent(factor, -1, arena))

@@ -11,13 +11,13 @@
 #include "review/output/review_map.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_link.h"
-#include "review/output/pane_outlines.h"
 #include "review/output/review_rays.h"
 #include "review/output/review_road.h"
 #include "review/output/review_todo.h"
 #include "review/output/review_privacy.h"
 #include "review/output/review_words.h"
-#include "review/quantity.h"
+#include "review/finding.h"
+#include "review/output/finding_words.h"
 #include "review/review_decide.h"
 #include "text/json_text.h"
 #include "text/text.h"
@@ -146,8 +146,7 @@ static void set_causes(json_t *to, const ReviewCase *c, Arena *arena) {
 /* Of a case that another limit decides: its contrast, too; NULL: it is decided by that. */
 static const char *other_contrast(const ReviewCase *c, Arena *arena) {
     const LimitVerdict *limit = case_worst_limit(c);
-    LimitKind kind = limit ? limit_kind_named(limit->kind) : LIMIT_KIND_COUNT;
-    bool is_contrast = !limit || (kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast);
+    bool is_contrast = !limit || quantity_is_contrast(limit_kind_named(limit->kind));
     if (c->unjudged || is_contrast || isnan(c->contrast_ratio)) return NULL;
     bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
     const LimitVerdict *of = has_limit ? &c->limits[c->limit_id] : NULL;
@@ -315,12 +314,13 @@ static const char *answer_words(const Review *review, const ReviewCase *worst) {
 
 /* A gaze at a road that decides more than any symbol does is named first. */
 static const char *lead_words(const Review *review, const ReviewCase *worst, Arena *arena) {
-    const GazeFinding *road = review_worst_road(review);
     const char *words = answer_words(review, worst);
     int rank = review_case_counts(worst) ? verdict_rank(worst->verdict) : -1;
-    if (!road || verdict_rank(road->road->verdict) <= rank) return words;
-    return arena_format(arena, "%s: %s; of what is read the worst is ", road_name(road, arena),
-                        road_words(road, arena));
+    Findings ranked = review_ranked(review, arena);
+    const Finding *first = &ranked.list[0];
+    if (first->c || verdict_rank(first->verdict) <= rank) return words;
+    return arena_format(arena, "%s: %s; of what is read the worst is ", finding_name(first, arena),
+                        finding_reason(first, arena));
 }
 
 static void set_verdict(json_t *to, const Review *review, const ReviewCase *worst, Arena *arena) {

@@ -74,9 +74,8 @@ const char *words_margin(double margin, Arena *arena) {
 
 /* A figure that was written already, with the unit of the limit behind it. */
 static const char *with_unit(const LimitVerdict *limit, const char *figure, Arena *arena) {
-    const char *unit = limit->unit ? limit->unit : "";
-    if (limit->kind && !strcmp(limit->kind, "contrast_ratio"))
-        return arena_format(arena, "%s : 1", figure);
+    const ReviewQuantity *of = quantity_of(limit);
+    const char *unit = of && of->sign ? of->sign : limit->unit ? limit->unit : "";
     if (!strcmp(unit, "arcmin")) unit = "arc min";
     if (!strcmp(unit, "cd/m2")) unit = "cd/m²";
     return unit[0] && strcmp(unit, "1") != 0 ? arena_format(arena, "%s %s", figure, unit) : figure;
@@ -106,18 +105,8 @@ const char *words_found(const LimitVerdict *limit, Arena *arena) {
 }
 
 const char *words_kind(const LimitVerdict *limit) {
-    static const char *const WORDS[LIMIT_KIND_COUNT] = {
-        [LIMIT_CONTRAST_RATIO] = "contrast",
-        [LIMIT_LUMINANCE_CONTRAST] = "luminance contrast",
-        [LIMIT_MODULATION] = "modulation",
-        [LIMIT_CHARACTER_HEIGHT] = "height",
-        [LIMIT_STROKE_RATIO] = "stroke ratio",
-        [LIMIT_WIDTH_RATIO] = "width ratio",
-        [LIMIT_VISIBILITY_LEVEL] = "visibility level",
-        [LIMIT_VISUAL_SECURITY] = "visual security S"};
-    LimitKind kind = limit_kind_named(limit->kind);
-    if (kind < LIMIT_KIND_COUNT) return WORDS[kind];
-    return limit->name ? limit->name : "";
+    const ReviewQuantity *of = quantity_of(limit);
+    return of ? of->words : limit->name ? limit->name : "";
 }
 
 const char *words_measured(const LimitVerdict *limit, Arena *arena) {
@@ -136,7 +125,7 @@ const char *words_quantity(const LimitVerdict *limit, Arena *arena) {
 
 const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena) {
     bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
-    LimitVerdict as = {.kind = limit_kinds[LIMIT_CONTRAST_RATIO].name};
+    LimitVerdict as = {.kind = limit_kind_names[LIMIT_CONTRAST_RATIO]};
     if (has_limit) as = c->limits[c->limit_id];
     as.found = as.low = as.high = contrast_from_ratio(limit_kind_named(as.kind), ratio);
     return words_quantity(&as, arena);
@@ -336,7 +325,7 @@ static const char *mean_words(const ReviewCase *c, Arena *arena) {
     const LimitVerdict *limit = case_worst_limit(c);
     LimitKind kind = limit ? limit_kind_named(limit->kind) : LIMIT_KIND_COUNT;
     LimitVerdict mean = limit ? *limit : (LimitVerdict){0};
-    if (kind == LIMIT_KIND_COUNT || !limit_kinds[kind].is_contrast)
+    if (!quantity_is_contrast(kind))
         return arena_format(arena, "%s : 1", words_figure(c->whole.contrast_ratio, arena));
     mean.found = contrast_from_ratio(kind, c->whole.contrast_ratio);
     return words_found(&mean, arena);
@@ -361,9 +350,8 @@ const char *words_whole(const ReviewCase *c, Arena *arena) {
 
 /* Sizes are the same in any light. */
 static const char *light_words(const ReviewCase *c, const LimitVerdict *limit) {
-    LimitKind kind = limit_kind_named(limit->kind);
-    return kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_of_light ? words_ambient(c->ambient)
-                                                                    : "";
+    const ReviewQuantity *of = quantity_of(limit);
+    return of && of->is_of_light ? words_ambient(c->ambient) : "";
 }
 
 static const char *reason_of(const ReviewCase *c, Arena *arena) {
@@ -454,11 +442,6 @@ const char *words_levels(const ReviewCase *c, Arena *arena) {
                     text.size ? "" : " years");
     }
     return text.data ? text.data : "";
-}
-
-const char *words_judged_and_levels(const ReviewCase *c, Arena *arena) {
-    const char *judged = words_judged(c, arena), *levels = words_levels(c, arena);
-    return *levels ? arena_format(arena, "%s; %s", judged, levels) : judged;
 }
 
 const char *words_level(const CaseVisibility *v, Arena *arena) {

@@ -150,9 +150,6 @@ const char *words_chain(const CaseCause *cause, Arena *arena);
 /* "visibility level 6.2 at 40 years, 2.9 at 70"; "": the case has none. */
 const char *words_levels(const ReviewCase *c, Arena *arena);
 
-/* Behind the figure that made the case's verdict, where it has any. */
-const char *words_judged_and_levels(const ReviewCase *c, Arena *arena);
-
 /* One of them: "2.9, 95 % sure between 2.8 and 3.0"; where the formula is doubtful also why. */
 const char *words_level(const CaseVisibility *v, Arena *arena);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* case_visibility.h -- for whom a case has visibility levels, how large its target is, and the
- * veil in each of their eyes. Judging makes the levels of that (review/visibility_figure.h).
+ * veil in each of their eyes. Judging makes the levels of that (review/ask_visibility_level.h).
  *
  * The observer comes first, then the request's other ages. The target is a stroke, its size the
  * median of the strokes' widths: what carries the symbol's form, not its height. Of a shape

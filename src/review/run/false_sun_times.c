@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "review/chain/chains.h"
+#include "review/judge.h"
 #include "vision/eye_spread.h"
 
 #define STEP_MINUTES 1
@@ -209,6 +210,7 @@ static void report(const Watch *watch, const ReviewEye *eye, const SweepSuns *su
     qsort(all->list, (size_t)all->count, sizeof *all->list, by_veil);
     for (int i = 0; i < all->count && i < FALSE_SUNS_LISTED; i++) {
         out->false_suns[out->false_sun_count] = listed(watch, &all->list[i], suns, arena);
+        judge_false_sun(&out->false_suns[out->false_sun_count], watch->sweep->run->profile, arena);
         out->false_suns[out->false_sun_count++].eye = eye->name;
     }
 }

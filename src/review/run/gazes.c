@@ -7,6 +7,7 @@
 #include "review/chain/chains.h"
 #include "review/eye/eye_reading.h"
 #include "review/eye/gaze_reading.h"
+#include "review/judge.h"
 #include "review/light/setup.h"
 #include "review/run/cases.h"
 #include "review/run/road.h"
@@ -211,6 +212,7 @@ bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *
                 .condition = setup->condition->name, .eye = eye->name, .gaze = gaze->name};
             GazeArgs args = {setup, gazes->searches, gaze, gazes->profile};
             read_gaze(&args, &goal, arena, &out[at]);
+            judge_gaze(&out[at], gazes->profile, arena);
             if (gaze->road)
                 road_dim(gaze->road, gazes->profile, gazes->cases, gazes->case_count, &out[at],
                          arena);

@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "review/chain/chains.h"
 #include "review/eye/pane_image_reading.h"
+#include "review/judge.h"
 
 #define PRECISION 0.01
 #define PATHS_MOST 32768
@@ -94,9 +95,10 @@ static ReviewPaneArea *areas_of(const ReviewRequest *request, int eye, int *coun
     return list;
 }
 
-/* The area that allows the least; of several, or none with a limit, the nearest. */
-static void set_area(const PaneImage *image, const ReviewPaneArea *areas, int count,
-                     PaneFinding *out) {
+/* The area that allows the least; of several, or none with a limit, the nearest. How much
+ * contrast it allows: INFINITY, any. */
+static double set_area(const PaneImage *image, const ReviewPaneArea *areas, int count,
+                       PaneFinding *out) {
     double most = INFINITY;
     out->off_deg = INFINITY;
     for (int i = 0; i < count; i++) {
@@ -109,7 +111,7 @@ static void set_area(const PaneImage *image, const ReviewPaneArea *areas, int co
         most = own;
     }
     if (!out->area) out->off_deg = (double)NAN;
-    if (isfinite(most)) pane_judge(out, out->area, most);
+    return most;
 }
 
 /* ---- one display in one pane ------------------------------------------------------------- */
@@ -166,6 +168,8 @@ typedef struct PaneEye {
     Vec3 at;
     const ReviewPaneArea *areas;
     int area_count;
+    const Profile *profile;
+    Ambient ambient;
 } PaneEye;
 
 static PaneFinding finding_of(const PaneEye *eye, const PaneImage *image, Arena scratch,
@@ -187,7 +191,8 @@ static PaneFinding finding_of(const PaneEye *eye, const PaneImage *image, Arena 
     if (out.none) return out;
     set_place(image, &frame, &out, arena);
     set_light(setup, eye->at, image, &out, scratch);
-    set_area(image, eye->areas, eye->area_count, &out);
+    double most = set_area(image, eye->areas, eye->area_count, &out);
+    judge_pane(&out, eye->profile, eye->ambient, most);
     return out;
 }
 
@@ -205,10 +210,15 @@ static void add_eye(const PaneEye *eye, Arena *arena, Review *review) {
     arena_release(&scratch);
 }
 
-bool setup_pane_images(const Setup *setup, Arena *arena, Review *review, Error *err) {
+bool setup_pane_images(const Setup *setup, const Profile *profile, Arena *arena, Review *review,
+                       Error *err) {
     const ReviewRequest *request = setup->request;
+    Vec3 towards;
+    float bands[LIGHT_BANDS];
+    Ambient ambient = setup_sun(setup, &towards, bands) ? AMBIENT_DAY : AMBIENT_NIGHT;
     for (int i = 0; i < request->eye_count; i++) {
-        PaneEye eye = {.setup = setup, .name = request->eyes[i].name};
+        PaneEye eye = {
+            .setup = setup, .name = request->eyes[i].name, .profile = profile, .ambient = ambient};
         if (!setup_eye_middle(setup, &request->eyes[i], *arena, &eye.at, err)) return false;
         eye.areas = areas_of(request, i, &eye.area_count, arena);
         add_eye(&eye, arena, review);

@@ -10,6 +10,8 @@
 #pragma once
 #include "review/light/setup.h"
 #include "review/pane_verdict.h"
+#include "review/profile.h"
 
 /* Adds to the review's list. Fails where an eye's camera is missing. */
-bool setup_pane_images(const Setup *setup, Arena *arena, Review *review, Error *err);
+bool setup_pane_images(const Setup *setup, const Profile *profile, Arena *arena, Review *review,
+                       Error *err);

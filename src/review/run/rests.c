@@ -120,7 +120,7 @@ static void add_limits(const Profile *profile, Review *review, Arena *arena) {
     int count = 0, all = 0;
     for (int i = 0; i < profile->limit_count; i++) {
         const ProfileLimit *limit = &profile->limits[i];
-        if (limit->is_advice || !limit_kinds[limit->kind].is_measured) continue;
+        if (limit->is_advice || !quantities[limit->kind]->find) continue;
         all++;
         count += limit->read_in_the_standard;
     }

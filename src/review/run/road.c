@@ -9,7 +9,6 @@
 #include "panel/query/panel_stated.h"
 #include "review/chain/chains.h"
 #include "review/chain/remedies.h"
-#include "review/judge_road.h"
 #include "vision/road_glare.h"
 
 #define SEED 0x726f6164u
@@ -204,8 +203,7 @@ GazeRoad *road_stated(const ReviewRoad *road, RoadLeftOut left_out, Arena *arena
                       .s_p = road->s_p,
                       .mesopic_cd_m2 = road_mesopic_luminance(road->luminance_cd_m2, road->s_p),
                       .left_out = left_out,
-                      .without_data_share = NAN,
-                      .verdict = VERDICT_UNJUDGED};
+                      .without_data_share = NAN};
     return out;
 }
 
@@ -230,7 +228,6 @@ GazeRoad *road_of(const Setup *setup, const ReviewRoad *road, const RoadReading 
                      .arena = arena,
                      .stated = displays_stated(setup->scene, arena),
                      .road = road_stated(road, ROAD_EVALUATED, arena)};
-    double unusable = 0;
     sort_displays(&work);
     work.road->without_data_share = *reading->without_data;
     work.road->ages = ARENA_NEW(arena, RoadAge, ages.count);
@@ -238,9 +235,8 @@ GazeRoad *road_of(const Setup *setup, const ReviewRoad *road, const RoadReading 
     for (int a = 0; a < ages.count; a++) work.road->ages[a] = age_of(&work, a, ages.list[a]);
     for (int i = 0; i < work.count; i++)
         if (work.stated[work.order[i]].is_unusable)
-            unusable += work.road->ages[0].displays[i].share;
+            work.road->unusable_share += work.road->ages[0].displays[i].share;
     set_levels(&work, profile);
-    judge_road(work.road, profile, unusable);
     return work.road;
 }
 
@@ -367,7 +363,7 @@ void road_dim(const ReviewRoad *road, const Profile *profile, const ReviewCase *
     GazeRoad *to = gaze->road;
     double roads[ROAD_DIMMING_MOST + 1];
     Dimming dimming = {profile, cases, case_count, gaze, arena};
-    if (!to || !to->has_limit) return;
+    if (!to || !road_has_limit(to)) return;
     int count = roads_of(road, roads), displays = to->ages[0].display_count;
     RoadDimming *least = least_of(&dimming, &to->ages[0]);
     to->dimming = ARENA_NEW(arena, RoadDimming, to->age_count * count * (displays + 1));

@@ -73,7 +73,7 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     if (!setup_gazes(&looks, arena, gazes, err)) return false;
     progress_update(run->progress, count + look_count);
     review->gaze_count += look_count;
-    return !run->request->pane_images || setup_pane_images(setup, arena, review, err);
+    return !run->request->pane_images || setup_pane_images(setup, run->profile, arena, review, err);
 }
 
 /* The roads of a sweep, as it is after dark: with its lamps, displays and levels, but
