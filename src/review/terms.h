@@ -14,7 +14,7 @@
 #define TERM_OPEN "%s %s%s%s, 95 %% interval %s to %s (%s)"
 #define TERM_NO_LIMIT "no limit %s in this profile"
 #define TERM_KNOWN_WITHIN "; known within %s, %s required"
-#define TERM_HIDDEN_BY "hidden by %s %s"
+#define TERM_HIDDEN_BY "; hidden by "
 #define TERM_SEEN "visible: %s (more than %s needed)"
 #define TERM_UNSEEN "nothing of it is seen"
 #define TERM_UNSEEN_BY_MIDDLE \
@@ -41,7 +41,7 @@
 #define TERM_CONTENT "no light or level matters: the content itself has %s : 1"
 #define TERM_NO_LEVEL_HIDES "no level hides it: a privacy state or film"
 #define TERM_NO_LEVEL_DIMS "no level is enough: move, tilt or shade %s"
-#define TERM_NOTHING_HERE "nothing here: all but the displays makes %s (%s)"
+#define TERM_NOTHING_HERE "nothing here: all light but the displays' makes %s (%s)"
 #define TERM_NO_LEVEL_DOES_BOTH "no level of %s does both: the road allows %s, %s needs %s"
 #define TERM_TALLER "characters %s times as high"
 #define TERM_SMALLER "characters %s times as high at most"

@@ -360,7 +360,7 @@ def claim_review(report, where, written):
     report.claim(written.status == (verdict in ("fail", "cannot be judged")),
                  f"{where}: status {written.status} of {verdict}")
     last = written.console[-1] if written.console else ""
-    report.claim(last == written.page.headline[0] == written.review["outcome"],
+    report.claim(last == written.page.headline[0] == written.review["headline"],
                  f"{where}: last line '{last}'")
     claim_answer(report, where, written.page, cases, verdict)
     for symbol, page in written.summaries.items():

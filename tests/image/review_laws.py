@@ -191,7 +191,7 @@ def broken_laws(review, folder, done):
     if review["verdict"] != wanted or review["pass"] != passes or \
             done.returncode == passes:
         yield f"says {review['verdict']}, status {done.returncode}, its cases {verdicts}"
-    if done.stdout and done.stdout.splitlines()[-1] != review["outcome"]:
+    if done.stdout and done.stdout.splitlines()[-1] != review["headline"]:
         yield f"the last line is {done.stdout.splitlines()[-1]}"
 
 
@@ -209,8 +209,8 @@ def review(program, request, folder, responses):
     words = {"pass": "Passes", "fail": "Fails", "too close": "Too close to call",
              "cannot be judged": "Cannot be judged"}
     wrong = list(broken_laws(found, folder, done))
-    if not found["outcome"].startswith(words[found["verdict"]]) or \
-            f"<h1><b>{found['outcome']}</b>" not in page:
+    if not found["headline"].startswith(words[found["verdict"]]) or \
+            f"<h1><b>{found['headline']}</b>" not in page:
         wrong.append(f"the page's headline does not say {found['verdict']}")
     return wrong, found["cases"] + [sweep["worst"] for sweep in found["sweeps"]]
 

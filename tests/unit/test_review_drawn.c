@@ -41,10 +41,10 @@ TEST(the_mark_follows_the_kind_of_the_limit) {
     static const struct {
         const char *kind, *words;
         double found, value, ratio;
-    } FORMS[] = {{"contrast_ratio", "2 : 1", 3, 2, 2},
-                 {"luminance_contrast", "luminance contrast 1.5", 2, 1.5, 2.5},
-                 {"modulation", "modulation 0.6", 0.5, 0.6, 4},
-                 {"contrast_ratio", "2 : 1", 2.5, 2, 2}}; /* the last with the veil */
+    } FORMS[] = {{"contrast_ratio", "minimum 2 : 1", 3, 2, 2},
+                 {"luminance_contrast", "luminance contrast minimum 1.5", 2, 1.5, 2.5},
+                 {"modulation", "modulation minimum 0.6", 0.5, 0.6, 4},
+                 {"contrast_ratio", "minimum 2 : 1", 2.5, 2, 2}}; /* the last with the veil */
     for (int i = 0; i < 4; i++) {
         LimitVerdict limit = {
             .kind = FORMS[i].kind, .value = FORMS[i].value, .found = FORMS[i].found};
@@ -57,7 +57,7 @@ TEST(the_mark_follows_the_kind_of_the_limit) {
         bool has_veil;
         c.luminance_cd_m2.foreground = i < 3 ? 200 : 300;
         const char *svg = review_bar_luminances(&c, &has_veil, &arena);
-        assert_non_null(strstr(svg, arena_format(&arena, ">%s needs", FORMS[i].words)));
+        assert_non_null(strstr(svg, arena_format(&arena, ">%s<", FORMS[i].words)));
         double dark = 100 + (i == 3 ? 100.0 / 3 : 0);
         double most = dark + c.luminance_cd_m2.foreground;
         most = fmax(most, 1.02 * FORMS[i].ratio * dark);

@@ -32,7 +32,7 @@ TEST(levels_are_told) {
     fixture_add_levels(&arena, &review);
     assert_string_equal(words_levels(c, &arena), "visibility level 6.0 at 50 years, 3.0 at 70");
     assert_string_equal(words_level(&c->visibilities[1], &arena),
-                        "3.0, 95 % sure between 2.8 and 3.2; doubtful: a <doubt>, "
+                        "3.0, 95 % interval 2.8 to 3.2; doubtful: a <doubt>, "
                         "\"quoted\"");
     assert_string_equal(words_target(&c->visibilities[0], &arena),
                         "one of its strokes, 2.25 arc minutes wide, looked at in a glance of "

@@ -387,7 +387,7 @@ static bool is_optional(const char *key, const json_t *object) {
                                         "visibility_levels",
                                         "age_years",
                                         "must_not_be_read",
-                                        "outcome",
+                                        "headline",
                                         "document",
                                         "superseded_by",
                                         "failed_minutes",

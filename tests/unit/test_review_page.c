@@ -271,8 +271,8 @@ TEST(a_card_tells_the_levels) {
     const char *page = page_of(&(ReviewPage){.review = &review});
     assert_well_formed(page);
     assert_non_null(strstr(page, "<dt>Visibility level at 50 years, the observer</dt>"));
-    assert_non_null(strstr(page, "<dt>Visibility level at 70 years</dt><dd>3.0, 95 % sure "
-                                 "between 2.8 and 3.2; doubtful: a &lt;doubt&gt;"));
+    assert_non_null(strstr(page, "<dt>Visibility level at 70 years</dt><dd>3.0, 95 % "
+                                 "interval 2.8 to 3.2; doubtful: a &lt;doubt&gt;"));
     assert_non_null(strstr(page, "one of its strokes, 2.25 arc minutes wide"));
 }
 

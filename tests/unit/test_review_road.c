@@ -6,6 +6,7 @@
 #include "review/finding.h"
 #include "review/output/review_page.h"
 #include "review/output/review_road.h"
+#include "review/output/review_todo.h"
 #include "review_page_fixture.h"
 #include "road_fixture.h"
 
@@ -182,9 +183,28 @@ TEST(the_page_says_who_makes_it_and_what_keeps_it) {
     assert_null(strstr(page_of(&old), "The road after dark"));
     assert_non_null(strstr(text, "displays make 90 % of it, wide screen 80 %, all straight"));
     assert_non_null(strstr(text, "mesopic luminance of 0.325 cd/m²"));
-    assert_non_null(strstr(text, "70 years, roads of 0.1 cd/m²: no level of wide screen does "
-                                 "both. Minimum legible level: 2.1 % (speed); maximum for the "
-                                 "road: none, even dark."));
+    assert_non_null(strstr(text, "<td class=\"bad\">empty</td>"));
+}
+
+/* A level that is named keeps the limit by the end of its interval, and leaves its symbols theirs.
+ */
+TEST(a_road_that_fails_says_what_to_do) {
+    GazeRoad *road = judged(30, 1, 0, 0);
+    Review review = review_with(road);
+    GazeFinding *gaze = &review.gazes[2];
+    fixture_dimming(road);
+    RoadDimming *row = &road->dimming[2];
+    assert_string_equal(todo_of_road(gaze, &arena), "dim wide screen from 50 % to 3.6 %");
+    row->level_least_sure = 0.04;
+    assert_string_equal(
+        todo_of_road(gaze, &arena),
+        "no level of wide screen does both: the road allows 3.6 %, speed needs 4 %");
+    row->level_most_range = (MeanInterval){0, 0};
+    for (int i = 0; i < 2; i++) road->ages[1].displays[i].share = 0.2;
+    assert_string_equal(todo_of_road(gaze, &arena),
+                        "nothing here: all light but the displays' makes 18.0 % (maximum 15 %)");
+    road->verdict = road->ages[1].limit.verdict = road->ages[0].limit.verdict = VERDICT_PASS;
+    assert_string_equal(todo_of_road(gaze, &arena), "");
 }
 
 TEST(a_road_that_is_left_out_says_so) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A review's figures as people read them. */
 #include "review/output/review_facts.h"
+#include "review/output/review_todo.h"
 #include "review/output/review_words.h"
 #include "review_page_fixture.h"
 
@@ -170,6 +171,63 @@ TEST(what_cannot_be_judged_says_what_would_have_it_judged) {
         bool is_long = strstr(words_headline(c, &arena), "samples") != NULL;
         assert_false(is_long); /* the first line has room for the reason alone */
     }
+}
+
+/* Each by its closed form: (200 + 97)/(2 + 97) is 3; 10 minutes of arc times 1.2 are 12; an
+ * image is as bright as its display. */
+TEST(every_failure_says_what_to_do) {
+    LimitVerdict limit = {.name = "x",
+                          .kind = "contrast_ratio",
+                          .unit = "1",
+                          .value = 3,
+                          .found = 1.98,
+                          .low = 1.9,
+                          .high = 2,
+                          .margin = -0.3,
+                          .verdict = VERDICT_FAIL};
+    ReviewCase c = {.luminance_cd_m2 = {.foreground = 100, .background = 1, .reflected = 100},
+                    .level = 0.5,
+                    .limits = &limit,
+                    .limit_count = 1,
+                    .verdict = VERDICT_FAIL};
+    assert_string_equal(todo_of_case(&c, &arena),
+                        "no level up to 100 % is enough; reflected light: 97 cd/m² at most (now "
+                        "100): hood, tilt or coating");
+    limit.value = 200;
+    assert_string_equal(todo_of_case(&c, &arena),
+                        "no light or level matters: the content itself has 100 : 1");
+    const CaseRemedy remedy = {.what = "raise the level from 50 % to 80 %",
+                               .then = {.name = "x",
+                                        .kind = "contrast_ratio",
+                                        .unit = "1",
+                                        .value = 2,
+                                        .found = 2.1,
+                                        .low = 2,
+                                        .high = 2.2,
+                                        .verdict = VERDICT_PASS},
+                               .verdict = VERDICT_PASS};
+    c.remedies = &remedy;
+    c.remedy_count = 1;
+    assert_string_equal(todo_of_case(&c, &arena),
+                        "raise the level from 50 % to 80 %: contrast 2.1 : 1 (minimum 2 : 1)");
+    c.remedy_count = 0;
+    limit.kind = "visual_security";
+    assert_string_equal(todo_of_case(&c, &arena), "no level hides it: a privacy state or film");
+    limit.kind = "character_height";
+    limit.value = 12;
+    limit.found = 10;
+    assert_string_equal(todo_of_case(&c, &arena), "characters 1.2 times as high");
+    c.verdict = limit.verdict = VERDICT_PASS;
+    assert_string_equal(todo_of_case(&c, &arena), "");
+    PaneFinding pane = {.display = "screen",
+                        .image = 1,
+                        .contrast_range = {0.2, 0.25},
+                        .has_limit = true,
+                        .limit = {.value = 0.1, .verdict = VERDICT_FAIL}};
+    assert_string_equal(todo_of_pane(&pane, &arena), "dim screen to 40 % of its level");
+    pane.image = 0.02; /* what is left of it nobody sees */
+    assert_string_equal(todo_of_pane(&pane, &arena),
+                        "no level is enough: move, tilt or shade screen");
 }
 
 /* A polariser may take the display's light and leave the reflections: then that is why. 100 and

@@ -15,6 +15,7 @@
 #include "review/output/review_variants.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
+#include "review/terms.h"
 #include "text/interval_text.h"
 
 /* A row has one quantity: that of the limit which decides it. */
@@ -50,7 +51,7 @@ static void print_case(const ReviewCase *c, Arena scratch) {
                             c->reflected_range.high, &scratch));
     print_whole(c, &scratch);
     print_levels(c, &scratch);
-    if (c->hider_count && case_is_seen(c)) print("; %s", words_hiders(c, &scratch));
+    if (c->hider_count && case_is_seen(c)) print(TERM_HIDDEN_BY "%s", words_hiders(c, &scratch));
     const char *decide = words_decide(c, &scratch);
     print("%s%s%s\n", words_precision(c, &scratch), *decide ? "; " : "", decide);
 }
@@ -92,15 +93,12 @@ static void print_todo(const char *words) {
     if (*words) print("%-16s %s\n", "what to do", words);
 }
 
-/* A gaze at a road: its verdict, and displays that no level suits. */
+/* A gaze at a road. */
 static void print_road(const GazeFinding *g, Arena scratch) {
-    int count;
     if (!g->road) return;
     print("%-16s %s, %s, looking at %s: %s\n", road_outcome(g), g->condition, g->eye, g->gaze,
           road_words(g, &scratch));
     print_todo(todo_of_road(g, &scratch));
-    const char **windows = road_empty_windows(g, &count, &scratch);
-    for (int i = 0; i < count; i++) print("%-16s %s\n", "no level", windows[i]);
 }
 
 /* A display in glass that is held against a limit. */

@@ -271,7 +271,7 @@ static json_t *write_rests(const void *review) {
     return line;
 }
 
-static json_t *write_outcome(const void *review) {
+static json_t *write_headline(const void *review) {
     Arena scratch = arena_reserve(PLACES_BYTES);
     json_t *words = text(review_outcome_words(review, &scratch));
     arena_release(&scratch);
@@ -288,7 +288,7 @@ static json_t *write_verdict(const void *review) {
 }
 
 TABLE(whole_json, Review, OWN(FLAG, Review, pass), TOLD("verdict", 0, write_verdict),
-      TOLD("outcome", 0, write_outcome), AS("strict", FLAG, Review, is_strict),
+      TOLD("headline", 0, write_headline), AS("strict", FLAG, Review, is_strict),
       OWN(TEXT, Review, title), PART("document", 0, Review, document, document_json),
       OWN(TEXT, Review, profile), LATER("superseded_by", TEXT, Review, superseded_by),
       LIST("cases", MUST, Review, cases, case_count, case_json),

@@ -449,14 +449,6 @@ static void stack(const CaseLuminances *l, double emitted, bool has_veil, BarPar
     out[3] = (BarPart){"emit", or_zero(emitted)};
 }
 
-static const char *mark_words(const LimitVerdict *limit, Arena *arena) {
-    const char *value = words_limit(limit, arena);
-    if (limit_kind_named(limit->kind) != LIMIT_CONTRAST_RATIO)
-        value = arena_format(arena, "%s %s", words_kind(limit), value);
-    return arena_format(arena, "%s %s this much", value,
-                        limit_wants_less(limit) ? "allows" : "needs");
-}
-
 static Bars make_bars(const ReviewCase *c, Arena *arena) {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double bright = fmax(or_zero(l->foreground), or_zero(l->background));
@@ -467,7 +459,8 @@ static Bars make_bars(const ReviewCase *c, Arena *arena) {
         LimitKind kind = limit_kind_named(limit->kind);
         bars.has_veil = !is_of(limit, c->contrast_ratio) && is_of(limit, c->contrast_with_veil);
         if (quantity_is_contrast(kind)) bars.wanted = ratio_from_contrast(kind, limit->value);
-        bars.words = mark_words(limit, arena);
+        const char *of = kind == LIMIT_CONTRAST_RATIO ? "" : words_kind(limit);
+        bars.words = arena_format(arena, "%s%s%s", of, of[0] ? " " : "", words_bound(limit, arena));
     }
     stack(l, bright, bars.has_veil, bars.bright);
     stack(l, dark, bars.has_veil, bars.dark);

@@ -155,67 +155,6 @@ static const char *percent(double level, Arena *arena) {
     return arena_format(arena, "%.3g %%", 100 * level);
 }
 
-/* Is the limit exceeded there without any display's light? */
-static bool is_beyond_displays(const GazeRoad *road, const RoadDimming *row) {
-    for (int i = 0; i < road->dimming_count; i++) {
-        const RoadDimming *all = &road->dimming[i];
-        if (!all->display && all->age_years == row->age_years && all->road_cd_m2 == row->road_cd_m2)
-            return !(all->level_most > 0) && all->window == ROAD_WINDOW_EMPTY;
-    }
-    return false;
-}
-
-/* What one sentence names: of an age, a display's rows, or those that no display decides. */
-static bool is_told_with(const GazeRoad *road, const RoadDimming *row, const RoadDimming *first) {
-    if (row->window != ROAD_WINDOW_EMPTY || row->age_years != first->age_years) return false;
-    return is_beyond_displays(road, first)
-               ? !row->display && is_beyond_displays(road, row)
-               : words_same(row->display, first->display) && !is_beyond_displays(road, row);
-}
-
-/* Rows of one display and age stand apart by their roads. */
-static const char *empty_words(const GazeFinding *gaze, const RoadDimming *first, Arena *arena) {
-    const GazeRoad *road = gaze->road;
-    const char *roads = "";
-    const RoadDimming *last = first;
-    const RoadDimming *row = is_beyond_displays(road, first) ? road->dimming : first;
-    for (; row < road->dimming + road->dimming_count; row++) {
-        if (!is_told_with(road, row, first)) continue;
-        roads = arena_format(arena, "%s%s%.4g", roads, roads[0] ? ", " : "", row->road_cd_m2);
-        last = row;
-    }
-    if (is_beyond_displays(road, first))
-        return arena_format(arena,
-                            "%s, %.4g years, roads of %s cd/m²: the limit is exceeded without any "
-                            "display's light; no level keeps it.",
-                            road_name(gaze, arena), first->age_years, roads);
-    return arena_format(
-        arena,
-        "%s, %.4g years, roads of %s cd/m²: no level of %s does both. Minimum legible level: "
-        "%s%s%s%s; maximum for the road: %s%s.",
-        road_name(gaze, arena), first->age_years, roads,
-        first->display ? first->display : "all displays together",
-        isfinite(last->level_least_sure) ? percent(last->level_least_sure, arena)
-                                         : "above what it has",
-        last->symbol ? " (" : "", last->symbol ? last->symbol : "", last->symbol ? ")" : "",
-        last->level_most > 0 ? percent(last->level_most, arena) : "none, even dark",
-        last->level_most > 0 ? arena_format(arena, " at %.4g cd/m²", last->road_cd_m2) : "");
-}
-
-const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *arena) {
-    const GazeRoad *road = gaze->road;
-    const char **list = ARENA_NEW(arena, const char *, road->dimming_count + 1);
-    *count = 0;
-    for (int i = 0; i < road->dimming_count; i++) {
-        const RoadDimming *row = &road->dimming[i];
-        bool is_first = is_told_with(road, row, row);
-        for (int k = 0; k < i && is_first; k++)
-            is_first = !is_told_with(road, &road->dimming[k], row);
-        if (is_first) list[(*count)++] = empty_words(gaze, row, arena);
-    }
-    return list;
-}
-
 static bool is_of(const RoadDimming *row, const char *display) {
     return !row->display == !display && words_same(row->display, display);
 }
@@ -259,12 +198,12 @@ static void set_age(json_t *to, const RoadAge *age, bool has_limit, Arena *arena
         page_set(row, "level_most",
                  isnan(d->level_most) ? NULL
                  : d->level_most > 0  ? percent(d->level_most, arena)
-                                      : "not even dark");
+                                      : "none, even dark");
     }
 }
 
 static void set_row(json_t *to, const RoadDimming *row, Arena *arena) {
-    const char *most = row->level_most > 0 ? percent(row->level_most, arena) : "not even dark";
+    const char *most = row->level_most > 0 ? percent(row->level_most, arena) : "none, even dark";
     page_set(to, "age", arena_format(arena, "%.4g", row->age_years));
     page_set(to, "road", arena_format(arena, "%.4g", row->road_cd_m2));
     page_set(to, "most", isnan(row->level_most) ? "–" : most);
@@ -309,9 +248,6 @@ static void add_dimming(json_t *to, const GazeRoad *road, Arena *arena) {
 static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena) {
     const GazeRoad *road = gaze->road;
     json_t *to = page_add(list), *ages = new_list(to, "ages");
-    json_t *empty = new_list(to, "empty");
-    int count;
-    const char **windows = road_empty_windows(gaze, &count, arena);
     page_set(to, "name", road_name(gaze, arena));
     page_set(to, "words", road_words(gaze, arena));
     page_set(to, "todo", todo_of_road(gaze, arena));
@@ -328,7 +264,6 @@ static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena) {
     for (int i = 0; i < road->age_count; i++)
         set_age(page_add(ages), &road->ages[i], road_has_limit(road), arena);
     add_dimming(to, road, arena);
-    for (int i = 0; i < count; i++) json_array_append_new(empty, json_string(windows[i]));
 }
 
 void road_add_values(json_t *document, const Review *review, Arena *arena) {

@@ -18,9 +18,6 @@ const char *road_words(const GazeFinding *gaze, Arena *arena);
 /* "pass", "fail", ...; "no limit", "not evaluated". */
 const char *road_outcome(const GazeFinding *gaze);
 
-/* Sentences on displays that no level makes both dark enough for the road and bright enough to
- * be read; *count of them. */
-const char **road_empty_windows(const GazeFinding *gaze, int *count, Arena *arena);
 
 /* A variant's road and the review's own, of the same condition, eye and gaze, by the age that
  * is told of the variant. */

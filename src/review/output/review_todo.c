@@ -104,8 +104,9 @@ const char *todo_of_case(const ReviewCase *c, Arena *arena) {
 static const RoadDimming *dimming_of(const GazeRoad *road, const char *display, double age) {
     for (int i = 0; i < road->dimming_count; i++) {
         const RoadDimming *row = &road->dimming[i];
-        if (row->age_years == age && row->road_cd_m2 == road->luminance_cd_m2 &&
-            !row->display == !display && words_same(row->display, display))
+        bool is_road = fabs(row->road_cd_m2 - road->luminance_cd_m2) <= 1e-5 * row->road_cd_m2;
+        if (row->age_years == age && is_road && !row->display == !display &&
+            words_same(row->display, display))
             return row;
     }
     return NULL;
@@ -143,8 +144,10 @@ const char *todo_of_road(const GazeFinding *gaze, Arena *arena) {
     }
     if (is_dimmable(all)) return dim_words(all, arena);
     LimitVerdict rest = age->limit;
-    rest.found = fmax(1 - share, 0) * age->increment_pct;
-    rest.low = rest.high = NAN;
+    double left = fmax(1 - share, 0);
+    rest.found = left * age->increment_pct;
+    rest.low = left * age->increment_range.low;
+    rest.high = left * age->increment_range.high;
     rest.unit = "%";
     rest.age_years = 0;
     return arena_format(arena, TERM_NOTHING_HERE, words_found(&rest, arena),

@@ -271,7 +271,7 @@ const char *words_hiders(const ReviewCase *c, Arena *arena) {
                         words_share(hider->share, arena));
     }
     if (rest > 0) text_format(&text, ", others %s", words_share(rest, arena));
-    return text.data ? arena_format(arena, "hidden by %s", text.data) : "";
+    return text.data ? text.data : "";
 }
 
 const char *words_precision(const ReviewCase *c, Arena *arena) {
@@ -300,8 +300,8 @@ const char *words_unjudged(const ReviewCase *c, Arena *arena) {
     const LimitVerdict *limit = case_worst_limit(c);
     switch (c->unjudged) {
     case UNJUDGED_HIDDEN:
-        return arena_format(arena, "%s%s%s%s", words_seen(c, arena), c->hider_count ? "; " : "",
-                            words_hiders(c, arena),
+        return arena_format(arena, "%s%s%s%s", words_seen(c, arena),
+                            c->hider_count ? TERM_HIDDEN_BY : "", words_hiders(c, arena),
                             c->is_optional ? "; this eye need not see it" : "");
     case UNJUDGED_PANEL:
         return arena_format(arena, TERM_PANEL_UNUSABLE "%s%s", c->panel.reason ? ": " : "",
@@ -357,7 +357,7 @@ static const char *light_words(const ReviewCase *c, const LimitVerdict *limit) {
 static const char *reason_of(const ReviewCase *c, Arena *arena) {
     const LimitVerdict *limit = case_worst_limit(c);
     if (case_kept_by(c) == KEPT_HIDDEN)
-        return arena_format(arena, TERM_UNSEEN "%s%s", c->hider_count ? "; " : "",
+        return arena_format(arena, TERM_UNSEEN "%s%s", c->hider_count ? TERM_HIDDEN_BY : "",
                             words_hiders(c, arena));
     if (c->verdict == VERDICT_UNJUDGED) return words_unjudged(c, arena);
     if (!limit) return arena_format(arena, TERM_NO_LIMIT, words_ambient(c->ambient));
@@ -448,7 +448,7 @@ const char *words_level(const CaseVisibility *v, Arena *arena) {
     const char *doubt = v->doubts ? arena_format(arena, "; doubtful: %s", v->doubts) : "";
     if (isnan(v->level)) return arena_format(arena, "–%s", doubt);
     if (v->low == v->high) return arena_format(arena, "%s%s", words_figure(v->level, arena), doubt);
-    return arena_format(arena, "%s, 95 %% sure between %s and %s%s",
+    return arena_format(arena, "%s, 95 %% interval %s to %s%s",
                         words_within(v->level, v->low, v->high, arena),
                         words_within(v->low, v->low, v->high, arena),
                         words_within(v->high, v->low, v->high, arena), doubt);

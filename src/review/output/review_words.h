@@ -103,7 +103,7 @@ const char *const *words_directions(bool is_of_vehicle);
  * NULL: nobody knows, and no direction is named. */
 const char *words_sun(const ReviewCase *c, const char *const *directions, Arena *arena);
 
-/* "hidden by wheel (leather) 62 %, rim (steel) 3.1 %, others 1.0 %"; "": nothing is hidden,
+/* "wheel (leather) 62 %, rim (steel) 3.1 %, others 1.0 %"; "": nothing is hidden,
  * or that is not known. */
 const char *words_hiders(const ReviewCase *c, Arena *arena);
 
@@ -150,7 +150,7 @@ const char *words_chain(const CaseCause *cause, Arena *arena);
 /* "visibility level 6.2 at 40 years, 2.9 at 70"; "": the case has none. */
 const char *words_levels(const ReviewCase *c, Arena *arena);
 
-/* One of them: "2.9, 95 % sure between 2.8 and 3.0"; where the formula is doubtful also why. */
+/* One of them: "2.9, 95 % interval 2.8 to 3.0"; where the formula is doubtful also why. */
 const char *words_level(const CaseVisibility *v, Arena *arena);
 
 /* What it is of: "one of its strokes, 2.3 arc minutes wide, looked at in a glance of 0.2 s; the
