@@ -215,7 +215,7 @@ static json_t *all_values(json_t *own) {
     review->variants = &variant;
     review->variant_count = 1;
     PaneFinding panes[] = {fixture_pane("near"), fixture_pane_hidden()};
-    fixture_pane_judge(&panes[0], 0.1);
+    fixture_pane_judge(&panes[0], 10); /* the worst is the case */
     review->pane_images = panes;
     review->pane_image_count = 2;
     review->gazes[2].road = fixture_road(&arena, 30, 1);

@@ -186,25 +186,29 @@ TEST(the_page_says_who_makes_it_and_what_keeps_it) {
     assert_non_null(strstr(text, "<td class=\"bad\">empty</td>"));
 }
 
+static const char *todo_of(const GazeFinding *gaze) {
+    return todo_of_finding(
+        &(Finding){.gaze = gaze, .worst = &gaze->road->ages[1].limit, .verdict = gaze->verdict},
+        &arena);
+}
+
 /* A level that is named keeps the limit by the end of its interval, and leaves its symbols theirs.
  */
 TEST(a_road_that_fails_says_what_to_do) {
-    GazeRoad *road = judged(30, 1, 0, 0);
-    Review review = review_with(road);
-    GazeFinding *gaze = &review.gazes[2];
+    GazeFinding found = judged(30, 1, 0, 0), *gaze = &found;
+    GazeRoad *road = found.road;
     fixture_dimming(road);
     RoadDimming *row = &road->dimming[2];
-    assert_string_equal(todo_of_road(gaze, &arena), "dim wide screen from 50 % to 3.6 %");
+    assert_string_equal(todo_of(gaze), "dim wide screen from 50 % to 3.6 %");
     row->level_least_sure = 0.04;
     assert_string_equal(
-        todo_of_road(gaze, &arena),
-        "no level of wide screen does both: the road allows 3.6 %, speed needs 4 %");
+        todo_of(gaze), "no level of wide screen does both: the road allows 3.6 %, speed needs 4 %");
     row->level_most_range = (MeanInterval){0, 0};
     for (int i = 0; i < 2; i++) road->ages[1].displays[i].share = 0.2;
-    assert_string_equal(todo_of_road(gaze, &arena),
+    assert_string_equal(todo_of(gaze),
                         "nothing here: all light but the displays' makes 18.0 % (maximum 15 %)");
-    road->verdict = road->ages[1].limit.verdict = road->ages[0].limit.verdict = VERDICT_PASS;
-    assert_string_equal(todo_of_road(gaze, &arena), "");
+    gaze->verdict = road->ages[1].limit.verdict = road->ages[0].limit.verdict = VERDICT_PASS;
+    assert_string_equal(todo_of(gaze), "");
 }
 
 TEST(a_road_that_is_left_out_says_so) {

@@ -3,6 +3,7 @@
 #include "review/output/review_facts.h"
 #include "review/output/review_todo.h"
 #include "review/output/review_words.h"
+#include "review/pane_verdict.h"
 #include "review_page_fixture.h"
 
 TEST(figures_are_said_in_words) {
@@ -163,7 +164,8 @@ TEST(what_cannot_be_judged_says_what_would_have_it_judged) {
         c->visible_share = ROWS[i].why != UNJUDGED_HIDDEN;
         c->panel = (CasePanel){
             .verdict = "not usable", .reason = "63 % of the samples", .is_unusable = true};
-        ReviewFacts facts = review_facts_of(&review, c, NULL, &arena);
+        ReviewFacts facts =
+            review_facts_of(&review, &(Finding){.c = c, .verdict = c->verdict}, NULL, &arena);
         assert_non_null(strstr(fact(&facts, "Not judged"), words_case(c, &arena)));
         assert_non_null(strstr(fact(&facts, "Why"), ROWS[i].reason));
         assert_non_null(strstr(fact(&facts, "What to do"), ROWS[i].mend));
@@ -224,10 +226,15 @@ TEST(every_failure_says_what_to_do) {
                         .contrast_range = {0.2, 0.25},
                         .has_limit = true,
                         .limit = {.value = 0.1, .verdict = VERDICT_FAIL}};
-    assert_string_equal(todo_of_pane(&pane, &arena), "dim screen to 40 % of its level");
+    assert_string_equal(
+        todo_of_finding(&(Finding){.pane = &pane, .worst = &pane.limit, .verdict = VERDICT_FAIL},
+                        &arena),
+        "dim screen to 40 % of its level");
     pane.image = 0.02; /* what is left of it nobody sees */
-    assert_string_equal(todo_of_pane(&pane, &arena),
-                        "no level is enough: move, tilt or shade screen");
+    assert_string_equal(
+        todo_of_finding(&(Finding){.pane = &pane, .worst = &pane.limit, .verdict = VERDICT_FAIL},
+                        &arena),
+        "no level is enough: move, tilt or shade screen");
 }
 
 /* A polariser may take the display's light and leave the reflections: then that is why. 100 and
@@ -236,13 +243,14 @@ TEST(sunglasses_are_named_with_what_they_take) {
     Review review = fixture_review(&arena);
     ReviewCase *c = &review.cases[0];
     c->glasses = "grey sunglasses of 20 %";
-    ReviewFacts facts = review_facts_of(&review, c, NULL, &arena);
+    ReviewFacts facts =
+        review_facts_of(&review, &(Finding){.c = c, .verdict = c->verdict}, NULL, &arena);
     assert_string_equal(fact(&facts, "Seen through"), c->glasses);
     c->glasses_display_loss = 0.95;
     c->luminance_cd_m2.foreground = 5;
     c->luminance_cd_m2.background = 0.25;
     c->luminance_cd_m2.reflected = 40;
-    facts = review_facts_of(&review, c, NULL, &arena);
+    facts = review_facts_of(&review, &(Finding){.c = c, .verdict = c->verdict}, NULL, &arena);
     assert_non_null(strstr(fact(&facts, "Seen through"),
                            "they pass 5.0 % as much of the display's own light as of any "
                            "other, passed alike it has 3.11 : 1"));

@@ -88,34 +88,26 @@ static void print_gaze(const GazeFinding *g, Arena scratch) {
           review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
 }
 
-/* Below what fails. */
-static void print_todo(const char *words) {
-    if (*words) print("%-16s %s\n", "what to do", words);
-}
-
-/* A gaze at a road. */
+/* A gaze at a road without a verdict. */
 static void print_road(const GazeFinding *g, Arena scratch) {
-    if (!g->road) return;
+    if (!g->road || g->limit_count) return;
     print("%-16s %s, %s, looking at %s: %s\n", road_outcome(g), g->condition, g->eye, g->gaze,
           road_words(g, &scratch));
-    print_todo(todo_of_road(g, &scratch));
 }
 
-/* A display in glass that is held against a limit. */
-static void print_pane(const PaneFinding *f, Arena scratch) {
-    if (!f->has_limit || f->none) return;
-    print("%-16s %s, %s, %s\n", verdict_names[f->limit.verdict], f->condition, f->eye,
-          review_pane_words(f, &scratch));
-    print_todo(todo_of_pane(f, &scratch));
+/* What is judged besides symbols. */
+static void print_finding(const Finding *f, Arena scratch) {
+    const char *todo = todo_of_finding(f, &scratch);
+    if (f->c) return;
+    print("%-16s %s, %s, %s: %s\n", verdict_names[f->verdict], f->condition, f->viewer, f->subject,
+          finding_reason(f, &scratch));
+    if (*todo) print("%-16s %s\n", "what to do", todo);
 }
 
-/* Those, and how many there are in all. */
-static void print_panes(const Review *review, Arena scratch) {
+/* How many displays stand in glass in all. */
+static void print_panes(const Review *review) {
     int shown = 0;
-    for (int i = 0; i < review->pane_image_count; i++) {
-        shown += !review->pane_images[i].none;
-        print_pane(&review->pane_images[i], scratch);
-    }
+    for (int i = 0; i < review->pane_image_count; i++) shown += !review->pane_images[i].none;
     if (review->pane_image_count)
         print("%-16s %d image%s of displays in glass\n", "panes", shown, shown == 1 ? "" : "s");
 }
@@ -133,11 +125,11 @@ static void print_fact(const ReviewFact *fact) {
     print("%c%-15s %s\n", tolower((unsigned char)fact->name[0]), fact->name + 1, fact->value);
 }
 
-/* The first screen of the page, as lines: of all cases the one that decides. */
-static void print_worst(const Review *review, const ReviewCase *worst, Arena scratch) {
+/* The first screen of the page, as lines: of all findings the one that decides. */
+static void print_worst(const Review *review, const Finding *worst, Arena scratch) {
     ReviewFacts facts = review_facts_of(review, worst, NULL, &scratch);
-    print("%-16s %s: %s\n", "worst case", words_case(worst, &scratch),
-          words_headline(worst, &scratch));
+    print("%-16s %s: %s\n", "worst case", finding_name(worst, &scratch),
+          worst->c ? words_headline(worst->c, &scratch) : finding_reason(worst, &scratch));
     for (int i = 0; i < facts.count; i++) print_fact(&facts.list[i]);
 }
 
@@ -146,11 +138,12 @@ static void print_review(const Review *review, Arena scratch) {
     for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i], scratch);
     for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i], scratch);
     for (int i = 0; i < review->gaze_count; i++) print_road(&review->gazes[i], scratch);
-    print_panes(review, scratch);
-    const ReviewCase *worst = review_worst(review, scratch);
+    Findings all = review_findings(review, &scratch), ranked = review_ranked(review, &scratch);
+    for (int i = 0; i < all.count; i++) print_finding(&all.list[i], scratch);
+    print_panes(review);
     for (int i = 0; i < review->variant_count; i++)
         print_variant(review, &review->variants[i], scratch);
-    if (worst) print_worst(review, worst, scratch);
+    if (ranked.count) print_worst(review, &ranked.list[0], scratch);
     const char *rests = review_rests_words(review, true, &scratch);
     if (rests[0]) print("%-16s %s\n", "rests on", rests);
     print("%s\n", review_outcome_words(review, &scratch));

@@ -18,20 +18,13 @@ static const char *figure(double value, MeanInterval range, Arena *arena) {
     return words_within(value, range.low, range.high, arena);
 }
 
-static const char *range_words(MeanInterval range, Arena *arena) {
-    return words_interval(range.low, range.high, arena);
-}
-
-const char *review_pane_words(const PaneFinding *f, Arena *arena) {
-    if (f->none) return arena_format(arena, "%s in %s: no image, %s", f->display, f->pane, f->none);
-    const char *light = arena_format(
-        arena, "%s in %s, %s: %s cd/m² against %s, contrast %s (%s)", f->display, f->pane,
-        words_pane_where(f, arena), figure(f->image, f->image_range, arena),
-        figure(f->against, f->against_range, arena), figure(f->contrast, f->contrast_range, arena),
-        range_words(f->contrast_range, arena));
-    if (!f->has_limit) return light;
-    return arena_format(arena, "%s (" TERM_MAXIMUM " towards %s)", light,
-                        words_number(f->limit.value, arena), f->area);
+/* Of one that a limit is held against. */
+static const char *pane_reason(const PaneFinding *f, Arena *arena) {
+    return arena_format(arena, "contrast %s (" TERM_MAXIMUM " towards %s); %s cd/m² against %s, %s",
+                        figure(f->contrast, f->contrast_range, arena),
+                        words_number(f->limit.value, arena), f->area,
+                        figure(f->image, f->image_range, arena),
+                        figure(f->against, f->against_range, arena), words_pane_where(f, arena));
 }
 
 /* ---- findings ----------------------------------------------------------------------------- */
@@ -47,7 +40,7 @@ const char *finding_name(const Finding *f, Arena *arena) {
 const char *finding_reason(const Finding *f, Arena *arena) {
     const LimitVerdict *worst = f->worst;
     if (f->c) return words_reason(f->c, arena);
-    if (f->pane) return review_pane_words(f->pane, arena);
+    if (f->pane) return pane_reason(f->pane, arena);
     if (limit_kind_named(worst->kind) == LIMIT_THRESHOLD_INCREMENT)
         return road_words(f->gaze, arena);
     return arena_format(arena, "%s (%s)", words_quantity(worst, arena), words_bound(worst, arena));

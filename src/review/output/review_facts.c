@@ -7,6 +7,7 @@
 #include "review/output/review_todo.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
+#include "review/road_verdict.h"
 #include "text/text.h"
 
 #define SHARES_LISTED 3
@@ -105,24 +106,26 @@ static void add_unjudged(ReviewFacts *facts, const Review *review, const ReviewC
 
 /* ---- what to do -------------------------------------------------------------------------- */
 
-/* A variant of the whole review goes before what is reckoned for this case alone. */
-static void add_todo(ReviewFacts *facts, const Review *review, const ReviewCase *c, Arena *arena) {
+/* A variant of the whole review goes before what is reckoned for this finding alone. */
+static void add_todo(ReviewFacts *facts, const Review *review, const Finding *f, Arena *arena) {
     Text text = {.arena = arena};
     for (int i = 0; i < review->variant_count && !text.size; i++)
         if (review_verdict(review->variants[i].review) == VERDICT_PASS)
             text_format(&text, "variant '%s': everything passes", review->variants[i].name);
-    const char *todo = todo_of_case(c, arena);
+    const char *todo = todo_of_finding(f, arena);
     if (todo[0]) text_format(&text, "%s%s", text.size ? "; or " : "", todo);
     add(facts, "What to do", text.data ? text.data : "");
 }
 
-ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
-                            const char *const *directions, Arena *arena) {
+ReviewFacts review_facts_of(const Review *review, const Finding *f, const char *const *directions,
+                            Arena *arena) {
     ReviewFacts facts = {.count = 0};
-    if (c->unjudged) add_unjudged(&facts, review, c, arena);
-    add_when(&facts, review, c, directions, arena);
-    if (c->verdict != VERDICT_PASS) add_todo(&facts, review, c, arena);
-    add_why(&facts, review, c, arena);
+    const ReviewCase *c = f->c;
+    if (c && c->unjudged) add_unjudged(&facts, review, c, arena);
+    if (c) add_when(&facts, review, c, directions, arena);
+    else add(&facts, "When", f->condition ? f->condition : "?");
+    if (f->verdict != VERDICT_PASS) add_todo(&facts, review, f, arena);
+    if (c) add_why(&facts, review, c, arena);
     return facts;
 }
 

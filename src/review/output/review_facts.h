@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* review_facts.h -- what is said of a review's worst case beside its verdict, on the page's
+/* review_facts.h -- what is said of a review's worst finding beside its verdict, on the page's
  * first screen and on the console alike: when it is, how often, what to do, and why; of one
  * that cannot be judged why that is, and what would have it judged.
  *
@@ -7,7 +7,7 @@
  */
 #pragma once
 #include "base/arena.h"
-#include "review/verdict.h"
+#include "review/finding.h"
 
 /* "What to do": "raise the level from 25 % to 38.5 %: contrast 2.05 : 1 (minimum 2 : 1)". */
 typedef struct ReviewFact {
@@ -23,8 +23,8 @@ typedef struct ReviewFacts {
 
 /* directions: of the case's sun (words_directions); NULL: what its azimuth counts from is not
  * known. */
-ReviewFacts review_facts_of(const Review *review, const ReviewCase *c,
-                            const char *const *directions, Arena *arena);
+ReviewFacts review_facts_of(const Review *review, const Finding *f, const char *const *directions,
+                            Arena *arena);
 
 /* "Passes by day; night has no limit in this profile": the whole review's outcome as page,
  * console and review.json say it, with all that was not judged for want of a limit. */

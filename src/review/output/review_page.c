@@ -22,15 +22,25 @@
 
 /* ---- the list ---------------------------------------------------------------------------- */
 
-/* Every case and every sweep's worst, the worst first; most: so many, 0 is all. */
+/* The worst first: those that do not pass, and the others; most: so many in all, 0: no end. */
 static void values_add_list(const PageValues *v, int most) {
-    const ReviewCase **ranked = review_rank(v->review, v->arena);
-    int all = review_case_count(v->review);
-    int listed = most && most < all ? most : all;
-    json_t *list = values_list(v->doc, "listed");
-    for (int i = 0; i < listed; i++) values_add_case(v, list, ranked[i]);
-    page_set_count(v->doc, "listed_count", listed);
-    page_set_count(v->doc, "unlisted", listed < all ? all : 0);
+    Findings ranked = review_ranked(v->review, v->arena);
+    int listed = most && most < ranked.count ? most : ranked.count, open = 0;
+    json_t *verdicts = values_object(v->doc, "verdicts");
+    json_t *failing = values_list(values_object(verdicts, "failing"), "listed");
+    json_t *others = values_list(values_object(verdicts, "others"), "listed");
+    json_t *all = values_list(values_object(verdicts, "all"), "listed");
+    for (int i = 0; i < listed; i++) {
+        const Finding *f = &ranked.list[i];
+        bool is_open = f->counts && f->verdict != VERDICT_PASS;
+        open += is_open;
+        values_add_finding(v, is_open ? failing : others, f);
+        values_add_finding(v, all, f);
+    }
+    page_set_count(verdicts, "failing_count", open);
+    page_set_count(verdicts, "others_count", listed - open);
+    page_set_count(verdicts, "listed_count", listed);
+    page_set_count(verdicts, "unlisted", listed < ranked.count ? ranked.count : 0);
 }
 
 /* ---- limits ----------------------------------------------------------------------------- */
@@ -294,7 +304,6 @@ static void set_provenance(const PageValues *v) {
     }
     json_object_set_new(v->doc, "commands", json_texts(page->commands, page->command_count));
     page_set_flag(v->doc, "has_commands", page->command_count > 0);
-    page_set_count(v->doc, "case_count", review_case_count(v->review));
     page_set_count(v->doc, "note_count", v->review->note_count);
     page_set_count(v->doc, "response_count", v->review->response_count);
 }

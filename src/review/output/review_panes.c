@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "review/output/review_todo.h"
 #include "review/finding.h"
 #include "review/output/finding_words.h"
 #include "review/output/review_words.h"
@@ -41,7 +40,6 @@ static void set_image(json_t *to, const PaneFinding *f, Arena *arena) {
     if (!f->has_limit) return;
     values_set_verdict(to, f->limit.verdict);
     page_set(to, "most", words_number(f->limit.value, arena));
-    page_set(to, "todo", todo_of_pane(f, arena));
 }
 
 /* Of the findings from `first` on those that the same eye has in the same condition. */
@@ -66,10 +64,6 @@ static void add_view(const PageValues *v, json_t *list, int first) {
 
 void values_add_panes(const PageValues *v) {
     const Review *review = v->review;
-    Findings ranked = review_ranked(review, v->arena);
-    const PaneFinding *worst = NULL;
-    for (int i = ranked.count - 1; i >= 0; i--)
-        if (ranked.list[i].pane) worst = ranked.list[i].pane;
     page_set_flag(v->doc, "has_panes", review->pane_image_count > 0);
     if (!review->pane_image_count) return;
     json_t *views = values_list(v->doc, "pane_views");
@@ -78,9 +72,4 @@ void values_add_panes(const PageValues *v) {
         while (!is_of_view(&review->pane_images[k], &review->pane_images[i])) k++;
         if (k == i) add_view(v, views, i);
     }
-    if (!worst) return;
-    json_t *to = values_object(v->doc, "pane_worst");
-    page_set(to, "eye", worst->eye);
-    page_set(to, "condition", worst->condition);
-    page_set(to, "words", review_pane_words(worst, v->arena));
 }

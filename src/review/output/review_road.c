@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "page/page.h"
-#include "review/output/review_todo.h"
 #include "review/output/review_words.h"
 #include "text/interval_text.h"
 #include "text/text.h"
@@ -250,7 +249,6 @@ static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena) {
     json_t *to = page_add(list), *ages = new_list(to, "ages");
     page_set(to, "name", road_name(gaze, arena));
     page_set(to, "words", road_words(gaze, arena));
-    page_set(to, "todo", todo_of_road(gaze, arena));
     page_set(to, "outcome", road_outcome(gaze));
     page_set(to, "class", road_has_limit(road) ? words_class(gaze->verdict) : "");
     page_set(to, "road", arena_format(arena, "%.4g", road->luminance_cd_m2));

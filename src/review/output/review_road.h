@@ -18,7 +18,6 @@ const char *road_words(const GazeFinding *gaze, Arena *arena);
 /* "pass", "fail", ...; "no limit", "not evaluated". */
 const char *road_outcome(const GazeFinding *gaze);
 
-
 /* A variant's road and the review's own, of the same condition, eye and gaze, by the age that
  * is told of the variant. */
 typedef struct RoadChange {

@@ -6,8 +6,10 @@
 
 #include "base/mathd.h"
 #include "review/output/review_words.h"
+#include "review/pane_verdict.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
+#include "review/road_verdict.h"
 #include "review/terms.h"
 #include "text/text.h"
 
@@ -131,10 +133,9 @@ static bool is_dimmable(const RoadDimming *row) {
 }
 
 /* By the one that makes most; else by all; else no display helps. */
-const char *todo_of_road(const GazeFinding *gaze, Arena *arena) {
+static const char *todo_of_road(const GazeFinding *gaze, Arena *arena) {
     const GazeRoad *road = gaze->road;
-    const RoadAge *age = gaze->road ? gaze_worst_age(gaze) : NULL;
-    if (!age || age->limit.verdict == VERDICT_PASS) return "";
+    const RoadAge *age = gaze_worst_age(gaze);
     double share = 0;
     const RoadDimming *all = dimming_of(road, NULL, age->age_years);
     for (int i = 0; i < age->display_count; i++) {
@@ -148,18 +149,33 @@ const char *todo_of_road(const GazeFinding *gaze, Arena *arena) {
     rest.found = left * age->increment_pct;
     rest.low = left * age->increment_range.low;
     rest.high = left * age->increment_range.high;
-    rest.unit = "%";
     rest.age_years = 0;
     return arena_format(arena, TERM_NOTHING_HERE, words_found(&rest, arena),
                         words_bound(&rest, arena));
 }
 
-/* ---- an image in glass ------------------------------------------------------------------- */
+/* ---- the others -------------------------------------------------------------------------- */
 
-const char *todo_of_pane(const PaneFinding *f, Arena *arena) {
-    if (!f->has_limit || f->none || f->limit.verdict == VERDICT_PASS) return "";
+static const char *todo_of_pane(const PaneFinding *f, Arena *arena) {
     double factor = f->limit.value / f->contrast_range.high;
     return factor > 0 && factor < 1 && factor * f->image >= SEEN_CD_M2
                ? arena_format(arena, TERM_DIM_IMAGE, f->display, percent(factor, -1, arena))
                : arena_format(arena, TERM_NO_LEVEL_DIMS, f->display);
+}
+
+static const char *todo_of_gaze(const Finding *f, Arena *arena) {
+    const GazeFinding *gaze = f->gaze;
+    if (limit_kind_named(f->worst->kind) == LIMIT_THRESHOLD_INCREMENT)
+        return todo_of_road(gaze, arena);
+    return gaze->mirrored_by
+               ? arena_format(arena, TERM_DARKER, gaze->mirrored_from, gaze->mirrored_by)
+               : TERM_SHADE;
+}
+
+const char *todo_of_finding(const Finding *f, Arena *arena) {
+    if (f->c) return todo_of_case(f->c, arena);
+    if (f->verdict == VERDICT_PASS || !f->worst) return "";
+    if (f->verdict == VERDICT_UNJUDGED) return TERM_GIVE_DATA;
+    if (f->pane) return todo_of_pane(f->pane, arena);
+    return f->gaze ? todo_of_gaze(f, arena) : arena_format(arena, TERM_MATT, f->subject);
 }

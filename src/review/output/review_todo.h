@@ -8,11 +8,8 @@
  */
 #pragma once
 #include "base/arena.h"
-#include "review/pane_verdict.h"
-#include "review/road_verdict.h"
-#include "review/verdict.h"
+#include "review/finding.h"
 
-/* "": it passes, or nothing is asked of it. */
+/* "": it passes, or nothing is known that would help. */
+const char *todo_of_finding(const Finding *finding, Arena *arena);
 const char *todo_of_case(const ReviewCase *c, Arena *arena);
-const char *todo_of_road(const GazeFinding *gaze, Arena *arena);
-const char *todo_of_pane(const PaneFinding *pane, Arena *arena);

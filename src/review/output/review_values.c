@@ -44,11 +44,6 @@ json_t *values_of_case(const PageValues *v, const ReviewCase *c) {
     return json_array_get(json_object_get(v->doc, "cases"), (size_t)(c - v->review->cases));
 }
 
-void values_add_case(const PageValues *v, json_t *list, const ReviewCase *c) {
-    if (c) json_array_append(list, values_of_case(v, c));
-    else page_set(page_add(list), "link", NULL);
-}
-
 void values_set_verdict(json_t *to, Verdict verdict) {
     page_set(to, "class", words_class(verdict));
     page_set(to, "mark", words_mark(verdict));
@@ -77,6 +72,42 @@ static void set_limit(json_t *to, const LimitVerdict *limit, Arena *arena) {
     page_set(to, "margin", words_margin(limit->margin, arena));
     page_set_flag(to, "has_margin", !isnan(limit->margin));
     page_set(to, "bar", review_bar_margin(limit, arena));
+}
+
+/* Where more stands of what is no case. */
+static const char *link_of(const Finding *f) {
+    return f->pane ? "#panes" : f->sun ? "#suns" : f->gaze->road ? "#roads" : "#gazes";
+}
+
+/* As a case's own: what lists, the grid and the first screen show of it. */
+static json_t *finding_values(const PageValues *v, const Finding *f) {
+    Arena *arena = v->arena;
+    const char *reason = finding_reason(f, arena);
+    json_t *to = json_object();
+    values_set_verdict(to, f->verdict);
+    page_set(to, "symbol", f->subject);
+    page_set(to, "eye", f->viewer ? f->viewer : "?");
+    page_set(to, "condition", f->condition ? f->condition : "?");
+    page_set(to, "case", finding_name(f, arena));
+    page_set(to, "link", link_of(f));
+    page_set(to, "reason", reason);
+    page_set(to, "headline", reason);
+    page_set(to, "unjudged", reason);
+    page_set(to, "todo", todo_of_finding(f, arena));
+    page_set(to, "figure", f->why ? unjudged_names[f->why] : words_quantity(f->worst, arena));
+    page_set(to, "other_contrast", NULL);
+    page_set_flag(to, "is_judged", !f->why);
+    page_set_flag(to, "is_worst", false);
+    page_set(to, "bars", NULL);
+    set_limit(values_object(to, "judged"), f->worst, arena);
+    json_object_set(to, "held", f->why ? json_null() : json_object_get(to, "judged"));
+    return to;
+}
+
+void values_add_finding(const PageValues *v, json_t *list, const Finding *f) {
+    if (!f) page_set(page_add(list), "link", NULL);
+    else if (f->c) json_array_append(list, values_of_case(v, f->c));
+    else json_array_append_new(list, finding_values(v, f));
 }
 
 /* Limits without a figure are named behind the table. */
@@ -290,7 +321,7 @@ bool values_add_cases(const PageValues *v, Error *err) {
 
 /* ---- the answer -------------------------------------------------------------------------- */
 
-#define GRID_ROWS 7
+#define GRID_ROWS 24
 #define GRID_EYES 4
 #define GRID_WIDTH 790 /* pixels, of a screen of 1280, beside the worst case (review.css) */
 #define LETTER 8.7     /* pixels: bold letters of 13 pixels, wide ones */
@@ -304,26 +335,15 @@ bool values_add_cases(const PageValues *v, Error *err) {
 
 /* ---- the verdict ------------------------------------------------------------------------ */
 
-/* Words before the worst case; "": none. */
-static const char *answer_words(const Review *review, const ReviewCase *worst) {
-    if (!review_case_counts(worst)) return "nothing is required to be read; ";
+/* Words before the worst; "": none. */
+static const char *lead_words(const Review *review, const Finding *worst) {
+    if (!worst->counts) return "nothing is required to be read; ";
     if (!review->pass) return worst->verdict == VERDICT_PASS ? "the worst is " : "";
     return worst->verdict == VERDICT_PASS ? "closest to its limit is "
                                           : "nothing fails; the worst is ";
 }
 
-/* A gaze at a road that decides more than any symbol does is named first. */
-static const char *lead_words(const Review *review, const ReviewCase *worst, Arena *arena) {
-    const char *words = answer_words(review, worst);
-    int rank = review_case_counts(worst) ? verdict_rank(worst->verdict) : -1;
-    Findings ranked = review_ranked(review, arena);
-    const Finding *first = &ranked.list[0];
-    if (first->c || verdict_rank(first->verdict) <= rank) return words;
-    return arena_format(arena, "%s: %s; of what is read the worst is ", finding_name(first, arena),
-                        finding_reason(first, arena));
-}
-
-static void set_verdict(json_t *to, const Review *review, const ReviewCase *worst, Arena *arena) {
+static void set_verdict(json_t *to, const Review *review, const Finding *worst, Arena *arena) {
     static const char *const CLASSES[4] = {[VERDICT_PASS] = " same",
                                            [VERDICT_FAIL] = "",
                                            [VERDICT_TOO_CLOSE] = " open",
@@ -331,43 +351,45 @@ static void set_verdict(json_t *to, const Review *review, const ReviewCase *wors
     Verdict verdict = review_verdict(review);
     page_set(to, "class", CLASSES[verdict]);
     page_set(to, "outcome", review_outcome_words(review, arena));
-    page_set(to, "lead", worst ? lead_words(review, worst, arena) : "");
+    page_set(to, "lead", worst ? lead_words(review, worst) : "");
 }
 
 /* ---- every symbol and eye --------------------------------------------------------------- */
 
 typedef struct Grid {
-    const ReviewCase **ranked; /* the worst first */
-    int count;
-    WordList symbols, eyes; /* in the order of their worst */
+    Findings ranked;         /* the worst first */
+    WordList subjects, eyes; /* in the order of their worst */
 } Grid;
 
 static Grid make_grid(const Review *review, Arena *arena) {
-    int count = review_case_count(review);
-    Grid grid = {review_rank(review, arena), count, words_list(count, arena),
-                 words_list(count, arena)};
-    for (int i = 0; i < count; i++) {
-        words_list_add(&grid.symbols, grid.ranked[i]->symbol);
-        words_list_add(&grid.eyes, grid.ranked[i]->eye);
+    Findings ranked = review_ranked(review, arena);
+    Grid grid = {ranked, words_list(ranked.count, arena), words_list(ranked.count, arena)};
+    for (int i = 0; i < ranked.count; i++) {
+        words_list_add(&grid.subjects, ranked.list[i].subject);
+        words_list_add(&grid.eyes, ranked.list[i].viewer);
     }
     return grid;
 }
 
-static const ReviewCase *worst_of(const Grid *grid, const char *symbol, const char *eye) {
-    for (int i = 0; i < grid->count; i++)
-        if (words_same(grid->ranked[i]->symbol, symbol) && words_same(grid->ranked[i]->eye, eye))
-            return grid->ranked[i];
+static const Finding *worst_of(const Grid *grid, const char *subject, const char *eye) {
+    for (int i = 0; i < grid->ranked.count; i++)
+        if (words_same(grid->ranked.list[i].subject, subject) &&
+            words_same(grid->ranked.list[i].viewer, eye))
+            return &grid->ranked.list[i];
     return NULL;
 }
 
 static json_t *row_values(const PageValues *v, const Grid *grid, int row, int eyes) {
     json_t *to = json_object(), *cells = values_list(to, "cells");
-    const char *symbol = grid->symbols.list[row];
-    bool has_summary = v->review->has_summaries && !v->review->whole;
-    page_set(to, "name", symbol);
-    page_set(to, "summary", has_summary ? review_summary_name(v->review, symbol, v->arena) : NULL);
+    const char *subject = grid->subjects.list[row];
+    bool has_summary = false;
+    for (int i = 0; i < review_case_count(v->review); i++)
+        has_summary |= words_same(review_case_at(v->review, i)->symbol, subject);
+    has_summary &= v->review->has_summaries && !v->review->whole;
+    page_set(to, "name", subject);
+    page_set(to, "summary", has_summary ? review_summary_name(v->review, subject, v->arena) : NULL);
     for (int i = 0; i < eyes; i++)
-        values_add_case(v, cells, worst_of(grid, symbol, grid->eyes.list[i]));
+        values_add_finding(v, cells, worst_of(grid, subject, grid->eyes.list[i]));
     return to;
 }
 
@@ -417,9 +439,9 @@ static int longest_word(const char *text) {
 static double grid_width(const Grid *grid, int rows, int eyes) {
     double symbol = 0, below = LEAST_CELL, width = 0;
     for (int i = 0; i < rows; i++)
-        symbol = fmax(symbol, LETTER * longest_word(grid->symbols.list[i]));
-    for (int i = 0; i < grid->count; i++)
-        below = fmax(below, SMALL_LETTER * longest_word(grid->ranked[i]->condition));
+        symbol = fmax(symbol, LETTER * longest_word(grid->subjects.list[i]));
+    for (int i = 0; i < grid->ranked.count; i++)
+        below = fmax(below, SMALL_LETTER * longest_word(grid->ranked.list[i].condition));
     for (int i = 0; i < eyes; i++)
         width += fmax(below, LETTER * longest_word(grid->eyes.list[i])) + CELL_MARGIN;
     return width + symbol + CELL_MARGIN;
@@ -433,8 +455,8 @@ static bool fits_phone(const Grid *grid, int eyes) {
         int word = longest_word(grid->eyes.list[i]);
         if (word > eye) eye = word;
     }
-    for (int i = 0; i < grid->count; i++) {
-        int word = longest_word(grid->ranked[i]->condition);
+    for (int i = 0; i < grid->ranked.count; i++) {
+        int word = longest_word(grid->ranked.list[i].condition);
         if (word > condition) condition = word;
     }
     return PHONE_LETTER * eye <= room && PHONE_SMALL * condition <= room;
@@ -443,7 +465,7 @@ static bool fits_phone(const Grid *grid, int eyes) {
 static void set_grid(const PageValues *v, json_t *to) {
     Grid grid = make_grid(v->review, v->arena);
     int eyes = grid.eyes.count < GRID_EYES ? grid.eyes.count : GRID_EYES;
-    int symbols = grid.symbols.count, rows = symbols < GRID_ROWS ? symbols : GRID_ROWS;
+    int subjects = grid.subjects.count, rows = subjects < GRID_ROWS ? subjects : GRID_ROWS;
     while (eyes > 1 && grid_width(&grid, rows, eyes) > GRID_WIDTH) eyes--;
     bool has_all_eyes = eyes == grid.eyes.count;
     json_t *list = values_list(to, "rows");
@@ -454,20 +476,26 @@ static void set_grid(const PageValues *v, json_t *to) {
     page_set_flag(to, "stacked", !fits_phone(&grid, eyes));
     page_set_count(to, "shown", rows);
     page_set_count(to, "shown_eyes", eyes);
-    page_set_count(to, "symbols", symbols);
+    page_set_count(to, "subjects", subjects);
     page_set_count(to, "of_eyes", has_all_eyes ? 0 : grid.eyes.count);
-    page_set_flag(to, "of_symbols", has_all_eyes && rows < symbols);
+    page_set_flag(to, "of_subjects", has_all_eyes && rows < subjects);
     page_set(to, "counts", count_words(v->review, v->arena));
 }
 
 /* ---- the worst case --------------------------------------------------------------------- */
 
-static const ReviewPicture *frame_of(const ReviewPage *page, const ReviewCase *c) {
+/* Its own; else one that the same eye has under the same condition. */
+static const ReviewPicture *frame_of(const ReviewPage *page, const Finding *f) {
+    const ReviewPicture *like = NULL;
     for (int i = 0; i < page->picture_count; i++) {
         const ReviewPicture *p = &page->pictures[i];
-        if (p->of == c && p->is_frame) return p;
+        if (!p->is_frame) continue;
+        if (p->of == f->c) return p;
+        if (!like && words_same(p->of->eye, f->viewer) &&
+            words_same(p->of->condition, f->condition))
+            like = p;
     }
-    return NULL;
+    return like;
 }
 
 /* The part of the frame about the symbol, larger; of a frame that stands elsewhere. */
@@ -508,9 +536,10 @@ static void set_rests(const PageValues *v) {
     }
 }
 
-static void set_facts(const PageValues *v, const ReviewCase *c) {
+static void set_facts(const PageValues *v, const Finding *f) {
     json_t *list = values_list(v->doc, "facts");
-    ReviewFacts facts = review_facts_of(v->review, c, values_directions(v, c), v->arena);
+    const char *const *directions = f->c ? values_directions(v, f->c) : NULL;
+    ReviewFacts facts = review_facts_of(v->review, f, directions, v->arena);
     for (int i = 0; i < facts.count; i++) {
         json_t *fact = page_add(list);
         page_set(fact, "name", facts.list[i].name);
@@ -519,12 +548,16 @@ static void set_facts(const PageValues *v, const ReviewCase *c) {
 }
 
 bool values_add_answer(const PageValues *v, Error *err) {
-    const ReviewCase *worst = review_worst(v->review, *v->arena);
+    Findings ranked = review_ranked(v->review, v->arena);
+    const Finding *worst = ranked.count ? &ranked.list[0] : NULL;
     const ReviewPicture *frame = worst ? frame_of(v->page, worst) : NULL;
     set_verdict(values_object(v->doc, "answer"), v->review, worst, v->arena);
     set_rests(v);
     if (!worst) return true;
-    json_object_set(v->doc, "worst", values_of_case(v, worst));
+    json_t *first = json_array();
+    values_add_finding(v, first, worst);
+    json_object_set(v->doc, "worst", json_array_get(first, 0));
+    json_decref(first);
     set_grid(v, values_object(v->doc, "grid"));
     set_facts(v, worst);
     return !frame || set_frame(v, frame, err);

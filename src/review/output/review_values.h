@@ -61,8 +61,8 @@ typedef struct PageValues {
 json_t *values_of_case(const PageValues *v, const ReviewCase *c);
 json_t *values_of_sweep(const PageValues *v, const ReviewSweep *s);
 
-/* Shows the case once more, in a list; c: NULL is a cell without one. */
-void values_add_case(const PageValues *v, json_t *list, const ReviewCase *c);
+/* Shows a finding in a list, of a case its own object once more; NULL: a cell without one. */
+void values_add_finding(const PageValues *v, json_t *list, const Finding *f);
 
 /* A new list or object of that name; borrowed. */
 json_t *values_list(json_t *to, const char *name);

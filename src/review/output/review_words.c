@@ -151,7 +151,7 @@ const char *words_minutes(double minutes, Arena *arena) {
                       : arena_format(arena, "%ld h", whole / 60);
 }
 
-const char *words_limit(const LimitVerdict *limit, Arena *arena) {
+static const char *words_limit(const LimitVerdict *limit, Arena *arena) {
     return with_unit(limit, words_number(limit->value, arena), arena);
 }
 

@@ -62,9 +62,6 @@ const char *words_judged(const ReviewCase *c, Arena *arena);
 /* "3 min", "1 h 25 min"; "–" for NaN. */
 const char *words_minutes(double minutes, Arena *arena);
 
-/* "2 : 1": the limit itself. */
-const char *words_limit(const LimitVerdict *limit, Arena *arena);
-
 /* ">= 2 : 1", "<= 2 : 1"; "(advice)" behind what is preferred and not required. */
 const char *words_required(const LimitVerdict *limit, Arena *arena);
 
