@@ -13,11 +13,9 @@
 #include "cli/options/answer.h"
 #include "cli/options/outputs.h"
 #include "compare/folders.h"
-#include "compare/metrics.h"
-#include "compare/report/comparison_json.h"
+#include "compare/headline.h"
+#include "compare/report/answer.h"
 #include "compare/report/html_report.h"
-#include "compare/report/junit.h"
-#include "text/json_text.h"
 
 #define FAILED_BYTES 4096
 
@@ -26,129 +24,54 @@ typedef struct CompareRun {
     const CompareRequest *request;
     Arena *arena;
     HtmlReport html;
-    Junit junit;
-    json_t *pairs;                /* of folders */
-    int count, different, failed; /* failed: could not be compared */
+    CompareAnswer answer;
     ErrorCode first_failure;
 } CompareRun;
 
 static void start(const CompareRequest *request, bool is_folder, Arena *arena, CompareRun *run) {
-    *run = (CompareRun){.request = request, .arena = arena, .pairs = json_array()};
+    *run = (CompareRun){.request = request, .arena = arena};
+    answer_start(&run->answer);
     if (request->report) html_report_start(&run->html, is_folder);
-    if (request->junit) junit_start(&run->junit);
 }
 
 static void end(CompareRun *run) {
     if (run->request->report) html_report_release(&run->html);
-    if (run->request->junit) junit_release(&run->junit);
-    json_decref(run->pairs);
+    answer_release(&run->answer);
 }
 
-static bool collect(CompareRun *run, const char *name, const Comparison *c,
-                    const CompareOptions *options, Arena scratch, Error *err) {
-    run->count++;
-    run->different += !c->same;
-    if (run->request->junit) junit_add(&run->junit, name, c);
-    return !run->request->report || html_report_add(&run->html, name, c, options, scratch, err);
-}
-
-static bool write_files(const CompareRun *run, Error *err) {
+/* folders: the document of both; NULL of two files. */
+static bool write_files(const CompareRun *run, const json_t *folders, Error *err) {
     const CompareRequest *r = run->request;
-    if (r->report && !html_report_write(&run->html, r->reference, r->test, r->report, err))
-        return false;
-    return !r->junit || junit_write(&run->junit, "parhelion compare", r->junit, err);
+    const char *const sides[2] = {r->reference, r->test};
+    if (r->report && !html_report_write(&run->html, folders, sides, r->report, err)) return false;
+    return !r->junit || answer_write_junit(&run->answer, r->junit, err);
 }
 
-static bool wants_json(const CompareRequest *request) {
-    return request->cli.json || request->answer;
-}
-
-/* Into the file and to stdout, as far as they are requested; releases it. */
-static bool answer_json(const CompareRequest *request, json_t *document, Error *err) {
-    if (request->answer && !cli_write_json(document, request->answer, err)) {
-        json_decref(document);
-        return false;
-    }
-    if (request->cli.json) return cli_print_json(document, err);
-    json_decref(document);
-    return true;
+/* Into the file and to stdout, as far as they are requested. */
+static bool print_json(const CompareRequest *request, json_t *document, Error *err) {
+    if (request->answer && !cli_write_json(document, request->answer, err)) return false;
+    return !request->cli.json || cli_print_json(json_incref(document), err);
 }
 
 /* ---- as text ----------------------------------------------------------------------------- */
 
-static bool is_known(const Comparison *c, Metric metric) {
-    return !isnan(c->value[metric]);
-}
-
-static void print_flip(const Comparison *c) {
-    if (!is_known(c, METRIC_FLIP)) return;
-    print("%-12s %.4g, median %.4g, p95 %.4g, max %.4g", "flip", c->value[METRIC_FLIP],
-          c->value[METRIC_FLIP_MEDIAN], c->value[METRIC_FLIP_P95], c->value[METRIC_FLIP_MAX]);
-    if (c->reference.kind == INPUT_FRAME)
-        print(" (%d exposures, EV %.1f to %.1f)", c->exposures.count,
-              ev_of_stops(c->exposures.stop_ev), ev_of_stops(c->exposures.start_ev));
-    print("\n");
-}
-
-static void print_errors(const Comparison *c) {
-    const char *unit = c->reference.kind == INPUT_FRAME ? " cd/m2" : "";
-    if (is_known(c, METRIC_MEAN_SHIFT))
-        print("%-12s %+.4g %%\n", "mean_shift", 100 * c->value[METRIC_MEAN_SHIFT]);
-    if (is_known(c, METRIC_MSE))
-        print("%-12s mae %.4g%s, mse %.4g, relmse %.4g, max %.4g%s\n", "error",
-              c->value[METRIC_MAE], unit, c->value[METRIC_MSE], c->value[METRIC_RELMSE],
-              c->value[METRIC_MAX_DIFFERENCE], unit);
-    if (is_known(c, METRIC_PSNR)) print("%-12s %.4g dB\n", "psnr", c->value[METRIC_PSNR]);
-    if (is_known(c, METRIC_SSIM)) print("%-12s %.6g\n", "ssim", c->value[METRIC_SSIM]);
-    if (is_known(c, METRIC_DELTAE_MEAN))
-        print("%-12s mean %.4g, p95 %.4g, max %.4g\n", "deltae", c->value[METRIC_DELTAE_MEAN],
-              c->value[METRIC_DELTAE_P95], c->value[METRIC_DELTAE_MAX]);
-}
-
-static void print_statistic(const StatisticResult *s) {
-    print("%-12s p = %.3g, %.3g %% of %d x %d blocks beyond the level, mean %+.4g %%\n", "stat",
-          s->p_value, 100 * s->fraction_failed, s->blocks_x, s->blocks_y, 100 * s->mean_shift);
-    for (int i = 0; i < s->region_count; i++) {
-        const StatisticRegion *r = &s->regions[i];
-        if (r->moved)
-            print("%-12s %s: %.5g to %.5g cd/m2, %+.3g +- %.2g %% (p = %.2g)\n", "  moved", r->name,
-                  r->reference, r->test, 100 * r->shift, 196 * r->shift_sigma, r->p_value);
-    }
-}
-
-static void print_contrasts(const Comparison *c) {
-    for (int i = 0; i < c->contrast_count; i++) {
-        const ContrastChange *d = &c->contrasts[i];
-        print("%-12s %s: %.4g : 1 to %.4g : 1, %+.3g", "contrast", d->display,
-              d->reference.contrast.value, d->test.contrast.value, 100 * (d->ratio.value - 1));
-        if (isfinite(d->ratio.low)) print(" +- %.2g", 100 * measured_half_width(d->ratio));
-        print(" %%\n");
-    }
-}
-
-/* Metrics, notes and the verdict of two files. */
-static void compare_print_pair(const CompareRequest *request, const Comparison *c) {
-    if (c->has_pixels) {
-        print_contrasts(c);
-        if (c->has_stat) print_statistic(&c->stat);
-        print("%-12s %ld of %ld differ\n", "pixels", c->channels.differing, c->selection.pixels);
-        print_errors(c);
-        print_flip(c);
+/* Rows, notes, reasons and the answer of two files. */
+static void print_pair(const CompareRequest *request, const Comparison *c) {
+    for (int i = 0; i < c->row_count; i++) {
+        const CompareRow *r = &c->rows[i];
+        print("%s: %s%s%s%s%s\n", r->label, r->text, r->limit_text ? ", " : "",
+              r->limit_text ? r->limit_text : "", r->verdict[0] ? ", " : "", r->verdict);
     }
     for (int i = 0; i < c->notes.count; i++) print("note: %s\n", c->notes.list[i]);
-    for (int i = 0; i < c->reasons.count && c->reasons.count > 1; i++)
-        print("reason: %s\n", c->reasons.list[i]);
+    for (int i = 0; i < c->reasons.count; i++) print("reason: %s\n", c->reasons.list[i]);
     if (request->report) print("report: %s\n", request->report);
-    print("%s: %s%s%s\n", c->same ? "same" : "different", c->verdict, c->mean[0] ? ". " : "",
-          c->mean);
+    print("%s: %s\n", compare_outcome_names[c->outcome], c->verdict);
 }
 
 /* One line for a pair of two folders. */
-static void compare_print_line(const char *name, const Comparison *c) {
-    print("%-10s %s: %s", c->same ? "same" : "different", name, c->verdict);
-    if (c->has_pixels && is_known(c, METRIC_FLIP) && c->channels.differing > 0)
-        print(" [flip %.3g]", c->value[METRIC_FLIP]);
-    print("\n");
+static void print_line(const CompareRun *run, const char *outcome, const char *name,
+                       const char *finding) {
+    if (!run->request->cli.json) print("%-13s %s: %s\n", outcome, name, finding);
 }
 
 /* ---- two files --------------------------------------------------------------------------- */
@@ -156,49 +79,34 @@ static void compare_print_line(const char *name, const Comparison *c) {
 static Outcome compare_two(CompareRun *run, Error *err) {
     const CompareRequest *r = run->request;
     Comparison c;
-    if (!compare_files(r->reference, r->test, &r->options, run->arena, &c, err) ||
-        !collect(run, r->test, &c, &r->options, *run->arena, err) || !write_files(run, err) ||
-        (wants_json(r) && !answer_json(r, comparison_json(&c, &r->options), err)))
+    if (!compare_files(r->reference, r->test, &r->options, run->arena, &c, err))
         return OUTCOME_FAILED;
-    if (!r->cli.json) compare_print_pair(r, &c);
+    json_t *pair = answer_add(&run->answer, r->test, &c);
+    if ((r->report && !html_report_add(&run->html, pair, &c, *run->arena, err)) ||
+        !write_files(run, NULL, err) || !print_json(r, pair, err))
+        return OUTCOME_FAILED;
+    if (!r->cli.json) print_pair(r, &c);
     return c.same ? OUTCOME_DONE : OUTCOME_NO;
 }
 
 /* ---- two folders ------------------------------------------------------------------------- */
 
-static void add_pair_json(CompareRun *run, const char *name, json_t *pair) {
-    json_object_set_new(pair, "name", json_text(name));
-    json_array_append_new(run->pairs, pair);
-}
-
-/* A file that is on one side only. */
-static void add_missing(CompareRun *run, const char *name, const char *why) {
-    run->count++;
-    run->different++;
-    if (run->request->junit) junit_add_failure(&run->junit, name, why, false);
-    if (run->request->report) html_report_add_failure(&run->html, name, why);
-    if (!run->request->cli.json) print("%-10s %s: %s\n", "different", name, why);
-    add_pair_json(run, name,
-                  json_pack("{s:b, s:o, s:[o], s:[]}", "same", 0, "verdict", json_text(why),
-                            "reasons", json_text(why), "notes"));
+static void add_missing(CompareRun *run, const char *name, bool is_in_test) {
+    const json_t *pair = answer_add_missing(&run->answer, name, is_in_test);
+    const char *verdict = json_string_value(json_object_get(pair, "verdict"));
+    if (run->request->report) html_report_add_failure(&run->html, pair);
+    print_line(run, "missing", name, strrchr(verdict, ':') + 2);
 }
 
 /* A pair that cannot be compared: said on stderr, and the others go on. */
 static void add_failed(CompareRun *run, const char *name, const Error *error) {
     char line[2048];
-    run->count++;
-    run->failed++;
     if (run->first_failure == ERROR_NONE) run->first_failure = error->code;
     cli_error_line(error, line, (int)sizeof line);
     print_to(stderr, "%s\n", line);
-    if (run->request->junit) junit_add_failure(&run->junit, name, line, true);
-    if (run->request->report) html_report_add_failure(&run->html, name, line);
-    if (!run->request->cli.json) print("%-10s %s: see the error\n", "failed", name);
-    add_pair_json(run, name,
-                  json_pack("{s:b, s:[o], s:[], s:{s:i, s:o, s:o}}", "same", 0, "reasons",
-                            json_text(line), "notes", "error", "status",
-                            error_exit_status(error->code), "file", json_text(error->file),
-                            "message", json_text(error->text)));
+    const json_t *pair = answer_add_failed(&run->answer, name, line, error);
+    if (run->request->report) html_report_add_failure(&run->html, pair);
+    print_line(run, "failed", name, "see the error");
 }
 
 /* "noon" and "noon.exr" both name noon.exr. */
@@ -240,17 +148,17 @@ static bool spare_pairs(const CompareRequest *request, const FolderPairs *pairs,
 }
 
 static bool add_compared(CompareRun *run, const FolderPair *pair, Arena arena, Error *err) {
-    const CompareOptions *options = options_of(run->request, pair->name);
+    CompareOptions options = *options_of(run->request, pair->name);
     Comparison c;
     Error why;
-    if (!compare_files(pair->reference, pair->test, options, &arena, &c, &why)) {
+    options.name = pair->name;
+    if (!compare_files(pair->reference, pair->test, &options, &arena, &c, &why)) {
         add_failed(run, pair->name, &why);
         return true;
     }
-    if (!collect(run, pair->name, &c, options, arena, err)) return false;
-    if (wants_json(run->request)) add_pair_json(run, pair->name, comparison_json(&c, options));
-    if (!run->request->cli.json) compare_print_line(pair->name, &c);
-    return true;
+    const json_t *document = answer_add(&run->answer, pair->name, &c);
+    print_line(run, compare_outcome_names[c.outcome], pair->name, c.finding);
+    return !run->request->report || html_report_add(&run->html, document, &c, arena, err);
 }
 
 /* A picture that could not be made: whoever tried left the line that says why. */
@@ -272,28 +180,18 @@ static bool add_pair(CompareRun *run, const FolderPair *pair, Error *err) {
         return true;
     }
     if (pair->reference && pair->test) return add_compared(run, pair, *run->arena, err);
-    if (pair->reference) add_missing(run, pair->name, "is missing in the test");
-    else if (!run->request->allow_extra)
-        add_missing(run, pair->name, "is only in the test (--allow-extra lets that pass)");
+    if (pair->reference || !run->request->allow_extra)
+        add_missing(run, pair->name, !pair->reference);
     return true;
 }
 
 static bool print_total(const CompareRun *run, Error *err) {
-    int same = run->count - run->different - run->failed;
-    if (wants_json(run->request) &&
-        !answer_json(run->request,
-                     json_pack("{s:b, s:i, s:i, s:i, s:i, s:O}", "same", same == run->count,
-                               "total", run->count, "equal", same, "different", run->different,
-                               "failed", run->failed, "pairs", run->pairs),
-                     err))
-        return false;
+    json_auto_t *folders = answer_json(&run->answer, *run->arena);
+    if (!write_files(run, folders, err) || !print_json(run->request, folders, err)) return false;
     if (run->request->cli.json) return true;
     if (run->request->report) print("report: %s\n", run->request->report);
-    print("%s: %d of %d pairs are the same", same == run->count ? "same" : "different", same,
-          run->count);
-    if (run->different) print(", %d differ", run->different);
-    if (run->failed) print(", %d could not be compared", run->failed);
-    print("\n");
+    print("%s: %s\n", json_string_value(json_object_get(folders, "outcome")),
+          json_string_value(json_object_get(folders, "verdict")));
     return true;
 }
 
@@ -310,11 +208,11 @@ static Outcome compare_folders(CompareRun *run, Error *err) {
         progress_update(&progress, i + 1);
     }
     progress_end(&progress, pairs.count);
-    if (run->count == 0)
+    if (run->answer.count == 0)
         return error_at(err, ERROR_INPUT, r->reference, "",
                         "there is no picture in this folder: nothing was compared");
-    if (!write_files(run, err) || !print_total(run, err)) return OUTCOME_FAILED;
-    if (!run->failed) return run->different ? OUTCOME_NO : OUTCOME_DONE;
+    if (!print_total(run, err)) return OUTCOME_FAILED;
+    if (!run->answer.failed) return run->answer.different ? OUTCOME_NO : OUTCOME_DONE;
     *err = (Error){.code = run->first_failure}; /* said already, pair by pair */
     return OUTCOME_FAILED;
 }

@@ -198,8 +198,10 @@ static void report_gaps(const ChannelDifferences *channels, Lines *reasons) {
                   count, count > 1 ? "s are" : " is", most, names);
 }
 
-void channels_report(const ChannelDifferences *channels, Lines *reasons, Lines *notes) {
+void channels_report(const ChannelDifferences *channels, Lines *reasons, Lines *notes,
+                     int *structural) {
     for (int i = 0; i < channels->count; i++) report_nonfinite(&channels->list[i], reasons);
+    *structural = reasons->count;
     report_gaps(channels, reasons);
     if (channels->outside)
         lines_add(notes,

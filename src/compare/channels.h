@@ -36,5 +36,7 @@ ChannelDifferences channels_compare(const CompareInput *reference, const Compare
                                     const Structure *structure, const CompareRules *rules,
                                     const Selection *selection, Arena *arena);
 
-/* Reasons for what always fails; a note for what lies outside the selection. */
-void channels_report(const ChannelDifferences *channels, Lines *reasons, Lines *notes);
+/* Reasons for what always fails; a note for what lies outside the selection. *structural: how
+ * many reasons there are before those of gaps in layers. */
+void channels_report(const ChannelDifferences *channels, Lines *reasons, Lines *notes,
+                     int *structural);

@@ -6,16 +6,14 @@
 
 #include "base/machine.h"
 #include "base/progress.h"
-#include "compare/comparison.h"
+#include "compare/headline.h"
 #include "compare/metrics.h"
 #include "compare/metrics/flip_filters.h"
 #include "compare/metrics/ssim.h"
+#include "compare/rows.h"
 
-#define LEAST_SAID 1e-3 /* of a change of contrast that has no interval */
-
-static double level_of(const CompareOptions *options) {
-    return options->level > 0 ? options->level : 0.01;
-}
+#define FEW_STANDOUTS 9  /* more are no single pixels */
+#define LEAST_WHITE 0.01 /* of a picture's white: less is as good as black */
 
 /* The metrics to compute: those requested, those that limits name, those that the judge
  * needs. */
@@ -44,10 +42,17 @@ static void judge_limits(const CompareOptions *options, Comparison *out) {
     }
 }
 
-static void judge_statistic(Comparison *out) {
-    if (out->stat.verdict != STATISTIC_DIFFERENT) return;
-    lines_add(&out->reasons, "%s",
-              out->stat.reason[0] ? out->stat.reason : "pixels differ by more than their noise");
+/* A pixel that its own noise does not explain fails: no mean of a block shows it, a driver sees
+ * it, and where the seed is the same, it is there every time. */
+static void judge_statistic(Comparison *out, Arena *arena) {
+    if (out->stat.verdict == STATISTIC_DIFFERENT)
+        lines_add(&out->reasons, "%s",
+                  out->stat.reason[0] ? out->stat.reason
+                                      : "pixels differ by more than their noise");
+    if (out->standout.count && !out->standout.is_explained)
+        lines_add(&out->reasons,
+                  "%s: more than %d times what is around it, and beyond its own noise",
+                  headline_pixel(out, &out->standout.most, arena), STANDOUT);
 }
 
 static void judge_equality(Comparison *out) {
@@ -92,126 +97,15 @@ static void judge_others(Comparison *out) {
                   is_own ? "" : arena_format(to->arena, " (--ignore %s leaves one out)", last));
 }
 
-static void judge(const CompareOptions *options, Comparison *out) {
-    out->judged_by = JUDGED_BY_LIMITS;
-    if (options->wants_stat || (options->threshold_count == 0 && out->has_stat)) {
-        out->judged_by = JUDGED_BY_STATISTIC;
-        judge_statistic(out);
-    } else if (options->threshold_count == 0) {
-        out->judged_by = JUDGED_BY_EQUALITY;
-        judge_equality(out);
-    }
-    judge_limits(options, out);
+static void judge(const CompareOptions *options, Arena *arena, Comparison *out) {
+    bool has_limits = options->threshold_count > 0;
+    out->judged_by = options->wants_stat || (!has_limits && out->has_stat) ? JUDGED_BY_STATISTIC
+                     : has_limits                                          ? JUDGED_BY_LIMITS
+                                                                           : JUDGED_BY_EQUALITY;
     if (out->judged_by != JUDGED_BY_EQUALITY) judge_others(out);
-}
-
-/* ---- sentences --------------------------------------------------------------------------- */
-
-static const char *limits_text(const CompareOptions *options, const Comparison *out, Arena *arena) {
-    const char *text = "";
-    for (int i = 0; i < options->threshold_count; i++) {
-        Threshold t = options->thresholds[i];
-        const MetricInfo *info = metric_info(t.metric);
-        text = arena_format(arena, "%s%s%s %.4g, %s %g", text, i ? "; " : "", info->name,
-                            out->value[t.metric], info->is_min ? "at least" : "at most", t.limit);
-    }
-    return text;
-}
-
-/* Beyond its interval; where no noise is stated, beyond what four digits show. */
-static bool contrast_moved(const ContrastChange *change) {
-    double far = fabs(change->ratio.value - 1);
-    double error = measured_half_width(change->ratio);
-    return isnan(error) ? far > LEAST_SAID : far > error;
-}
-
-/* "contrast of cluster 9.9 : 1 to 6.1 : 1 (-38 +- 0.5 %) and of 2 more displays; ", for what
- * changed most; "" when none did. */
-static const char *contrast_change_text(const Comparison *out, Arena *arena) {
-    const ContrastChange *most = NULL;
-    int count = 0;
-    for (int i = 0; i < out->contrast_count; i++) {
-        const ContrastChange *c = &out->contrasts[i];
-        if (!contrast_moved(c)) continue;
-        count++;
-        if (!most || fabs(c->ratio.value - 1) > fabs(most->ratio.value - 1)) most = c;
-    }
-    if (!most) return "";
-    double error = measured_half_width(most->ratio);
-    const char *text = arena_format(
-        arena, "contrast of %s %.3g : 1 to %.3g : 1 (%+.3g%s %%)", most->display,
-        most->reference.contrast.value, most->test.contrast.value, 100 * (most->ratio.value - 1),
-        !isfinite(error) ? "" : arena_format(arena, " +- %.2g", 100 * error));
-    if (count == 1) return arena_format(arena, "%s; ", text);
-    return arena_format(arena, "%s and of %d more display%s; ", text, count - 1,
-                        count > 2 ? "s" : "");
-}
-
-/* "contrast of 3 displays within 1.2 %; ": how far any may have moved; "" where no noise is
- * stated. */
-static const char *contrast_held_text(const Comparison *out, Arena *arena) {
-    double most = 0;
-    for (int i = 0; i < out->contrast_count; i++) {
-        Measured ratio = out->contrasts[i].ratio;
-        double far = fabs(ratio.value - 1) + measured_half_width(ratio);
-        if (!(far <= most)) most = far;
-    }
-    if (!(most > 0) || isinf(most)) return "";
-    return arena_format(arena, "contrast of %d display%s within %.2g %%; ", out->contrast_count,
-                        out->contrast_count > 1 ? "s" : "", 100 * most);
-}
-
-static const char *same_verdict(const CompareOptions *options, const Comparison *out,
-                                Arena *arena) {
-    if (out->judged_by == JUDGED_BY_EQUALITY ||
-        (out->channels.differing == 0 && out->channels.outside == 0))
-        return out->selection.is_part ? "equal in every pixel that counts" : "equal in every pixel";
-    const char *limits = limits_text(options, out, arena);
-    if (out->judged_by == JUDGED_BY_LIMITS)
-        return arena_format(arena, "within the limits (%s)", limits);
-    if (out->stat.verdict == STATISTIC_EQUAL) return "the light is equal in every pixel";
-    return arena_format(arena,
-                        "%sonly the noise differs, the mean did not move (p = %.3g at a "
-                        "level of %g)%s%s",
-                        contrast_held_text(out, arena), out->stat.p_value, level_of(options),
-                        limits[0] ? "; " : "", limits);
-}
-
-/* A display's change of contrast comes first: reviewers look for it. */
-static const char *different_verdict(const Comparison *out, Arena *arena) {
-    int more = out->reasons.count - 1;
-    const char *lead = contrast_change_text(out, arena);
-    const char *text = arena_format(arena, "%s%s", lead, out->reasons.list[0]);
-    if (more == 0) return text;
-    return arena_format(arena, "%s; and %d more reason%s", text, more, more > 1 ? "s" : "");
-}
-
-/* Whether the mean moved or only the noise: what a reviewer checks first. Empty where the
- * statistic's own verdict states it already. */
-static const char *mean_sentence(const CompareOptions *options, const Comparison *out,
-                                 Arena *arena) {
-    const StatisticResult *s = &out->stat;
-    bool is_said =
-        out->judged_by == JUDGED_BY_STATISTIC && (out->same || s->verdict == STATISTIC_DIFFERENT);
-    if (!out->has_pixels || out->channels.differing == 0) return "";
-    if (!out->has_stat)
-        return "Whether the mean moved or only the noise is not known: no noise is stated.";
-    if (s->verdict == STATISTIC_EQUAL) return "The light is equal in every pixel.";
-    if (s->verdict == STATISTIC_UNKNOWN)
-        return "Whether the mean moved or only the noise is not known: the layers that state the "
-               "noise are not what was rendered.";
-    if (is_said && s->verdict == STATISTIC_SAME) return "";
-    if (s->verdict == STATISTIC_SAME)
-        return arena_format(arena,
-                            "Only the noise differs, the mean did not move (p = %.3g at "
-                            "a level of %g).",
-                            s->p_value, level_of(options));
-    return arena_format(arena, "%s than the noise explains (p = %.2g at a level of %g)%s.",
-                        is_said         ? "That is more"
-                        : s->mean_moved ? "The mean moved, more"
-                                        : "Pixels differ by more",
-                        s->p_value, level_of(options),
-                        s->shares_noise ? "; both share their seed and samples" : "");
+    if (out->judged_by == JUDGED_BY_STATISTIC) judge_statistic(out, arena);
+    if (out->judged_by == JUDGED_BY_EQUALITY) judge_equality(out);
+    judge_limits(options, out);
 }
 
 /* ---- two large pictures of codes, in bands of rows --------------------------------------- */
@@ -284,10 +178,10 @@ static void add_channel(const RowBand *band, int channel, unsigned char *differs
     }
 }
 
-/* The findings of channels_compare, without its map of differing pixels. `out` has its sides
- * and its selection. */
-static ChannelDifferences picture_bands_channels(const CompareOptions *options,
-                                                 const Comparison *out, Arena *arena) {
+/* The findings of channels_compare, without its map of differing pixels, and what changes the
+ * grid of `out`, which has its sides and its selection. */
+static ChannelDifferences picture_bands_channels(const CompareOptions *options, Comparison *out,
+                                                 Arena *arena) {
     static const char *const NAMES[4] = {"R", "G", "B", "A"};
     ChannelDifferences found = {.list = ARENA_NEW(arena, ChannelDifference, 4)};
     int channel[4];
@@ -301,6 +195,8 @@ static ChannelDifferences picture_bands_channels(const CompareOptions *options,
     RowBand band;
     for (int y = 0; next_band(options, out, y, 0, &scratch, &band); y = band.y1) {
         unsigned char *differs = ARENA_NEW(&scratch, unsigned char, band.end);
+        const Planes *const light[2] = {&band.side[0].light, &band.side[1].light};
+        change_add_rows(&out->grid, light, band.mask, band.top, (const int[2]){band.y0, band.y1});
         for (int c = 0; c < found.count; c++)
             add_channel(&band, channel[c], differs, &found.list[c]);
         for (size_t i = 0; i < band.end; i++) found.differing += differs[i];
@@ -407,6 +303,7 @@ static void start(const CompareInput *reference, const CompareInput *test, Arena
                         .test = *test,
                         .reasons = {.arena = arena},
                         .notes = {.arena = arena},
+                        .judged_by = JUDGED_BY_EQUALITY,
                         .shown_with = ""};
     for (int i = 0; i < METRIC_COUNT; i++) out->value[i] = NAN;
 }
@@ -434,19 +331,38 @@ static bool knows_verdict(const Comparison *out, Error *err) {
                     s->broken);
 }
 
+/* Of pictures, where no noise shows, all that differs has changed. A pixel that stands out
+ * is named beside a change of the light only where that is far less. */
+static void find_change(Comparison *out, Arena *arena) {
+    double floor = out->reference.kind == INPUT_FRAME ? 0 : LEAST_WHITE;
+    const Standout *s = &out->standout;
+    out->change = change_find(&out->grid, out->structure.shares_field, floor, arena);
+    if (out->reference.kind == INPUT_PICTURE && out->change.area.pixels == 0)
+        out->change = change_find(&out->grid, true, floor, arena);
+    double reach = fabs(s->most.luminance[1] - s->most.luminance[0]);
+    if ((!out->has_stat || out->stat.verdict == STATISTIC_DIFFERENT) &&
+        !(s->count <= FEW_STANDOUTS && reach > STANDOUT_LIKE * s->rest))
+        out->standout.count = 0;
+}
+
 static bool compare_pixels(const CompareOptions *options, Arena *arena, Comparison *out,
                            Error *err) {
     const CompareInput *const sides[2] = {&out->reference, &out->test};
     if (!selection_make(sides, &options->selection, arena, &out->selection, err)) return false;
+    out->grid =
+        change_grid(out->reference.light.width, out->reference.light.height,
+                    out->reference.kind == INPUT_PICTURE || out->structure.shares_field, arena);
     out->channels = input_is_packed(&out->reference)
                         ? picture_bands_channels(options, out, arena)
                         : channels_compare(&out->reference, &out->test, &out->structure,
                                            &options->rules, &out->selection, arena);
     out->value[METRIC_DIFFERING] = (double)out->channels.differing / (double)out->selection.pixels;
-    channels_report(&out->channels, &out->reasons, &out->notes);
+    channels_report(&out->channels, &out->reasons, &out->notes, &out->structural);
     if (!measure(options, arena, out, err)) return false;
     out->has_pixels = true;
-    judge(options, out);
+    find_change(out, arena);
+    rows_make(options, arena, out);
+    judge(options, arena, out);
     return knows_verdict(out, err);
 }
 
@@ -517,9 +433,8 @@ bool compare_inputs(const CompareInput *reference, const CompareInput *test,
     if (!metrics_develop(options, arena, &made, err)) return false;
     if (made.structure.same_pixels && !compare_pixels(options, arena, &made, err)) return false;
     made.same = made.reasons.count == 0;
-    made.verdict =
-        made.same ? same_verdict(options, &made, arena) : different_verdict(&made, arena);
-    made.mean = mean_sentence(options, &made, arena);
+    if (!made.has_pixels) made.structural = made.reasons.count;
+    headline_make(options, arena, &made);
     made.seconds = monotonic_seconds() - begun;
     *out = made;
     return true;

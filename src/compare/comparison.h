@@ -7,6 +7,7 @@
  */
 #pragma once
 #include "compare/channels.h"
+#include "compare/metrics/change.h"
 #include "compare/metrics/flip.h"
 #include "compare/metrics/pixel_errors.h"
 #include "compare/statistic/statistic.h"
@@ -28,6 +29,7 @@ typedef struct CompareOptions {
     int threads;          /* at least 1 */
     long whole_pixels;    /* pictures of more are compared in bands; 0: INPUT_WHOLE_PIXELS */
     int band_rows;        /* of those; 0: 128 */
+    const char *name;     /* of the pair, for its headline; NULL: the test file's */
 } CompareOptions;
 
 /* How a display's contrast changed. */
@@ -38,16 +40,46 @@ typedef struct ContrastChange {
     Measured ratio; /* test over reference, with its 95 % interval's half width */
 } ContrastChange;
 
+/* One figure of a comparison in words and numbers (rows.h). */
+typedef enum CompareTable { TABLE_CONTRAST, TABLE_MEAN, TABLE_METRIC } CompareTable;
+
+typedef struct CompareRow {
+    CompareTable table;
+    const char *figure;     /* "contrast", "mean", or a metric's name */
+    const char *of;         /* which display or region; "" all */
+    const char *label;      /* for people, "contrast of cluster" */
+    double reference, test; /* NaN: the figure is of both together */
+    double value;           /* the figure, or test / reference - 1; NaN: not known */
+    double half_width;      /* of its 95 % interval; NaN: not known */
+    double p;               /* of its test; NaN: none */
+    bool has_limit, is_min, is_beyond;
+    double limit;
+    const char *text, *limit_text; /* NULL: no limit */
+    const char *verdict;           /* "within", "beyond", "moved", "below the noise" or "" */
+    bool is_finding;               /* a change that its interval does not explain */
+    bool is_key;                   /* is looked at first */
+} CompareRow;
+
+/* The first word of an answer. All but the last two pass. */
+typedef enum CompareOutcome {
+    COMPARE_SAME, /* no value differs */
+    COMPARE_WITHIN_NOISE,
+    COMPARE_WITHIN_LIMITS,
+    COMPARE_DIFFERENT
+} CompareOutcome;
+
 /* The basis of the verdict. */
 typedef enum JudgedBy { JUDGED_BY_LIMITS, JUDGED_BY_STATISTIC, JUDGED_BY_EQUALITY } JudgedBy;
 
 typedef struct Comparison {
     CompareInput reference, test;
-    bool same;
+    bool same; /* it passes */
+    CompareOutcome outcome;
     JudgedBy judged_by;
-    const char *verdict; /* one sentence, without "same" or "different" before it */
-    const char *mean;    /* whether the mean moved or only the noise; "" when that is stated */
+    const char *verdict; /* the headline (headline.h), in full sentences */
+    const char *finding; /* the same without the name before it */
     Lines reasons, notes;
+    int structural; /* reasons, the first ones, that are none of the light of common pixels */
     Structure structure;
     bool has_pixels; /* one size: everything below was made */
     Selection selection;
@@ -58,6 +90,11 @@ typedef struct Comparison {
     StatisticResult stat;
     ContrastChange *contrasts;
     int contrast_count;
+    ChangeGrid grid;
+    LightChange change; /* of the light */
+    Standout standout;  /* frames */
+    CompareRow *rows;
+    int row_count;
     Planes light[2];              /* finite everywhere: reference, test */
     PixelMask mask;               /* what counts, without pixels that are not finite */
     float *flip_map, *deltae_map; /* NULL: not computed */

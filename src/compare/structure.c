@@ -5,21 +5,16 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/lines.h"
-#include "compare/metadata.h"
+#include "base/count.h"
+#include "base/number.h"
 #include "compare/statistic/noisy_pair.h"
 
-/* ---- differences of metadata in words: one line, however many they are ------------------- */
-
-#define SHOWN 72       /* letters of a value in a line of its own */
-#define SHOWN_SHORT 24 /* letters of one among many */
-#define NAMED 8        /* keys of a list */
-#define NAMED_INPUTS 2 /* among other keys */
+#define SHOWN 24 /* letters of a value that is shown */
+#define NAMED 8  /* of a list */
 
 /* ---- lists ------------------------------------------------------------------------------- */
 
-/* The first of a list with commas, and how many more there are. */
-static const char *joined(const Lines *list, int most) {
+const char *structure_joined(const Lines *list, int most) {
     const char *text = "";
     for (int i = 0; i < list->count && i < most; i++)
         text = arena_format(list->arena, "%s%s%s", text, i ? ", " : "", list->list[i]);
@@ -27,32 +22,16 @@ static const char *joined(const Lines *list, int most) {
     return arena_format(list->arena, "%s and %d more", text, list->count - most);
 }
 
-/* ---- values ------------------------------------------------------------------------------ */
-
-/* The line of a text that begins at `at`, from `from` of its letters on, cut to what fits. */
-static void shorten(const char *at, size_t from, char out[SHOWN + 12]) {
-    size_t length = strcspn(at, "\n");
-    if (from > length) from = length;
-    while (from > 0 && ((unsigned char)at[from] & 0xc0) == 0x80) from--;
-    size_t rest = length - from > SHOWN ? SHOWN : length - from;
-    while (rest > 0 && rest < length - from && ((unsigned char)at[from + rest] & 0xc0) == 0x80)
-        rest--;
-    snprintf(out, SHOWN + 12, "%s%.*s%s", from ? "…" : "", (int)rest, at + from,
-             rest < length - from ? "…" : "");
+static const char *plain_name(const char *name) {
+    return strncmp(name, "parhelion:", 10) ? name : name + 10;
 }
 
-/* Both values where they begin to differ: the first such line, and of a long one the part from
- * shortly before. */
-static void shorten_both(const char *a, const char *b, char out_a[SHOWN + 12],
-                         char out_b[SHOWN + 12]) {
-    size_t line = 0, same = 0;
-    while (a[same] && a[same] == b[same]) {
-        if (a[same] == '\n') line = same + 1;
-        same++;
-    }
-    size_t column = same - line, from = column > SHOWN - 24 ? column - 16 : 0;
-    shorten(a + line, from, out_a);
-    shorten(b + line, from, out_b);
+/* "seed (1, now 2)"; of long values the name alone. */
+static void add_values(const char *name, const char *a, const char *b, Lines *to) {
+    if (!a || !b) lines_add(to, "%s (only in the %s)", name, a ? "reference" : "test");
+    else if (strlen(a) > SHOWN || strlen(b) > SHOWN || strchr(a, '\n') || strchr(b, '\n'))
+        lines_add(to, "%s", name);
+    else lines_add(to, "%s (%s, now %s)", name, a, b);
 }
 
 /* ---- inputs ------------------------------------------------------------------------------ */
@@ -97,61 +76,101 @@ static bool has_input(const char *list, const InputLine *wanted, bool *same) {
 static void add_inputs(const char *from, const char *other, bool is_reference, Lines *to) {
     InputLine line;
     bool same;
-    while (next_input(&from, &line))
-        if (!has_input(other, &line, &same))
-            lines_add(to, "%.*s is only in the %s", line.name_length, line.name,
-                      is_reference ? "reference" : "test");
-        else if (is_reference && !same)
-            lines_add(to, "%.*s has changed", line.name_length, line.name);
+    while (next_input(&from, &line)) {
+        bool found = has_input(other, &line, &same), is_listed = false;
+        if (same) continue;
+        const char *name = arena_string(to->arena, line.name, (size_t)line.name_length);
+        lines_add(to, found ? "%s" : is_reference ? "%s (gone)" : "%s (new)", name);
+        for (int i = 0; i < to->count - 1; i++)
+            is_listed = is_listed || !strcmp(to->list[i], to->list[to->count - 1]);
+        to->count -= is_listed;
+    }
 }
 
-static bool is_inputs(const MetadataRow *row) {
-    return !strcmp(row->name, "parhelion:inputs") && row->reference && row->test;
+/* ---- settings ---------------------------------------------------------------------------- */
+
+/* Lines "NAME\tVALUE" of an identity that are inputs, named elsewhere, or follow from others. */
+static bool is_setting(const char *line) {
+    static const char *const OTHERS[] = {
+        "input ",   "version\t",          "isa\t",  "seed\t", "size\t",
+        "layers\t", "decoded pictures\t", "field\t"};
+    for (int i = 0; i < COUNT_OF(OTHERS); i++)
+        if (!strncmp(line, OTHERS[i], strlen(OTHERS[i]))) return false;
+    return strcspn(line, "\t") < strcspn(line, "\n");
 }
 
-/* "" when only the folders differ. */
-static const char *inputs_text(const MetadataRow *row, int most, Arena *arena) {
-    Lines list = {.arena = arena};
-    add_inputs(row->reference, row->test, true, &list);
-    add_inputs(row->test, row->reference, false, &list);
-    return joined(&list, most);
+/* The value of that line in another identity; NULL: it has none. */
+static const char *setting_in(const char *list, const char *line, size_t name_length) {
+    for (; *list; list += strcspn(list, "\n"), list += *list == '\n')
+        if (!strncmp(list, line, name_length + 1)) return list + name_length + 1;
+    return NULL;
 }
 
-/* ---- one row ----------------------------------------------------------------------------- */
-
-static const char *plain_name(const char *name) {
-    return strncmp(name, "parhelion:", 10) ? name : name + 10;
+/* Numbers of single precision with the digits that they have. */
+static const char *rounded(const char *text, Arena *arena) {
+    const char *last = strrchr(text, ' '), *number = last ? last + 1 : text;
+    double value;
+    const char *end = number_read(number, &value);
+    return end && !*end ? arena_format(arena, "%.*s%.6g", (int)(number - text), text, value) : text;
 }
 
-/* The only one: with both values. */
-static const char *whole_text(const MetadataRow *row, Arena *arena) {
-    char a[SHOWN + 12], b[SHOWN + 12];
-    if (is_inputs(row)) return arena_format(arena, "inputs: %s", inputs_text(row, NAMED, arena));
-    if (!row->reference || !row->test)
-        return arena_format(arena, "metadata %s is missing in the %s", plain_name(row->name),
-                            row->reference ? "test" : "reference");
-    shorten_both(row->reference, row->test, a, b);
-    return arena_format(arena, "metadata %s differs: %s in the reference, %s in the test",
-                        plain_name(row->name), a, b);
+/* Hashes are those of inputs. */
+static bool has_hash(const char *text) {
+    return strlen(text) > 16 && strspn(text + strlen(text) - 16, "0123456789abcdef") == 16;
 }
 
-static bool is_short(const char *value) {
-    return strlen(value) <= SHOWN_SHORT && !strchr(value, '\n');
+/* What two values of a setting do not share, from and to a comma: "level 1", "level 0.8". */
+static void add_setting(const char *line, size_t name_length, const char *other, Lines *to) {
+    const char *value = line + name_length + 1;
+    size_t length = strcspn(value, "\n"), other_length = strcspn(other, "\n"), first = 0, last = 0;
+    size_t least = length < other_length ? length : other_length;
+    if (length == other_length && !memcmp(value, other, length)) return;
+    for (size_t i = 0; i < least && value[i] == other[i]; i++)
+        if (value[i] == ',') first = i + 2;
+    for (size_t i = 1; first + i <= least && value[length - i] == other[other_length - i]; i++)
+        if (value[length - i] == ',') last = i;
+    if (first + last > least) first = last = 0;
+    const char *a = arena_string(to->arena, value + first, length - first - last);
+    const char *b = arena_string(to->arena, other + first, other_length - first - last);
+    bool is_display = !strncmp(line, "display ", 8) && first > 0;
+    if (has_hash(a) || has_hash(b)) return;
+    add_values(arena_format(to->arena, "%.*s%.*s", is_display ? 8 : (int)name_length, line,
+                            is_display ? (int)strcspn(value, ",") : 0, value),
+               rounded(a, to->arena), rounded(b, to->arena), to);
 }
 
-/* One among many: its values where they are short. */
-static const char *short_text(const MetadataRow *row, Arena *arena) {
-    const char *name = plain_name(row->name);
-    if (is_inputs(row))
-        return arena_format(arena, "inputs (%s)", inputs_text(row, NAMED_INPUTS, arena));
-    if (!row->reference || !row->test)
-        return arena_format(arena, "%s (only in the %s)", name,
-                            row->reference ? "reference" : "test");
-    if (!is_short(row->reference) || !is_short(row->test)) return name;
-    return arena_format(arena, "%s (%s, now %s)", name, row->reference, row->test);
+static void add_settings(const char *a, const char *b, Lines *to) {
+    for (; *a; a += strcspn(a, "\n"), a += *a == '\n') {
+        size_t name = strcspn(a, "\t");
+        const char *other = is_setting(a) ? setting_in(b, a, name) : NULL;
+        if (other) add_setting(a, name, other, to);
+    }
 }
 
-/* ---- all rows ---------------------------------------------------------------------------- */
+/* ---- metadata ---------------------------------------------------------------------------- */
+
+/* What explains a difference: inputs by their hashes, seed, samples, program, settings. */
+static void find_causes(const FrameImage *reference, const FrameImage *test, Structure *out) {
+    static const char *const NAMED_KEYS[][2] = {{"parhelion:seed", "seed"},
+                                                {"parhelion:samples", "samples"},
+                                                {"software", "program"},
+                                                {"parhelion:isa", "isa"}};
+    const char *a = frame_string(reference, "parhelion:inputs");
+    const char *b = frame_string(test, "parhelion:inputs");
+    out->knows_inputs = a && b;
+    if (out->knows_inputs) {
+        add_inputs(a, b, true, &out->inputs);
+        add_inputs(b, a, false, &out->inputs);
+    }
+    for (int i = 0; i < COUNT_OF(NAMED_KEYS); i++) {
+        a = frame_string(reference, NAMED_KEYS[i][0]);
+        b = frame_string(test, NAMED_KEYS[i][0]);
+        if (a && b && strcmp(a, b) != 0) add_values(NAMED_KEYS[i][1], a, b, &out->settings);
+    }
+    a = frame_string(reference, "parhelion:identity");
+    b = frame_string(test, "parhelion:identity");
+    if (a && b) add_settings(a, b, &out->settings);
+}
 
 /* The letters of a name up to the number at its end; 0 without one. */
 static size_t stem_of(const char *name) {
@@ -175,44 +194,32 @@ static int kin_of(const MetadataRow *const *rows, int count, int i, bool *is_fir
     return kin;
 }
 
-static const char *rows_text(const MetadataRow *const *rows, int count, Arena *arena) {
-    Lines list = {.arena = arena};
+/* One line, however many rows differ. */
+static void report(const Structure *s, bool decides, const char *why, Lines *to) {
+    const MetadataRow **rows = ARENA_NEW(to->arena, const MetadataRow *, s->metadata_count);
+    Lines list = {.arena = to->arena};
+    int count = 0;
+    for (int i = 0; i < s->metadata_count; i++) {
+        const MetadataRow *row = &s->metadata[i];
+        bool is_inputs = s->knows_inputs && !strcmp(row->name, "parhelion:inputs");
+        if (row->differs && !row->is_ignored && row->decides == decides &&
+            (!is_inputs || s->inputs.count))
+            rows[count++] = row;
+    }
     for (int i = 0; i < count; i++) {
         bool is_first;
         int kin = kin_of(rows, count, i, &is_first);
         const char *name = plain_name(rows[i]->name);
         if (!is_first) continue;
         if (kin > 1) lines_add(&list, "%.*s* (%d of them)", (int)stem_of(name), name, kin);
-        else lines_add(&list, "%s", short_text(rows[i], arena));
+        else if (s->knows_inputs && !strcmp(name, "inputs"))
+            lines_add(&list, "inputs (%s)", structure_joined(&s->inputs, 2));
+        else add_values(name, rows[i]->reference, rows[i]->test, &list);
     }
-    return joined(&list, NAMED);
-}
-
-static bool is_listed(const MetadataRow *row, bool decides, Arena scratch) {
-    if (!row->differs || row->is_ignored || row->decides != decides) return false;
-    return !is_inputs(row) || inputs_text(row, NAMED, &scratch)[0];
-}
-
-static void report(const MetadataRow *rows, int count, bool decides, const char *why, Lines *to) {
-    Arena *arena = to->arena;
-    const MetadataRow **listed = ARENA_NEW(arena, const MetadataRow *, count);
-    int n = 0;
-    for (int i = 0; i < count; i++)
-        if (is_listed(&rows[i], decides, *arena)) listed[n++] = &rows[i];
-    if (n == 1) lines_add(to, "%s%s", whole_text(listed[0], arena), why);
-    if (n > 1)
-        lines_add(to, "metadata differs in %d keys%s: %s%s; all values: --json or --report", n,
-                  decides ? " that decide what the picture shows" : "", rows_text(listed, n, arena),
-                  why);
-}
-
-/* One reason for all rows that decide what the picture shows, one note (with `strict` a
- * reason) for all that explain it. A single row is reported with both values; of several, the
- * names, some values and their number. */
-static void metadata_report(const MetadataRow *rows, int count, bool strict, Lines *reasons,
-                            Lines *notes) {
-    report(rows, count, true, "", reasons);
-    report(rows, count, false, strict ? " (--strict)" : "", strict ? reasons : notes);
+    if (count)
+        lines_add(to, "other metadata%s: %s%s",
+                  decides ? " that decides what the picture shows" : "",
+                  structure_joined(&list, NAMED), why);
 }
 
 /* ---- sizes and windows ------------------------------------------------------------------- */
@@ -223,10 +230,8 @@ static bool same_window(ExrWindow a, ExrWindow b) {
 
 static bool compare_window(const char *what, ExrWindow a, ExrWindow b, Lines *reasons) {
     if (same_window(a, b)) return true;
-    lines_add(reasons,
-              "the %s windows differ: %d,%d,%d,%d in the reference, %d,%d,%d,%d in "
-              "the test",
-              what, a.x0, a.y0, a.x1, a.y1, b.x0, b.y0, b.x1, b.y1);
+    lines_add(reasons, "other %s window: %d,%d,%d,%d, now %d,%d,%d,%d", what, a.x0, a.y0, a.x1,
+              a.y1, b.x0, b.y0, b.x1, b.y1);
     return false;
 }
 
@@ -234,8 +239,8 @@ static bool compare_sizes(const CompareInput *reference, const CompareInput *tes
     const Planes *a = &reference->light, *b = &test->light;
     bool ok = a->width == b->width && a->height == b->height;
     if (!ok)
-        lines_add(reasons, "the sizes differ: %dx%d pixels in the reference, %dx%d in the test",
-                  a->width, a->height, b->width, b->height);
+        lines_add(reasons, "other size: %d x %d pixels, now %d x %d", a->width, a->height, b->width,
+                  b->height);
     if (reference->kind != INPUT_FRAME) return ok;
     const FrameImage *f = &reference->frame, *g = &test->frame;
     bool display_ok = !ok || compare_window("display", f->display, g->display, reasons);
@@ -409,7 +414,9 @@ static bool same_string(const FrameImage *a, const FrameImage *b, const char *na
 
 Structure structure_compare(const CompareInput *reference, const CompareInput *test,
                             const CompareRules *rules, Arena *arena, Lines *reasons, Lines *notes) {
-    Structure out = {.same_pixels = compare_sizes(reference, test, reasons)};
+    Structure out = {.same_pixels = compare_sizes(reference, test, reasons),
+                     .inputs = {.arena = arena},
+                     .settings = {.arena = arena}};
     compare_pages(&reference->pages, &test->pages, reasons, notes);
     if (reference->kind == INPUT_PICTURE) {
         compare_pictures(reference, test, rules, reasons, notes);
@@ -420,11 +427,15 @@ Structure structure_compare(const CompareInput *reference, const CompareInput *t
     out.shares_paths = noisy_pair_shares_noise(&reference->frame, &test->frame) &&
                        same_string(&reference->frame, &test->frame, "parhelion:isa") &&
                        same_string(&reference->frame, &test->frame, "software");
+    out.shares_field =
+        out.shares_paths && same_string(&reference->frame, &test->frame, "parhelion:field");
     compare_parts(reference, test, rules, reasons);
     if (reference->file == test->file && reference->file != LIGHT_FILE_FLOATS) {
         out.metadata =
             metadata_compare(&reference->frame, &test->frame, rules, arena, &out.metadata_count);
-        metadata_report(out.metadata, out.metadata_count, rules->strict, reasons, notes);
+        find_causes(&reference->frame, &test->frame, &out);
+        report(&out, true, "", reasons);
+        report(&out, false, rules->strict ? " (--strict)" : "", rules->strict ? reasons : notes);
     }
     note_kinds(reference, test, notes);
     return out;

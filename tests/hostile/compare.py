@@ -2,9 +2,11 @@
 """compare.py PARHELION -- `parhelion compare` as scripts use it: statuses, messages, JSON,
 JUnit, folders, every kind of picture, and what must fail whatever the limits are.
 """
+import html
 import json
 import math
 import os
+import random
 import re
 import subprocess
 import sys
@@ -104,14 +106,14 @@ def refused(report, done, status, *words):
 
 def check_frames(report, program):
     program.frame("a.exr")
-    told(report, program.compare("a.exr", "a.exr"), 0, "same: equal in every pixel")
+    told(report, program.compare("a.exr", "a.exr"), 0, "same: A: equal in every pixel")
     program.frame("b.exr", put("G", 30, 99.0))
-    told(report, program.compare("a.exr", "b.exr"), 1, "different: 1 of 384 pixels differ",
-         "--max flip=0.05", "no noise is stated")
+    told(report, program.compare("a.exr", "b.exr"), 1, "different: B: 1 of 384 pixels differs, "
+         "pixel 6,1: 9.41, now 74.5 cd/m2", "--max flip=0.05")
     told(report, program.compare("a.exr", "b.exr", "--max", "mean_shift=0.5"), 0,
-         "same: within")
+         "within limits: B: ", "Within limits: mean_shift")
     told(report, program.compare("a.exr", "b.exr", "--max", "max_difference=1"), 1,
-         "different: max_difference is")
+         "Beyond limits: max_difference")
     told(report, program.compare("a.exr", "b.exr", "--min", "psnr=99"), 1, "psnr is")
     told(report, program.compare("a.exr", "b.exr", "--region", "0,0,4,1"), 0)
 
@@ -120,10 +122,9 @@ def check_structure(report, program):
     """What differs whatever the limits are."""
     loose = ("--max", "differing=1")
     program.frame("camera.exr", attributes={"parhelion:camera": pictures.text("other")})
-    told(report, program.compare("a.exr", "camera.exr", *loose), 1, "camera differs: eye",
-         "other")
+    told(report, program.compare("a.exr", "camera.exr", *loose), 1, "camera (eye, now other)")
     program.frame("seed.exr", attributes={"parhelion:seed": pictures.text("2")})
-    told(report, program.compare("a.exr", "seed.exr"), 0, "note: metadata seed differs: 1")
+    told(report, program.compare("a.exr", "seed.exr"), 0, "note: other metadata: seed (1, now 2)")
     told(report, program.compare("a.exr", "seed.exr", "--strict"), 1, "(--strict)")
     program.frame("layer.exr", lambda c: c.update({"depth.Z": c["R"]}))
     told(report, program.compare("a.exr", "layer.exr", *loose), 0,
@@ -131,11 +132,12 @@ def check_structure(report, program):
     told(report, program.compare("a.exr", "layer.exr", "--strict"), 1, "has depth (--strict)")
     told(report, program.compare("layer.exr", "a.exr", "--ignore", "depth", "--strict"), 0)
     pictures.write_exr(program.file("small.exr"), 2, 2, {c: [1.0] * 4 for c in "RGB"})
-    told(report, program.compare("a.exr", "small.exr", *loose), 1, "sizes differ: 24x16", "2x2")
+    told(report, program.compare("a.exr", "small.exr", *loose), 1,
+         "different: Small: other size: 24 x 16 pixels, now 2 x 2")
     for name, box in (("left.exr", (0, 0, 12, 16)), ("right.exr", (12, 0, 24, 16))):
         pictures.write_exr(program.file(name), WIDTH, HEIGHT,
                            {c: [1.0] * 192 for c in "RGB"}, data=box)
-    told(report, program.compare("left.exr", "right.exr", *loose), 1, "data windows differ")
+    told(report, program.compare("left.exr", "right.exr", *loose), 1, "other data window")
 
 
 def check_contrast(report, program):
@@ -154,13 +156,15 @@ def check_contrast(report, program):
     program.frame("washed.exr", shows(25.0), named)
     done = program.compare("clear.exr", "washed.exr", "--report", "washed.html")
     told(report, done, 1,
-         "different: contrast of cluster 11 : 1 to 5 : 1 (-54.5 %); 384 of 384 pixels differ")
+         "different: Washed: 14 % brighter, everywhere. Contrast of cluster 11 : 1, now 5 : 1 "
+         "(-54.5 %)")
     lines = done.stdout.splitlines()
-    report.claim(lines[0].startswith("contrast     cluster: 11 : 1 to 5 : 1, -54.5"),
+    report.claim(lines[0] == "contrast of cluster: 11 : 1, now 5 : 1 (-54.5 %)",
                  f"the first line is {lines[0]}")
     with open(program.file("washed.html"), encoding="utf-8") as file:
         page = file.read()
-    report.claim(page.index("11 → 5</b><span>contrast of cluster") < page.index("FLIP, mean"),
+    report.claim(page.index("11 : 1, now 5 : 1 (-54.5 %)</b><span>contrast of cluster")
+                 < page.index("FLIP, mean"),
                  "contrast does not lead the report")
 
 
@@ -276,7 +280,7 @@ def check_json(report, program):
                  f"equal frames, both by the view that shows white as white: {answer}")
     status, answer = program.json("a.exr", "small.exr")
     report.claim(status == 1 and answer["same"] is False and answer["metrics"] == {}
-                 and "sizes" in answer["reasons"][0], f"different sizes: {answer}")
+                 and "other size" in answer["reasons"][0], f"different sizes: {answer}")
     status, answer = program.json("a.exr", "b.exr", "--metric", "mse")
     report.claim("flip" not in answer["metrics"] and "mse" in answer["metrics"],
                  f"--metric mse computes {sorted(answer['metrics'])}")
@@ -300,13 +304,14 @@ def make_folders(program):
 def check_folders(report, program):
     make_folders(program)
     done = program.compare("ref", "new", "--quiet")
-    told(report, done, 1, "different  sub/deep.png", "same       same.png",
-         "gone.png: is missing in the test", "2 of 4 pairs are the same, 2 differ")
+    told(report, done, 1, "different     sub/deep.png: 1 of",
+         "same          same.png", "missing       gone.png: missing in the test",
+         "different: 2 of 4 pairs pass: 2 same, 1 different (sub/deep.png), 1 missing (gone.png)")
     os.remove(program.file("ref/gone.png"))
     program.png("new/sub/deep.png")
     told(report, program.compare("ref/", "new", "--quiet"), 0, "same: 3 of 3 pairs")
     program.png("new/extra.png")
-    told(report, program.compare("ref", "new", "--quiet"), 1, "extra.png: is only in the test")
+    told(report, program.compare("ref", "new", "--quiet"), 1, "extra.png: only in the test")
     told(report, program.compare("ref", "new", "--quiet", "--allow-extra"), 0)
     program.png("new/same.png", 3)
     status, answer = program.json("ref", "new", "--quiet")
@@ -324,7 +329,7 @@ def check_broken_pair(report, program):
         out.write(b"\x89PNG\r\n\x1a\nnothing")
     done = program.compare("ref", "new", "--quiet", "--junit", "j.xml", "--report", "f.html")
     report.claim(done.returncode == 3 and len(done.stderr.splitlines()) == 1
-                 and "new/same.png" in done.stderr and "1 could not be compared" in done.stdout,
+                 and "new/same.png" in done.stderr and "1 failed (same.png)" in done.stdout,
                  f"a broken pair: {done.returncode} {done.stderr} {done.stdout}")
     suite = xml.parse(program.file("j.xml")).getroot().find("testsuite")
     cases = {case.get("name"): case for case in suite.iter("testcase")}
@@ -353,15 +358,16 @@ def check_pairs(report, program):
         with open(lines, "w", encoding="utf-8") as file:
             file.write(text)
         return program.compare("pa", "pb", "--quiet", "--pairs", "pairs", *more)
-    told(report, run("# none"), 1, "2 differ")
-    told(report, run("one --max flip=1"), 1, "same       one.png", "different  two.png")
+    told(report, run("# none"), 1, "2 different (one.png, two.png)")
+    told(report, run("one --max flip=1"), 1, "within limits one.png",
+         "different     two.png")
     told(report, run("one --max flip=1\n\n'two.png'\t--mask dark.png"), 0, "3 of 3")
     told(report, run("one --region 0,0,24,1 --region 0,2,24,16\ntwo --region 0,0,9,2 "
                      "--region 10,0,24,16"), 0, "3 of 3")
     told(report, run("one --region 0,0,24,1 --region 9,1,10,2\ntwo --max flip=1"), 1,
-         "different  one.png", "same       two.png")
+         "different     one.png", "within limits two.png")
     told(report, run("one --max flip=1 --max max_difference=1\ntwo --max flip=1", "--max",
-                     "max_difference=0"), 1, "same       one.png", "different  two.png")
+                     "max_difference=0"), 1, "within limits one.png", "different     two.png")
     for text, *words in (("none --max flip=1", "line 1", "no picture is named none"),
                          ("one\n\none", "line 3", "stands in line 1"),
                          ("one --max 'flip=1", "line 1", "a quote is open"),
@@ -389,7 +395,7 @@ def check_not_made(report, program):
                            "--report", "e.html", "--answer", "f.json")
     report.claim(done.returncode == 3 and len(done.stderr.splitlines()) == 3
                  and "pb/one.png.failed: it was not made: no light in one.png" in done.stderr
-                 and "1 of 4 pairs are the same, 3 could not be" in done.stdout,
+                 and "failed: 1 of 4 pairs pass: 1 same, 3 failed" in done.stdout,
                  f"not made: {done.returncode} {done.stderr} {done.stdout}")
     root = xml.parse(program.file("j.xml")).getroot()
     errors = {case.get("name") for case in root.iter("testcase")
@@ -450,10 +456,11 @@ def check_noise(report, program):
         done = program.run("render", "scene.gltf", "-o", name, "--size", "64x48", "--spp", "32",
                            "--seed", str(seed), "--layers", "all", "--quiet")
         report.claim(done.returncode == 0, f"render: {done.stderr}")
-    told(report, program.compare("one.exr", "two.exr"), 0, "only the noise differs",
-         "note: metadata differs in ", "seed (1, now 2)")
+    told(report, program.compare("one.exr", "two.exr"), 0,
+         "within noise: Two: only the noise differs, mean luminance within ",
+         ". Inputs unchanged. Settings changed: seed (1, now 2)")
     told(report, program.compare("one.exr", "two.exr", "--max", "differing=0.001"), 1,
-         "Only the noise differs")
+         "different: Two: only the noise differs", "Beyond limits: differing 100 %")
     status, answer = program.json("one.exr", "two.exr")
     stat = answer["metrics"]["stat"]
     report.claim(status == 0 and answer["judged_by"] == "stat" and stat["p_value"] > 0.01
@@ -461,13 +468,150 @@ def check_noise(report, program):
                  and {"fraction_failed", "mean_shift"} <= set(stat), f"stat: {stat}")
     brighter(program, "two.exr", "bright.exr", 1.2)
     status, answer = program.json("one.exr", "bright.exr")
-    report.claim(status == 1 and answer["verdict"].startswith("the mean moved")
+    report.claim(status == 1 and answer["verdict"].startswith("Bright: 20 % brighter, everywhere")
                  and answer["metrics"]["stat"]["verdict"] == "different"
                  and abs(answer["metrics"]["mean_shift"] - 0.2) < 0.1, f"brighter: {answer}")
     brighter(program, "two.exr", "glaring.exr", 1e4)
-    told(report, program.compare("one.exr", "glaring.exr"), 1, "p = 0")
+    told(report, program.compare("one.exr", "glaring.exr"), 1, "10000 times as bright", "test: 0\n")
     report.claim(program.json("one.exr", "glaring.exr")[1]["metrics"]["stat"]["p_value"] == 0,
                  "a certain change has another p than 0")
+
+
+# ---- kinds of change, and all views of them --------------------------------------------------
+
+def noisy(program, name, draw, change=None, attributes=None, seed="1"):
+    """A frame of 1 % noise that its layers state, a display in its left half."""
+    def add(channels):
+        for c in "RGB":
+            light = channels[c]
+            channels[c] = [v * (1 + 0.01 * draw.gauss(0, 1)) for v in light]
+            channels["variance." + c] = [(0.01 * v) ** 2 for v in light]
+            channels["halves." + c] = [0.01 * v * draw.gauss(0, 1) for v in light]
+            for part, share in (("emitted", 0.9), ("white", 0.9), ("black", 0), ("reflected", 0.1)):
+                channels[f"display.{part}.{c}"] = [share * v if i % WIDTH < 12 else NAN
+                                                   for i, v in enumerate(channels[c])]
+        channels["id.display"] = [1 - (i % WIDTH < 12) for i in range(PIXELS)]
+        if change:
+            change(channels)
+    program.frame(name, add, {
+        "parhelion:display.0": pictures.text("cluster"), "parhelion:seed": pictures.text(seed),
+        "parhelion:inputs": pictures.text("0a  s/night.gltf\n0b  centre.png\n"),
+        **(attributes or {})})
+
+
+def times(red, green, blue, inside=lambda x, y: True):
+    def change(channels):
+        for c, factor in zip("RGB", (red, green, blue)):
+            channels[c] = [v * factor if inside(i % WIDTH, i // WIDTH) else v
+                           for i, v in enumerate(channels[c])]
+    return change
+
+
+def one_pixel(variance):
+    def change(channels):
+        for c in "RGB":
+            put(c, 100, 20000.0)(channels)
+            if variance:
+                put("variance." + c, 100, 4e8)(channels)
+    return change
+
+
+def few(channels):
+    times(1.0001, 1.0001, 1.0001, lambda x, y: (x + y) % 4 == 1)(channels)
+    times(0.9999, 0.9999, 0.9999, lambda x, y: (x + y) % 4 == 3)(channels)
+
+
+INPUTS = {"parhelion:inputs": pictures.text("0c  t/night.gltf\n0d  centre.png\n")}
+CORNER = times(0.6, 0.6, 0.6, lambda x, y: x > 18 and y < 4)
+PIXEL = "pixel 4,4: "
+KINDS = (  # the test's seed, what changed, its metadata, status, what the headline says
+    ("1", None, {}, 0, "same: K: equal in every pixel"),
+    ("1", few, {}, 0, "within noise: K: changed, below the noise: 192 of 384 pixels differ"),
+    ("2", None, {}, 0, "within noise: K: only the noise differs, ", ". Inputs unchanged. "
+     "Settings changed: seed (1, now 2)"),
+    ("2", None, INPUTS, 0, "within noise: K: no change beyond the noise", "Inputs changed: "
+     "night.gltf, centre.png"),
+    ("2", None, {"parhelion:inputs": None}, 0, "no change beyond the noise", "Inputs not stated"),
+    ("1", times(0.98, 0.98, 0.98), INPUTS, 1, "different: K: 2 % darker, everywhere. Inputs "
+     "changed: night.gltf, centre.png"),
+    ("2", times(0.98, 0.98, 0.98), {}, 1, "K: 2 % darker, everywhere. Inputs unchanged"),
+    ("1", times(1.3, 1.3, 1.3), {}, 1, "K: 30 % brighter, everywhere"),
+    ("1", times(1.2, 0.9247, 0.98), {}, 1, "colour shift 0.0", "everywhere"),
+    ("1", CORNER, {}, 1, "K: 40 % darker in 5.2 % of the picture, upper right"),
+    ("2", CORNER, {}, 1, "K: 10 % darker in 17 % of the picture, upper right"),
+    ("1", times(0.5, 0.5, 0.5, lambda x, y: x < 12), {}, 1, "K: 50 % darker, display cluster"),
+    ("1", times(0.5, 0.5, 0.5), {"parhelion:camera": pictures.text("side"), **INPUTS}, 1,
+     "50 % darker, everywhere; other metadata that decides what the picture shows: camera (eye, "
+     "now side). Inputs changed: night.gltf, centre.png"),
+    ("1", one_pixel(True), {}, 1, "K: 1 of 384 pixels differs, " + PIXEL, ", now 20000 cd/m2"),
+    ("2", one_pixel(False), {}, 1, "K: " + PIXEL, ", now 20000 cd/m2. Inputs unchanged"),
+    ("2", one_pixel(True), {}, 0, "only the noise differs", "; bright samples: " + PIXEL),
+)
+
+
+def cells(page, start):
+    """The tables' rows from there on, as texts."""
+    return [[html.unescape(re.sub("<[^>]*>", "", cell)) for cell in re.findall(
+        r"<td.*?</td>", row, re.S)] for row in re.findall(r"<tr><td>.*?</tr>", page[start:], re.S)]
+
+
+def plain(text):
+    return html.unescape(text).replace("±", "+-").replace("m²", "m2").replace(")²", ")^2")
+
+
+def check_views(report, program, name, limits=()):
+    """Console, JSON, JUnit and page say the same."""
+    done = program.compare("ref.exr", "k.exr", *limits, "--answer", "k.json", "--junit", "k.xml",
+                           "--report", "k.html")
+    with open(program.file("k.json"), encoding="utf-8") as file:
+        answer = json.load(file)
+    with open(program.file("k.html"), encoding="utf-8") as file:
+        page = file.read()
+    case = xml.parse(program.file("k.xml")).getroot().find("testsuite/testcase")
+    lines = done.stdout.splitlines()
+    line = f"{answer['outcome']}: {answer['verdict']}"
+    heading = html.unescape(re.sub("<[^>]*>", "", re.search("<h1>(.*?)</h1>", page).group(1)))
+    said = case.find("system-out").text.splitlines()
+    report.claim(lines[-1] == line == heading == said[0] and answer["same"] == (not done.returncode)
+                 and answer["same"] == (answer["outcome"] != "different")
+                 and (answer["outcome"] == "same") == (answer["differing_pixels"] == 0
+                                                       and answer["same"]),
+                 f"{name}: {lines[-1]} | {line} | {heading} | {said[0]}")
+    failure = case.find("failure")
+    report.claim((failure is None) == answer["same"]
+                 and (failure is None or failure.get("message") == answer["verdict"]),
+                 f"{name}: JUnit's failure")
+    rows = [", ".join(filter(None, (f"{r['label']}: {r['text']}", r["limit"], r["verdict"])))
+            for r in answer["rows"]]
+    report.claim(rows == lines[:len(rows)] == said[1:len(rows) + 1] and rows,
+                 f"{name}: rows {rows[:3]}, {lines[:3]}, {said[1:4]}")
+    table = [plain(cell) for row in cells(page, page.index("shots")) for cell in row]
+    report.claim(all(r["text"] in table and (not r["limit"] or r["limit"] in table)
+                     for r in answer["rows"]), f"{name}: the page's rows")
+    given = {p.get("name"): float(p.get("value")) for p in case.iter("property")}
+    wanted = {r["figure"] + (r["of"] and " of " + r["of"]): r["value"] for r in answer["rows"]
+              if r["value"] is not None}
+    report.claim(given.keys() == wanted.keys() and all(
+        math.isclose(given[k], wanted[k], rel_tol=1e-7) for k in wanted), f"{name}: properties")
+    cards = [plain(card) for card in re.findall("<b>(.*?)</b><span>", page)]
+    report.claim(cards == [r["text"] for r in answer["rows"] if r["is_key"]], f"{name}: {cards}")
+    for row in answer["rows"]:
+        if row["is_key"] and row["half_width"] is not None and not row["limit"]:
+            report.claim(abs(row["value"]) > 2 * row["half_width"], f"{name}: a card of {row}")
+    return done, answer
+
+
+def check_kinds(report, program):
+    draw = random.Random(3)
+    noisy(program, "ref.exr", random.Random(1))
+    for seed, change, attributes, status, *words in KINDS:
+        noisy(program, "k.exr", random.Random(int(seed)), change, attributes, seed)
+        done, answer = check_views(report, program, words[0])
+        told(report, done, status, *words)
+        report.claim(seed != "1" or "only the noise" not in done.stdout, f"one seed: {words}")
+        metric = draw.choice(("flip", "mae", "mean_shift", "contrast_change", "max_difference"))
+        limit = abs(answer["metrics"][metric] or 0) * draw.choice((0.5, 2)) + 1e-9
+        check_views(report, program, words[0] + metric, ("--max", f"{metric}={limit}"))
 
 
 def brighter(program, name, out, factor):
@@ -494,7 +638,7 @@ def main():
                       check_pictures, check_masks, check_usage, check_files,
                       check_json, check_folders, check_broken_pair,
                       check_pairs, check_not_made, check_junit, check_report, check_noise,
-                      check_limits_of_noise):
+                      check_limits_of_noise, check_kinds):
             try:
                 check(report, program)
             except (ValueError, KeyError, IndexError, OSError, AttributeError,

@@ -215,7 +215,7 @@ TEST(a_preview_shows_a_first_look_and_then_the_same_frame) {
            "--denoise", "--spp", "1", "--no-guiding");
     assert_null(strstr(o.err, "a first look"));
     RUN_AS(0, &o, "compare", "a.exr", "b.exr");
-    assert_non_null(strstr(o.out, "same: equal in every pixel"));
+    assert_non_null(strstr(o.out, "same: B: equal in every pixel"));
 }
 
 TEST(a_preview_is_four_samples_denoised) {

@@ -8,7 +8,7 @@
 #include "cli/compare_request.h"
 #include "compare/report/comparison_json.h"
 #include "compare/report/html_report.h"
-#include "compare/report/junit.h"
+#include "compare/report/answer.h"
 #include "text/base64.h"
 #include "text/text.h"
 
@@ -40,14 +40,15 @@ ARENA_TEST(junit_is_well_formed_whatever_the_names_are) {
     ((float *)b.codes.rgb[0])[3] = 1;
     Comparison same = compared(&a, &a, LOOSE, &arena);
     Comparison other = compared(&a, &b, (CompareOptions){.groups = GROUP_MSE}, &arena);
-    Junit junit;
-    junit_start(&junit);
+    CompareAnswer answer;
+    Error broken = {.code = ERROR_INPUT, .file = "", .text = ""};
+    answer_start(&answer);
     const char *path = in_folder("j.xml");
-    junit_add(&junit, WILD, &same);
-    junit_add(&junit, WILD, &other);
-    junit_add_failure(&junit, WILD, WILD, true);
-    junit_add_failure(&junit, WILD, WILD, false);
-    assert_done(junit_write(&junit, WILD, path, &err));
+    answer_add(&answer, WILD, &same);
+    answer_add(&answer, WILD, &other);
+    answer_add_failed(&answer, WILD, WILD, &broken);
+    answer_add_missing(&answer, WILD, false);
+    assert_done(answer_write_junit(&answer, path, &err));
     xmlDoc *document = xmlReadFile(path, NULL, XML_PARSE_NOERROR | XML_PARSE_NONET);
     assert_non_null(document);
     xmlNode *suite = xmlFirstElementChild(xmlDocGetRootElement(document));
@@ -60,8 +61,8 @@ ARENA_TEST(junit_is_well_formed_whatever_the_names_are) {
     xmlFreeDoc(document);
     xmlCleanupParser();
     unlink(path);
-    junit_release(&junit);
-    assert_fails_as(junit_write(&junit, "s", "/absent/j.xml", &err), ERROR_OUTPUT, "");
+    assert_fails_as(answer_write_junit(&answer, "/absent/j.xml", &err), ERROR_OUTPUT, "");
+    answer_release(&answer);
 }
 
 ARENA_TEST(json_has_the_promised_keys) {
@@ -69,7 +70,7 @@ ARENA_TEST(json_has_the_promised_keys) {
     CompareOptions options = {.threads = 1};
     ((float *)b.codes.rgb[0])[3] = 1;
     Comparison c = compared(&a, &b, options, &arena);
-    json_auto_t *json = comparison_json(&c, &options);
+    json_auto_t *json = comparison_json(&c, "b");
     json_t *metrics = json_object_get(json, "metrics");
     static const char *const KEYS[] = {"flip",        "flip_p95",   "flip_max",   "psnr", "ssim",
                                        "deltae_mean", "deltae_p95", "deltae_max", "mse",  "relmse",
@@ -86,13 +87,14 @@ ARENA_TEST(a_report_is_whole_and_escaped) {
     FileBytes page;
     CompareOptions options = {.threads = 1};
     CompareInput a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
-    ((float *)b.codes.rgb[0])[3] = 1;
+    ((float *)b.codes.rgb[0])[3] = ((float *)b.light.rgb[0])[3] = 1;
     Comparison c = compared(&a, &b, options, &arena);
     const char *path = in_folder("r.html");
     HtmlReport report;
     html_report_start(&report, false);
-    assert_done(html_report_add(&report, "b", &c, &options, arena, &err));
-    assert_done(html_report_write(&report, WILD, WILD, path, &err));
+    json_auto_t *pair = comparison_json(&c, "b");
+    assert_done(html_report_add(&report, pair, &c, arena, &err));
+    assert_done(html_report_write(&report, NULL, (const char *const[2]){WILD, WILD}, path, &err));
     assert_done(file_read(path, 1 << 24, &arena, &page, &err));
     const char *text = (const char *)page.data;
     assert_null(strstr(text, "a<b>"));
@@ -100,7 +102,7 @@ ARENA_TEST(a_report_is_whole_and_escaped) {
     int pictures = 0;
     for (const char *p = text; (p = strstr(p, "src=\"data:image/png;base64,")); p++) pictures++;
     assert_int_equal(pictures, 5);
-    assert_non_null(strstr(text, "<b>Different</b>: 1 of 96 pixels differ"));
+    assert_non_null(strstr(text, "<b>different</b>: B: 1 of 96 pixels differs, pixel 3,0: "));
     html_report_release(&report);
     unlink(path);
     assert_done(html_report_check_name("a.HTML", &err));

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "compare/headline.h"
 #include "compare/metrics.h"
 #include "text/json_text.h"
 
@@ -85,18 +86,41 @@ static json_t *metrics_json(const Comparison *c) {
 
 /* ---- the rest ---------------------------------------------------------------------------- */
 
-static json_t *limits_json(const Comparison *c, const CompareOptions *options) {
+static json_t *rows_json(const Comparison *c) {
     json_t *list = json_array();
-    for (int i = 0; i < options->threshold_count; i++) {
-        Threshold t = options->thresholds[i];
-        const MetricInfo *info = metric_info(t.metric);
-        double value = c->value[t.metric];
-        json_array_append_new(list,
-                              json_pack("{s:s, s:s, s:f, s:o, s:b}", "metric", info->name, "kind",
-                                        info->is_min ? "min" : "max", "limit", t.limit, "value",
-                                        json_figure(value), "holds", threshold_holds(t, value)));
+    for (int i = 0; i < c->row_count; i++) {
+        const CompareRow *r = &c->rows[i];
+        json_t *row = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:s, s:b}", "figure",
+                                r->figure, "of", json_text(r->of), "label", json_text(r->label),
+                                "reference", json_figure(r->reference), "test",
+                                json_figure(r->test), "value", json_figure(r->value), "half_width",
+                                json_figure(r->half_width), "p", json_figure(r->p), "verdict",
+                                r->verdict, "text", r->text, "is_key", r->is_key);
+        json_object_set_new(row, "limit", json_text_or_null(r->limit_text));
+        json_array_append_new(list, row);
     }
     return list;
+}
+
+static json_t *limits_json(const Comparison *c) {
+    json_t *list = json_array();
+    for (int i = 0; i < c->row_count; i++) {
+        const CompareRow *r = &c->rows[i];
+        if (r->table == TABLE_METRIC && r->has_limit)
+            json_array_append_new(list, json_pack("{s:s, s:s, s:f, s:o, s:b}", "metric", r->figure,
+                                                  "kind", r->is_min ? "min" : "max", "limit",
+                                                  r->limit, "value", json_figure(r->value), "holds",
+                                                  !r->is_beyond));
+    }
+    return list;
+}
+
+/* A pixel that stands out; null: none does. */
+static json_t *pixel_json(const Standout *s) {
+    if (!s->count) return json_null();
+    return json_pack("{s:i, s:i, s:f, s:f, s:I, s:b}", "x", s->most.x, "y", s->most.y,
+                     "reference_cd_m2", s->most.luminance[0], "test_cd_m2", s->most.luminance[1],
+                     "count", (json_int_t)s->count, "is_explained", s->is_explained);
 }
 
 static json_t *channels_json(const ChannelDifferences *channels) {
@@ -125,22 +149,30 @@ static json_t *metadata_json(const Structure *structure) {
     return list;
 }
 
-json_t *comparison_json(const Comparison *c, const CompareOptions *options) {
+json_t *comparison_json(const Comparison *c, const char *name) {
     static const char *const JUDGES[] = {[JUDGED_BY_LIMITS] = "limits",
                                          [JUDGED_BY_STATISTIC] = "stat",
                                          [JUDGED_BY_EQUALITY] = "equality"};
     json_t *out = json_pack(
-        "{s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "same", c->same, "reference",
-        json_text(c->reference.name), "test", json_text(c->test.name), "verdict",
-        json_text(c->verdict), "mean", json_text(c->mean), "metrics", metrics_json(c), "limits",
-        limits_json(c, options), "reasons", json_texts(c->reasons.list, c->reasons.count), "notes",
+        "{s:o, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "name", json_text(name), "same",
+        c->same, "outcome", compare_outcome_names[c->outcome], "verdict", json_text(c->verdict),
+        "reference", json_text(c->reference.name), "test", json_text(c->test.name), "metrics",
+        metrics_json(c), "limits", limits_json(c), "rows", rows_json(c), "reasons",
+        json_texts(c->reasons.list, c->reasons.count), "notes",
         json_texts(c->notes.list, c->notes.count));
     json_object_set_new(out, "kind",
                         json_string(c->reference.kind == INPUT_FRAME ? "frame" : "picture"));
     json_object_set_new(out, "metadata", metadata_json(&c->structure));
+    json_object_set_new(out, "inputs_changed",
+                        c->structure.knows_inputs
+                            ? json_texts(c->structure.inputs.list, c->structure.inputs.count)
+                            : json_null());
+    json_object_set_new(out, "settings_changed",
+                        json_texts(c->structure.settings.list, c->structure.settings.count));
     json_object_set_new(out, "seconds", json_real(c->seconds));
     if (!c->has_pixels) return out;
     json_object_set_new(out, "judged_by", json_string(JUDGES[c->judged_by]));
+    json_object_set_new(out, "stands_out", pixel_json(&c->standout));
     json_object_set_new(out, "size",
                         json_pack("[i,i]", c->reference.light.width, c->reference.light.height));
     json_object_set_new(out, "pixels", json_integer((json_int_t)c->selection.pixels));

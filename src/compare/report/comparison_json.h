@@ -8,6 +8,7 @@
 
 #include "compare/comparison.h"
 
-/* {"same", "verdict", "mean", "metrics": {...}, "limits", "reasons", "notes", ...}. A metric
- * that was not computed has no key; an infinite one (psnr of equal pictures) is null. */
-json_t *comparison_json(const Comparison *c, const CompareOptions *options);
+/* {"name", "same", "outcome", "verdict", "metrics": {...}, "limits", "rows", "reasons", "notes",
+ * ...}. A metric that was not computed has no key; an infinite one (psnr of equal pictures) is
+ * null. name: of the pair. */
+json_t *comparison_json(const Comparison *c, const char *name);

@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "compare/report/html_report.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/count.h"
 #include "base/file.h"
-#include "compare/comparison.h"
-#include "compare/report/comparison_json.h"
 #include "compare/report/html_pictures.h"
 #include "page/page.h"
 #include "text/json_text.h"
@@ -43,110 +40,44 @@ bool html_report_check_name(const char *path, Error *err) {
                      path);
 }
 
-/* ---- metrics ----------------------------------------------------------------------------- */
+/* ---- rows -------------------------------------------------------------------------------- */
 
-#define KEYS_OF_DISPLAYS 6
-
-/* A metric as people read it: "0.0123", "1.2 %", "12.3 cd/m²". */
-static const char *value_text(const Comparison *c, Metric metric, double value, char text[64]) {
-    const MetricInfo *info = metric_info(metric);
-    bool is_frame = c->reference.kind == INPUT_FRAME;
-    const char *sign = info->is_change && value > 0 ? "+" : "";
-    if (isnan(value)) snprintf(text, 64, "–");
-    else if (isinf(value)) snprintf(text, 64, "∞");
-    else if (metric == METRIC_P_VALUE) snprintf(text, 64, "%.2g", value);
-    else if (!strcmp(info->unit, "%")) snprintf(text, 64, "%s%.4g %%", sign, 100 * value);
-    else if (!strcmp(info->unit, "light"))
-        snprintf(text, 64, "%.4g%s", value, is_frame ? " cd/m²" : "");
-    else if (!strcmp(info->unit, "light^2"))
-        snprintf(text, 64, "%.4g%s", value, is_frame ? " (cd/m²)²" : "");
-    else snprintf(text, 64, "%.4g%s%s", value, info->unit[0] ? " " : "", info->unit);
-    return text;
+/* As pages write it: "±", "cd/m²". */
+static json_t *typeset(const char *text, Arena scratch) {
+    static const char *const SIGNS[][2] = {{"+-", "±"}, {"m2", "m²"}, {")^2", ")²"}};
+    Text out = {.arena = &scratch};
+    text_add(&out, "");
+    while (*text) {
+        int k = 0;
+        while (k < COUNT_OF(SIGNS) && strncmp(text, SIGNS[k][0], strlen(SIGNS[k][0])) != 0) k++;
+        if (k < COUNT_OF(SIGNS)) text_add(&out, SIGNS[k][1]);
+        else text_add_bytes(&out, text, 1);
+        text += k < COUNT_OF(SIGNS) ? strlen(SIGNS[k][0]) : 1;
+    }
+    return json_text(out.data);
 }
 
-static const Threshold *limit_of(const CompareOptions *options, Metric metric) {
-    for (int i = 0; i < options->threshold_count; i++)
-        if (options->thresholds[i].metric == metric) return &options->thresholds[i];
-    return NULL;
-}
-
-/* Nothing of one that was not computed, unless it has a limit. */
-static void add_metric(json_t *list, const Comparison *c, const CompareOptions *options,
-                       Metric metric) {
-    char text[64];
-    const Threshold *limit = limit_of(options, metric);
-    const MetricInfo *info = metric_info(metric);
-    double value = c->value[metric];
-    if (isnan(value) && !limit) return;
-    json_t *to = page_add(list);
-    page_set(to, "label", info->label);
-    page_set(to, "value", value_text(c, metric, value, text));
-    page_set(to, "limit", limit ? value_text(c, metric, limit->limit, text) : NULL);
-    page_set_flag(to, "is_min", info->is_min);
-    page_set_flag(to, "is_over", limit && !threshold_holds(*limit, value));
-}
-
-/* All of them, and the few that are looked at first. */
-static void set_metrics(json_t *to, const Comparison *c, const CompareOptions *options) {
-    static const Metric KEYS[] = {METRIC_MEAN_SHIFT,  METRIC_P_VALUE, METRIC_FLIP,
-                                  METRIC_DELTAE_MEAN, METRIC_PSNR,    METRIC_SSIM};
-    json_t *keys = json_array(), *rows = json_array();
-    for (int i = 0; i < COUNT_OF(KEYS); i++) add_metric(keys, c, options, KEYS[i]);
-    for (int i = 0; i < METRIC_COUNT; i++) add_metric(rows, c, options, (Metric)i);
+/* A table of each kind, and the few that are looked at first. */
+static void set_rows(json_t *to, const Comparison *c, Arena scratch) {
+    static const char *const NAMES[] = {
+        [TABLE_CONTRAST] = "contrasts", [TABLE_MEAN] = "means", [TABLE_METRIC] = "figures"};
+    json_t *lists[COUNT_OF(NAMES)], *keys = json_array();
+    for (int t = 0; t < COUNT_OF(NAMES); t++) {
+        lists[t] = json_array();
+        json_object_set_new(to, NAMES[t], lists[t]);
+    }
     json_object_set_new(to, "keys", keys);
-    json_object_set_new(to, "metric_rows", rows);
-}
-
-static void change_text(Measured ratio, char text[64]) {
-    double change = 100 * (ratio.value - 1);
-    if (!isfinite(ratio.low)) snprintf(text, 64, "%+.3g %%", change);
-    else snprintf(text, 64, "%+.3g ± %.2g %%", change, 100 * measured_half_width(ratio));
-}
-
-static void set_contrasts(json_t *to, const Comparison *c, const CompareOptions *options) {
-    const Threshold *limit = limit_of(options, METRIC_CONTRAST_CHANGE);
-    json_t *list = json_array();
-    for (int i = 0; i < c->contrast_count; i++) {
-        char change[64];
-        const ContrastChange *d = &c->contrasts[i];
-        bool is_over = limit && !threshold_holds(*limit, d->ratio.value - 1);
-        json_t *item = page_add(list);
-        change_text(d->ratio, change);
-        page_set(item, "display", d->display);
-        page_set(item, "change", change);
-        page_set_flag(item, "is_key", i < KEYS_OF_DISPLAYS);
-        page_set_flag(item, "is_over", is_over);
-        json_object_set_new(item, "before", json_figure(d->reference.contrast.value));
-        json_object_set_new(item, "after", json_figure(d->test.contrast.value));
-        json_object_set_new(item, "reflected_before", json_figure(d->reference.reflected));
-        json_object_set_new(item, "reflected_after", json_figure(d->test.reflected));
+    for (int i = 0; i < c->row_count; i++) {
+        const CompareRow *r = &c->rows[i];
+        json_t *row = json_array_get(json_object_get(to, "rows"), (size_t)i);
+        json_object_set_new(row, "text", typeset(r->text, scratch));
+        if (r->limit_text) json_object_set_new(row, "limit", typeset(r->limit_text, scratch));
+        page_set_flag(row, "is_bad", r->is_beyond || (r->table == TABLE_MEAN && r->is_finding));
+        json_array_append(lists[r->table], row);
+        if (r->is_key) json_array_append(keys, row);
     }
-    json_object_set_new(to, "contrasts", list);
-    page_set_flag(to, "has_contrasts", c->contrast_count > 0);
-}
-
-/* Half a 95 % interval is 1.96 standard errors. */
-static void set_change(json_t *to, const char *name, double change, double sigma) {
-    char text[64];
-    snprintf(text, sizeof text, "%+.2g ± %.2g %%", 100 * change, 196 * sigma);
-    page_set(to, name, text);
-}
-
-static void set_regions(json_t *to, const StatisticResult *s) {
-    json_t *list = json_array();
-    for (int i = 0; i < s->region_count; i++) {
-        const StatisticRegion *r = &s->regions[i];
-        json_t *item = page_add(list);
-        page_set(item, "name", r->name);
-        json_object_set_new(item, "reference", json_figure(r->reference));
-        json_object_set_new(item, "test", json_figure(r->test));
-        json_object_set_new(item, "p", json_figure(r->p_value));
-        page_set_flag(item, "moved", r->moved);
-        set_change(item, "shift", r->shift, r->shift_sigma);
-        set_change(item, "change", r->change, r->change_sigma);
-    }
-    json_object_set_new(to, "regions", list);
-    page_set_flag(to, "has_regions", s->region_count > 0);
+    page_set_flag(to, "has_contrasts", json_array_size(lists[TABLE_CONTRAST]) > 0);
+    page_set_flag(to, "has_means", json_array_size(lists[TABLE_MEAN]) > 0);
 }
 
 static void set_channels(json_t *to, const ChannelDifferences *channels) {
@@ -181,9 +112,7 @@ static void set_notes(json_t *to, const Comparison *c) {
     page_set_flag(to, "has_differing", json_array_size(json_object_get(to, "metadata")) > 0);
     page_set_flag(to, "has_alike", json_array_size(alike) > 0);
     json_object_set_new(to, "alike", alike);
-    /* The verdict states the first reason. */
-    page_set_flag(to, "has_more_reasons", c->reasons.count > 1);
-    json_array_remove(json_object_get(to, "reasons"), 0);
+    page_set_flag(to, "has_reasons", c->reasons.count > 0);
 }
 
 /* ---- pictures ---------------------------------------------------------------------------- */
@@ -249,24 +178,20 @@ static bool set_shots(json_t *to, const Comparison *c, long most_pixels, Arena s
 
 /* ---- a pair ------------------------------------------------------------------------------ */
 
-static json_t *pair_values(const HtmlReport *report, const char *name, const Comparison *c,
-                           const CompareOptions *options) {
+/* Of the pair's document. */
+static json_t *pair_values(const HtmlReport *report, const json_t *pair, const Comparison *c,
+                           Arena scratch) {
     char id[32];
-    json_t *to = comparison_json(c, options);
+    json_t *to = json_deep_copy(pair);
     snprintf(id, sizeof id, "pair-%d", report->count);
     page_set(to, "id", id);
-    page_set(to, "name", name);
-    page_set_flag(to, "failed", false);
     page_set_flag(to, "is_folder", report->is_folder);
     page_set_flag(to, "is_open", report->shown == 0);
     page_set_flag(to, "has_pixels", c->has_pixels);
     set_notes(to, c);
     if (!c->has_pixels) return to;
-    set_metrics(to, c, options);
-    set_contrasts(to, c, options);
+    set_rows(to, c, scratch);
     set_channels(to, &c->channels);
-    page_set_flag(to, "has_regions", false);
-    if (c->has_stat) set_regions(to, &c->stat);
     return to;
 }
 
@@ -274,7 +199,6 @@ static json_t *pair_values(const HtmlReport *report, const char *name, const Com
 static bool add_card(HtmlReport *report, json_t *values, const Comparison *c, Arena scratch,
                      Error *err) {
     ShotKind kind = c->same ? SHOT_REFERENCE : SHOT_TEST;
-    json_object_set_new(values, "flip", json_figure(c->value[METRIC_FLIP]));
     if (has_planes(c)) {
         Picture small = shot_thumbnail(c, kind, THUMBNAIL, &scratch);
         json_t *picture = page_picture(&small, true, scratch, err);
@@ -284,9 +208,9 @@ static bool add_card(HtmlReport *report, json_t *values, const Comparison *c, Ar
     return page_render(&report->index, "compare_card.html", values, NULL, scratch, err);
 }
 
-bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
-                     const CompareOptions *options, Arena scratch, Error *err) {
-    json_t *values = pair_values(report, name, c, options);
+bool html_report_add(HtmlReport *report, const json_t *pair, const Comparison *c, Arena scratch,
+                     Error *err) {
+    json_t *values = pair_values(report, pair, c, scratch);
     bool is_shown = !report->is_folder || !c->same;
     long most = report->is_folder ? FOLDER_PIXELS : PAIR_PIXELS;
     bool ok = (!report->is_folder || add_card(report, values, c, scratch, err)) &&
@@ -295,20 +219,15 @@ bool html_report_add(HtmlReport *report, const char *name, const Comparison *c,
     json_decref(values);
     report->shown += is_shown;
     report->count++;
-    report->different += !c->same;
     return ok;
 }
 
-void html_report_add_failure(HtmlReport *report, const char *name, const char *why) {
+void html_report_add_failure(HtmlReport *report, const json_t *pair) {
     char id[32];
     Error none; /* its template has no format that could fail */
-    json_t *values = json_object();
+    json_t *values = json_copy((json_t *)(size_t)pair);
     snprintf(id, sizeof id, "pair-%d", report->count++);
-    report->different++;
     page_set(values, "id", id);
-    page_set(values, "name", name);
-    page_set(values, "why", why);
-    page_set_flag(values, "failed", true);
     page_render(&report->index, "compare_card.html", values, NULL, (Arena){0}, &none);
     json_decref(values);
 }
@@ -319,21 +238,20 @@ void html_report_add_failure(HtmlReport *report, const char *name, const char *w
 #define CARDS "<!-- cards -->"
 #define PAIRS "<!-- pairs -->"
 
-static bool set_page(json_t *to, const HtmlReport *report, const char *reference, const char *test,
-                     Arena *arena, Error *err) {
+static bool set_page(json_t *to, const HtmlReport *report, const json_t *folders,
+                     const char *const sides[2], Arena *arena, Error *err) {
     Text ramps[2] = {{.arena = arena}, {.arena = arena}};
-    const char *title = arena_format(arena, "%s against %s", path_name(test), path_name(reference));
+    const char *title =
+        arena_format(arena, "%s against %s", path_name(sides[1]), path_name(sides[0]));
     for (int i = 0; i < 2; i++) shot_ramp_digits(&ramps[i], i == 1);
-    page_set(to, "reference", reference);
-    page_set(to, "test", test);
+    page_set(to, "reference", sides[0]);
+    page_set(to, "test", sides[1]);
     page_set(to, "cards", CARDS);
     page_set(to, "pairs", PAIRS);
     page_set(to, "plain_ramp", ramps[0].data);
     page_set(to, "signed_ramp", ramps[1].data);
     page_set_flag(to, "is_folder", report->is_folder);
-    page_set_flag(to, "is_one", report->count == 1);
-    page_set_count(to, "count", report->count);
-    page_set_count(to, "different", report->different);
+    if (folders) json_object_update(to, (json_t *)(size_t)folders);
     return page_set_head(to, &(PageHead){.title = title, .command = "compare --report"}, err);
 }
 
@@ -345,12 +263,12 @@ static Text cut_at(const char **rest, const char *mark) {
     return (Text){.data = (char *)(size_t)at, .size = (size_t)(end - at)};
 }
 
-bool html_report_write(const HtmlReport *report, const char *reference, const char *test,
+bool html_report_write(const HtmlReport *report, const json_t *folders, const char *const sides[2],
                        const char *path, Error *err) {
     Arena arena = arena_reserve(FRAME_BYTES), scratch = arena_reserve(FRAME_BYTES);
     Text page = {.arena = &arena};
     json_t *values = json_object();
-    bool ok = set_page(values, report, reference, test, &scratch, err) &&
+    bool ok = set_page(values, report, folders, sides, &scratch, err) &&
               page_render(&page, "compare.html", values, NULL, scratch, err);
     if (ok) {
         const char *rest = page.data;

@@ -8,6 +8,7 @@
 #include "base/number.h"
 #include "measure/display_part.h"
 
+#define REFLECTED " reflected"
 #define DISPLAY_PREFIX "parhelion:display."
 /* Pixels surer than this share of their light weigh no more for it: a region is more than its
  * least noisy corner. */
@@ -51,7 +52,7 @@ static int list_regions(const NoisyPair *pair, const FrameImage *frame, Arena *a
         (*names)[count] = name;
         (*regions)[count++] = (Region){.display = id, .channel = NOISY_LUMINANCE};
         if (!pair->has_reflected) continue;
-        (*names)[count] = arena_format(arena, "%s reflected", name);
+        (*names)[count] = arena_format(arena, "%s" REFLECTED, name);
         (*regions)[count++] = (Region){.display = id, .channel = NOISY_REFLECTED};
     }
     return count;
@@ -261,6 +262,14 @@ static void estimate_change(const Region *region, NoiseLaw law, StatisticRegion 
     if (is_steep) out->change_sigma = sign_flip_sigma(&region->weighted, law) / slope;
 }
 
+static const char *words_of(const Region *region, const char *name, Arena *arena) {
+    bool is_reflected = region->channel == NOISY_REFLECTED;
+    if (region->display < 0) return "the frame";
+    return arena_format(arena, "display %.*s%s",
+                        (int)(strlen(name) - (is_reflected ? strlen(REFLECTED) : 0)), name,
+                        is_reflected ? ", reflected light" : "");
+}
+
 static StatisticRegion figures_of(const Region *region, const char *name, NoiseLaw law) {
     if (region->channel == NOISY_REFLECTED && law.is_same) law.has_variance = false;
     StatisticRegion out = {.name = name,
@@ -318,6 +327,7 @@ RegionFindings regions_measure(const NoisyPair *pair, const FrameImage *const fr
         measure_region(pair, &parts, names[r], *arena, &regions[r]);
         if (regions[r].plain.count == 0) continue;
         out.list[out.count] = figures_of(&regions[r], names[r], pair->law);
+        out.list[out.count].words = words_of(&regions[r], names[r], arena);
         least = fmin(least, out.list[out.count++].p_value);
     }
     if (out.count == 0) return out;

@@ -13,7 +13,8 @@
 
 /* One part of the frame whose mean is tested for itself. */
 typedef struct StatisticRegion {
-    const char *name; /* "frame", a display's in the reference, "cluster reflected" */
+    const char *name;  /* "frame", a display's in the reference, "cluster reflected" */
+    const char *words; /* "the frame", "display cluster", "display cluster, reflected light" */
     long pixels;
     double reference, test; /* mean luminance, cd m^-2; of a display over its own area */
     double shift;           /* test / reference - 1; NaN for a black reference */

@@ -204,35 +204,28 @@ static void append_shift(const StatisticRegion *region, char *text, size_t size)
                has_shift ? "," : "", 100 * region->change, INTERVAL_PERCENT * region->change_sigma);
 }
 
-/* "display 'cluster': reflected light", "the frame: mean luminance" */
-static void append_name(const StatisticRegion *region, bool is_frame, char *text, size_t size) {
-    static const char REFLECTED[] = " reflected";
-    size_t length = strlen(region->name), tail = sizeof REFLECTED - 1;
-    bool is_reflected =
-        !is_frame && length > tail && !strcmp(region->name + length - tail, REFLECTED);
-    if (is_reflected) length -= tail;
-    if (is_frame) append(text, size, "the frame");
-    else append(text, size, "display '%.*s'", (int)(length < 60 ? length : 60), region->name);
-    append(text, size, ": %s", is_reflected ? "reflected light" : "mean luminance");
-}
-
 static const SignFlipSum *sum_of_block(const BlockGrid *grid, const BlockFinding *found) {
     return &grid->sums[found->index][found->channel];
+}
+
+static ExrWindow window_of(const NoisyPair *pair, const BlockGrid *grid, int index) {
+    const ExrWindow d = pair->data, w = pair->display_window;
+    int x = d.x0 - w.x0 + index % grid->columns * grid->side;
+    int y = d.y0 - w.y0 + index / grid->columns * grid->side;
+    int right = d.x1 - w.x0, bottom = d.y1 - w.y0;
+    return (ExrWindow){x, y, x + grid->side < right ? x + grid->side : right,
+                       y + grid->side < bottom ? y + grid->side : bottom};
 }
 
 /* "block at x 120..128, y 40..48: green -12.1 +- 3 %" in pixels of the display window. */
 static void append_block(const NoisyPair *pair, const BlockGrid *grid, const BlockFinding *found,
                          char *text, size_t size) {
-    const ExrWindow d = pair->data, w = pair->display_window;
+    const ExrWindow at = window_of(pair, grid, found->index);
     const SignFlipSum *sum = sum_of_block(grid, found);
     double sigma = sign_flip_sigma(sum, pair->law);
-    int x = d.x0 - w.x0 + found->index % grid->columns * grid->side;
-    int y = d.y0 - w.y0 + found->index / grid->columns * grid->side;
-    int right = d.x1 - w.x0, bottom = d.y1 - w.y0;
     double light = sum->light - 0.5 * sum->sum;
-    append(text, size, "block at x %d..%d, y %d..%d: %s", x,
-           x + grid->side < right ? x + grid->side : right, y,
-           y + grid->side < bottom ? y + grid->side : bottom, CHANNELS[found->channel]);
+    append(text, size, "block at x %d..%d, y %d..%d: %s", at.x0, at.x1, at.y0, at.y1,
+           CHANNELS[found->channel]);
     if (!regions_excludes_none(sum->sum, sigma)) append(text, size, " (p = %.2g)", found->p_least);
     else if (fabs(sum->sum) < 10 * light)
         append(text, size, " %+.3g +- %.2g %%", 100 * sum->sum / light,
@@ -243,11 +236,10 @@ static void append_block(const NoisyPair *pair, const BlockGrid *grid, const Blo
 }
 
 static void append_shared(const StatisticResult *r, char *text, size_t size) {
-    append(text, size, "one seed and the same samples: %ld of %ld pixels differ", r->differing,
-           r->pixels);
+    append(text, size, "one seed: %ld of %ld pixels differ", r->differing, r->pixels);
     if (r->verdict != STATISTIC_DIFFERENT)
         append(text, size,
-               r->differing ? ", the mean did not move (p = %.2g)"
+               r->differing ? ", no mean by more than the noise (p = %.2g)"
                             : " by more than rounding (p = %.2g)",
                r->p_value);
     else append(text, size, "; ");
@@ -269,12 +261,13 @@ static void statistic_reason(const NoisyPair *pair, const BlockGrid grids[2],
     bool has_region = out->p_regions < family_level && (region->moved || !has_block);
     if (has_block) {
         const SignFlipSum *sum = sum_of_block(grid, found);
+        out->block = window_of(pair, grid, found->index);
         out->mean_moved = regions_excludes_none(sum->sum, sign_flip_sigma(sum, pair->law));
     }
     if (region->moved && has_region) out->mean_moved = true;
     append(text, size,
            out->mean_moved ? "the mean moved: " : "pixels differ by more than their noise: ");
-    if (has_region) append_name(region, region == &out->regions[0], text, size);
+    if (has_region) append(text, size, "%.80s", region->words);
     if (has_region && region->moved) append_shift(region, text, size);
     else if (has_region) append(text, size, " (p = %.2g)", region->p_value);
     if (has_region && has_block) append(text, size, "; ");

@@ -61,6 +61,7 @@ typedef struct StatisticResult {
                                where the mask leaves nothing */
     StatisticRegion *regions;
     int region_count;
+    ExrWindow block;  /* the surest one, pixels of the display window */
     char reason[256]; /* in words, where it moved and how much; without a move, what
                          differs between frames that share their noise, or "" */
     char note[256];   /* what makes the test weaker than it could be, or "" */

@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "compare/metrics/change.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "spectrum/photometry.h"
+
+#define SIDE_MOST 8
+#define CELLS_ALONG 8    /* at least, where pixels suffice and no noise is */
+#define NOISY 0.1        /* share of the pixels: fewer that differ are no noise */
+#define ROUNDING 1e-5    /* as SIGN_FLIP_ROUNDING */
+#define FALSE_CELLS 0.01 /* expected of all, in independent noise */
+#define SURE 3.3         /* standard errors: one false in a thousand */
+#define EVERYWHERE 0.8   /* share of the lit cells */
+#define FAINT 0.25       /* of the cells' root mean square change: less is not where it changed */
+#define SPREAD (2 / 3.0) /* of a picture's side: what spans more has no place along it */
+#define DARK 1e-3        /* of the mean: light that is as good as none */
+#define LEAST_UV 0.001
+
+static double luminance_of(const double rgb[3]) {
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
+/* ---- sums -------------------------------------------------------------------------------- */
+
+ChangeGrid change_grid(int width, int height, bool is_paired, Arena *arena) {
+    int least = width < height ? width : height, side = least / CELLS_ALONG;
+    side = !is_paired || side > SIDE_MOST ? SIDE_MOST : side < 1 ? 1 : side;
+    ChangeGrid grid = {.width = width,
+                       .height = height,
+                       .side = side,
+                       .columns = (width + side - 1) / side,
+                       .rows = (height + side - 1) / side};
+    grid.cells = ARENA_NEW(arena, ChangeSum, (size_t)grid.columns * (size_t)grid.rows);
+    return grid;
+}
+
+static void add_pixel(double rgb[2][3], int x, int y, ChangeGrid *grid) {
+    ChangeSum *cell = &grid->cells[y / grid->side * grid->columns + x / grid->side];
+    double most = 0, d[3], luminance[2] = {luminance_of(rgb[0]), luminance_of(rgb[1])};
+    bool differs = false;
+    for (int c = 0; c < 3; c++) {
+        d[c] = rgb[1][c] - rgb[0][c];
+        differs = differs || fabs(d[c]) > ROUNDING * fmax(fabs(rgb[0][c]), fabs(rgb[1][c]));
+        most = fmax(most, fabs(d[c]));
+        for (int s = 0; s < 2; s++) cell->light[s][c] += rgb[s][c];
+    }
+    for (int k = 0; k < 6 && differs; k++) cell->changed[k / 3][k % 3] += rgb[k / 3][k % 3];
+    double dy = luminance[1] - luminance[0];
+    cell->pixels++;
+    cell->differing += differs;
+    cell->squares += dy * dy;
+    for (int k = 0; k < 2; k++) {
+        cell->colour[k] += d[2 * k] * d[2 * k];
+        cell->cross[k] += d[2 * k] * dy;
+    }
+    if (!(most > grid->most_difference)) return;
+    grid->most_difference = most;
+    grid->most = (ChangedPixel){x, y, {luminance[0], luminance[1]}};
+}
+
+void change_add_rows(ChangeGrid *grid, const Planes *const light[2], PixelMask mask, int top,
+                     const int rows[2]) {
+    for (int y = rows[0]; y < rows[1]; y++)
+        for (int x = 0; x < grid->width; x++) {
+            size_t i = (size_t)(y - top) * (size_t)grid->width + (size_t)x;
+            double rgb[2][3];
+            if (mask && !mask[i]) continue;
+            for (int s = 0; s < 2; s++)
+                for (int c = 0; c < 3; c++) rgb[s][c] = (double)light[s]->rgb[c][i];
+            add_pixel(rgb, x, y, grid);
+        }
+}
+
+/* sign: 1 adds, -1 takes away. */
+static void join(ChangeSum *to, const ChangeSum *from, double sign) {
+    to->pixels += sign * from->pixels;
+    to->differing += sign * from->differing;
+    to->squares += sign * from->squares;
+    for (int s = 0; s < 2; s++) {
+        for (int c = 0; c < 3; c++) {
+            to->light[s][c] += sign * from->light[s][c];
+            to->changed[s][c] += sign * from->changed[s][c];
+        }
+        to->colour[s] += sign * from->colour[s];
+        to->cross[s] += sign * from->cross[s];
+    }
+}
+
+/* ---- how sure a sum is ------------------------------------------------------------------- */
+
+static double difference_of(const ChangeSum *sum) {
+    return luminance_of(sum->light[1]) - luminance_of(sum->light[0]);
+}
+
+static double quotient(double sum, double squares) {
+    return squares > 0 ? fabs(sum) / sqrt(squares) : 0;
+}
+
+/* In standard errors, what red and blue changed beside the luminance: the sum of d - r dY, with r
+ * what they are of the luminance in both together. */
+static double colour_quotient(const ChangeSum *sum) {
+    double both = luminance_of(sum->light[0]) + luminance_of(sum->light[1]), most = 0;
+    for (int k = 0; k < 2; k++) {
+        double r = both > 0 ? (sum->light[0][2 * k] + sum->light[1][2 * k]) / both : 0;
+        double beside = sum->light[1][2 * k] - sum->light[0][2 * k] - r * difference_of(sum);
+        double squares = sum->colour[k] - 2 * r * sum->cross[k] + r * r * sum->squares;
+        most = fmax(most, quotient(beside, squares));
+    }
+    return most;
+}
+
+static double surest(const ChangeSum *sum) {
+    return fmax(quotient(difference_of(sum), sum->squares), colour_quotient(sum));
+}
+
+/* The greatest change of a channel, as a share of the brighter side's light: 0 .. 1. */
+static double size_of(const ChangeSum *cell, double floor) {
+    double most = 0;
+    for (int c = 0; c < 3; c++) {
+        double a = cell->light[0][c], b = cell->light[1][c];
+        most = fmax(most, fabs(b - a) / fmax(fmax(fabs(a), fabs(b)), floor * cell->pixels));
+    }
+    return most;
+}
+
+static bool is_lit(const ChangeSum *cell, double floor) {
+    return cell->pixels > 0 &&
+           fmax(luminance_of(cell->light[0]), luminance_of(cell->light[1])) > floor * cell->pixels;
+}
+
+static double relative(const ChangeSum *sum) {
+    double before = luminance_of(sum->light[0]), change = difference_of(sum);
+    return change == 0 ? 0 : change / before;
+}
+
+static void uv_of(const double light[3], double uv[2]) {
+    const float rgb[3] = {(float)light[0], (float)light[1], (float)light[2]};
+    float xyz[3];
+    xyz_from_rgb(rgb, xyz);
+    double sum = (double)xyz[0] + 15 * (double)xyz[1] + 3 * (double)xyz[2];
+    uv[0] = sum > 0 ? 4 * (double)xyz[0] / sum : 0.1978; /* D65 */
+    uv[1] = sum > 0 ? 9 * (double)xyz[1] / sum : 0.4683;
+}
+
+/* ---- where ------------------------------------------------------------------------------- */
+
+static const char *place_of(const ChangeGrid *grid, const LightChange *change, double floor) {
+    static const char *const NAMES[4][4] = {{"upper left", "top", "upper right", "top"},
+                                            {"left", "centre", "right", "middle"},
+                                            {"lower left", "bottom", "lower right", "bottom"},
+                                            {"left", "centre", "right", ""}};
+    double sum = 0, middle[2] = {0, 0};
+    int low[2] = {grid->columns, grid->rows}, high[2] = {-1, -1}, third[2];
+    const int size[2] = {grid->columns, grid->rows};
+    for (int i = 0; i < grid->columns * grid->rows; i++) {
+        if (!change->cells[i]) continue;
+        double weight = size_of(&grid->cells[i], floor) * grid->cells[i].pixels;
+        const int at[2] = {i % grid->columns, i / grid->columns};
+        sum += weight;
+        for (int k = 0; k < 2; k++) {
+            middle[k] += weight * (at[k] + 0.5);
+            if (at[k] < low[k]) low[k] = at[k];
+            if (at[k] > high[k]) high[k] = at[k];
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        third[k] = (int)(3 * middle[k] / sum / size[k]);
+        if (high[k] - low[k] + 1 > SPREAD * size[k]) third[k] = 3;
+    }
+    return sum > 0 ? NAMES[third[1]][third[0]] : "";
+}
+
+/* The cells that changed; returns how many of them are lit. */
+static double mark_cells(const ChangeGrid *grid, double floor, LightChange *out) {
+    int count = grid->columns * grid->rows;
+    double lit = 0, squares = 0, marked = 0;
+    for (int i = 0; i < count; i++) {
+        const ChangeSum *cell = &grid->cells[i];
+        double size = cell->pixels > 0 ? size_of(cell, floor) : 0;
+        lit += is_lit(cell, floor);
+        squares += size * size;
+    }
+    double least = FAINT * sqrt(squares / fmax(lit, 1)), sure = sqrt(2 * log(count / FALSE_CELLS));
+    for (int i = 0; i < count; i++) {
+        const ChangeSum *cell = &grid->cells[i];
+        out->cells[i] = cell->differing > 0 && size_of(cell, floor) >= least &&
+                        (!out->is_noisy || surest(cell) > sure);
+        if (!out->cells[i]) continue;
+        join(&out->area, cell, 1);
+        marked += is_lit(cell, floor);
+    }
+    return marked / fmax(lit, 1);
+}
+
+/* What changes a little in every cell shows in those together that are not sure by themselves,
+ * and in half of them by half as much at least. */
+static bool is_everywhere(const ChangeGrid *grid, const LightChange *change, double floor,
+                          double marked) {
+    ChangeSum rest = change->all;
+    double size = relative(marked > 0 ? &change->area : &change->all), lit = 0, agree = 0;
+    if (marked >= EVERYWHERE) return true;
+    if (!change->is_noisy) return false;
+    join(&rest, &change->area, -1);
+    for (int i = 0; i < grid->columns * grid->rows; i++) {
+        const ChangeSum *cell = &grid->cells[i];
+        if (!is_lit(cell, floor)) continue;
+        lit++;
+        agree += size > 0 ? relative(cell) > 0.5 * size : relative(cell) < 0.5 * size;
+    }
+    return surest(&rest) > SURE && fabs(relative(&rest)) >= 0.5 * fabs(size) && agree >= 0.5 * lit;
+}
+
+LightChange change_find(const ChangeGrid *grid, bool is_paired, double floor, Arena *arena) {
+    int count = grid->columns * grid->rows;
+    double ways = 0, uv[2][2];
+    LightChange out = {.cells = ARENA_NEW(arena, unsigned char, count), .place = ""};
+    for (int i = 0; i < count; i++) join(&out.all, &grid->cells[i], 1);
+    out.is_noisy = !is_paired && out.all.differing > NOISY * out.all.pixels;
+    for (int s = 0; s < 2; s++)
+        floor = fmax(floor, DARK * luminance_of(out.all.light[s]) / fmax(out.all.pixels, 1));
+    double marked = mark_cells(grid, floor, &out);
+    out.is_everywhere = is_everywhere(grid, &out, floor, marked);
+    if (out.is_everywhere) out.area = out.all;
+    else out.place = place_of(grid, &out, floor);
+    for (int i = 0; i < count; i++)
+        if (out.is_everywhere || out.cells[i]) ways += fabs(difference_of(&grid->cells[i]));
+    out.share = (out.is_noisy ? out.area.pixels : out.area.differing) / fmax(out.all.pixels, 1);
+    if (out.is_noisy)
+        out.half_width = 1.96 * sqrt(out.area.squares) / luminance_of(out.area.light[0]);
+    else if (!out.is_everywhere) memcpy(out.area.light, out.area.changed, sizeof out.area.light);
+    out.luminance = relative(&out.area);
+    out.is_both_ways = fabs(difference_of(&out.area)) < FAINT * ways;
+    for (int s = 0; s < 2; s++) uv_of(out.area.light[s], uv[s]);
+    out.uv = hypot(uv[1][0] - uv[0][0], uv[1][1] - uv[0][1]);
+    out.has_colour = out.uv >= LEAST_UV && (!out.is_noisy || colour_quotient(&out.area) > SURE);
+    return out;
+}
+
+/* ---- one pixel --------------------------------------------------------------------------- */
+
+static int by_size(const void *a, const void *b) {
+    float one = *(const float *)a, other = *(const float *)b;
+    return (one > other) - (one < other);
+}
+
+/* The most that the other side has around a pixel, and the median around it on its own. */
+static double around(const float *const luminance[2], int bright, const Planes *size, int x,
+                     int y) {
+    float most = 0, own[8];
+    size_t count = 0;
+    for (int v = y - 1; v <= y + 1; v++)
+        for (int u = x - 1; u <= x + 1; u++) {
+            if (u < 0 || v < 0 || u >= size->width || v >= size->height) continue;
+            size_t i = (size_t)v * (size_t)size->width + (size_t)u;
+            most = fmaxf(most, luminance[1 - bright][i]);
+            if (u != x || v != y) own[count++] = luminance[bright][i];
+        }
+    qsort(own, count, sizeof *own, by_size);
+    return (double)fmaxf(most, count ? own[count / 2] : 0);
+}
+
+Standout change_standout(const Planes *const light[2], PixelMask mask, const float *sigma,
+                         Arena scratch) {
+    const Planes *size = light[0];
+    size_t count = planes_pixel_count(size);
+    float *luminance[2];
+    double mean[2] = {0, 0}, pixels = 0, rest = 0;
+    Standout best[2][2] = {{{0}}}; /* brighter in: explained */
+    for (int s = 0; s < 2; s++) {
+        luminance[s] = ARENA_NEW(&scratch, float, count);
+        for (size_t i = 0; i < count; i++) {
+            const float rgb[3] = {light[s]->rgb[0][i], light[s]->rgb[1][i], light[s]->rgb[2][i]};
+            luminance[s][i] = luminance_from_rgb(rgb);
+            if (!mask[i]) continue;
+            mean[s] += (double)luminance[s][i];
+            pixels += s;
+        }
+    }
+    double floor = fmin(mean[0], mean[1]) / fmax(pixels, 1) / 100;
+    for (size_t i = 0; i < count; i++) {
+        int bright = luminance[1][i] > luminance[0][i];
+        double most = (double)luminance[bright][i], least = (double)luminance[1 - bright][i];
+        int x = (int)(i % (size_t)size->width), y = (int)(i / (size_t)size->width);
+        if (!mask[i]) continue;
+        if (!(most > STANDOUT * fmax(least, floor)) ||
+            !(most > STANDOUT * around((const float *const *)luminance, bright, size, x, y))) {
+            rest = fmax(rest, most - least);
+            continue;
+        }
+        bool is_explained = sigma && !(most - least > STANDOUT_SIGMAS * (double)sigma[i]);
+        Standout *to = &best[bright][is_explained];
+        to->is_explained = is_explained;
+        to->count++;
+        if (to->count > 1 && most - least <= fabs(to->most.luminance[1] - to->most.luminance[0]))
+            continue;
+        to->most = (ChangedPixel){x, y, {(double)luminance[0][i], (double)luminance[1][i]}};
+    }
+    for (int explained = 0; explained < 2; explained++) {
+        double reach[2];
+        for (int s = 0; s < 2; s++) {
+            const ChangedPixel *p = &best[s][explained].most;
+            reach[s] = fabs(p->luminance[1] - p->luminance[0]);
+        }
+        int s = reach[1] >= reach[0];
+        best[s][explained].rest = rest;
+        if (best[s][explained].count && (!explained || reach[s] > STANDOUT_LIKE * reach[1 - s]))
+            return best[s][explained];
+    }
+    return (Standout){0};
+}
