@@ -44,7 +44,8 @@ static Figure find(const Evidence *e, double (*from_ratio)(double)) {
     return (Figure){.found = from_ratio(has_veil ? c->contrast_with_veil : c->contrast_ratio),
                     .low = from_ratio(low),
                     .high = from_ratio(high),
-                    .sampling = {c->sampling_share[0], c->sampling_share[1]}};
+                    .sampling = {c->sampling_share[0], c->sampling_share[1]},
+                    .has_veil = has_veil};
 }
 
 static Figure find_ratio(const Evidence *e, bool is_upper) {

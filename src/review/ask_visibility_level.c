@@ -138,7 +138,8 @@ static Figure find(const Evidence *e, bool is_upper) {
                     of->high,
                     of->age_years,
                     {of->sampling[0], of->sampling[1]},
-                    {of->is_veils[0], of->is_veils[1]}};
+                    {of->is_veils[0], of->is_veils[1]},
+                    true};
 }
 
 const ReviewQuantity quantity_visibility_level = {.unit = "1",

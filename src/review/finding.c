@@ -109,6 +109,10 @@ Findings review_findings(const Review *review, Arena *arena) {
     return out;
 }
 
+const char *finding_kind(const Finding *f) {
+    return f->sweep ? "sweep" : f->c ? "symbol" : f->gaze ? "gaze" : f->pane ? "pane" : "mirror";
+}
+
 /* ---- the worst --------------------------------------------------------------------------- */
 
 static int rank_of(const Finding *f) {

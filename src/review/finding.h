@@ -56,6 +56,9 @@ int review_case_count(const Review *review);
  * a case beside its verdict is this limit's: figure, interval, margin. */
 const LimitVerdict *case_worst_limit(const ReviewCase *c);
 
+/* "symbol", "sweep", "gaze", "pane", "mirror". */
+const char *finding_kind(const Finding *finding);
+
 /* The one of the same condition, viewer and subject and of the same kind; NULL: there is none. */
 const Finding *finding_like(const Findings *list, const Finding *like);
 

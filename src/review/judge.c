@@ -87,7 +87,8 @@ static LimitVerdict judge_limit(const ProfileLimit *limit, const Evidence *e) {
                            .high = figure.high,
                            .age_years = figure.age_years,
                            .sampling = {figure.sampling[0], figure.sampling[1]},
-                           .is_veils = {figure.is_veils[0], figure.is_veils[1]}};
+                           .is_veils = {figure.is_veils[0], figure.is_veils[1]},
+                           .has_veil = figure.has_veil};
     judged.margin = quantity_margin(limit->kind, limit->is_upper, judged.found, judged.value);
     judged.verdict = is_unjudged(e, of->is_of_light) ? VERDICT_UNJUDGED : quantity_verdict(&judged);
     return judged;

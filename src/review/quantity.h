@@ -72,6 +72,7 @@ typedef struct Figure {
     double age_years; /* whose it is; 0: nobody's */
     double sampling[2];
     bool is_veils[2];
+    bool has_veil; /* the veil in the eye counts in it */
 } Figure;
 
 static inline Figure figure_unknown(void) {

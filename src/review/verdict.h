@@ -93,6 +93,7 @@ typedef struct LimitVerdict {
     const char *by_pane; /* of a symbol's image in glass (private_image.h); NULL: itself */
     double sampling[2];  /* Figure's (quantity.h) */
     bool is_veils[2];
+    bool has_veil; /* the veil in the eye counts in `found` */
 } LimitVerdict;
 
 /* What a display's panel says of itself (panel/query/panel_stated.h). */

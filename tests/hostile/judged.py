@@ -208,7 +208,8 @@ class Written:
         self.status, self.console = done.returncode, done.stdout.splitlines()
         self.review = json.load(open(os.path.join(folder, "review.json"), encoding="utf-8"))
         with open(os.path.join(folder, "cases.csv"), encoding="utf-8", newline="") as file:
-            self.csv = {(row["symbol"], row["condition"]): row for row in csv.DictReader(file)}
+            self.csv = {(row["subject"], row["condition"]): row for row in csv.DictReader(file)
+                        if row["decides"] == "true"}
         suite = xml.parse(os.path.join(folder, "junit.xml")).getroot().find("testsuite")
         self.junit = {case.get("name"): case for case in suite.findall("testcase")}
         self.page = Page(os.path.join(folder, "index.html"))
@@ -255,11 +256,11 @@ def claim_console(report, where, written, case, limit):
 
 def claim_csv(report, where, written, case, limit):
     row = written.csv[case["symbol"], case["condition"]]
-    report.claim(row["verdict"] == case["verdict"] and row["limit_kind"] == limit["kind"],
-                 f"{where}: CSV {row['verdict']} by {row['limit_kind']}")
-    values = [("limit_value", limit["value"]), ("margin", limit["margin"]),
-              ("limit_found", limit["found"]), ("limit_low", limit["interval"][0]),
-              ("limit_high", limit["interval"][1])]
+    report.claim(row["finding_verdict"] == case["verdict"] and row["quantity"] == limit["kind"],
+                 f"{where}: CSV {row['finding_verdict']} by {row['quantity']}")
+    values = [("limit", limit["value"]), ("margin", limit["margin"]),
+              ("found", limit["found"]), ("found_low", limit["interval"][0]),
+              ("found_high", limit["interval"][1])]
     for key, value in values:
         got = row.get(key) or "nan"
         report.claim(abs(float(got) - value) <= 2e-5 * (1 + abs(value)),

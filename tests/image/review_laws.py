@@ -166,11 +166,18 @@ def broken_laws(review, folder, done):
     yield from broken_variant_laws(review)
     with open(os.path.join(folder, "cases.csv"), encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    told = [(c["verdict"], (c["judged"] or {"margin": None})["margin"])
-            for c in review["cases"]]
-    wrote = [(r["verdict"], float(r["margin"]) if r["margin"] else None) for r in rows]
-    if told != wrote[:len(told)]:
+    told = [(f["finding_verdict"], f["quantity"] or "", f["verdict"], f["margin"])
+            for f in review["findings"]]
+    wrote = [(r["finding_verdict"], r["quantity"], r["verdict"],
+              float(r["margin"]) if r["margin"] else None) for r in rows]
+    if told != wrote:
         yield f"cases.csv says {wrote}, review.json {told}"
+    for case in review["cases"]:
+        of = [f for f in review["findings"] if f["kind"] == "symbol" and
+              [f["condition"], f["eye"], f["subject"]] ==
+              [case["condition"], case["eye"], case["symbol"]]]
+        if len(of) != max(len(case["limits"]), 1) or of[0]["finding_verdict"] != case["verdict"]:
+            yield f"{len(of)} rows of {len(case['limits'])} limits: {of}"
     for sweep in review["sweeps"]:
         if sweep["verdict"] != sweep["worst"]["verdict"]:
             yield f"a sweep says {sweep['verdict']}, its worst {sweep['worst']['verdict']}"

@@ -43,9 +43,9 @@ def main():
         if done.returncode not in (0, 1):
             sys.exit(done.stderr)
         with open(os.path.join(out, "cases.csv"), encoding="utf-8", newline="") as file:
-            for case in csv.DictReader(file):
+            for case in (row for row in csv.DictReader(file) if row["decides"] == "true"):
                 print(f"{case['condition']}: reflected {case['reflected_cd_m2']} cd/m2, "
-                      f"contrast {case['contrast_ratio']}")
+                      f"contrast {case['contrast_ratio_without_veil']}")
 
 
 if __name__ == "__main__":

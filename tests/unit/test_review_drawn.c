@@ -46,8 +46,10 @@ TEST(the_mark_follows_the_kind_of_the_limit) {
                  {"modulation", "modulation minimum 0.6", 0.5, 0.6, 4},
                  {"contrast_ratio", "minimum 2 : 1", 2.5, 2, 2}}; /* the last with the veil */
     for (int i = 0; i < 4; i++) {
-        LimitVerdict limit = {
-            .kind = FORMS[i].kind, .value = FORMS[i].value, .found = FORMS[i].found};
+        LimitVerdict limit = {.kind = FORMS[i].kind,
+                              .value = FORMS[i].value,
+                              .found = FORMS[i].found,
+                              .has_veil = i == 3};
         ReviewCase c = {.luminance_cd_m2 = {300, 0, 100, 60, 40, 100.0 / 3},
                         .contrast_ratio = i < 3 ? 3 : 4,
                         .contrast_with_veil = 2.5,
@@ -87,7 +89,8 @@ TEST(no_bar_passes_its_mark_under_a_fail) {
         LimitVerdict limit = {.kind = "contrast_ratio",
                               .unit = "1",
                               .value = value,
-                              .found = (91 + added) / (2 + added)};
+                              .found = (91 + added) / (2 + added),
+                              .has_veil = i >= 16 && veil > 0};
         bool has_veil;
         c.limits = &limit;
         const char *svg = review_bar_luminances(&c, &has_veil, &arena);

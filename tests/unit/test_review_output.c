@@ -378,6 +378,7 @@ static bool is_optional(const char *key, const json_t *object) {
                                         "empty_seat_share",
                                         "symbol_mean",
                                         "lit_share",
+                                        "findings",
                                         "judged_part_uv",
                                         "open_by",
                                         "glasses_transmittance",

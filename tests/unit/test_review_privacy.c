@@ -125,22 +125,22 @@ static int columns_of(const char *csv) {
 /* Its columns stand behind all others, and are there for a review that has any. */
 TEST(csv_has_columns_of_its_own) {
     static const char HEAD[] = "lit_share,must_not_be_read,kept_by,visual_security,security_s,"
-                               "security_s_low,security_s_high,limit_by_pane\r\n";
+                               "security_s_low,security_s_high\r\n";
     Review plain = fixture_review(&arena), review = private_review();
     const char *path = in_folder("t.csv");
     assert_done(review_csv_write(&plain, path, &err));
     const char *without = taken(path);
     assert_done(review_csv_write(&review, path, &err));
     const char *with = taken(path), *head = strstr(with, HEAD);
-    assert_int_equal(columns_of(with), columns_of(without) + 7);
+    assert_int_equal(columns_of(with), columns_of(without) + 6);
     assert_null(strstr(without, "must_not_be_read"));
     assert_non_null(head);
     const char *end = strchr(strchr(head, '\n') + 1, '\r'); /* of the first row */
     assert_non_null(strstr(head, ",true,,1.5"));
     assert_true(strstr(head, ",true,,1.5") < end);
     assert_non_null(strstr(end + 2, ",true,visual security,31."));
-    assert_non_null(strstr(end + 2, ",true,hidden,,,,,\r\n"));
-    assert_non_null(strstr(end + 2, ",,,,,,,\r\n")); /* what may be read */
+    assert_non_null(strstr(end + 2, ",true,hidden,,,,\r\n"));
+    assert_non_null(strstr(end + 2, ",,,,,,\r\n")); /* what may be read */
 }
 
 TEST(junit_and_page_say_it) {
@@ -264,7 +264,7 @@ TEST(a_case_that_glass_lets_read_says_by_which_pane) {
     assert_string_equal(limit->by_pane, "side <glass>");
     if (strcmp(reason, IN_PANE) != 0) fail_msg("%s", reason);
     assert_done(review_csv_write(&review, in_folder("t.csv"), &err));
-    assert_non_null(strstr(taken(in_folder("t.csv")), ",side <glass>\r\n"));
+    assert_non_null(strstr(taken(in_folder("t.csv")), ",side <glass>,"));
     assert_done(review_junit_write(&review, in_folder("t.xml"), &err));
     assert_non_null(
         strstr(taken(in_folder("t.xml")), "0.31 in side &lt;glass&gt; by day (minimum"));

@@ -301,7 +301,8 @@ static inline Review fixture_odd_review(Arena *arena) {
                                            NAN,
                                            NULL,
                                            {0, 0},
-                                           {false, false}},
+                                           {false, false},
+                                           false},
                                           {WILD_NAME,
                                            "glare",
                                            WILD_NAME,
@@ -318,7 +319,8 @@ static inline Review fixture_odd_review(Arena *arena) {
                                            70,
                                            WILD_NAME,
                                            {0, 0},
-                                           {false, false}}};
+                                           {false, false},
+                                           false}};
     static const CaseCause CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0},
                                        {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0}};
     static const CaseRemedy REMEDIES[] = {{.what = WILD_NAME,
@@ -340,7 +342,8 @@ static inline Review fixture_odd_review(Arena *arena) {
                                                     0,
                                                     NULL,
                                                     {0, 0},
-                                                    {false, false}},
+                                                    {false, false},
+                                                    false},
                                            .verdict = VERDICT_UNJUDGED},
                                           {.what = "", .contrast_ratio = 3, .level = 4}};
     static ReviewResponse responses[] = {{WILD_NAME, WILD_NAME, 0, 0, NAN}};

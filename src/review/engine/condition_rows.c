@@ -47,7 +47,7 @@ ROWS(limit, TEXT(LimitVerdict, name), TEXT(LimitVerdict, kind), TEXT(LimitVerdic
      FLAG(LimitVerdict, read_in_the_standard), FLAG(LimitVerdict, is_upper),
      FLAG(LimitVerdict, is_advice), NUMBERS(LimitVerdict, found, margin),
      CHOICE(LimitVerdict, verdict, VERDICTS), NUMBER(LimitVerdict, age_years),
-     TEXT(LimitVerdict, by_pane));
+     TEXT(LimitVerdict, by_pane), FLAG(LimitVerdict, has_veil));
 static const PackFormat limit = FORMAT(limit, LimitVerdict);
 
 ROWS(panel, TEXT(CasePanel, verdict), TEXT(CasePanel, reason), FLAG(CasePanel, is_coarse),

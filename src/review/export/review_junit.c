@@ -59,29 +59,61 @@ bool review_junit_write(const Review *review, const char *path, Error *err) {
 
 /* ---- as tables --------------------------------------------------------------------------- */
 
-/* All cases have the same ages; the document leaves empty lists out. */
+/* All cases have the same ages. */
 static void set_ages(json_t *document, const Review *review) {
-    json_t *ages = json_array(), *cases = json_object_get(document, "cases");
+    json_t *ages = json_array();
     for (int i = 0; review->case_count && i < review->cases[0].visibility_count; i++) {
         char age[32];
         snprintf(age, sizeof age, "%g", review->cases[0].visibilities[i].age_years);
         json_array_append_new(ages, json_string(age));
     }
     json_object_set_new(document, "visibility_ages", ages);
-    for (size_t i = 0; i < json_array_size(cases); i++) {
-        json_t *to = json_array_get(cases, i);
-        if (!json_object_get(to, "visibility_levels"))
-            json_object_set_new(to, "visibility_levels", json_array());
-    }
 }
 
-/* Columns are the templates': assets/pages/cases.csv and the others. */
+/* What was read of a row's symbol stands beside its line; of all other kinds nothing does. */
+static json_t *read_beside(const json_t *document, const Review *review, const Finding *f) {
+    if (!f->c) {
+        ReviewCase none = review_case_unknown();
+        json_t *out = review_case_json(&none);
+        json_object_set_new(out, "ambient", json_null());
+        json_object_set_new(out, "display", json_null());
+        return out;
+    }
+    const json_t *of =
+        f->sweep
+            ? json_object_get(json_array_get(json_object_get(document, "sweeps"),
+                                             (size_t)(f->sweep - review->sweeps)),
+                              "worst")
+            : json_array_get(json_object_get(document, "cases"), (size_t)(f->c - review->cases));
+    json_t *out = json_copy((json_t *)(size_t)of);
+    return out;
+}
+
+/* Columns are the templates': assets/pages/cases.csv and the others. A row of cases.csv is a line
+ * of a finding. */
 bool review_csv_write(const Review *review, const char *path, Error *err) {
+    Arena scratch = arena_reserve((size_t)1 << 32);
+    Findings all = review_findings(review, &scratch);
     json_t *document = review_json(review);
+    json_t *rows = json_object_get(document, "findings");
+    static const char *const MAY_LACK[] = {"must_not_be_read", "age_years", "in_pane",
+                                           "visibility_levels", NULL};
+    size_t at = 0;
+    for (int i = 0; i < all.count; i++) {
+        int lines = all.list[i].limit_count ? all.list[i].limit_count : 1;
+        for (int k = 0; k < lines; k++) {
+            json_t *row = read_beside(document, review, &all.list[i]);
+            for (const char *const *key = MAY_LACK; *key; key++)
+                if (!json_object_get(row, *key)) page_set(row, *key, NULL);
+            if (json_is_null(json_object_get(row, "visibility_levels")))
+                json_object_set_new(row, "visibility_levels", json_array());
+            json_object_update(row, json_array_get(rows, at));
+            json_array_set_new(rows, at++, row);
+        }
+    }
+    arena_release(&scratch);
     set_ages(document, review);
     page_set_flag(document, "has_private", review_has_privacy(review));
-    page_set(document, "must_not_be_read", NULL); /* of cases without it */
-    page_set(document, "by_pane", NULL);          /* of limits about the symbol itself */
     return page_write_values("cases.csv", document, NULL, path, err);
 }
 

@@ -34,8 +34,8 @@ PUBLIC_TABLE(limit_json, LimitVerdict, OWN(TEXT, LimitVerdict, name), OWN(TEXT, 
              {"age_years", RECORD_NUMBER, RECORD_NULL | RECORD_BRIEF,
               RECORD_AT(LimitVerdict, age_years), RECORD_RANGE(-HUGE_VAL, HUGE_VAL),
               .write = write_age},
-             {"by_pane", RECORD_TEXT, RECORD_NULL | RECORD_BRIEF,
-              RECORD_AT(LimitVerdict, by_pane)});
+             {"by_pane", RECORD_TEXT, RECORD_NULL | RECORD_BRIEF, RECORD_AT(LimitVerdict, by_pane)},
+             {"with_veil", RECORD_FLAG, RECORD_BRIEF, RECORD_AT(LimitVerdict, has_veil)});
 
 TABLE(cause_json, CaseCause, {"chain", RECORD_TEXTS, MUST, RECORD_MANY(CaseCause, chain, links)},
       OWN(FIGURE, CaseCause, share), OWN(FIGURE, CaseCause, cd_m2),

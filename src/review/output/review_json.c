@@ -7,6 +7,7 @@
 #include "base/count.h"
 #include "review/output/case_json.h"
 #include "review/output/json_rows.h"
+#include "review/finding.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_privacy.h"
 #include "review/output/review_road.h"
@@ -264,6 +265,52 @@ static json_t *write_places(const void *review) {
     return list;
 }
 
+/* ---- findings ---------------------------------------------------------------------------- */
+
+static void set_line(json_t *to, const Finding *f, const LimitVerdict *line) {
+    static const char *const BOUNDS[] = {"least", "most"};
+    set(to, "quantity", text(line ? line->kind : NULL));
+    set(to, "limit_name", text(line ? line->name : NULL));
+    set(to, "unit", text(line ? line->unit : NULL));
+    set(to, "found", json_figure(line ? line->found : (double)NAN));
+    set(to, "interval", line ? pair(line->low, line->high) : pair(NAN, NAN));
+    set(to, "bound", text(line ? BOUNDS[line->is_upper] : NULL));
+    set(to, "limit", json_figure(line ? line->value : (double)NAN));
+    set(to, "margin", json_figure(line ? line->margin : (double)NAN));
+    set(to, "verdict", text(verdict_names[line ? line->verdict : f->verdict]));
+    set(to, "advice", json_boolean(line && line->is_advice));
+    set(to, "with_veil", json_boolean(line && line->has_veil));
+    if (line && line->age_years > 0) set(to, "age_years", json_figure(line->age_years));
+    if (line && line->by_pane) set(to, "in_pane", text(line->by_pane));
+    set(to, "decides", json_boolean(line == f->worst));
+}
+
+static json_t *row_json(const Finding *f, const LimitVerdict *line) {
+    const char *when = f->c ? f->c->when : f->sun ? f->sun->when : NULL;
+    json_t *to =
+        json_pack("{s:o, s:o, s:o, s:s, s:o, s:s, s:o, s:b}", "condition", text(f->condition),
+                  "eye", text(f->viewer), "subject", text(f->subject), "kind", finding_kind(f),
+                  "when", text(when), "finding_verdict", verdict_names[f->verdict], "reason",
+                  text(unjudged_names[f->why]), "counts", (int)f->counts);
+    set_line(to, f, line);
+    return to;
+}
+
+static json_t *write_findings(const void *user) {
+    const Review *review = user;
+    Arena scratch = arena_reserve(DOCUMENT_BYTES);
+    Findings all = review_findings(review, &scratch);
+    json_t *list = json_array();
+    for (int i = 0; i < all.count; i++) {
+        const Finding *f = &all.list[i];
+        if (!f->limit_count) json_array_append_new(list, row_json(f, NULL));
+        for (int k = 0; k < f->limit_count; k++)
+            json_array_append_new(list, row_json(f, &f->limits[k]));
+    }
+    arena_release(&scratch);
+    return list;
+}
+
 static json_t *write_rests(const void *review) {
     Arena scratch = arena_reserve(PLACES_BYTES);
     json_t *line = text(review_rests_words(review, false, &scratch));
@@ -291,6 +338,7 @@ TABLE(whole_json, Review, OWN(FLAG, Review, pass), TOLD("verdict", 0, write_verd
       TOLD("headline", 0, write_headline), AS("strict", FLAG, Review, is_strict),
       OWN(TEXT, Review, title), PART("document", 0, Review, document, document_json),
       OWN(TEXT, Review, profile), LATER("superseded_by", TEXT, Review, superseded_by),
+      TOLD("findings", 0, write_findings),
       LIST("cases", MUST, Review, cases, case_count, case_json),
       LIST("sweeps", MUST, Review, sweeps, sweep_count, sweep_json),
       LIST("gazes", MUST, Review, gazes, gaze_count, gaze_json),
@@ -305,6 +353,10 @@ TABLE(whole_json, Review, OWN(FLAG, Review, pass), TOLD("verdict", 0, write_verd
       TOLD("rests_on_line", 0, write_rests),
       LIST("inputs", 0, Review, inputs, input_count, files_json),
       {"notes", RECORD_TEXTS, MUST, RECORD_MANY(Review, notes, note_count)});
+
+json_t *review_case_json(const ReviewCase *c) {
+    return record_write(&case_json, c);
+}
 
 json_t *review_json(const Review *review) {
     return record_write(&whole_json, review);

@@ -18,8 +18,16 @@
 #include "base/error.h"
 #include "review/verdict.h"
 
-/* {"pass", "strict", "title", "profile", "cases": [...], "sweeps", "responses", "notes"}. */
+/* "findings" has one object a line of a finding (review/finding.h), of one without a line one of
+ * its own: {"condition", "eye", "subject", "kind", "when", "finding_verdict", "reason", "counts",
+ * "quantity", "limit_name", "unit", "found", "interval", "bound", "limit", "margin", "verdict",
+ * "advice", "with_veil", "age_years", "in_pane", "decides"}.
+ *
+ * {"pass", "strict", "title", "profile", "cases": [...], "sweeps", "responses", "notes"}. */
 json_t *review_json(const Review *review);
+
+/* A case of it. */
+json_t *review_case_json(const ReviewCase *c);
 
 /* A document becomes a file: review.json, diff.json. Takes the document. */
 bool review_json_write(json_t *document, const char *path, Error *err);

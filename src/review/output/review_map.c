@@ -421,15 +421,6 @@ static double or_zero(double value) {
     return isfinite(value) && value > 0 ? value : 0;
 }
 
-static bool is_close(double a, double b) {
-    return fabs(a - b) <= 1e-4 * fabs(b);
-}
-
-/* Is the limit's figure made of this contrast ratio? */
-static bool is_of(const LimitVerdict *limit, double ratio) {
-    return is_close(limit->found, contrast_from_ratio(limit_kind_named(limit->kind), ratio));
-}
-
 static double sum_of(const BarPart *parts) {
     double sum = 0;
     for (int i = 0; i < PARTS; i++) sum += parts[i].cd_m2;
@@ -457,7 +448,7 @@ static Bars make_bars(const ReviewCase *c, Arena *arena) {
     if (c->limit_id >= 0 && c->limit_id < c->limit_count) {
         const LimitVerdict *limit = &c->limits[c->limit_id];
         LimitKind kind = limit_kind_named(limit->kind);
-        bars.has_veil = !is_of(limit, c->contrast_ratio) && is_of(limit, c->contrast_with_veil);
+        bars.has_veil = limit->has_veil;
         if (quantity_is_contrast(kind)) bars.wanted = ratio_from_contrast(kind, limit->value);
         const char *of = kind == LIMIT_CONTRAST_RATIO ? "" : words_kind(limit);
         bars.words = arena_format(arena, "%s%s%s", of, of[0] ? " " : "", words_bound(limit, arena));
