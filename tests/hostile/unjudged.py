@@ -274,7 +274,7 @@ def check_older(report, reviews):
     report.claim(done.returncode == 1, f"beside an older review: {done.stderr}")
     with open(os.path.join(reviews.folder, "out", "diff.json"), encoding="utf-8") as file:
         diff = json.load(file)
-    report.claim(all(row["change"] == "same" for row in diff["cases"]), f"{diff['cases']}")
+    report.claim(all(row["change"] == "same" for row in diff["findings"]), f"{diff['findings']}")
 
 
 def main():

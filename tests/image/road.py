@@ -124,11 +124,11 @@ def check_level(report, reviews, first):
     report.claim(there["limit"]["verdict"] == "too close", "and is too close there")
     levels["wide"] = 0.97 * wide["level_most_interval"][0]
     done, _, gaze = reviews.gaze("below", request(levels, 8))
-    report.claim(gaze["road"]["verdict"] == "pass", "below its bounds the limit is kept")
+    report.claim(gaze["verdict"] == "pass", "below its bounds the limit is kept")
     report.claim("\npass" in done.stdout, "and the review passes")
     levels["wide"] = 1.03 * wide["level_most_interval"][1]
     done, out, gaze = reviews.gaze("above", request(levels, 9))
-    report.claim(gaze["road"]["verdict"] == "fail" and done.returncode == 1,
+    report.claim(gaze["verdict"] == "fail" and done.returncode == 1,
                  "above them it is not, and the review fails")
     with open(os.path.join(out, "junit.xml"), encoding="utf-8") as file:
         report.claim('failures="1"' in file.read(), "one test of CI fails")
@@ -165,7 +165,7 @@ def check_left_out(report, reviews):
     sweep["gaze"][0]["road"]["conditions"] = ["suns"]
     done, _, gaze = reviews.gaze("dark", sweep)
     report.claim(gaze["road"]["after_dark"] and gaze["condition"] == "suns" and
-                 gaze["road"]["counts"], "a sweep that is named has it after dark")
+                 gaze["limits"], "a sweep that is named has it after dark")
     report.claim(gaze["road"]["ages"][0]["displays"][0]["straight_share"] > 0.9,
                  "its displays make it")
     symbols = request({"*": 0.01}, 1)
