@@ -185,11 +185,11 @@ class Page:
         self.headline = [html.unescape(part) for part in found.groups()] if found else ["", ""]
         self.is_green = 'class="verdict same"' in text
         self.list = {}
-        table = re.search(r'<table class="list">(.*?)</table>', text, re.S)
-        for row in re.findall(r"<tr>(.*?)</tr>", table.group(1) if table else "", re.S):
-            cells = cells_of(row)
+        tables = re.findall(r'<table class="list">(.*?)</table>', text, re.S)
+        for row in re.findall(r"<tr>(.*?)</tr>", "".join(tables), re.S):
+            cells = cells_of(re.sub("<small.*?</small>", "", row))
             if len(cells) >= 8:
-                self.list[cells[1].split("nothing")[0].strip(), cells[2]] = cells
+                self.list[cells[1].strip(), cells[2]] = cells
         grid = re.search(r'<div class="grid[^"]*">(.*?)</table>', text, re.S)
         self.grid = re.findall(
             r'<td class="(\w+)"><a[^>]*title="([^"]*)"><i>.*?</i>\s*<b>(.*?)</b>',

@@ -128,7 +128,8 @@ static void print_fact(const ReviewFact *fact) {
 /* The first screen of the page, as lines: of all findings the one that decides. */
 static void print_worst(const Review *review, const Finding *worst, Arena scratch) {
     ReviewFacts facts = review_facts_of(review, worst, NULL, &scratch);
-    print("%-16s %s: %s\n", "worst case", finding_name(worst, &scratch),
+    print("%-16s %s: %s\n", "worst case",
+          words_named(worst->subject, worst->viewer, worst->condition, &scratch),
           worst->c ? words_headline(worst->c, &scratch) : finding_reason(worst, &scratch));
     for (int i = 0; i < facts.count; i++) print_fact(&facts.list[i]);
 }

@@ -131,19 +131,23 @@ ReviewFacts review_facts_of(const Review *review, const Finding *f, const char *
 
 /* ---- the outcome ------------------------------------------------------------------------- */
 
-/* Of what is held against limits, by light; the last one is all. */
+/* By light, and all: cases to which limits apply, those with the review's own verdict of them,
+ * and those to which none applies. */
 typedef struct Covered {
-    int judged[5], unlimited[5];
+    int judged[5], so[5], unlimited[5];
 } Covered;
 
 static Covered covered_by_limits(const Review *review) {
     Covered out = {0};
+    Verdict verdict = review_verdict(review);
     for (int i = 0; i < review_case_count(review); i++) {
         const ReviewCase *c = review_case_at(review, i);
-        bool is_unlimited = c->unjudged == UNJUDGED_LIMIT;
-        if (!is_unlimited && !review_case_counts(c)) continue;
-        (is_unlimited ? out.unlimited : out.judged)[c->ambient]++;
-        (is_unlimited ? out.unlimited : out.judged)[4]++;
+        const int at[2] = {(int)c->ambient, 4};
+        for (int k = 0; k < 2; k++) {
+            out.unlimited[at[k]] += c->unjudged == UNJUDGED_LIMIT;
+            out.judged[at[k]] += review_case_counts(c);
+            out.so[at[k]] += review_case_counts(c) && c->verdict == verdict;
+        }
     }
     return out;
 }
@@ -153,8 +157,8 @@ const char *review_outcome_words(const Review *review, Arena *arena) {
     Covered by = covered_by_limits(review);
     bool has_road = false;
     text_add(&text, words_verdict(review_verdict(review)));
-    for (int i = 0, listed = 0; i < 4 && by.unlimited[4] && by.judged[4]; i++)
-        if (by.judged[i])
+    for (int i = 0, listed = 0; i < 4 && by.unlimited[4]; i++)
+        if (by.so[i])
             text_format(&text, "%s %s", listed++ ? " and" : "", words_ambient((Ambient)i));
     for (int i = 0; i < 4; i++) {
         if (!by.unlimited[i]) continue;

@@ -88,7 +88,7 @@ static json_t *finding_values(const PageValues *v, const Finding *f) {
     page_set(to, "symbol", f->subject);
     page_set(to, "eye", f->viewer ? f->viewer : "?");
     page_set(to, "condition", f->condition ? f->condition : "?");
-    page_set(to, "case", finding_name(f, arena));
+    page_set(to, "case", words_named(f->subject, f->viewer, f->condition, arena));
     page_set(to, "link", link_of(f));
     page_set(to, "reason", reason);
     page_set(to, "headline", reason);
