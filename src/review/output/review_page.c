@@ -22,23 +22,31 @@
 
 /* ---- the list ---------------------------------------------------------------------------- */
 
-/* The worst first: those that do not pass, and the others; most: so many in all, 0: no end. */
+static json_t *add_listed(json_t *verdicts, const char *name) {
+    return values_list(values_object(verdicts, name), "listed");
+}
+
+/* The worst first: what fails or is too close, what cannot be judged, and the others; most: so
+ * many in all, 0: no end. */
 static void values_add_list(const PageValues *v, int most) {
     Findings ranked = review_ranked(v->review, v->arena);
-    int listed = most && most < ranked.count ? most : ranked.count, open = 0;
+    int listed = most && most < ranked.count ? most : ranked.count;
     json_t *verdicts = values_object(v->doc, "verdicts");
-    json_t *failing = values_list(values_object(verdicts, "failing"), "listed");
-    json_t *others = values_list(values_object(verdicts, "others"), "listed");
-    json_t *all = values_list(values_object(verdicts, "all"), "listed");
+    json_t *failing = add_listed(verdicts, "failing"), *open = add_listed(verdicts, "unjudged");
+    json_t *others = add_listed(verdicts, "others"), *all = add_listed(verdicts, "all");
     for (int i = 0; i < listed; i++) {
         const Finding *f = &ranked.list[i];
-        bool is_open = f->counts && f->verdict != VERDICT_PASS;
-        open += is_open;
-        values_add_finding(v, is_open ? failing : others, f);
+        bool is_other = !f->counts || f->verdict == VERDICT_PASS;
+        values_add_finding(v,
+                           is_other                         ? others
+                           : f->verdict == VERDICT_UNJUDGED ? open
+                                                            : failing,
+                           f);
         values_add_finding(v, all, f);
     }
-    page_set_count(verdicts, "failing_count", open);
-    page_set_count(verdicts, "others_count", listed - open);
+    page_set_count(verdicts, "failing_count", (int)json_array_size(failing));
+    page_set_count(verdicts, "unjudged_count", (int)json_array_size(open));
+    page_set_count(verdicts, "others_count", (int)json_array_size(others));
     page_set_count(verdicts, "listed_count", listed);
     page_set_count(verdicts, "unlisted", listed < ranked.count ? ranked.count : 0);
 }

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/output/review_variants.h"
 
-#include <ctype.h>
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +9,7 @@
 #include "review/output/review_values.h"
 #include "review/output/review_road.h"
 #include "review/output/review_words.h"
+#include "review/quantity.h"
 #include "review/review_decide.h"
 #include "text/effect_text.h"
 
@@ -78,76 +77,37 @@ static const char *counts_words(const Review *review, Arena *arena) {
     return arena_format(arena, "%d of %d, %d open", counts.of[VERDICT_FAIL], counts.total, open);
 }
 
-/* The sweep that fails most, of those with times or of those over directions alone; NULL: none
- * of them fails for sure. */
-static const ReviewSweep *failing_most(const Review *review, bool has_times) {
-    const ReviewSweep *most = NULL;
-    for (int i = 0; i < review->sweep_count; i++) {
-        const ReviewSweep *s = &review->sweeps[i];
-        bool is_kind = isnan(s->longest_failure_minutes) != has_times;
-        if (is_kind && sweep_verdict(s) == VERDICT_FAIL &&
-            (!most || s->failed_share > most->failed_share))
-            most = s;
-    }
-    return most;
-}
-
-/* Of none that fails: the worst outcome. */
-static const char *unfailed_words(const Review *review, Arena *arena) {
-    const ReviewSweep *worst = NULL;
-    for (int i = 0; i < review->sweep_count; i++) {
-        const ReviewSweep *s = &review->sweeps[i];
-        if (!worst || verdict_rank(sweep_verdict(s)) > verdict_rank(sweep_verdict(worst)))
-            worst = s;
-    }
-    return worst ? words_how_often(worst, arena) : "–";
-}
-
-/* Time that is swept, and positions of the sun, are two. */
+/* Of its worst sweep. */
 static const char *failed_words(const Review *review, Arena *arena) {
-    Text text = {.arena = arena};
-    for (int i = 0; i < 2; i++) {
-        const ReviewSweep *s = failing_most(review, i == 0);
-        if (!s) continue;
-        bool is_bare = sweep_has_box(s) && s->failed_share > 0;
-        text_format(&text, "%s%s%s", text.data ? "; " : "",
-                    is_bare ? words_failing(s, arena) : words_how_often(s, arena),
-                    is_bare ? ", middle eye" : "");
-    }
-    return text.data ? text.data : unfailed_words(review, arena);
+    Findings ranked = review_ranked(review, arena);
+    for (int i = 0; i < ranked.count; i++)
+        if (ranked.list[i].sweep) return words_how_often(ranked.list[i].sweep, arena);
+    return "–";
 }
 
-/* In the quantity of its limit of contrast. */
+/* In the quantity of its limit of contrast; NULL: there is none. */
+static const LimitVerdict *limit_of(const ReviewCase *c) {
+    bool has_limit = c && !c->unjudged && c->limit_id >= 0 && c->limit_id < c->limit_count;
+    return has_limit ? &c->limits[c->limit_id] : NULL;
+}
+
 static const char *figure_words(const ReviewCase *c, Arena *arena) {
-    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
-    if (c->unjudged) return words_judged(c, arena);
-    return has_limit ? words_quantity(&c->limits[c->limit_id], arena) : words_contrast(c, arena);
+    const LimitVerdict *limit = limit_of(c);
+    return limit ? words_quantity(limit, arena) : words_judged(c, arena);
 }
 
-/* Letters of the words that stand before both figures: "luminance contrast ". */
-static size_t name_length(const char *before, const char *after) {
-    size_t name = 0;
-    for (size_t i = 0; before[i] && before[i] == after[i] && !isdigit((unsigned char)before[i]);
-         i++)
-        if (before[i] == ' ') name = i + 1;
-    bool are_figures = isdigit((unsigned char)before[name]) && isdigit((unsigned char)after[name]);
-    return are_figures ? name : 0;
-}
-
-/* "24 → 114 : 1": a unit or name that both have stands once. */
-static const char *change_words(const char *before, const char *after, Arena *arena) {
-    static const char UNIT[] = " : 1";
-    size_t size = strlen(before), unit = strlen(UNIT), end = strlen(after);
-    bool is_ratio = size > unit && end > unit && !strcmp(before + size - unit, UNIT) &&
-                    !strcmp(after + end - unit, UNIT);
-    if (is_ratio) before = arena_string(arena, before, size - unit);
-    after += name_length(before, after);
-    return arena_format(arena, "%s → %s", before, after);
-}
-
+/* "24 → 114 : 1": a unit that both have stands once. */
 static const char *moved_words(const ReviewDifference *d, Arena *arena) {
-    const char *after = figure_words(d->after, arena);
-    return d->before ? change_words(figure_words(d->before, arena), after, arena) : after;
+    const LimitVerdict *before = limit_of(d->before), *after = limit_of(d->after);
+    const char *now = figure_words(d->after, arena);
+    if (!d->before) return now;
+    if (!before || !after || !words_same(before->kind, after->kind))
+        return arena_format(arena, "%s → %s", figure_words(d->before, arena), now);
+    const char *was = words_within(before->found, before->low, before->high, arena);
+    return limit_kind_named(after->kind) == LIMIT_CONTRAST_RATIO
+               ? arena_format(arena, "%s → %s", was, now)
+               : arena_format(arena, "%s %s → %s", words_kind(after), was,
+                              words_within(after->found, after->low, after->high, arena));
 }
 
 /* How far a case moves: first what is judged in one of both alone, then by the margin. */

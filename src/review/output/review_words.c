@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/number.h"
 #include "plot/draw/ticks.h"
 #include "review/private_image.h"
@@ -34,6 +35,10 @@ const char *words_figure(double value, Arena *arena) {
     if (isnan(value)) return "–";
     if (isinf(value)) return value > 0 ? "∞" : "−∞";
     if (fabs(value) < 1 && fabs(value) >= 1e-4) return arena_format(arena, "%.3g", value);
+    if (fabs(value) >= 1e4 && fabs(value) < 1e15) {
+        double unit = pow_d(10, floor(log10_d(fabs(value))) - 3);
+        return arena_format(arena, "%.0f", unit * floor(value / unit + 0.5));
+    }
     return arena_format(arena, "%s", figure_text(value, text));
 }
 
