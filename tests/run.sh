@@ -53,6 +53,7 @@ start 'intervals of light that is rare' gaze-intervals \
 start 'intervals of judged parts' judged-parts \
     python3 tests/image/every_interval.py gradient $program
 start 'variants of a review' variants python3 tests/image/variants.py $program
+start 'colours of symbols as they are seen' colour python3 tests/image/colour.py $program
 start 'a matte finish tried out' finish python3 tests/image/finish.py $program
 start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program

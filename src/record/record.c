@@ -265,9 +265,10 @@ static bool read_item(const JsonView *view, const RecordRow *row, const char *na
                       Error *err) {
     JsonView inside;
     const RecordFormat *of = row->of;
+    const char *kept = NULL;
+    if (row->kind == RECORD_MAP) memcpy(&kept, item, sizeof kept);
     if (of->start) of->start(item);
     if (row->kind == RECORD_MAP) {
-        const char *kept = arena_string(view->arena, name, strlen(name));
         if (!check_name(view, row, name, err)) return false;
         memcpy(item, &kept, sizeof kept);
     }
@@ -295,6 +296,12 @@ static bool read_items(const JsonView *view, const RecordRow *row, void *item, E
     *(int *)at_offset(item, row->count) = count;
     inside.path = json_view_path(view, row->key);
     inside.object = row->kind == RECORD_MAP ? json_incref(own) : by_place(own);
+    char *named = items; /* all names before the first item, which may use them */
+    if (row->kind == RECORD_MAP) json_object_foreach(own, name, value) {
+            const char *kept = arena_string(view->arena, name, strlen(name));
+            memcpy(named, &kept, sizeof kept);
+            named += row->of->size;
+        }
     json_object_foreach(inside.object, name, value) {
         ok = ok && read_item(&inside, row, name, items, err);
         items += row->of->size;

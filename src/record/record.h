@@ -12,8 +12,8 @@
  *          or `start` sets the defaults.
  * Units    a row's: numbers are taken as they stand in the file.
  * Order    that of the rows: a `read` or `check` may use what stands before it, also in the
- *          outermost struct (JsonView.whole). A list and its count are set before its items
- *          are read.
+ *          outermost struct (JsonView.whole). A list, its count, and the names of a map
+ *          are set before its items are read.
  * Memory   texts and lists lie in the view's arena. Threads: tables are constant.
  */
 #pragma once

@@ -133,13 +133,13 @@ static Figure find(const Evidence *e, bool is_upper) {
         if (isnan(v->level)) break;
     }
     if (!of) return figure_unknown();
-    return (Figure){of->level,
-                    of->low,
-                    of->high,
-                    of->age_years,
-                    {of->sampling[0], of->sampling[1]},
-                    {of->is_veils[0], of->is_veils[1]},
-                    true};
+    return (Figure){.found = of->level,
+                    .low = of->low,
+                    .high = of->high,
+                    .age_years = of->age_years,
+                    .sampling = {of->sampling[0], of->sampling[1]},
+                    .is_veils = {of->is_veils[0], of->is_veils[1]},
+                    .has_veil = true};
 }
 
 const ReviewQuantity quantity_visibility_level = {.unit = "1",

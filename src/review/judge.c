@@ -7,6 +7,7 @@
 #include "base/confidence.h"
 #include "base/count.h"
 #include "base/mathd.h"
+#include "review/ask_colour.h"
 #include "review/ask_visibility_level.h"
 #include "review/pane_verdict.h"
 #include "review/private_image.h"
@@ -86,6 +87,7 @@ static LimitVerdict judge_limit(const ProfileLimit *limit, const Evidence *e) {
                            .low = figure.low,
                            .high = figure.high,
                            .age_years = figure.age_years,
+                           .beside = figure.beside,
                            .sampling = {figure.sampling[0], figure.sampling[1]},
                            .is_veils = {figure.is_veils[0], figure.is_veils[1]},
                            .has_veil = figure.has_veil};
@@ -232,6 +234,7 @@ void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena) {
     c->limit_id = -1;
     c->margin = NAN;
     c->visibilities = visibility_levels(c, arena);
+    c->colours = case_colours(c, arena);
     Evidence e = evidence_of(c, profile);
     for (int i = 0; i < profile->limit_count && !is_own && !is_hidden; i++)
         if (is_asked(&profile->limits[i], of, &e))

@@ -37,7 +37,7 @@ double ratio_from_contrast(LimitKind kind, double contrast) {
 
 bool limit_wants_less(const LimitVerdict *limit) {
     const ReviewQuantity *of = quantity_of(limit);
-    return limit->is_upper != (of && of->of == OF_PRIVATE);
+    return limit->is_upper != (of && of->falls);
 }
 
 /* 0 at full wash-out, or of nothing; security is a logarithm as it stands, 0 in the dark. */

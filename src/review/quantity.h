@@ -31,6 +31,8 @@
     Q(WIDTH_RATIO, width_ratio) \
     Q(VISIBILITY_LEVEL, visibility_level) \
     Q(VISUAL_SECURITY, visual_security) \
+    Q(COLOUR_SHIFT, colour_shift) \
+    Q(COLOUR_DIFFERENCE, colour_difference) \
     Q(THRESHOLD_INCREMENT, threshold_increment) \
     Q(GAZE_VEIL, gaze_veil) \
     Q(GAZE_CONTRAST, gaze_contrast) \
@@ -72,7 +74,8 @@ typedef struct Figure {
     double age_years; /* whose it is; 0: nobody's */
     double sampling[2];
     bool is_veils[2];
-    bool has_veil; /* the veil in the eye counts in it */
+    bool has_veil;      /* the veil in the eye counts in it */
+    const char *beside; /* the other of two things that it is about; NULL: it is about one */
 } Figure;
 
 static inline Figure figure_unknown(void) {
@@ -90,7 +93,8 @@ typedef struct ReviewQuantity {
     const char *doc;   /* one line for the schema's reader */
     QuantityOf of;
     bool is_of_light;    /* it hangs on the light, as contrasts do */
-    bool may_be_missing; /* of a shape it has no meaning: then it does not count */
+    bool falls;          /* as the contrast rises */
+    bool may_be_missing; /* of a shape, or unasked, it has no meaning: then it does not count */
     bool has_one_bound;  /* `is_upper` is its only bound; else a limit's own is "least" unless
                             it says "most" */
     bool is_upper;

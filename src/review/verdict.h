@@ -91,6 +91,7 @@ typedef struct LimitVerdict {
     Verdict verdict;
     double age_years;    /* of a visibility level: who has it; 0 or NaN: nobody */
     const char *by_pane; /* of a symbol's image in glass (private_image.h); NULL: itself */
+    const char *beside;  /* the symbol from which a colour differs least; NULL: it is about one */
     double sampling[2];  /* Figure's (quantity.h) */
     bool is_veils[2];
     bool has_veil; /* the veil in the eye counts in `found` */
@@ -226,6 +227,28 @@ typedef struct CasePlace {
 
 #define CASE_BATCHES 32
 
+/* The light of a symbol's brighter part as it comes to the eye, XYZ in cd m^-2. */
+typedef struct ColourLight {
+    double emitted[3], reflected[3], veil[3]; /* veil: in the eye; 0: it does not count */
+    double lit;                               /* the case's luminance of the part then */
+    MeanInterval range;                       /* of reflected[1] */
+    double batches[CASE_BATCHES][3];          /* of what is reflected, by independent batches */
+    double emission_error, reflection_error;  /* CasePanel's */
+    bool is_on_display;                       /* on that of the case */
+} ColourLight;
+
+/* The colour of a symbol as it is seen, and how far that is from another: Delta u'v' of CIE 1976
+ * (ask_colour.h). */
+typedef struct CaseColour {
+    const char *symbol;       /* the case's own, or one that it must be told from */
+    double uv[2], dark_uv[2]; /* u', v': as it is seen; alone, in the dark */
+    double apart;             /* its own: between these two; another: between both as they are
+                                 seen, by the same eye in the same light */
+    double low, high;         /* 95 % */
+    double sampling;          /* the share of that interval which more paths lessen */
+    ColourLight *light;       /* of which it is made; NULL: it is not kept */
+} CaseColour;
+
 typedef struct ReviewCase {
     const char *condition, *eye, *symbol, *display;
     Ambient ambient;
@@ -252,6 +275,9 @@ typedef struct ReviewCase {
                                  sees of strokes that wide (Barten) */
     const CaseVisibility *visibilities; /* the observer's first; none: nobody asked */
     int visibility_count;
+    const CaseColour *colours; /* its own first, then those that it must be told from and that
+                                  are seen; none: nobody asked, or the case is a step of a sweep */
+    int colour_count;
     long paths;                  /* that what is reflected was read from */
     const double *batches;       /* [CASE_BATCHES] estimates by independent batches of them, cd
                                     m^-2, whose mean is luminance_cd_m2.reflected; NULL: not

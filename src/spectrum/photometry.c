@@ -87,3 +87,9 @@ void xy_from_xyz(const float xyz[3], float xy[2]) {
     xy[0] = from[0] / sum;
     xy[1] = from[1] / sum;
 }
+
+void uv_from_xyz(const double xyz[3], double uv[2]) {
+    double d = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
+    uv[0] = d > 0 ? 4 * xyz[0] / d : NAN;
+    uv[1] = d > 0 ? 9 * xyz[1] / d : NAN;
+}

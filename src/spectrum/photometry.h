@@ -38,3 +38,6 @@ float luminance_from_rgb(const float rgb[3]);
 
 /* Chromaticity (x, y). Black has the chromaticity of D65. */
 void xy_from_xyz(const float xyz[3], float xy[2]);
+
+/* Chromaticity (u', v') of CIE 1976; NaN of no light. */
+void uv_from_xyz(const double xyz[3], double uv[2]);

@@ -3,14 +3,18 @@
 
 #include <math.h>
 
+#include "spectrum/photometry.h"
+
 double twice_share(double a, double b) {
     double most = fmax(fabs(a), fabs(b));
     return most > 0 ? fabs(a - b) / most : 0;
 }
 
 double twice_colour(const double a[3], const double b[3]) {
-    double p = a[0] + 15 * a[1] + 3 * a[2], q = b[0] + 15 * b[1] + 3 * b[2];
-    double du = 4 * a[0] / p - 4 * b[0] / q, dv = 9 * a[1] / p - 9 * b[1] / q;
+    double one[2], two[2];
+    uv_from_xyz(a, one);
+    uv_from_xyz(b, two);
+    double du = one[0] - two[0], dv = one[1] - two[1];
     return sqrt(du * du + dv * dv);
 }
 

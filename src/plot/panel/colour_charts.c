@@ -16,7 +16,7 @@
 /* u', v' of a wavelength of the spectral locus. */
 static void locus(int nm, double uv[2]) {
     const SpectralRow *row = &spectral_table[nm - SPECTRAL_FIRST_NM];
-    uv_of((double[3]){(double)row->x, (double)row->y, (double)row->z}, uv);
+    uv_from_xyz((double[3]){(double)row->x, (double)row->y, (double)row->z}, uv);
 }
 
 /* The path of the horseshoe, closed by the purple line. */
@@ -119,7 +119,7 @@ static int angle_path(const PlotData *s, Pattern pattern, double phi, double u[]
     for (int deg = 0; deg <= 80 && radians_from_degrees(deg) <= s->cone + 1e-6; deg++) {
         double xyz[3], uv[2];
         plot_data_xyz(s, radians_from_degrees(deg), phi, rgb, xyz);
-        uv_of(xyz, uv);
+        uv_from_xyz(xyz, uv);
         u[count] = uv[0];
         v[count++] = uv[1];
     }

@@ -123,16 +123,10 @@ void pattern_codes(Pattern pattern, float rgb[3]) {
         rgb[c] = pattern == PATTERN_WHITE || (int)pattern == 1 + c ? 255.0f : 0.0f;
 }
 
-void uv_of(const double xyz[3], double uv[2]) {
-    double d = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
-    uv[0] = d > 0 ? 4 * xyz[0] / d : NAN;
-    uv[1] = d > 0 ? 9 * xyz[1] / d : NAN;
-}
-
 void plot_data_normal_uv(const PlotData *data, Pattern pattern, double uv[2]) {
     double xyz[3];
     for (int c = 0; c < 3; c++) xyz[c] = (double)data->normal[pattern][c];
-    uv_of(xyz, uv);
+    uv_from_xyz(xyz, uv);
 }
 
 void plot_data_xyz(const PlotData *data, double theta, double phi, const float rgb[3],
@@ -283,7 +277,7 @@ Field plot_data_shift(const PlotData *s, Pattern pattern, Arena *arena) {
     plot_data_normal_uv(s, pattern, at_normal);
     for (int i = 0; i < SIDE * SIDE; i++) {
         for (int c = 0; c < 3; c++) xyz[c] = (double)s->xyz[pattern][c].value[i];
-        uv_of(xyz, uv);
+        uv_from_xyz(xyz, uv);
         field.value[i] = (float)hypot(uv[0] - at_normal[0], uv[1] - at_normal[1]);
     }
     return field;

@@ -155,7 +155,6 @@ Field plot_data_contrast(const PlotData *data, Arena *arena);
 /* Distance in the u'v' plane from the colour at the normal. */
 Field plot_data_shift(const PlotData *data, Pattern pattern, Arena *arena);
 
-void uv_of(const double xyz[3], double uv[2]);
 void plot_data_normal_uv(const PlotData *data, Pattern pattern, double uv[2]);
 
 /* ---- reflection ------------------------------------------------------------------------- */

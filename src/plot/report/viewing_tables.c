@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "plot/report/report_azimuth.h"
 #include "spectrum/gamut.h"
+#include "spectrum/photometry.h"
 
 /* ---- crossings --------------------------------------------------------------------------- */
 
@@ -28,7 +29,7 @@ static double shift_at(const PlotData *s, Pattern pattern, double theta, double 
     float rgb[3];
     pattern_codes(pattern, rgb);
     plot_data_xyz(s, theta, phi, rgb, xyz);
-    uv_of(xyz, uv);
+    uv_from_xyz(xyz, uv);
     plot_data_normal_uv(s, pattern, at_normal);
     return hypot(uv[0] - at_normal[0], uv[1] - at_normal[1]);
 }
@@ -134,7 +135,7 @@ static void add_shifts(Report *report, const PlotData *s) {
 static void add_white(Report *report, ReportTable *table, const PlotData *s, int deg, int azimuth) {
     double xyz[3], uv[2], sum;
     plot_data_xyz(s, radians_from_degrees(deg), azimuth * PI / 4, (float[3]){255, 255, 255}, xyz);
-    uv_of(xyz, uv);
+    uv_from_xyz(xyz, uv);
     sum = xyz[0] + xyz[1] + xyz[2];
     ColourTemperature white = colour_temperature(uv);
     report_row(report, table);

@@ -90,10 +90,10 @@ static ReviewCase judged_brighter(const Remedying *m, double factor) {
 
 /* ---- what no closed form gives ----------------------------------------------------------- */
 
-/* A level of visibility, and an image in glass. */
+/* What is no contrast of the symbol itself. */
 static bool is_searched(const Remedying *m) {
     const LimitVerdict *limit = &m->c->limits[m->limit];
-    return limit->by_pane || limit_kind_named(limit->kind) == LIMIT_VISIBILITY_LEVEL;
+    return limit->by_pane || !quantity_is_contrast(limit_kind_named(limit->kind));
 }
 
 static double margin_by(const Remedying *m, double factor) {

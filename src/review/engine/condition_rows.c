@@ -47,7 +47,7 @@ ROWS(limit, TEXT(LimitVerdict, name), TEXT(LimitVerdict, kind), TEXT(LimitVerdic
      FLAG(LimitVerdict, read_in_the_standard), FLAG(LimitVerdict, is_upper),
      FLAG(LimitVerdict, is_advice), NUMBERS(LimitVerdict, found, margin),
      CHOICE(LimitVerdict, verdict, VERDICTS), NUMBER(LimitVerdict, age_years),
-     TEXT(LimitVerdict, by_pane), FLAG(LimitVerdict, has_veil));
+     TEXT(LimitVerdict, by_pane), FLAG(LimitVerdict, has_veil), TEXT(LimitVerdict, beside));
 static const PackFormat limit = FORMAT(limit, LimitVerdict);
 
 ROWS(panel, TEXT(CasePanel, verdict), TEXT(CasePanel, reason), FLAG(CasePanel, is_coarse),
@@ -87,6 +87,9 @@ ROWS(level, NUMBER(CaseVisibility, age_years), FLAG(CaseVisibility, is_observer)
      NUMBERS(CaseVisibility, size_arcmin, high), TEXT(CaseVisibility, doubts));
 static const PackFormat level = FORMAT(level, CaseVisibility);
 
+ROWS(colour, TEXT(CaseColour, symbol), NUMBERS(CaseColour, uv, sampling));
+static const PackFormat colour = FORMAT(colour, CaseColour);
+
 ROWS(place, NUMBER(CasePlace, eye_m), CHOICE(CasePlace, verdict, VERDICTS),
      NUMBERS(CasePlace, visible_share, contrast_high));
 static const PackFormat place = FORMAT(place, CasePlace);
@@ -109,7 +112,8 @@ static bool case_is_sound(const void *item) {
 ROWS(review_case, TEXT(ReviewCase, condition), TEXT(ReviewCase, eye), TEXT(ReviewCase, symbol),
      TEXT(ReviewCase, display), CHOICE(ReviewCase, ambient, AMBIENTS), TEXT(ReviewCase, when),
      FLAG(ReviewCase, has_sun), NUMBERS(ReviewCase, sun_azimuth_deg, visibility),
-     LIST(ReviewCase, visibilities, visibility_count, level), NUMBER(ReviewCase, paths),
+     LIST(ReviewCase, visibilities, visibility_count, level),
+     LIST(ReviewCase, colours, colour_count, colour), NUMBER(ReviewCase, paths),
      ONE(ReviewCase, batches, batches), NUMBERS(ReviewCase, precision_asked, alike_within),
      CHOICE(ReviewCase, open_by, OPEN_COUNT), NUMBER(ReviewCase, visible_share),
      LIST(ReviewCase, hiders, hider_count, hider), NUMBERS(ReviewCase, eye_failed_share, origin_m),

@@ -28,6 +28,7 @@ typedef struct EyePath {
     double apart[EYE_SOURCES]; /* cd m^-2 that light samples do not read; */
     double shown;              /* and what lamps and displays show by themselves; */
     double images;             /* and of the glints the sun's */
+    double beside[2][2];       /* X and Z of `apart`, of `shown` */
     int lamp;                  /* part that was met by mirrors; NO_ID: none */
     float share;               /* that its last mirror lets the eye see of what lies there: */
     Ray image;                 /* (0: it met none) */
@@ -104,9 +105,12 @@ static void add_found(void *user, const PathHistory *history, const float xyz[3]
     if (is_direct && history->source == LIGHTS_SUN) return;
     if (listener->road && (!is_direct || history->source == LIGHTS_SKY))
         road_light_add(listener->road, listener->id, history, (double)xyz[1]);
-    if (!is_direct || history->source == LIGHTS_SKY)
-        path->apart[source_of(history)] += (double)xyz[1];
-    if (is_direct && history->source == LIGHTS_EMITTERS) path->shown += (double)xyz[1];
+    bool is_shown = is_direct && history->source == LIGHTS_EMITTERS;
+    bool is_apart = !is_direct || history->source == LIGHTS_SKY;
+    if (is_apart) path->apart[source_of(history)] += (double)xyz[1];
+    if (is_shown) path->shown += (double)xyz[1];
+    for (int k = 0; k < 2 && (is_apart || is_shown); k++)
+        path->beside[is_shown][k] += (double)xyz[2 * k];
     if (is_direct || source_of(history) != EYE_GLINTS) return;
     if (history->source == LIGHTS_SUN) path->images += (double)xyz[1];
     if (history->source == LIGHTS_EMITTERS) path->lamp = history->source_id;
@@ -141,6 +145,7 @@ typedef struct PupilSums {
     const EyePaths *paths;
     double sun_veil, lamp_veil, sun_lx, lamp_lx;
     double image_veil; /* of lamps and small emitters in mirrors; their lux are lamps' */
+    double beside[2];  /* X and Z of all of that veil */
 } PupilSums;
 
 /* Comes light to the pupil by itself, or by one mirror from a lamp or a small emitter? */
@@ -175,6 +180,8 @@ static void add_to_pupil(void *user, const PathHistory *history, const float xyz
       : history->count ? &sums->image_veil
                        : &sums->lamp_veil) +=
         veil_of(sums->paths, history->towards, (double)xyz[1]);
+    for (int k = 0; k < 2; k++)
+        sums->beside[k] += veil_of(sums->paths, history->towards, (double)xyz[2 * k]);
 }
 
 typedef struct PupilWork {
@@ -198,6 +205,7 @@ static void add_pupil(PupilSums *to, const PupilSums *sums) {
     to->sun_veil += sums->sun_veil / PATHS;
     to->lamp_veil += sums->lamp_veil / PATHS;
     to->image_veil += sums->image_veil / PATHS;
+    for (int k = 0; k < 2; k++) to->beside[k] += sums->beside[k] / PATHS;
     to->sun_lx += sums->sun_lx / PATHS;
     to->lamp_lx += sums->lamp_lx / PATHS;
 }
@@ -284,6 +292,9 @@ static void add_path(const EyePaths *paths, int i, EyeSums *sums) {
         add_veil(paths, i / PATHS, EYE_LAMPS, path->shown * veil, sums);
         all += path->shown * veil * PATHS;
     }
+    for (int k = 0; k < 4; k++)
+        if (k < 2 || is_close(paths, d))
+            sums->reading.beside[k % 2] += path->beside[k / 2][k % 2] * veil * PATHS / paths->count;
     bright_add(&sums->veil.bright, all);
     if (paths->road) add_path_to_road(paths, i, d, weight);
 }
@@ -327,6 +338,7 @@ static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *
         add_veil(paths, r, EYE_SUN, pupils[r].sun_veil, sums);
         add_veil(paths, r, EYE_LAMPS, pupils[r].lamp_veil, sums);
         add_veil(paths, r, EYE_GLINTS, pupils[r].image_veil, sums);
+        for (int k = 0; k < 2; k++) sums->reading.beside[k] += pupils[r].beside[k] / rounds;
         sums->reading.vertical_lx += (pupils[r].sun_lx + pupils[r].lamp_lx) / rounds;
     }
 }

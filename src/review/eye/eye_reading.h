@@ -49,6 +49,7 @@ typedef enum EyeSource {
 
 typedef struct EyeReading {
     double veil;               /* cd m^-2 */
+    double beside[2];          /* its X and Z, of a look without `images` */
     double veil_sigma;         /* its standard error, */
     MeanInterval veil_range;   /* and 95 % interval; NaN of one round */
     double parts[EYE_SOURCES]; /* the veil's; they add up to it */

@@ -66,6 +66,7 @@ uint64_t reading_aim_hash(const ProbeAim *aim) {
 /* The sums of one batch of a reading's paths. */
 typedef struct Batch {
     double reflected, mirror;
+    double beside[2]; /* X and Z of what is reflected */
     long found;
     long sky_finds;    /* PathStatistics', */
     double lost, rare; /* its, too */
@@ -98,6 +99,7 @@ static void add_looks(Batch *to, const ProbeLook *looks, int count) {
     for (int i = 0; i < count; i++) {
         to->reflected += (double)looks[i].reflected[1];
         to->mirror += (double)looks[i].mirror[1];
+        for (int k = 0; k < 2; k++) to->beside[k] += (double)looks[i].reflected[2 * k];
         bright_add(&to->bright, (double)looks[i].reflected[1]);
         to->found += looks[i].is_found;
     }
@@ -136,6 +138,7 @@ static void read_part(void *user, int item, int worker) {
 static void add_part(Batch *to, const Batch *part) {
     to->reflected += part->reflected;
     to->mirror += part->mirror;
+    for (int k = 0; k < 2; k++) to->beside[k] += part->beside[k];
     to->found += part->found;
     to->sky_finds += part->sky_finds;
     to->lost += part->lost;
@@ -181,7 +184,8 @@ static double sky_unmet(const ProbeAim *aim, const Batch batches[BATCHES], doubl
 
 /* paths: in each batch. Those count that found the display. */
 static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int paths,
-                          double known) {
+                          const ReadingGoal *goal) {
+    double known = goal->known;
     EstimateSums sums = {
         .batches = BATCHES, .paths = (long)paths * BATCHES, .piece = 1, .unseen = unseen_by(aim)};
     Reading reading = {.paths = sums.paths, .unseen = sums.unseen};
@@ -204,7 +208,12 @@ static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int
     estimate_add_known(&estimate, known, RESPONSE_MIRROR_ERROR * known);
     put_estimate(&estimate, &reading);
     reading.mirror = mirror / found + known;
-    for (int i = 0; i < BATCHES; i++) reading.batches[i] = estimate_batch(&sums, i) + known;
+    for (int i = 0; i < BATCHES; i++) {
+        reading.batches[i] = estimate_batch(&sums, i) + known;
+        for (int k = 0; k < 2; k++)
+            reading.beside[i][k] =
+                batches[i].beside[k] / (paths * sums.share) + goal->known_beside[k];
+    }
     return reading;
 }
 
@@ -248,7 +257,7 @@ static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal) 
     parallel_for(stream->threads, PARTS, read_part, stream);
     for (int i = 0; i < PARTS; i++) add_part(&stream->batches[i / SPLIT], &stream->parts[i]);
     stream->first = stream->end;
-    return reading_of(&stream->aim, stream->batches, stream->end, goal->known);
+    return reading_of(&stream->aim, stream->batches, stream->end, goal);
 }
 
 /* ---- a pilot, and what it requires ------------------------------------------------------- */
@@ -313,16 +322,16 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
 
 Reading reading_field(const ProbeAim *aim, long paths, double known, const ReadingTools *tools,
                       TargetLight *targets, Arena scratch) {
-    ReadingGoal goal = {.known = 0};
+    ReadingGoal goal = {.known = known};
     size_t count = (size_t)aim->target_count;
     Stream stream = stream_start(aim, tools, &scratch);
     stream.targets = ARENA_NEW(&scratch, TargetLight, PARTS * count);
-    stream_read(&stream, paths, &goal);
+    Reading reading = stream_read(&stream, paths, &goal);
     for (size_t i = 0; i < PARTS * count; i++) {
         TargetLight *to = &targets[i % count];
         to->paths += stream.targets[i].paths;
         to->sum += stream.targets[i].sum;
         to->squares += stream.targets[i].squares;
     }
-    return reading_of(aim, stream.batches, (int)(paths / BATCHES), known);
+    return reading;
 }

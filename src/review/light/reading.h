@@ -44,6 +44,7 @@ typedef struct ReadingGoal {
     double known;                    /* the part by the display's mirror: paths leave it out
                                         (path_context.h); it is added, with the error of
                                         response_mirror_paths */
+    double known_beside[2];          /* its X and Z */
     const ReadingQuestion *question; /* NULL: none */
 } ReadingGoal;
 
@@ -57,14 +58,15 @@ typedef struct ReadingTools {
 #define READING_BATCHES ESTIMATE_BATCHES
 
 typedef struct Reading {
-    double reflected;                /* Y; of a luxmeter the illuminance */
-    double sigma;                    /* its standard error */
-    MeanInterval interval;           /* 95 %, whether there was a question or not */
-    double mirror;                   /* part via the display's mirror */
-    double unseen;                   /* EstimateSums's */
-    double found_share;              /* paths whose first surface was a display */
-    BrightSamples bright;            /* its paths, by the light that each found */
-    double batches[READING_BATCHES]; /* of each batch by itself; their mean is `reflected` */
+    double reflected;                  /* Y; of a luxmeter the illuminance */
+    double sigma;                      /* its standard error */
+    MeanInterval interval;             /* 95 %, whether there was a question or not */
+    double mirror;                     /* part via the display's mirror */
+    double unseen;                     /* EstimateSums's */
+    double found_share;                /* paths whose first surface was a display */
+    BrightSamples bright;              /* its paths, by the light that each found */
+    double batches[READING_BATCHES];   /* of each batch by itself; their mean is `reflected` */
+    double beside[READING_BATCHES][2]; /* X and Z of each, where that is Y; likewise */
     double reached; /* by how much of itself one standard error moves what counts */
     long paths;     /* that it was read from; a pilot's do not count */
 } Reading;

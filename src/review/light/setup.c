@@ -348,10 +348,10 @@ bool setup_light_again(Setup *setup, const Setup *before, const Environment *env
 
 #define SUN_DRAWS 16
 
-bool setup_sun_coloured(const Setup *setup, const Curve *colour, Vec3 *towards,
-                        float bands[LIGHT_BANDS]) {
+bool setup_sun_xyz(const Setup *setup, const Curve *colour, Vec3 *towards,
+                   float bands[3][LIGHT_BANDS]) {
     const Lights *lights = setup->context.lights;
-    memset(bands, 0, LIGHT_BANDS * sizeof *bands);
+    memset(bands, 0, 3 * sizeof *bands);
     if (!lights_has(lights, LIGHTS_SUN) || lights_sun_is_moon(lights)) return false;
     for (int i = 0; i < SUN_DRAWS; i++) {
         const float u[3] = {((float)i + 0.5f) / SUN_DRAWS, (float)(i * 7 % SUN_DRAWS) / SUN_DRAWS,
@@ -361,17 +361,22 @@ bool setup_sun_coloured(const Setup *setup, const Curve *colour, Vec3 *towards,
         wavelengths_sample(((float)(i * 5 % SUN_DRAWS) + 0.5f) / SUN_DRAWS, &w);
         if (!lights_sample(lights, LIGHTS_SUN, (LitPoint){{0, 0, 0}, {0, 1, 0}, true}, u, &sample))
             return false;
-        Spectrum lux = lights_radiance(lights, &sample, &w) * w.xyz[1] *
-                       spectrum_all(1 / (sample.pdf * SUN_DRAWS));
-        if (colour) lux *= curve_lookup(colour, &w);
-        for (int k = 0; k < LIGHT_BANDS; k++) bands[k] += lux[k];
+        Spectrum light = lights_radiance(lights, &sample, &w);
+        for (int c = 0; c < 3; c++) {
+            Spectrum lux = light * w.xyz[c] * spectrum_all(1 / (sample.pdf * SUN_DRAWS));
+            if (colour) lux *= curve_lookup(colour, &w);
+            for (int k = 0; k < LIGHT_BANDS; k++) bands[c][k] += lux[k];
+        }
     }
     *towards = lights_sun_direction(lights);
     return true;
 }
 
 bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS]) {
-    return setup_sun_coloured(setup, NULL, towards, bands);
+    float xyz[3][LIGHT_BANDS];
+    bool is_up = setup_sun_xyz(setup, NULL, towards, xyz);
+    memcpy(bands, xyz[1], sizeof xyz[1]);
+    return is_up;
 }
 
 /* Forward on the horizontal, and to its right. */

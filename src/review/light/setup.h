@@ -98,9 +98,9 @@ void scenes_kept_close(ScenesKept *scenes, int condition_id);
  * False: the scene has none, or the moon in its place. */
 bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS]);
 
-/* As glasses of that colour weigh it (NULL: none). */
-bool setup_sun_coloured(const Setup *setup, const Curve *colour, Vec3 *towards,
-                        float bands[LIGHT_BANDS]);
+/* As glasses of that colour weigh it (NULL: none); bands[1] of X, Y and Z are those. */
+bool setup_sun_xyz(const Setup *setup, const Curve *colour, Vec3 *towards,
+                   float bands[3][LIGHT_BANDS]);
 
 /* Azimuth from north over east, or of the vehicle (0 ahead, 90 right) where the environment has
  * no heading; elevation; degrees. */

@@ -35,7 +35,8 @@ PUBLIC_TABLE(limit_json, LimitVerdict, OWN(TEXT, LimitVerdict, name), OWN(TEXT, 
               RECORD_AT(LimitVerdict, age_years), RECORD_RANGE(-HUGE_VAL, HUGE_VAL),
               .write = write_age},
              {"by_pane", RECORD_TEXT, RECORD_NULL | RECORD_BRIEF, RECORD_AT(LimitVerdict, by_pane)},
-             {"with_veil", RECORD_FLAG, RECORD_BRIEF, RECORD_AT(LimitVerdict, has_veil)});
+             {"with_veil", RECORD_FLAG, RECORD_BRIEF, RECORD_AT(LimitVerdict, has_veil)},
+             {"beside", RECORD_TEXT, RECORD_NULL | RECORD_BRIEF, RECORD_AT(LimitVerdict, beside)});
 
 TABLE(cause_json, CaseCause, {"chain", RECORD_TEXTS, MUST, RECORD_MANY(CaseCause, chain, links)},
       OWN(FIGURE, CaseCause, share), OWN(FIGURE, CaseCause, cd_m2),
@@ -78,6 +79,13 @@ TABLE(visibility_json, CaseVisibility, OWN(FIGURE, CaseVisibility, age_years),
       OWN(FIGURE, CaseVisibility, adapted_cd_m2), OWN(FIGURE, CaseVisibility, veil_times),
       OWN(FIGURE, CaseVisibility, veil_doubt), OWN(FIGURE, CaseVisibility, size_arcmin),
       OWN(FIGURE, CaseVisibility, glance_s), OWN(TEXT, CaseVisibility, doubts));
+
+TABLE(colour_json, CaseColour, OWN(TEXT, CaseColour, symbol),
+      {"uv", RECORD_NUMBERS, MUST, RECORD_AT(CaseColour, uv), RECORD_RANGE(-HUGE_VAL, HUGE_VAL),
+       RECORD_COUNT(2, 2)},
+      {"dark_uv", RECORD_NUMBERS, MUST, RECORD_AT(CaseColour, dark_uv),
+       RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(2, 2)},
+      AS("delta_uv", FIGURE, CaseColour, apart), AS("interval", RANGE, CaseColour, low));
 
 TABLE(place_json, CasePlace,
       {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CasePlace, eye_m),
@@ -183,6 +191,7 @@ PUBLIC_TABLE(
     OWN(FIGURE, ReviewCase, jnd), OWN(FIGURE, ReviewCase, visibility),
     LIST("visibility_levels", RECORD_BRIEF, ReviewCase, visibilities, visibility_count,
          visibility_json),
+    LIST("colours", RECORD_BRIEF, ReviewCase, colours, colour_count, colour_json),
     OWN(FIGURE, ReviewCase, eye_failed_share), OWN(FIGURE, ReviewCase, visible_share),
     LIST("hidden_by", 0, ReviewCase, hiders, hider_count, hider_json),
     OWN(FIGURE, ReviewCase, level), OWN(FIGURE, ReviewCase, display_lux),
@@ -210,6 +219,7 @@ FOLLOWS(ReviewCase, contrast_high, contrast_low);
 FOLLOWS(ReviewCase, sun_elevation_deg, sun_azimuth_deg);
 FOLLOWS(LimitVerdict, high, low);
 FOLLOWS(CaseVisibility, high, low);
+FOLLOWS(CaseColour, high, low);
 FOLLOWS(CaseCause, high, low);
 FOLLOWS(CasePlace, contrast_high, contrast_low);
 FOLLOWS(CaseImage, contrast_high, contrast_low);

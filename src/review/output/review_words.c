@@ -94,9 +94,10 @@ static bool is_belied(const LimitVerdict *limit, const char *figure) {
     return isfinite(limit->found) && is != 0 && !(is * looks > 0);
 }
 
-/* Whose it is, where it is somebody's; where, where glass shows it. */
+/* Whose it is, where it is somebody's; where, where glass shows it; from what. */
 static const char *with_age(const LimitVerdict *limit, const char *figure, Arena *arena) {
     if (limit->by_pane) return arena_format(arena, "%s in %s", figure, limit->by_pane);
+    if (limit->beside) return arena_format(arena, "%s from %s", figure, limit->beside);
     if (!(limit->age_years > 0)) return figure;
     return arena_format(arena, "%s at %g years", figure, limit->age_years);
 }

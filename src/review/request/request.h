@@ -156,9 +156,11 @@ typedef struct ReviewSymbol {
     double uv[4];   /* left, top, right, bottom of the content; else all of it */
     bool find_text; /* symbols are to be found inside uv */
     ReviewPolarity polarity;
-    const int *optional_for; /* [eye_count]: 1: that eye need not see it; what it does see
-                                of it is judged all the same. NULL: all 0 */
-    const bool *private_for; /* [eye_count]: that eye must not read it. NULL: none */
+    const int *optional_for;  /* [eye_count]: 1: that eye need not see it; what it does see
+                                 of it is judged all the same. NULL: all 0 */
+    const bool *private_for;  /* [eye_count]: that eye must not read it. NULL: none */
+    const int *distinct_from; /* symbols that its colour must not be taken for */
+    int distinct_count;
 } ReviewSymbol;
 
 /* Of what must not be read. */

@@ -64,6 +64,9 @@ static bool read_forbidden(const JsonView *view, const RecordRow *row, void *ite
     return true;
 }
 
+static const RecordRow OTHER = {.kind = RECORD_REFER, .among = &review_symbol_names};
+static const RecordFormat other_format = {"other", sizeof(int), .value = &OTHER};
+
 static const char *const FOUND[] = {"text", NULL};
 
 #define OWNER ReviewSymbol
@@ -83,6 +86,10 @@ static const RecordRow SYMBOL[] = {
             "of it is judged."},
     {"must_not_be_read", RECORD_EITHER, .forms = FORBIDDEN, .read = read_forbidden,
      .doc = "No eye, or none of these, may be able to read it: the verdict is of that."},
+    {"distinct_from", RECORD_LIST, RECORD_MANY(OWNER, distinct_from, distinct_count),
+     RECORD_COUNT(1, 1000), .of = &other_format,
+     .doc = "Symbols that its colour must not be taken for: as the eye sees them, in the same "
+            "light."},
     {0}};
 
 static void start_symbol(void *item) {
@@ -92,6 +99,7 @@ static void start_symbol(void *item) {
 static bool check_symbol(const JsonView *view, void *item, Error *err) {
     ReviewSymbol *symbol = item;
     const double *uv = symbol->uv;
+    int own = (int)(symbol - ((const ReviewRequest *)view->whole)->symbols);
     symbol->has_uv = record_has(view, "uv");
     symbol->find_text = record_has(view, "find");
     if (!(uv[0] < uv[2] && uv[1] < uv[3]))
@@ -99,6 +107,10 @@ static bool check_symbol(const JsonView *view, void *item, Error *err) {
                             "is [%g, %g, %g, %g], required: [left, top, right, bottom] with "
                             "left below right and top below bottom",
                             uv[0], uv[1], uv[2], uv[3]);
+    for (int i = 0; i < symbol->distinct_count; i++)
+        if (symbol->distinct_from[i] == own)
+            return record_fails(view, "distinct_from", err,
+                                "names the symbol itself, required: other symbols");
     if (symbol->find_text && symbol->mask)
         return error_at(err, ERROR_INPUT, view->file, view->path,
                         "has both 'find' and 'mask', required: one of them");

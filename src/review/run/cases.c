@@ -58,13 +58,14 @@ static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena 
 /* The display's luminance to the eye by direct sun alone, cd m^-2. */
 typedef struct DirectSun {
     double scattered, mirror;
+    double beside[2]; /* X and Z of the mirror's */
 } DirectSun;
 
 static DirectSun direct_sun(const Setup *setup, const ProbeAim *aim, Arena scratch) {
     Vec3 towards;
-    float bands[LIGHT_BANDS];
-    DirectSun direct = {0, 0};
-    if (!setup_sun_coloured(setup, aim->colour, &towards, bands)) return direct;
+    float bands[3][LIGHT_BANDS];
+    DirectSun direct = {0};
+    if (!setup_sun_xyz(setup, aim->colour, &towards, bands)) return direct;
     float radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
     ProbeSuns suns = {&towards, 1, radius, false};
     ResponseOptions options = {setup->tools.kernel, 0, SUN_PATHS, setup->tools.threads, 0};
@@ -73,7 +74,9 @@ static DirectSun direct_sun(const Setup *setup, const ProbeAim *aim, Arena scrat
         suns.by_mirror = by_mirror;
         if (by_mirror) options.paths = response_mirror_paths(aim, radius);
         const float *shares = response_suns(aim, &options, &suns, &room);
-        *(by_mirror ? &direct.mirror : &direct.scattered) = light_bands_sum(shares, bands);
+        *(by_mirror ? &direct.mirror : &direct.scattered) = light_bands_sum(shares, bands[1]);
+        for (int k = 0; k < 2 && by_mirror; k++)
+            direct.beside[k] = light_bands_sum(shares, bands[2 * k]);
     }
     return direct;
 }
@@ -101,6 +104,7 @@ typedef struct LookReading {
     CaseWhole whole;
     DirectSun direct;
     const double *batches;
+    const ColourLight *colour; /* NULL: nobody asked */
     long paths;
     double asked, reached;
 } LookReading;
@@ -112,6 +116,7 @@ typedef struct CaseLook {
     Vec3 eye;
     bool is_coarse, is_bare;
     bool is_open;       /* of coarse ones: fewer paths leave its verdict open */
+    bool has_colour;    /* that is asked for */
     const Vec3 *points; /* [point_count], all of the eye's; NULL: no glass is searched */
     int point_count;
     const LookReading *like; /* of a variant: the review's, which is this one's, too; NULL: it is
@@ -182,6 +187,11 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArg
                         .times = request->is_compared ? COMPARED_TIMES : 1,
                         .least = base_paths(args),
                         .question = &question};
+    if (args->of->colour_count) { /* which clear contrasts leave open */
+        goal.question = NULL;
+        goal.least = goal.least > READING_ASKED_LEAST ? goal.least : READING_ASKED_LEAST;
+    }
+    if (goal.known > 0) memcpy(goal.known_beside, args->direct.beside, sizeof goal.known_beside);
     without.without_mirrored_sun = goal.known > 0;
     rest.context = &without;
     if (look->is_coarse) {
@@ -200,8 +210,9 @@ static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double 
     l->background = emission->background_xyz[1] * transmittance;
 }
 
-static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 eye, ReviewCase *c,
-                            Arena *arena) {
+static void see_stray_light(const CaseTools *tools, const SetupSymbol *symbol, Vec3 eye,
+                            ReviewCase *c, Arena *arena) {
+    const Setup *setup = tools->setup;
     bool has_levels = c->visibility_count > 0;
     EyeLook look = {eye,
                     vec3_sub(symbol_middle(symbol).position, eye),
@@ -211,6 +222,9 @@ static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 
                     NULL};
     EyeReading stray = eye_read(setup, &look, *arena);
     c->luminance_cd_m2.veil = stray.veil;
+    if (c->colour_count && tools->profile->uses_veil)
+        memcpy(c->colours[0].light->veil, (double[3]){stray.beside[0], stray.veil, stray.beside[1]},
+               3 * sizeof(double));
     if (has_levels) case_visibility_veils(setup, &look, &stray, c, arena);
     c->veil_displays = stray.parts[EYE_LAMPS] + stray.parts[EYE_GLINTS] + stray.parts[EYE_NEAR];
 }
@@ -296,6 +310,7 @@ static void keep_reading(const Reading *reading, const CaseLook *look, ReviewCas
     l->scattered = reading->reflected - reading->mirror;
     set_contrasts(c, reading->interval);
     c->visibility = visibility_of(c, &look->symbol->split);
+    if (c->colour_count) symbol_colour_read(reading, c);
 }
 
 /* ---- as the review's --------------------------------------------------------------------- */
@@ -317,9 +332,17 @@ static bool is_kept(const CaseTools *tools, const ReviewCase *c) {
 
 static LookReading look_reading(const ReviewCase *c, DirectSun direct) {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    return (LookReading){
-        c->visible_share, l->reflected, l->mirror, c->reflected_range, c->whole,
-        direct,           c->batches,   c->paths,  c->precision_asked, c->precision_reached};
+    return (LookReading){c->visible_share,
+                         l->reflected,
+                         l->mirror,
+                         c->reflected_range,
+                         c->whole,
+                         direct,
+                         c->batches,
+                         c->colour_count ? c->colours[0].light : NULL,
+                         c->paths,
+                         c->precision_asked,
+                         c->precision_reached};
 }
 
 /* The pilot of a part and, from all points, of all. */
@@ -361,6 +384,7 @@ static ProbeAim take_alike(const CaseTools *tools, const CaseLook *look, const P
         c, (MeanInterval){fmax(l->reflected - hypot(l->reflected - like->range.low, more), 0),
                           l->reflected + hypot(like->range.high - l->reflected, more)});
     c->visibility = visibility_of(c, &look->symbol->split);
+    if (c->colour_count && like->colour) symbol_colour_alike(like->colour, c);
     return part;
 }
 
@@ -381,9 +405,12 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
                     .eye = look->eye,
                     .seed = review_seed(setup->request, look->is_coarse ? COARSE_SEED : EYE_SEED)};
     symbol_put_on_glasses(setup, symbol, &aim, c, arena);
+    if (look->has_colour && !look->is_coarse)
+        symbol_colour_start(&(ColourStart){&shown, &emission, &seen.tint, aim.colour, symbol}, c,
+                            arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil ||
                       profile_has(tools->profile, LIMIT_VISIBILITY_LEVEL);
-    if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, look->eye, c, arena);
+    if (!look->is_coarse && wants_veil) see_stray_light(tools, symbol, look->eye, c, arena);
     if (look->like) {
         ProbeAim same = take_alike(tools, look, &aim, c, arena);
         *direct = look->like->direct;
@@ -395,7 +422,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     Reading reading = read_part(look, &part, c, &args, arena);
     *direct = args.direct;
     keep_reading(&reading, look, c, arena);
-    c->precision_asked = is_verdict_clear(&args, reading.interval, *arena)
+    c->precision_asked = !c->colour_count && is_verdict_clear(&args, reading.interval, *arena)
                              ? setup->request->precision_clear
                              : setup->request->precision_contrast;
     return part.aim;
@@ -407,6 +434,13 @@ static bool is_worse(const ReviewCase *a, const ReviewCase *b) {
     return rank_a != rank_b ? rank_a > rank_b : a->margin < b->margin;
 }
 
+static void name_symbol(const Setup *setup, const SetupSymbol *symbol, ReviewCase *c) {
+    c->symbol = symbol->name;
+    c->display = symbol->display_name;
+    c->level = (double)setup->scene->displays[symbol->display.display_id].level;
+    c->panel = symbol->panel;
+}
+
 static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
                              const SetupSymbol *symbol) {
     const Setup *setup = tools->setup;
@@ -415,10 +449,7 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
     ReviewCase c = review_case_unknown();
     c.condition = setup->condition->name;
     c.eye = eye->name;
-    c.symbol = symbol->name;
-    c.display = symbol->display_name;
-    c.level = (double)setup->scene->displays[symbol->display.display_id].level;
-    c.panel = symbol->panel;
+    name_symbol(setup, symbol, &c);
     c.is_optional = review_is_optional(setup->request, symbol->symbol_id, eye);
     c.must_not_be_read = review_is_private(setup->request, symbol->symbol_id, eye);
     memcpy(c.origin_m, setup->scene->origin, sizeof c.origin_m);
@@ -454,11 +485,38 @@ static double data_share_of(const CaseTools *tools, const CaseLook *look, const 
     return count ? case_data_share(&args, scratch) : 0;
 }
 
+/* The colours of those that the symbol must be told from, as cases of their own have them, and
+ * which are seen. */
+static void see_others(const CaseTools *tools, const CaseLook *look, ReviewCase *c, Arena *arena) {
+    const ReviewRequest *request = tools->setup->request;
+    const ReviewSymbol *asked = &request->symbols[look->symbol->symbol_id];
+    CaseColour *list = ARENA_NEW(arena, CaseColour, 1 + tools->symbol_count);
+    list[0] = c->colours[0];
+    for (int i = 0; i < tools->symbol_count; i++) {
+        const SetupSymbol *symbol = &tools->symbols[i];
+        CaseLook one = {.symbol = symbol, .eye = look->eye, .is_bare = true, .has_colour = true};
+        ReviewCase other = *c;
+        DirectSun direct;
+        int k = 0;
+        while (k < asked->distinct_count && asked->distinct_from[k] != symbol->symbol_id) k++;
+        if (k == asked->distinct_count) continue;
+        name_symbol(tools->setup, symbol, &other);
+        other.must_not_be_read = false;
+        other.colour_count = 0;
+        if (!see_symbol(tools, &one, &other, &direct, arena).target_count) continue;
+        other.colours[0].light->is_on_display =
+            symbol->display.display_id == look->symbol->display.display_id;
+        list[c->colour_count++] = other.colours[0];
+    }
+    c->colours = list;
+}
+
 /* *direct: of what is reflected. */
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
                            DirectSun *direct, Arena *arena) {
-    *direct = (DirectSun){0, 0};
+    *direct = (DirectSun){0};
     ProbeAim aim = see_symbol(tools, look, c, direct, arena);
+    if (c->colour_count) see_others(tools, look, c, arena);
     if (c->must_not_be_read && look->points)
         private_images_find(
             &(PrivateLook){tools->setup, look->symbol, look->points, look->point_count}, c, arena);
@@ -592,6 +650,9 @@ static bool case_of(const CaseTools *tools, const CaseArgs *args, Arena *arena, 
     if (!points || !review_goes_on(err)) return false;
     c.display_lux = args->face_lux;
     c.eye_failed_share = (double)NAN;
+    look.has_colour = !c.must_not_be_read &&
+                      (profile_has(tools->profile, LIMIT_COLOUR_SHIFT) ||
+                       tools->setup->request->symbols[args->symbol->symbol_id].distinct_count);
     look.points = points;
     look.point_count = count;
     ProbeAim aim = judge_eye(tools, &look, &c, arena);

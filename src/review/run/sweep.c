@@ -192,8 +192,8 @@ static bool read_worst(SweepReport *to, const Sight *sight, const SweepSun *sun,
     setup.request = &request;
     CaseTools tools = {.setup = &setup,
                        .profile = sweep->run->profile,
-                       .symbols = sight->symbol,
-                       .symbol_count = 1,
+                       .symbols = sweep->symbols,
+                       .symbol_count = sweep->symbol_count,
                        .base = sweep->run->base};
     bool ok = setup_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
     setup.scene->environment = dark; /* as the next sight is sampled */

@@ -272,10 +272,65 @@ void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeA
     if (glasses.polariser) polarise_case(&symbol->surface, glasses.polariser, aim, c, arena);
     if (glasses.colour) {
         aim->colour = glasses.colour;
-        scale_shown(c, symbol_coloured_share(&shown, SYMBOL_FOREGROUND, glasses.colour),
-                    symbol_coloured_share(&shown, SYMBOL_BACKGROUND, glasses.colour));
+        double share[2][3];
+        symbol_coloured_share(&shown, SYMBOL_FOREGROUND, glasses.colour, share[0]);
+        symbol_coloured_share(&shown, SYMBOL_BACKGROUND, glasses.colour, share[1]);
+        scale_shown(c, share[0][1], share[1][1]);
     }
     c->glasses_display_loss = bare > 0 ? 1 - brighter(&c->luminance_cd_m2) / bare : 0;
+}
+
+/* ---- its colour -------------------------------------------------------------------------- */
+
+void symbol_colour_start(const ColourStart *start, ReviewCase *c, Arena *arena) {
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    const double nan = (double)NAN;
+    bool is_light_on_dark = l->foreground >= l->background;
+    const double *sent =
+        is_light_on_dark ? start->emission->foreground_xyz : start->emission->background_xyz;
+    double lit = is_light_on_dark ? l->foreground : l->background, share[3], worn[3] = {1, 1, 1};
+    SymbolClass which = is_light_on_dark ? SYMBOL_FOREGROUND : SYMBOL_BACKGROUND;
+    Curve between = *start->tint;
+    for (int i = 0; i < CURVE_COUNT && start->glasses; i++)
+        between.value[i] *= start->glasses->value[i];
+    symbol_coloured_share(start->shown, which, &between, share);
+    if (start->glasses) symbol_coloured_share(start->shown, which, start->glasses, worn);
+    const char *name = start->symbol->name;
+    ColourLight *light = ARENA_NEW(arena, ColourLight, 1);
+    CaseColour *colour = ARENA_NEW(arena, CaseColour, 1);
+    *light = (ColourLight){.lit = lit,
+                           .emission_error = start->symbol->panel.emission_error,
+                           .reflection_error = start->symbol->panel.reflection_error,
+                           .is_on_display = true};
+    for (int k = 0; k < 3 && sent[1] > 0; k++)
+        light->emitted[k] = sent[k] * share[k] * lit / (sent[1] * worn[1]);
+    *colour = (CaseColour){.symbol = arena_string(arena, name, strlen(name)),
+                           .uv = {nan, nan},
+                           .dark_uv = {nan, nan},
+                           .apart = nan,
+                           .low = nan,
+                           .high = nan,
+                           .light = light};
+    c->colours = colour;
+    c->colour_count = 1;
+}
+
+void symbol_colour_read(const Reading *reading, ReviewCase *c) {
+    ColourLight *light = c->colours[0].light;
+    light->range = c->reflected_range;
+    for (int i = 0; i < CASE_BATCHES; i++) {
+        const double xyz[3] = {reading->beside[i][0], reading->batches[i], reading->beside[i][1]};
+        memcpy(light->batches[i], xyz, sizeof xyz);
+        for (int k = 0; k < 3; k++) light->reflected[k] += xyz[k] / CASE_BATCHES;
+    }
+    light->reflected[1] = reading->reflected;
+}
+
+void symbol_colour_alike(const ColourLight *like, ReviewCase *c) {
+    ColourLight *light = c->colours[0].light;
+    memcpy(light->reflected, like->reflected, sizeof like->reflected);
+    memcpy(light->batches, like->batches, sizeof like->batches);
+    light->range = c->reflected_range;
 }
 
 /* ---- cells, of which the worst is read --------------------------------------------------- */
@@ -293,11 +348,11 @@ void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeA
 /* The direct sun of each cell that is seen, and its mean by the display's mirror. */
 static double add_sun(const Setup *setup, const LightParts *parts, double *known, Arena scratch) {
     Vec3 towards;
-    float bands[LIGHT_BANDS];
-    if (!setup_sun_coloured(setup, parts->aim.colour, &towards, bands)) return 0;
+    float bands[3][LIGHT_BANDS];
+    if (!setup_sun_xyz(setup, parts->aim.colour, &towards, bands)) return 0;
     ProbeSuns sun = {&towards, 1, (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG), false};
     ResponseOptions options = {setup->tools.kernel, 0, SUN_PATHS, setup->tools.threads, 0};
-    return sun_parts_light(parts, &options, &sun, bands, known, scratch);
+    return sun_parts_light(parts, &options, &sun, bands[1], known, scratch);
 }
 
 static bool is_shade(const double *known, int targets) {

@@ -55,6 +55,27 @@ bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *cou
 void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeAim *aim,
                            ReviewCase *c, Arena *arena);
 
+/* The light of which a case's colour is made; judging makes the colour (review/ask_colour.h).
+ *
+ * What lies between the display and the eye takes from what is emitted by the spectra of the
+ * panel's primaries, at the 16 wavelengths of a path; of the case's luminance it takes as of light
+ * of equal energy (symbol_visibility): behind tinted glass the two differ. */
+typedef struct ColourStart {
+    const SymbolLook *shown;
+    const SymbolEmission *emission; /* as the display sends it */
+    const Curve *tint, *glasses;    /* of what lies between; and worn: NULL: none */
+    const SetupSymbol *symbol;
+} ColourStart;
+
+/* What is emitted, of a case whose luminances are as they arrive: it has one colour then. */
+void symbol_colour_start(const ColourStart *start, ReviewCase *c, Arena *arena);
+
+/* What is reflected. */
+void symbol_colour_read(const Reading *reading, ReviewCase *c);
+
+/* The same, as the review's same case has it. */
+void symbol_colour_alike(const ColourLight *like, ReviewCase *c);
+
 /* The part of a symbol that an eye sees worst: the window, as wide as a stroke
  * and one character high (symbols.h), from which most light is reflected; of what must not be
  * read the one from which least is.

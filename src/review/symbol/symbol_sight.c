@@ -93,30 +93,42 @@ static bool is_stopped(const Ray *ray, SightQuestion *question) {
 }
 
 /* The share of light that comes from the point to the eye; 0: it is hidden, or seen from
- * behind. */
+ * behind. by_lane: the same of each wavelength; or NULL. */
 static float passed_from(const SymbolPoint *point, const PathContext *context,
-                         const Wavelengths *wavelengths, Vec3 eye) {
+                         const Wavelengths *wavelengths, Vec3 eye, Spectrum *by_lane) {
     SightQuestion question = {
         .context = context, .wavelengths = wavelengths, .passed = spectrum_all(1)};
     Ray look = look_at(context->scene, point, eye);
     if (!faces(point, eye) || is_stopped(&look, &question)) return 0;
+    if (by_lane) *by_lane = question.passed;
     return luminous(wavelengths, &question.passed);
 }
 
 SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathContext *context,
                                    Vec3 eye, bool *is_visible) {
-    double seen = 0, passed = 0;
+    double seen = 0, passed = 0, nm[SPECTRUM_LANES], tint[SPECTRUM_LANES] = {0};
+    SymbolVisibility out;
     Wavelengths wavelengths;
     wavelengths_sample(0.5f, &wavelengths);
     for (int i = 0; i < surface->point_count; i++) {
         const SymbolPoint *point = &surface->points[i];
-        double share = (double)passed_from(point, context, &wavelengths, eye);
+        Spectrum by_lane = spectrum_all(1);
+        double share = (double)passed_from(point, context, &wavelengths, eye, &by_lane);
         if (is_visible) is_visible[i] = share > 0;
         if (!(share > 0)) continue;
         seen += (double)point->area_m2;
         passed += share * (double)point->area_m2;
+        for (int k = 0; k < SPECTRUM_LANES; k++)
+            tint[k] += (double)by_lane[k] * (double)point->area_m2;
     }
-    return (SymbolVisibility){seen / surface->area_m2, passed / seen};
+    for (int k = 0; k < SPECTRUM_LANES; k++) {
+        nm[k] = (double)wavelengths.nm[k];
+        tint[k] /= passed;
+    }
+    out.visible_share = seen / surface->area_m2;
+    out.transmittance = passed / seen;
+    curve_from_points(nm, tint, SPECTRUM_LANES, &out.tint);
+    return out;
 }
 
 /* The first part that hides a look, which must be hidden. */
@@ -171,7 +183,7 @@ static bool sees_corners(const SymbolSurface *surface, const double box[4],
         double uv[2] = {box[0] + u * (box[2] - box[0]), box[1] + v * (box[3] - box[1])};
         SymbolPoint corner;
         if (!symbol_surface_at(surface, uv, &corner) ||
-            !(passed_from(&corner, context, &wavelengths, eye) > 0))
+            !(passed_from(&corner, context, &wavelengths, eye, NULL) > 0))
             return false;
     }
     return true;
@@ -192,7 +204,7 @@ bool symbol_box_seen(const SymbolSurface *surface, const double uv[4], const Pat
     Wavelengths wavelengths;
     wavelengths_sample(0.5f, &wavelengths);
     if (!symbol_surface_at(surface, at, &middle) ||
-        !(passed_from(&middle, context, &wavelengths, eye) > 0))
+        !(passed_from(&middle, context, &wavelengths, eye, NULL) > 0))
         return false;
     *out = sees_corners(surface, uv, context, eye) ? symbol_patch_of(surface, uv, middle.position)
                                                    : (SymbolPatch){.middle = middle.position};
@@ -341,7 +353,7 @@ double symbol_polarised_share(const SymbolSurface *surface, const PathContext *c
     wavelengths_sample(0.5f, &wavelengths);
     for (int i = 0; i < surface->point_count; i++) {
         const SymbolPoint *point = &surface->points[i];
-        if (!(passed_from(point, context, &wavelengths, eye) > 0)) continue;
+        if (!(passed_from(point, context, &wavelengths, eye, NULL) > 0)) continue;
         sum += (double)point->area_m2 * polarised_at(point, context, eye, polariser);
         area += (double)point->area_m2;
     }
@@ -351,9 +363,9 @@ double symbol_polarised_share(const SymbolSurface *surface, const PathContext *c
 #define COLOUR_PIXELS 64 /* of a class: it shows few colours */
 #define COLOUR_STRATA 16 /* of SPECTRUM_LANES wavelengths each */
 
-/* Adds a pixel's luminance as it is, and behind the glasses. */
+/* Adds a pixel's XYZ as it is, and behind the glass. */
 static void add_coloured(const SymbolLook *look, uint32_t pixel, const Curve *colour,
-                         double sum[2]) {
+                         double sum[2][3]) {
     const Scene *scene = look->surface->scene;
     const ContentLight *light = &look->split->light;
     int x = light->x + (int)(pixel % (uint32_t)light->width);
@@ -366,17 +378,22 @@ static void add_coloured(const SymbolLook *look, uint32_t pixel, const Curve *co
     for (int i = 0; i < COLOUR_STRATA; i++) {
         Wavelengths w;
         wavelengths_sample(((float)i + 0.5f) / COLOUR_STRATA, &w);
-        Spectrum seen = triangle_emission(scene, at.triangle, &point, way, &w) * w.xyz[1];
-        sum[0] += (double)spectrum_mean(seen);
-        sum[1] += (double)spectrum_mean(seen * curve_lookup(colour, &w));
+        Spectrum sent = triangle_emission(scene, at.triangle, &point, way, &w);
+        Spectrum passed = curve_lookup(colour, &w);
+        for (int k = 0; k < 3; k++) {
+            Spectrum seen = sent * w.xyz[k];
+            sum[0][k] += (double)spectrum_mean(seen);
+            sum[1][k] += (double)spectrum_mean(seen * passed);
+        }
     }
 }
 
-double symbol_coloured_share(const SymbolLook *look, SymbolClass which, const Curve *colour) {
+void symbol_coloured_share(const SymbolLook *look, SymbolClass which, const Curve *colour,
+                           double share[3]) {
     ClassWork work = {.surface = look->surface, .light = &look->split->light, .eye = look->eye};
-    double sum[2] = {0, 0};
+    double sum[2][3] = {{0}};
     list_pixels(look->split, which, &work);
     long step = work.count / COLOUR_PIXELS + 1;
     for (long i = 0; i < work.count; i += step) add_coloured(look, work.pixels[i], colour, sum);
-    return sum[0] > 0 ? sum[1] / sum[0] : 1;
+    for (int k = 0; k < 3; k++) share[k] = sum[0][k] > 0 ? sum[1][k] / sum[0][k] : 1;
 }

@@ -20,6 +20,7 @@ typedef struct SymbolVisibility {
                              hundredth of the light passes them */
     double transmittance; /* of what lies between, mean over what is visible, 0..1, for light of
                              equal energy by V(lambda); NaN where nothing is visible */
+    Curve tint;           /* the same at each wavelength, over that */
 } SymbolVisibility;
 
 /* is_visible: [surface->point_count], filled; NULL: not requested. */
@@ -70,9 +71,10 @@ typedef struct SymbolLook {
 double symbol_polarised_share(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
                               const PolarisedEye *polariser);
 
-/* The luminance of a class behind glasses of that colour, over the one that was measured: by
- * the spectra of the panel's primaries. 1: it emits nothing. */
-double symbol_coloured_share(const SymbolLook *look, SymbolClass which, const Curve *colour);
+/* X, Y and Z of a class behind glass of that colour, over those that were measured: by the
+ * spectra of the panel's primaries. 1: it emits nothing. */
+void symbol_coloured_share(const SymbolLook *look, SymbolClass which, const Curve *colour,
+                           double share[3]);
 
 /* level: of the display; 1: as measured. Of more than 20,000 pixels of a class so many, evenly
  * chosen, stand for all. The same for any number of threads. */
