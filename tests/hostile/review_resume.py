@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """review_resume.py [--all] [--kills N] PARHELION -- a review that is killed, stopped or starved
 goes on with the next condition, to the very files that it would have made, and its responses
-serve the next one; so do reviews of some conditions each that are merged. Until a review is
-whole, an earlier one in the same folder stays as it was. --kills: how many SIGKILLs at random
+serve the next one; so do reviews of some conditions each that are merged. Until its verdicts
+stand, an earlier one in the same folder stays as it was. --kills: how many SIGKILLs at random
 moments (default 1). --all: reviews after damage, TERM, a full disk, too.
 """
 import argparse

@@ -5,6 +5,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/file.h>
@@ -172,11 +173,19 @@ static Lines review_files_read(const char *dir, Arena *arena) {
     return files;
 }
 
+static int compare_names(const void *a, const void *b) {
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* Sorted: in how many steps they came decides nothing. */
 static bool review_files_write(const char *dir, const Lines *files, Arena scratch, Error *err) {
     const char *path = arena_format(&scratch, "%s/" LIST, dir);
+    const char **names = ARENA_NEW(&scratch, const char *, files->count + 1);
     Text text = {.arena = &scratch};
+    for (int i = 0; i < files->count; i++) names[i] = files->list[i];
+    qsort(names, (size_t)files->count, sizeof *names, compare_names);
     text_add(&text, LIST_TITLE);
-    for (int i = 0; i < files->count; i++) text_format(&text, "%s\n", files->list[i]);
+    for (int i = 0; i < files->count; i++) text_format(&text, "%s\n", names[i]);
     return text_write(&text, path, err);
 }
 

@@ -81,29 +81,6 @@ static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *
     add(facts, "Empty seat", words_empty_seat(c, arena));
 }
 
-/* With how many others that cannot be judged either. */
-static const char *unjudged_words(const Review *review, const ReviewCase *of, Arena *arena) {
-    const char *name = words_case(of, arena);
-    int count = 0, same = 0;
-    for (int i = 0; i < review_case_count(review); i++) {
-        const ReviewCase *c = review_case_at(review, i);
-        if (c == of || c->verdict != VERDICT_UNJUDGED || !review_case_counts(c)) continue;
-        count++;
-        same += c->unjudged == of->unjudged;
-    }
-    if (!count) return name;
-    const char *others =
-        arena_format(arena, "%s, and %d other%s", name, count, count == 1 ? "" : "s");
-    return same == count ? arena_format(arena, "%s for the same reason", others)
-                         : arena_format(arena, "%s, of which %d for the same reason", others, same);
-}
-
-static void add_unjudged(ReviewFacts *facts, const Review *review, const ReviewCase *c,
-                         Arena *arena) {
-    add(facts, "Not judged", unjudged_words(review, c, arena));
-    add(facts, "Why", words_unjudged(c, arena));
-}
-
 /* ---- what to do -------------------------------------------------------------------------- */
 
 /* A variant of the whole review goes before what is reckoned for this finding alone. */
@@ -121,7 +98,10 @@ ReviewFacts review_facts_of(const Review *review, const Finding *f, const char *
                             Arena *arena) {
     ReviewFacts facts = {.count = 0};
     const ReviewCase *c = f->c;
-    if (c && c->unjudged) add_unjudged(&facts, review, c, arena);
+    if (c && c->unjudged) {
+        add(&facts, "Not judged", words_case(c, arena));
+        add(&facts, "Why", words_unjudged(c, arena));
+    }
     if (c) add_when(&facts, review, c, directions, arena);
     else add(&facts, "When", f->condition ? f->condition : "?");
     if (f->verdict != VERDICT_PASS) add_todo(&facts, review, f, arena);
