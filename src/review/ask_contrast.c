@@ -39,11 +39,12 @@ static double below_veil(const ReviewCase *c, double ratio) {
 static Figure find(const Evidence *e, double (*from_ratio)(double)) {
     const ReviewCase *c = e->c;
     bool has_veil = e->profile->uses_veil;
+    double found = has_veil ? c->contrast_with_veil : c->contrast_ratio;
     double low = has_veil ? below_veil(c, c->contrast_low) : c->contrast_low;
     double high = has_veil ? below_veil(c, c->contrast_high) : c->contrast_high;
-    return (Figure){.found = from_ratio(has_veil ? c->contrast_with_veil : c->contrast_ratio),
-                    .low = from_ratio(low),
-                    .high = from_ratio(high),
+    return (Figure){.found = from_ratio(found),
+                    .low = from_ratio(low > found ? found : low), /* by rounding */
+                    .high = from_ratio(high < found ? found : high),
                     .sampling = {c->sampling_share[0], c->sampling_share[1]},
                     .has_veil = has_veil};
 }

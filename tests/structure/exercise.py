@@ -75,6 +75,13 @@ EXERCISES = {
           '    NUMBER("pupil_mm", RECORD_OPEN, pupil_mm, 1, 9, "Of the pupil, mm."),\n'),
          ("tests/unit/records/review.json", '"proposed_from":', '"pupil_mm": 4, ')],
         ["test_record"], ["test_record"]),
+    # The steps of a grey scale between a symbol and its background.
+    "grey_steps": Exercise(
+        "A quantity of a review", 2, {"ask_grey_steps.c": "src/review"},
+        [("src/review/quantity.h", "    Q(STROKE_RATIO, stroke_ratio)",
+          "    Q(GREY_STEPS, grey_steps)" + " " * 50 + "\\\n")],
+        ["test_findings", "test_profile", "test_judge"],
+        ["test_findings", "test_profile", "test_judge"]),
     # The width of a symbol's strokes.
     "stroke_arcmin": Exercise(
         "A figure of a case", 7, {},
