@@ -145,7 +145,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, CompareWords *words,
          "deltae_max, mse, relmse, mae, max_difference, mean_shift, differing, "
          "fraction_failed, contrast_change (changes and shares: 0.01 is 1 %). Without a limit "
          "frames are judged by their noise: no mean moved, and no single pixel is 10 times "
-         "brighter than all around it and beyond 5 of its standard errors; all others by "
+         "brighter than all around it and beyond 4 of its standard errors; all others by "
          "equality",
          .out = &words->at_most},
         {"--min", OPTION_TEXTS, "METRIC=VALUE", "or below: psnr, ssim, p_value",

@@ -27,18 +27,11 @@ static unsigned groups_of(const CompareOptions *options) {
 
 /* ---- the judges -------------------------------------------------------------------------- */
 
-static void judge_limits(const CompareOptions *options, Comparison *out) {
-    for (int i = 0; i < options->threshold_count; i++) {
-        Threshold t = options->thresholds[i];
-        const MetricInfo *info = metric_info(t.metric);
-        double value = out->value[t.metric];
-        if (threshold_holds(t, value)) continue;
-        if (isnan(value))
-            lines_add(&out->reasons, "%s is not known for these files, %s %g is required",
-                      info->name, info->is_min ? "at least" : "at most", t.limit);
-        else
-            lines_add(&out->reasons, "%s is %.5g, %s %g is required", info->name, value,
-                      info->is_min ? "at least" : "at most", t.limit);
+static void judge_limits(Comparison *out) {
+    for (int i = 0; i < out->row_count; i++) {
+        const CompareRow *row = &out->rows[i];
+        if (row->table == TABLE_METRIC && row->is_beyond)
+            lines_add(&out->reasons, "%s %s, required: %s", row->figure, row->text, row->limit_text);
     }
 }
 
@@ -105,7 +98,7 @@ static void judge(const CompareOptions *options, Arena *arena, Comparison *out) 
     if (out->judged_by != JUDGED_BY_EQUALITY) judge_others(out);
     if (out->judged_by == JUDGED_BY_STATISTIC) judge_statistic(out, arena);
     if (out->judged_by == JUDGED_BY_EQUALITY) judge_equality(out);
-    judge_limits(options, out);
+    judge_limits(out);
 }
 
 /* ---- two large pictures of codes, in bands of rows --------------------------------------- */
@@ -334,11 +327,16 @@ static bool knows_verdict(const Comparison *out, Error *err) {
 /* Of pictures, where no noise shows, all that differs has changed. A pixel that stands out
  * is named beside a change of the light only where that is far less. */
 static void find_change(Comparison *out, Arena *arena) {
-    double floor = out->reference.kind == INPUT_FRAME ? 0 : LEAST_WHITE;
+    const Planes *const light[2] = {&out->light[0], &out->light[1]};
+    bool is_frame = out->reference.kind == INPUT_FRAME;
+    double floor = is_frame ? 0 : LEAST_WHITE;
     const Standout *s = &out->standout;
     out->change = change_find(&out->grid, out->structure.shares_field, floor, arena);
-    if (out->reference.kind == INPUT_PICTURE && out->change.area.pixels == 0)
+    if (!is_frame && out->change.area.pixels == 0)
         out->change = change_find(&out->grid, true, floor, arena);
+    if (is_frame) /* of the same paths: there is no noise between them, whatever theirs is */
+        out->standout = change_standout(
+            light, out->mask, out->structure.shares_paths ? NULL : out->stat.sigma, *arena);
     double reach = fabs(s->most.luminance[1] - s->most.luminance[0]);
     if ((!out->has_stat || out->stat.verdict == STATISTIC_DIFFERENT) &&
         !(s->count <= FEW_STANDOUTS && reach > STANDOUT_LIKE * s->rest))

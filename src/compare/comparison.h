@@ -55,6 +55,7 @@ typedef struct CompareRow {
     bool has_limit, is_min, is_beyond;
     double limit;
     const char *text, *limit_text; /* NULL: no limit */
+    const char *change;            /* the value alone, where `text` has both sides; else "" */
     const char *verdict;           /* "within", "beyond", "moved", "below the noise" or "" */
     bool is_finding;               /* a change that its interval does not explain */
     bool is_key;                   /* is looked at first */

@@ -267,43 +267,12 @@ static bool measure_statistic(const CompareOptions *options, Arena *arena, Compa
     return true;
 }
 
-/* Of each pixel's difference, by the frames' own layers, R, G and B taken to rise and fall
- * together; NULL: neither states any noise. */
-static float *luminance_sigma(const Comparison *c, Arena *arena) {
-    static const double WEIGHTS[3] = {0.2126, 0.7152, 0.0722};
-    size_t count = planes_pixel_count(&c->light[0]);
-    float *sigma = ARENA_NEW(arena, float, count);
-    for (int side = 0; side < 2; side++) {
-        const FrameImage *frame = side ? &c->test.frame : &c->reference.frame;
-        const float *variance[3], *halves[3];
-        bool has_variance = frame_rgb(frame, "variance", variance);
-        if (!has_variance && !frame_rgb(frame, "halves", halves)) return NULL;
-        for (size_t i = 0; i < frame_pixel_count(frame); i++) {
-            long place = selection_place(frame, i);
-            double own = 0;
-            for (int k = 0; k < 3; k++)
-                own += WEIGHTS[k] *
-                       (has_variance ? sqrt((double)variance[k][i]) : fabs((double)halves[k][i]));
-            if (place >= 0) sigma[place] = (float)hypot((double)sigma[place], own);
-        }
-    }
-    return sigma;
-}
-
-/* Frames of the same paths have no noise between them, whatever theirs is. */
-static void find_standout(Arena scratch, Comparison *out) {
-    const Planes *const light[2] = {&out->light[0], &out->light[1]};
-    const float *sigma = out->structure.shares_paths ? NULL : luminance_sigma(out, &scratch);
-    out->standout = change_standout(light, out->mask, sigma, scratch);
-}
-
 bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *arena, Comparison *out,
                      Error *err) {
     bool is_frame = out->reference.kind == INPUT_FRAME;
     clean_light(out, arena);
     change_add_rows(&out->grid, (const Planes *const[2]){&out->light[0], &out->light[1]}, out->mask,
                     0, (const int[2]){0, out->grid.height});
-    if (is_frame) find_standout(*arena, out);
     if (groups & (GROUP_MSE | GROUP_PSNR)) measure_errors(groups, *arena, out);
     if (groups & GROUP_FLIP) measure_flip(options, arena, out);
     if (groups & GROUP_SSIM)

@@ -57,6 +57,7 @@ static CompareRow *add_row(Comparison *out, CompareTable table, const char *figu
                         .test = NAN,
                         .half_width = NAN,
                         .p = NAN,
+                        .change = "",
                         .verdict = ""};
     return row;
 }
@@ -89,8 +90,9 @@ static void add_contrasts(const CompareOptions *options, Arena *arena, Compariso
         row->is_finding = is_finding(row->value, row->half_width);
         set_limit(options, METRIC_CONTRAST_CHANGE, arena, out, row);
         row->is_key = (row->is_finding || row->is_beyond) && i < KEYS_OF_DISPLAYS;
+        row->change = change_text(row->value, row->half_width, arena);
         row->text = arena_format(arena, "%.4g : 1, now %.4g : 1 (%s)", row->reference, row->test,
-                                 change_text(row->value, row->half_width, arena));
+                                 row->change);
     }
 }
 
@@ -111,9 +113,9 @@ static void add_means(Arena *arena, Comparison *out) {
         row->is_finding = r->moved;
         row->verdict = r->moved ? "moved" : "below the noise";
         row->is_key = r->moved && i == 0 && is_finding(row->value, row->half_width);
+        row->change = change_text(row->value, row->half_width, arena);
         row->text = arena_format(arena, "%.4g cd/m2, now %.4g cd/m2 (%s%s)", r->reference, r->test,
-                                 change_text(row->value, row->half_width, arena),
-                                 is_plain ? "" : " in proportion");
+                                 row->change, is_plain ? "" : " in proportion");
     }
 }
 

@@ -179,21 +179,6 @@ static size_t stem_of(const char *name) {
     return stem < length && stem > 0 && name[stem - 1] == '.' ? stem : 0;
 }
 
-/* Rows of the list with the same stem, row i among them; *is_first: none stands before it. */
-static int kin_of(const MetadataRow *const *rows, int count, int i, bool *is_first) {
-    size_t stem = stem_of(rows[i]->name);
-    int kin = 0;
-    *is_first = true;
-    if (!stem) return 1;
-    for (int k = 0; k < count; k++) {
-        if (stem_of(rows[k]->name) != stem || strncmp(rows[k]->name, rows[i]->name, stem) != 0)
-            continue;
-        if (k < i) *is_first = false;
-        kin++;
-    }
-    return kin;
-}
-
 /* One line, however many rows differ. */
 static void report(const Structure *s, bool decides, const char *why, Lines *to) {
     const MetadataRow **rows = ARENA_NEW(to->arena, const MetadataRow *, s->metadata_count);
@@ -206,12 +191,12 @@ static void report(const Structure *s, bool decides, const char *why, Lines *to)
             (!is_inputs || s->inputs.count))
             rows[count++] = row;
     }
-    for (int i = 0; i < count; i++) {
-        bool is_first;
-        int kin = kin_of(rows, count, i, &is_first);
+    for (int i = 0, kin; i < count; i += kin) { /* names stand in order */
         const char *name = plain_name(rows[i]->name);
-        if (!is_first) continue;
-        if (kin > 1) lines_add(&list, "%.*s* (%d of them)", (int)stem_of(name), name, kin);
+        size_t stem = stem_of(name);
+        for (kin = 1; stem && i + kin < count; kin++)
+            if (strncmp(plain_name(rows[i + kin]->name), name, stem) != 0) break;
+        if (kin > 1) lines_add(&list, "%.*s* (%d of them)", (int)stem, name, kin);
         else if (s->knows_inputs && !strcmp(name, "inputs"))
             lines_add(&list, "inputs (%s)", structure_joined(&s->inputs, 2));
         else add_values(name, rows[i]->reference, rows[i]->test, &list);

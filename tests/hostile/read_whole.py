@@ -255,7 +255,7 @@ def channels(bench):
     bench.report.claim(skies[0].replace("xyz", "709") == skies[1], f"X, Y, Z: {skies}")
     pictures.write_exr(os.path.join(bench.folder, "b.exr"), W, H,
                        {**xyz, "Z": [3 * v for v in xyz["Z"]]})
-    bench.says("Z three times", 1, "deltae_max is", "compare", "xyz.exr", "b.exr", "--max",
+    bench.says("Z three times", 1, "deltae_max ", "compare", "xyz.exr", "b.exr", "--max",
                "deltae_max=1")
     beside = ["right.R", "Z", "A", "left.G", "depth.Z", "id", "Y", "right.Z", "diffuse.B", "u.V",
               "normal.X", "alpha", "rightEye.R", "ObjectID", "mask", "view2.R", "specular.R",

@@ -270,7 +270,7 @@ ARENA_TEST(only_what_is_asked_for_is_computed) {
     assert_near(c.value[METRIC_FLIP], 0, 0);
     const Threshold unknown = {METRIC_CONTRAST_CHANGE, 0.5};
     c = compared(&a, &a, (CompareOptions){.thresholds = &unknown, .threshold_count = 1}, &arena);
-    assert_reason(&c, "contrast_change is not known for these files, at most 0.5 is required");
+    assert_reason(&c, "contrast_change not known, required: at most 50 %");
 }
 
 TEST(exposures_are_the_ones_of_develop) {

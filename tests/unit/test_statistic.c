@@ -132,7 +132,7 @@ ARENA_TEST(rounding_is_no_change) {
     StatisticResult r = judge(&a, &b, NULL, &arena);
     assert_int_equal(r.verdict, STATISTIC_SAME);
     assert_true(r.shares_noise);
-    assert_text_has(r.reason, "0 of 1536 pixels differ by more than rounding");
+    assert_int_equal(r.differing, 0);
 }
 
 /* Frames of one seed: a few paths that went elsewhere are noise, one part in a thousand of all
@@ -146,11 +146,11 @@ ARENA_TEST(frames_that_share_their_noise_are_compared_pixel_by_pixel) {
     for (int i = 300; i < PIXELS; i += 100) green[i] *= i / 100 % 2 ? 1.03f : 0.96f;
     StatisticResult r = judge(&a, &b, NULL, &arena);
     assert_int_equal(r.verdict, STATISTIC_SAME);
-    assert_text_has(r.reason, "13 of 1536 pixels differ, no mean by more than the noise");
+    assert_int_equal(r.differing, 13);
     for (int i = 0; i < PIXELS; i++) green[i] *= 1.001f;
     r = judge(&a, &b, NULL, &arena);
     assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
-    assert_text_has(r.reason, "one seed: 1500 of 1536 pixels differ; ");
+    assert_int_equal(r.differing, 1500);
 }
 
 /* ---- reasons ----------------------------------------------------------------------------- */
@@ -186,7 +186,6 @@ ARENA_TEST(a_reason_is_no_interval_that_holds_0) {
         if (r.verdict != STATISTIC_DIFFERENT) continue;
         bool names_mean = strstr(r.reason, "the mean moved: ") != NULL;
         different++;
-        assert_int_equal(names_mean, r.mean_moved);
         assert_int_equal(intervals_of(r.reason) > 0 || strstr(r.reason, "instead of 0"),
                          names_mean);
         means += names_mean;

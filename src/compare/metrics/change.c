@@ -19,10 +19,6 @@
 #define DARK 1e-3        /* of the mean: light that is as good as none */
 #define LEAST_UV 0.001
 
-static double luminance_of(const double rgb[3]) {
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
-
 /* ---- sums -------------------------------------------------------------------------------- */
 
 ChangeGrid change_grid(int width, int height, bool is_paired, Arena *arena) {
@@ -39,7 +35,7 @@ ChangeGrid change_grid(int width, int height, bool is_paired, Arena *arena) {
 
 static void add_pixel(double rgb[2][3], int x, int y, ChangeGrid *grid) {
     ChangeSum *cell = &grid->cells[y / grid->side * grid->columns + x / grid->side];
-    double most = 0, d[3], luminance[2] = {luminance_of(rgb[0]), luminance_of(rgb[1])};
+    double most = 0, d[3], luminance[2] = {rgb_luminance(rgb[0]), rgb_luminance(rgb[1])};
     bool differs = false;
     for (int c = 0; c < 3; c++) {
         d[c] = rgb[1][c] - rgb[0][c];
@@ -92,7 +88,7 @@ static void join(ChangeSum *to, const ChangeSum *from, double sign) {
 /* ---- how sure a sum is ------------------------------------------------------------------- */
 
 static double difference_of(const ChangeSum *sum) {
-    return luminance_of(sum->light[1]) - luminance_of(sum->light[0]);
+    return rgb_luminance(sum->light[1]) - rgb_luminance(sum->light[0]);
 }
 
 static double quotient(double sum, double squares) {
@@ -102,7 +98,7 @@ static double quotient(double sum, double squares) {
 /* In standard errors, what red and blue changed beside the luminance: the sum of d - r dY, with r
  * what they are of the luminance in both together. */
 static double colour_quotient(const ChangeSum *sum) {
-    double both = luminance_of(sum->light[0]) + luminance_of(sum->light[1]), most = 0;
+    double both = rgb_luminance(sum->light[0]) + rgb_luminance(sum->light[1]), most = 0;
     for (int k = 0; k < 2; k++) {
         double r = both > 0 ? (sum->light[0][2 * k] + sum->light[1][2 * k]) / both : 0;
         double beside = sum->light[1][2 * k] - sum->light[0][2 * k] - r * difference_of(sum);
@@ -128,11 +124,11 @@ static double size_of(const ChangeSum *cell, double floor) {
 
 static bool is_lit(const ChangeSum *cell, double floor) {
     return cell->pixels > 0 &&
-           fmax(luminance_of(cell->light[0]), luminance_of(cell->light[1])) > floor * cell->pixels;
+           fmax(rgb_luminance(cell->light[0]), rgb_luminance(cell->light[1])) > floor * cell->pixels;
 }
 
 static double relative(const ChangeSum *sum) {
-    double before = luminance_of(sum->light[0]), change = difference_of(sum);
+    double before = rgb_luminance(sum->light[0]), change = difference_of(sum);
     return change == 0 ? 0 : change / before;
 }
 
@@ -220,7 +216,7 @@ LightChange change_find(const ChangeGrid *grid, bool is_paired, double floor, Ar
     for (int i = 0; i < count; i++) join(&out.all, &grid->cells[i], 1);
     out.is_noisy = !is_paired && out.all.differing > NOISY * out.all.pixels;
     for (int s = 0; s < 2; s++)
-        floor = fmax(floor, DARK * luminance_of(out.all.light[s]) / fmax(out.all.pixels, 1));
+        floor = fmax(floor, DARK * rgb_luminance(out.all.light[s]) / fmax(out.all.pixels, 1));
     double marked = mark_cells(grid, floor, &out);
     out.is_everywhere = is_everywhere(grid, &out, floor, marked);
     if (out.is_everywhere) out.area = out.all;
@@ -229,7 +225,7 @@ LightChange change_find(const ChangeGrid *grid, bool is_paired, double floor, Ar
         if (out.is_everywhere || out.cells[i]) ways += fabs(difference_of(&grid->cells[i]));
     out.share = (out.is_noisy ? out.area.pixels : out.area.differing) / fmax(out.all.pixels, 1);
     if (out.is_noisy)
-        out.half_width = 1.96 * sqrt(out.area.squares) / luminance_of(out.area.light[0]);
+        out.half_width = 1.96 * sqrt(out.area.squares) / rgb_luminance(out.area.light[0]);
     else if (!out.is_everywhere) memcpy(out.area.light, out.area.changed, sizeof out.area.light);
     out.luminance = relative(&out.area);
     out.is_both_ways = fabs(difference_of(&out.area)) < FAINT * ways;

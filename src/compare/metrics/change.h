@@ -49,6 +49,10 @@ typedef struct LightChange {
     bool has_colour;     /* that is more than noise */
 } LightChange;
 
+static inline double rgb_luminance(const double rgb[3]) {
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
 /* is_paired: as in change_find. */
 ChangeGrid change_grid(int width, int height, bool is_paired, Arena *arena);
 
@@ -62,7 +66,7 @@ LightChange change_find(const ChangeGrid *grid, bool is_paired, double floor, Ar
 /* A pixel that stands out on one side: brighter than STANDOUT times what it is on the other, than
  * all around it there (3 x 3), than the median around it and than a hundredth of the mean. */
 #define STANDOUT 10
-#define STANDOUT_SIGMAS 5 /* of its own noise: what that does not explain */
+#define STANDOUT_SIGMAS 4 /* of its own noise: what that does not explain */
 #define STANDOUT_LIKE 4   /* times the greatest of the other side: else such is its noise */
 
 typedef struct Standout {

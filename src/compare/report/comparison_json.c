@@ -96,6 +96,7 @@ static json_t *rows_json(const Comparison *c) {
                                 json_figure(r->test), "value", json_figure(r->value), "half_width",
                                 json_figure(r->half_width), "p", json_figure(r->p), "verdict",
                                 r->verdict, "text", r->text, "is_key", r->is_key);
+        json_object_set_new(row, "change", json_text(r->change));
         json_object_set_new(row, "limit", json_text_or_null(r->limit_text));
         json_array_append_new(list, row);
     }

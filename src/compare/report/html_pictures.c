@@ -203,51 +203,30 @@ static const float *make_difference(const Comparison *c, Arena *arena, Shot *out
     return difference;
 }
 
-#define BLOCK 8    /* pixels along a side: as the statistical test's small ones */
-#define DARK 0.01f /* of the mean luminance: darker blocks are taken relative to this */
+#define DARK 0.01 /* of the mean luminance: darker blocks are taken relative to this */
 
-/* The change of a block's mean luminance, in percent. */
-static float change_of_block(const Comparison *c, PixelBlock b, float dark) {
-    const Planes *reference = &c->light[0], *test = &c->light[1];
-    float before = 0, after = 0, pixels = 0;
-    for (int y = b.y0; y < b.y1; y++)
-        for (int x = b.x0; x < b.x1; x++) {
-            size_t i = (size_t)y * (size_t)reference->width + (size_t)x;
-            if (!c->mask[i]) continue;
-            before += luminance_at(reference, i);
-            after += luminance_at(test, i);
-            pixels++;
-        }
-    return pixels > 0 ? 100 * (after - before) / (before + dark * pixels) : 0;
-}
-
-/* Every pixel gets the change of its block; size: the magnitude. */
-static void change_of_blocks(const Comparison *c, float dark, float *change, float *size) {
-    const Planes *planes = &c->light[0];
-    size_t row = ((size_t)planes->width + BLOCK - 1) / BLOCK;
-    size_t rows = ((size_t)planes->height + BLOCK - 1) / BLOCK;
-    for (size_t k = 0; k < row * rows; k++) {
-        PixelBlock b = block_of(planes, BLOCK, k);
-        float value = change_of_block(c, b, dark);
-        for (int y = b.y0; y < b.y1; y++)
-            for (int x = b.x0; x < b.x1; x++) {
-                size_t i = (size_t)y * (size_t)planes->width + (size_t)x;
-                change[i] = value;
-                size[i] = fabsf(value);
-            }
-    }
-}
-
+/* Every pixel gets the change of its cell's mean luminance, in percent. */
 static const float *make_blocks(const Comparison *c, Arena *arena, Shot *out) {
+    const ChangeGrid *grid = &c->grid;
     size_t count = planes_pixel_count(&c->light[0]);
     float *change = ARENA_NEW(arena, float, count), *size = ARENA_NEW(arena, float, count);
-    float dark = DARK * (float)mean_luminance(&c->light[0], c->mask);
-    change_of_blocks(c, dark > 0 ? dark : 1, change, size);
+    double dark = DARK * mean_luminance(&c->light[0], c->mask);
+    for (size_t i = 0; i < count; i++) {
+        int x = (int)(i % (size_t)grid->width), y = (int)(i / (size_t)grid->width);
+        const ChangeSum *cell = &grid->cells[y / grid->side * grid->columns + x / grid->side];
+        double before = rgb_luminance(cell->light[0]), after = rgb_luminance(cell->light[1]);
+        double least = (dark > 0 ? dark : 1) * cell->pixels;
+        change[i] = cell->pixels > 0 ? (float)(100 * (after - before) / (before + least)) : 0;
+        size[i] = fabsf(change[i]);
+    }
     double most = (double)rank_value(size, count, c->mask, 0.95);
     double limit = most > 0 ? round_up(most) : 1;
     out->title = "Blocks";
-    out->caption = "Change of the mean luminance of blocks of 8 x 8 pixels. Noise is a mix of "
-                   "both colours; where the mean moved, one of them fills a region.";
+    out->caption = arena_format(
+        arena,
+        "Change of the mean luminance of blocks of %d x %d pixels. Noise is a mix of both colours; "
+        "where the mean moved, one of them fills a region.",
+        grid->side, grid->side);
     out->scale = (ShotScale){.is_signed = true, .low = -limit, .high = limit, .unit = "%"};
     set_ticks(&out->scale, "", arena);
     return change;

@@ -46,7 +46,6 @@ bool html_report_check_name(const char *path, Error *err) {
 static json_t *typeset(const char *text, Arena scratch) {
     static const char *const SIGNS[][2] = {{"+-", "±"}, {"m2", "m²"}, {")^2", ")²"}};
     Text out = {.arena = &scratch};
-    text_add(&out, "");
     while (*text) {
         int k = 0;
         while (k < COUNT_OF(SIGNS) && strncmp(text, SIGNS[k][0], strlen(SIGNS[k][0])) != 0) k++;
@@ -54,7 +53,7 @@ static json_t *typeset(const char *text, Arena scratch) {
         else text_add_bytes(&out, text, 1);
         text += k < COUNT_OF(SIGNS) ? strlen(SIGNS[k][0]) : 1;
     }
-    return json_text(out.data);
+    return json_text(out.data ? out.data : "");
 }
 
 /* A table of each kind, and the few that are looked at first. */
@@ -71,6 +70,7 @@ static void set_rows(json_t *to, const Comparison *c, Arena scratch) {
         const CompareRow *r = &c->rows[i];
         json_t *row = json_array_get(json_object_get(to, "rows"), (size_t)i);
         json_object_set_new(row, "text", typeset(r->text, scratch));
+        json_object_set_new(row, "change", typeset(r->change, scratch));
         if (r->limit_text) json_object_set_new(row, "limit", typeset(r->limit_text, scratch));
         page_set_flag(row, "is_bad", r->is_beyond || (r->table == TABLE_MEAN && r->is_finding));
         json_array_append(lists[r->table], row);
@@ -251,7 +251,7 @@ static bool set_page(json_t *to, const HtmlReport *report, const json_t *folders
     page_set(to, "plain_ramp", ramps[0].data);
     page_set(to, "signed_ramp", ramps[1].data);
     page_set_flag(to, "is_folder", report->is_folder);
-    if (folders) json_object_update(to, (json_t *)(size_t)folders);
+    if (folders) json_object_update_missing(to, (json_t *)(size_t)folders);
     return page_set_head(to, &(PageHead){.title = title, .command = "compare --report"}, err);
 }
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/mathd.h"
 #include "base/number.h"
 
 #define LAYERS_WANTED "--layers variance,halves,samples"
@@ -244,6 +245,18 @@ bool noisy_pair_number(const NoisyPair *pair, size_t i, NoisyChannel channel, do
         out->variance =
             common_variance(stated, out->difference, samples_at(a, i), samples_at(b, i));
     return true;
+}
+
+/* Student's t for the tail of a normal z: t^2 = n (exp(z^2 w^2 / n) - 1), w = (8 n + 3) / (8 n + 1),
+ * n samples less one (Wallace 1959). */
+double noisy_pair_sigma(const NoisyPair *pair, size_t i, double sigmas) {
+    NoisyNumber number;
+    double n = fmin(samples_at(&pair->side[0], i), samples_at(&pair->side[1], i)) - 1;
+    if (!pair->has_variance || !(n >= 1) ||
+        !noisy_pair_number(pair, i, NOISY_LUMINANCE, 1, &number))
+        return INFINITY;
+    double z = sigmas * (8 * n + 3) / (8 * n + 1);
+    return sqrt(number.stated * n * expm1_d(z * z / n)) / sigmas;
 }
 
 bool noisy_pair_differs(const NoisyPair *pair, size_t i) {

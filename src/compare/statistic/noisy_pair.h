@@ -67,6 +67,11 @@ static inline size_t noisy_pair_index(const NoisyPair *pair, int x, int y) {
 bool noisy_pair_number(const NoisyPair *pair, size_t i, NoisyChannel channel, double scale,
                        NoisyNumber *out);
 
+/* A pixel's standard error of the difference of luminance that both sides' variance layers state,
+ * times what makes `sigmas` of it as rare as so many of a normal distribution, however few samples
+ * it comes from. Infinite where these tell nothing. */
+double noisy_pair_sigma(const NoisyPair *pair, size_t i, double sigmas);
+
 /* Luminance of one side, or of its reflected part; NaN off displays. */
 double noisy_pair_luminance(const NoisyPair *pair, int side, size_t i, NoisyChannel channel);
 

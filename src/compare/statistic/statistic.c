@@ -2,17 +2,22 @@
 #include "compare/statistic/statistic.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
+#include "compare/metrics/change.h"
 #include "compare/statistic/noisy_pair.h"
 #include "compare/statistic/regions.h"
 
 #define LEVEL 0.01
 #define FAMILIES 3
+#define INTERVAL_PERCENT 196 /* of 95 %, of standard errors */
+
+#define MORE "pixels differ by more than their noise: "
+
+static const char *const CHANNELS[3] = {"red", "green", "blue"};
 
 /* ---- the blocks' families ---------------------------------------------------------------- */
 
@@ -156,19 +161,6 @@ static BlockFinding statistic_block_finding(const BlockGrid grids[2], NoiseLaw l
 
 /* ---- the answer in words ----------------------------------------------------------------- */
 
-static const char *const CHANNELS[3] = {"red", "green", "blue"};
-
-static void append(char *text, size_t size, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-
-static void append(char *text, size_t size, const char *format, ...) {
-    size_t length = strlen(text);
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text + length, size - length, format, args);
-    va_end(args);
-}
-
 /* The surest region of displays that moved, since people look for them; else of what moved,
  * else of all. */
 static const StatisticRegion *surest_region(const StatisticResult *r) {
@@ -182,32 +174,6 @@ static const StatisticRegion *surest_region(const StatisticResult *r) {
     return best;
 }
 
-/* Whether the change in proportion agrees with the plain mean's. */
-static bool is_proportional(const StatisticRegion *region) {
-    double apart = fabs(region->change - region->shift);
-    return apart < 3 * (region->shift_sigma + region->change_sigma); /* false for NaN */
-}
-
-/* Intervals are of 95 %, as those of every answer. */
-#define INTERVAL_PERCENT 196
-
-static void append_shift(const StatisticRegion *region, char *text, size_t size) {
-    bool has_shift = regions_shift_is_sure(region);
-    bool is_surer =
-        fabs(region->change) / region->change_sigma > fabs(region->shift) / region->shift_sigma;
-    if (isnan(region->shift)) append(text, size, " %.3g cd/m2 instead of 0", region->test);
-    else if (has_shift)
-        append(text, size, " %+.3g +- %.2g %%", 100 * region->shift,
-               INTERVAL_PERCENT * region->shift_sigma);
-    if (!has_shift || (is_surer && !is_proportional(region)))
-        append(text, size, "%s where its pixels are known best %+.3g +- %.2g %%",
-               has_shift ? "," : "", 100 * region->change, INTERVAL_PERCENT * region->change_sigma);
-}
-
-static const SignFlipSum *sum_of_block(const BlockGrid *grid, const BlockFinding *found) {
-    return &grid->sums[found->index][found->channel];
-}
-
 static ExrWindow window_of(const NoisyPair *pair, const BlockGrid *grid, int index) {
     const ExrWindow d = pair->data, w = pair->display_window;
     int x = d.x0 - w.x0 + index % grid->columns * grid->side;
@@ -217,66 +183,39 @@ static ExrWindow window_of(const NoisyPair *pair, const BlockGrid *grid, int ind
                        y + grid->side < bottom ? y + grid->side : bottom};
 }
 
-/* "block at x 120..128, y 40..48: green -12.1 +- 3 %" in pixels of the display window. */
-static void append_block(const NoisyPair *pair, const BlockGrid *grid, const BlockFinding *found,
-                         char *text, size_t size) {
-    const ExrWindow at = window_of(pair, grid, found->index);
-    const SignFlipSum *sum = sum_of_block(grid, found);
-    double sigma = sign_flip_sigma(sum, pair->law);
-    double light = sum->light - 0.5 * sum->sum;
-    append(text, size, "block at x %d..%d, y %d..%d: %s", at.x0, at.x1, at.y0, at.y1,
-           CHANNELS[found->channel]);
-    if (!regions_excludes_none(sum->sum, sigma)) append(text, size, " (p = %.2g)", found->p_least);
-    else if (fabs(sum->sum) < 10 * light)
-        append(text, size, " %+.3g +- %.2g %%", 100 * sum->sum / light,
-               INTERVAL_PERCENT * sigma / light);
-    else
-        append(text, size, " %+.3g +- %.2g cd/m2", sum->sum / (double)sum->count,
-               INTERVAL_PERCENT / 100.0 * sigma / (double)sum->count);
-}
-
-static void append_shared(const StatisticResult *r, char *text, size_t size) {
-    append(text, size, "one seed: %ld of %ld pixels differ", r->differing, r->pixels);
-    if (r->verdict != STATISTIC_DIFFERENT)
-        append(text, size,
-               r->differing ? ", no mean by more than the noise (p = %.2g)"
-                            : " by more than rounding (p = %.2g)",
-               r->p_value);
-    else append(text, size, "; ");
-}
-
-/* Fills `reason` of a result that is otherwise complete. */
+/* Fills `reason` and `block` of a result that is otherwise complete: a mean that moved, with its
+ * interval of 95 %, where one is known to; else the test that failed, where and with which p. */
 static void statistic_reason(const NoisyPair *pair, const BlockGrid grids[2],
                              const BlockFinding *found, double level, StatisticResult *out) {
     char *text = out->reason;
     size_t size = sizeof out->reason;
-    text[0] = '\0';
-    if (out->verdict == STATISTIC_EQUAL || out->region_count == 0) return;
-    if (out->shares_noise && out->verdict != STATISTIC_UNKNOWN) append_shared(out, text, size);
-    if (out->verdict != STATISTIC_DIFFERENT) return;
+    if (out->verdict != STATISTIC_DIFFERENT || out->region_count == 0) return;
     const StatisticRegion *region = surest_region(out);
-    const BlockGrid *grid = &grids[found->grid];
-    double family_level = sidak_level(level, 3);
-    bool has_block = out->p_blocks < family_level;
-    bool has_region = out->p_regions < family_level && (region->moved || !has_block);
-    if (has_block) {
-        const SignFlipSum *sum = sum_of_block(grid, found);
-        out->block = window_of(pair, grid, found->index);
-        out->mean_moved = regions_excludes_none(sum->sum, sign_flip_sigma(sum, pair->law));
-    }
-    if (region->moved && has_region) out->mean_moved = true;
-    append(text, size,
-           out->mean_moved ? "the mean moved: " : "pixels differ by more than their noise: ");
-    if (has_region) append(text, size, "%.80s", region->words);
-    if (has_region && region->moved) append_shift(region, text, size);
-    else if (has_region) append(text, size, " (p = %.2g)", region->p_value);
-    if (has_region && has_block) append(text, size, "; ");
-    if (has_block) append_block(pair, grid, found, text, size);
-    if (!has_region && !has_block)
-        append(text, size,
-               "small changes all over the frame, the blocks' squared deviations "
-               "are %.3g of what noise makes (p = %.2g)",
-               out->mean_square, out->p_histogram);
+    double family_level = sidak_level(level, FAMILIES);
+    bool is_shift = regions_shift_is_sure(region);
+    if (out->p_blocks < family_level)
+        out->block = window_of(pair, &grids[found->grid], found->index);
+    const ExrWindow at = out->block;
+    if (out->p_regions < family_level && region->moved && isnan(region->shift))
+        snprintf(text, size, "the mean moved: %.80s, %.3g cd/m2 instead of 0", region->words,
+                 region->test);
+    else if (out->p_regions < family_level && region->moved)
+        snprintf(text, size, "the mean moved: %.80s %+.3g +- %.2g %%%s", region->words,
+                 100 * (is_shift ? region->shift : region->change),
+                 INTERVAL_PERCENT * (is_shift ? region->shift_sigma : region->change_sigma),
+                 is_shift ? "" : " in proportion");
+    else if (out->p_regions < family_level && at.x1 == at.x0)
+        snprintf(text, size, MORE "%.80s (p = %.2g)", region->words, region->p_value);
+    else if (at.x1 == at.x0)
+        snprintf(text, size,
+                 MORE "small changes all over the frame, the blocks' squared deviations are %.3g "
+                      "of what noise makes (p = %.2g)",
+                 out->mean_square, out->p_histogram);
+    size_t length = strlen(text);
+    if (at.x1 > at.x0)
+        snprintf(text + length, size - length, "%sblock at x %d..%d, y %d..%d: %s (p = %.2g)",
+                 length ? "; " : MORE, at.x0, at.x1, at.y0, at.y1, CHANNELS[found->channel],
+                 found->p_least);
 }
 
 static void count_pixels(const NoisyPair *pair, StatisticResult *out, bool *is_equal) {
@@ -292,6 +231,19 @@ static void count_pixels(const NoisyPair *pair, StatisticResult *out, bool *is_e
                 if (memcmp(&pair->side[0].light[c][i], &pair->side[1].light[c][i], sizeof(float)) !=
                     0)
                     *is_equal = false;
+        }
+}
+
+static void make_sigma(const NoisyPair *pair, Arena *arena, StatisticResult *out) {
+    const ExrWindow d = pair->data, w = pair->display_window;
+    int width = w.x1 - w.x0, height = w.y1 - w.y0;
+    out->sigma = ARENA_NEW(arena, float, (size_t)width * (size_t)height);
+    for (int y = 0; y < d.y1 - d.y0; y++)
+        for (int x = 0; x < d.x1 - d.x0; x++) {
+            int u = x + d.x0 - w.x0, v = y + d.y0 - w.y0;
+            if (u >= 0 && v >= 0 && u < width && v < height)
+                out->sigma[(size_t)v * (size_t)width + (size_t)u] = (float)noisy_pair_sigma(
+                    pair, noisy_pair_index(pair, x, y), STANDOUT_SIGMAS);
         }
 }
 
@@ -347,6 +299,7 @@ bool statistic_compare(const FrameImage *reference, const FrameImage *test,
     statistic_blocks(&pair, arena, grids);
     BlockFinding found = statistic_block_finding(grids, pair.law, family_level);
     make_map(&grids[0], pair.law, arena, &result);
+    make_sigma(&pair, arena, &result);
     result.broken_side = pair.side[0].broken[0] ? 0 : 1;
     memcpy(result.broken, pair.side[result.broken_side].broken, sizeof result.broken);
     take_note(&pair, &result, result.note, sizeof result.note);

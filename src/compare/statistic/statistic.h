@@ -54,16 +54,15 @@ typedef struct StatisticResult {
     long pixels;            /* that were looked at */
     long differing;         /* of these, beyond rounding (1e-5) in some channel */
     bool shares_noise;      /* one seed: see above */
-    bool mean_moved;        /* different, by a mean whose interval leaves "as before" out */
     int block_side;         /* pixels */
     int blocks_x, blocks_y; /* from the data window's corner */
     float *block_p;         /* blocks_x * blocks_y: the least p of the block's channels; NaN
                                where the mask leaves nothing */
+    float *sigma;           /* noisy_pair_sigma of each pixel of the display window; 0 outside */
     StatisticRegion *regions;
     int region_count;
     ExrWindow block;  /* the surest one, pixels of the display window */
-    char reason[256]; /* in words, where it moved and how much; without a move, what
-                         differs between frames that share their noise, or "" */
+    char reason[256]; /* different: in words, where it moved and how much; else "" */
     char note[256];   /* what makes the test weaker than it could be, or "" */
     int broken_side;  /* unknown: 0 the reference, 1 the test */
     char broken[96];  /* layer, value, place, and what it is not; "" none */
