@@ -31,7 +31,8 @@ static void judge_limits(Comparison *out) {
     for (int i = 0; i < out->row_count; i++) {
         const CompareRow *row = &out->rows[i];
         if (row->table == TABLE_METRIC && row->is_beyond)
-            lines_add(&out->reasons, "%s %s, required: %s", row->figure, row->text, row->limit_text);
+            lines_add(&out->reasons, "%s %s, required: %s", row->figure, row->text,
+                      row->limit_text);
     }
 }
 

@@ -10,7 +10,7 @@
 #include "compare/rows.h"
 
 #define FEW_PIXELS 9  /* are named by their place */
-#define LEAST 5e-5    /* of a change of luminance in words */
+#define LEAST 5e-5    /* of a change of luminance in words; beside one of colour ten times that */
 #define MANY_TIMES 10 /* as bright: no percentage any more */
 #define OF_ONE 0.8    /* of a change: that of an object */
 #define MOST_IDS 65536
@@ -57,7 +57,8 @@ const char *headline_pixel(const Comparison *c, const ChangedPixel *pixel, Arena
 /* "2 % darker", "colour shift 0.012 u'v'", "changed" */
 static const char *amount(const Comparison *c, double change, double half_width, Arena *arena) {
     const LightChange *all = &c->change;
-    bool is_sure = fabs(change) > half_width && fabs(change) >= LEAST;
+    bool is_sure =
+        fabs(change) > half_width && fabs(change) >= (all->has_colour ? 10 * LEAST : LEAST);
     const char *text = "";
     if (isinf(change)) text = "lit where it was black";
     else if (is_sure && change >= MANY_TIMES)
@@ -123,24 +124,18 @@ static const char *local_text(const Comparison *c, Arena *arena) {
 
 /* What the statistical test found where no cell stands out: a region, a block, or neither. */
 static const char *tested_text(const Comparison *c, Arena *arena) {
-    const StatisticResult *s = &c->stat;
-    const StatisticRegion *best = NULL;
-    for (int i = 0; i < s->region_count; i++) {
-        const StatisticRegion *r = &s->regions[i];
-        if (r->moved && (!best || best == s->regions || r->p_value < best->p_value)) best = r;
+    const ExrWindow at = c->stat.block;
+    const CompareRow *best = NULL;
+    for (int i = 0; i < c->row_count; i++) {
+        const CompareRow *row = &c->rows[i];
+        bool is_better = !best || !best->of[0] || row->p < best->p;
+        if (row->table == TABLE_MEAN && row->is_finding && is_better) best = row;
     }
-    bool has_block = s->block.x1 > s->block.x0;
-    if (best && !(best == s->regions && has_block)) {
-        bool is_plain = regions_shift_is_sure(best);
-        double change = is_plain ? best->shift : best->change;
-        double half_width = 1.96 * (is_plain ? best->shift_sigma : best->change_sigma);
-        return arena_format(arena, "%s, %s", amount(c, change, half_width, arena),
-                            best == s->regions ? "everywhere" : best->words);
-    }
-    if (has_block)
-        return arena_format(arena, "changed at x %d..%d, y %d..%d", s->block.x0, s->block.x1,
-                            s->block.y0, s->block.y1);
-    return "brighter and darker in small places, everywhere";
+    if (best && (best->of[0] || at.x1 == at.x0))
+        return arena_format(arena, "%s, %s", amount(c, best->value, best->half_width, arena),
+                            best->of[0] ? best->of : "everywhere");
+    if (at.x1 == at.x0) return "brighter and darker in small places, everywhere";
+    return arena_format(arena, "changed at x %d..%d, y %d..%d", at.x0, at.x1, at.y0, at.y1);
 }
 
 static bool is_few(const Comparison *c) {
@@ -149,7 +144,6 @@ static bool is_few(const Comparison *c) {
 
 static const char *changed_text(const Comparison *c, Arena *arena) {
     const LightChange *change = &c->change;
-    const StatisticRegion *frame = c->has_stat && c->stat.region_count ? c->stat.regions : NULL;
     double value = change->luminance, half_width = change->half_width;
     if (change->all.differing == 0) return "changed by no more than rounding";
     if (is_few(c))
@@ -160,12 +154,12 @@ static const char *changed_text(const Comparison *c, Arena *arena) {
         return change->area.pixels > 0 ? local_text(c, arena)
                : c->has_stat           ? tested_text(c, arena)
                                        : "differs as noise does";
-    if (frame && regions_shift_is_sure(frame)) {
-        value = frame->shift;
-        half_width = 1.96 * frame->shift_sigma;
-    } else if (frame && regions_excludes_none(frame->change, frame->change_sigma)) {
-        value = frame->change;
-        half_width = 1.96 * frame->change_sigma;
+    for (int i = 0; i < c->row_count; i++) {
+        const CompareRow *row = &c->rows[i];
+        if (row->table != TABLE_MEAN || row->of[0] || !(fabs(row->value) > row->half_width))
+            continue;
+        value = row->value;
+        half_width = row->half_width;
     }
     return arena_format(arena, "%s, everywhere", amount(c, value, half_width, arena));
 }

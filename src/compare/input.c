@@ -63,27 +63,13 @@ static bool read_frame(FileBytes bytes, Arena *arena, CompareInput *input, Error
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
-static float code_at(const Image *image, size_t index) {
-    if (image->format == IMAGE_RGBA8)
-        return (float)((const uint8_t *)image->pixels)[index] / 255.0f;
-    return (float)((const uint16_t *)image->pixels)[index] / 65535.0f;
+static unsigned raw_at(const Image *image, size_t index) {
+    return image->format == IMAGE_RGBA8 ? ((const uint8_t *)image->pixels)[index]
+                                        : ((const uint16_t *)image->pixels)[index];
 }
 
-/* count values of one channel from the first on, as codes and as light. */
-static void unpack_8(const uint8_t *packed, size_t count, float *codes, float *light) {
-    float table[256];
-    for (int i = 0; i < 256; i++) table[i] = linear_from_srgb((float)i / 255.0f);
-    for (size_t i = 0; i < count; i++) {
-        codes[i] = (float)packed[4 * i] / 255.0f;
-        light[i] = table[packed[4 * i]];
-    }
-}
-
-static void unpack_16(const uint16_t *packed, size_t count, float *codes, float *light) {
-    for (size_t i = 0; i < count; i++) {
-        codes[i] = (float)packed[4 * i] / 65535.0f;
-        light[i] = linear_from_srgb(codes[i]);
-    }
+static float most_code(const Image *image) {
+    return image->format == IMAGE_RGBA8 ? 255.0f : 65535.0f;
 }
 
 /* Negative codes for negative light, which other primaries can have. */
@@ -91,23 +77,18 @@ static float extended_srgb(float light) {
     return light < 0 ? -srgb_from_linear(-light) : srgb_from_linear(light);
 }
 
-/* Pixels from the first on whose codes are not sRGB's. */
-static void unpack_tagged(const CompareInput *input, size_t first, size_t count,
-                          float *const codes[3], float *const light[3]) {
+/* Codes that are sRGB's stay as they are. */
+static void unpack_pixel(const CompareInput *input, size_t at, float codes[3], float light[3]) {
     const Image *image = &input->packed;
-    for (size_t i = 0; i < count; i++) {
-        size_t at = 4 * (first + i);
-        float rgb[3];
-        for (size_t c = 0; c < 3; c++)
-            rgb[c] = input->lights[c][image->format == IMAGE_RGBA8
-                                          ? ((const uint8_t *)image->pixels)[at + c]
-                                          : ((const uint16_t *)image->pixels)[at + c]];
-        colour_apply(&input->tags.light.rec709, rgb, rgb);
-        for (int c = 0; c < 3; c++) {
-            light[c][i] = rgb[c];
-            codes[c][i] = extended_srgb(rgb[c]);
-        }
+    bool is_srgb = input->tags.is_srgb || !input->tags.is_known;
+    for (size_t c = 0; c < 3; c++) {
+        unsigned raw = raw_at(image, at + c);
+        codes[c] = (float)raw / most_code(image);
+        light[c] = input->lights[c][raw];
     }
+    if (is_srgb) return;
+    colour_apply(&input->tags.light.rec709, light, light);
+    for (int c = 0; c < 3; c++) codes[c] = extended_srgb(light[c]);
 }
 
 CodeRows input_unpack(const CompareInput *input, int y0, int y1, Arena *arena) {
@@ -115,38 +96,40 @@ CodeRows input_unpack(const CompareInput *input, int y0, int y1, Arena *arena) {
     size_t first = (size_t)y0 * (size_t)image->width;
     size_t count = (size_t)(y1 - y0) * (size_t)image->width;
     CodeRows rows = {.codes = {image->width, y1 - y0, {NULL}}};
-    float *codes[3], *light[3];
+    float *planes[6], *alpha = input->has_alpha ? ARENA_NEW(arena, float, count) : NULL;
     rows.light = rows.codes;
-    for (size_t c = 0; c < 3; c++) {
-        rows.codes.rgb[c] = codes[c] = ARENA_NEW(arena, float, count);
-        rows.light.rgb[c] = light[c] = ARENA_NEW(arena, float, count);
-        if (input->lights[0]) continue;
-        if (image->format == IMAGE_RGBA8)
-            unpack_8((const uint8_t *)image->pixels + 4 * first + c, count, codes[c], light[c]);
-        else unpack_16((const uint16_t *)image->pixels + 4 * first + c, count, codes[c], light[c]);
-    }
-    if (input->lights[0]) unpack_tagged(input, first, count, codes, light);
-    if (!input->has_alpha) return rows;
-    float *alpha = ARENA_NEW(arena, float, count);
-    for (size_t i = 0; i < count; i++) alpha[i] = code_at(image, 4 * (first + i) + 3);
     rows.alpha = alpha;
+    for (int k = 0; k < 6; k++) planes[k] = ARENA_NEW(arena, float, count);
+    for (int c = 0; c < 3; c++) {
+        rows.codes.rgb[c] = planes[c];
+        rows.light.rgb[c] = planes[3 + c];
+    }
+    for (size_t i = 0; i < count; i++) {
+        float values[6];
+        unpack_pixel(input, 4 * (first + i), values, values + 3);
+        for (int k = 0; k < 6; k++) planes[k][i] = values[k];
+        if (alpha) alpha[i] = (float)raw_at(image, 4 * (first + i) + 3) / most_code(image);
+    }
     return rows;
 }
 
 static bool has_alpha(const Image *image) {
     size_t count = (size_t)image->width * (size_t)image->height;
     for (size_t i = 0; i < count; i++)
-        if (code_at(image, 4 * i + 3) != 1) return true;
+        if ((float)raw_at(image, 4 * i + 3) != most_code(image)) return true;
     return false;
 }
 
+/* The light of each code. */
 static void set_lights(Arena *arena, CompareInput *input) {
     int count = input->bits == 8 ? 256 : 65536;
-    if (input->tags.is_srgb || !input->tags.is_known) return;
+    bool is_srgb = input->tags.is_srgb || !input->tags.is_known;
     for (int c = 0; c < 3; c++) {
         float *table = ARENA_NEW(arena, float, count);
         for (int i = 0; i < count; i++)
-            table[i] = (float)code_curve_at(&input->tags.light.curve[c], i / (count - 1.0));
+            table[i] = is_srgb
+                           ? linear_from_srgb((float)i / (float)(count - 1))
+                           : (float)code_curve_at(&input->tags.light.curve[c], i / (count - 1.0));
         input->lights[c] = table;
     }
 }

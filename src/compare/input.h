@@ -30,7 +30,7 @@ typedef struct CompareInput {
     int bits;               /* pictures: 8 or 16 */
     PictureTags tags;       /* pictures: what their file states */
     PicturePages pages;     /* what else the file holds; the first is looked at */
-    const float *lights[3]; /* pictures that are not sRGB: the light of each of their codes */
+    const float *lights[3]; /* pictures: the light of each of their codes */
     bool has_alpha;         /* pictures: it is not 1 everywhere */
     const float *alpha;     /* pictures: 0 .. 1; NULL when all of it is 1 */
     Image packed;           /* pictures: as decoded, 4 or 8 bytes a pixel */

@@ -104,7 +104,7 @@ static void add_means(Arena *arena, Comparison *out) {
             regions_shift_is_sure(r) || !regions_excludes_none(r->change, r->change_sigma);
         CompareRow *row =
             add_row(out, TABLE_MEAN, "mean", arena_format(arena, "mean luminance of %s", r->words));
-        row->of = i == 0 ? "" : r->name;
+        row->of = i == 0 ? "" : r->words;
         row->reference = r->reference;
         row->test = r->test;
         row->value = is_plain ? r->shift : r->change;

@@ -2,6 +2,8 @@
 /* The statistical test: how small a change it finds, and what it says of it. */
 #include "statistic_fixture.h"
 
+#include "compare/metrics/change.h"
+
 /* Gaussian pixels of relative sigma s = 0.5 / 4 in both frames: the best estimate of a change
  * in proportion has the standard error s sqrt(2 / n). */
 ARENA_TEST(a_change_in_proportion_is_measured_as_well_as_can_be) {
@@ -80,6 +82,40 @@ ARENA_TEST(small_changes_everywhere_are_seen_together) {
     }
     assert_true(found >= 19);
     assert_true(by_histogram >= 10);
+}
+
+/* ---- one pixel --------------------------------------------------------------------------- */
+
+static Standout standout_of(FrameImage frames[2], Arena *arena) {
+    StatisticResult r = judge(&frames[0], &frames[1], NULL, arena);
+    unsigned char mask[PIXELS];
+    Planes light[2];
+    memset(mask, 1, sizeof mask);
+    for (int s = 0; s < 2; s++) {
+        light[s] = (Planes){WIDTH, HEIGHT, {NULL}};
+        for (int c = 0; c < 3; c++) light[s].rgb[c] = frame_channel(&frames[s], &"R\0G\0B"[2 * c]);
+    }
+    return change_standout((const Planes *const[2]){&light[0], &light[1]}, mask, r.sigma, *arena);
+}
+
+/* Noise of any kind and number of samples explains itself; a pixel that all samples agree on is
+ * found on either side, from four samples on. */
+ARENA_TEST(noise_explains_itself_and_no_pixel_that_is_lit) {
+    static const int SAMPLES[] = {1, 2, 4, 8, 32};
+    for (uint32_t k = 0; k < 300; k++) {
+        Arena scratch = arena;
+        int samples = SAMPLES[k % 5];
+        Maker a = plain_maker((Noise)(k % 4), samples, 2 * k);
+        Maker b = plain_maker((Noise)(k % 4), samples, 2 * k + 1);
+        FrameImage frames[2] = {make_frame(&a, &scratch), make_frame(&b, &scratch)};
+        Standout found = standout_of(frames, &scratch);
+        assert_true(!found.count || found.is_explained);
+        for (int c = 0; c < 3; c++)
+            ((float *)frame_channel(&frames[k % 2], &"R\0G\0B"[2 * c]))[20 * WIDTH + 20] = 2e6f;
+        found = standout_of(frames, &scratch);
+        assert_int_equal(found.most.x * found.count, 20);
+        if (samples >= 4) assert_false(found.is_explained);
+    }
 }
 
 TEST_PROGRAM(make_arena, drop_arena)

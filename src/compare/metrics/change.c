@@ -18,6 +18,7 @@
 #define SPREAD (2 / 3.0) /* of a picture's side: what spans more has no place along it */
 #define DARK 1e-3        /* of the mean: light that is as good as none */
 #define LEAST_UV 0.001
+#define LEAST_WAYS 0.002 /* of the light: less is rounding of a colour at equal luminance */
 
 /* ---- sums -------------------------------------------------------------------------------- */
 
@@ -123,8 +124,8 @@ static double size_of(const ChangeSum *cell, double floor) {
 }
 
 static bool is_lit(const ChangeSum *cell, double floor) {
-    return cell->pixels > 0 &&
-           fmax(rgb_luminance(cell->light[0]), rgb_luminance(cell->light[1])) > floor * cell->pixels;
+    return cell->pixels > 0 && fmax(rgb_luminance(cell->light[0]), rgb_luminance(cell->light[1])) >
+                                   floor * cell->pixels;
 }
 
 static double relative(const ChangeSum *sum) {
@@ -211,7 +212,7 @@ static bool is_everywhere(const ChangeGrid *grid, const LightChange *change, dou
 
 LightChange change_find(const ChangeGrid *grid, bool is_paired, double floor, Arena *arena) {
     int count = grid->columns * grid->rows;
-    double ways = 0, uv[2][2];
+    double ways = 0, scatter = 0, uv[2][2];
     LightChange out = {.cells = ARENA_NEW(arena, unsigned char, count), .place = ""};
     for (int i = 0; i < count; i++) join(&out.all, &grid->cells[i], 1);
     out.is_noisy = !is_paired && out.all.differing > NOISY * out.all.pixels;
@@ -222,13 +223,17 @@ LightChange change_find(const ChangeGrid *grid, bool is_paired, double floor, Ar
     if (out.is_everywhere) out.area = out.all;
     else out.place = place_of(grid, &out, floor);
     for (int i = 0; i < count; i++)
-        if (out.is_everywhere || out.cells[i]) ways += fabs(difference_of(&grid->cells[i]));
+        if (out.is_everywhere || out.cells[i]) {
+            ways += fabs(difference_of(&grid->cells[i]));
+            scatter += sqrt(grid->cells[i].squares);
+        }
     out.share = (out.is_noisy ? out.area.pixels : out.area.differing) / fmax(out.all.pixels, 1);
     if (out.is_noisy)
         out.half_width = 1.96 * sqrt(out.area.squares) / rgb_luminance(out.area.light[0]);
     else if (!out.is_everywhere) memcpy(out.area.light, out.area.changed, sizeof out.area.light);
     out.luminance = relative(&out.area);
-    out.is_both_ways = fabs(difference_of(&out.area)) < FAINT * ways;
+    out.is_both_ways = fabs(difference_of(&out.area)) < FAINT * ways && ways > scatter &&
+                       ways > LEAST_WAYS * rgb_luminance(out.area.light[0]);
     for (int s = 0; s < 2; s++) uv_of(out.area.light[s], uv[s]);
     out.uv = hypot(uv[1][0] - uv[0][0], uv[1][1] - uv[0][1]);
     out.has_colour = out.uv >= LEAST_UV && (!out.is_noisy || colour_quotient(&out.area) > SURE);

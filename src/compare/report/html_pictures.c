@@ -165,14 +165,9 @@ static float luminance_at(const Planes *planes, size_t i) {
     return 0.2126f * planes->rgb[0][i] + 0.7152f * planes->rgb[1][i] + 0.0722f * planes->rgb[2][i];
 }
 
-static double mean_luminance(const Planes *planes, PixelMask mask) {
-    double sum = 0, pixels = 0;
-    for (size_t i = 0; i < planes_pixel_count(planes); i++) {
-        if (!mask[i]) continue;
-        sum += (double)luminance_at(planes, i);
-        pixels++;
-    }
-    return sum / pixels;
+/* Of what counts of the reference. */
+static double mean_luminance(const Comparison *c) {
+    return rgb_luminance(c->change.all.light[0]) / c->change.all.pixels;
 }
 
 static const float *make_difference(const Comparison *c, Arena *arena, Shot *out) {
@@ -188,7 +183,7 @@ static const float *make_difference(const Comparison *c, Arena *arena, Shot *out
     double most = (double)rank_value(size, count, c->mask, 0.995);
     if (!(most > 0)) most = (double)rank_value(size, count, c->mask, 1);
     double limit = most > 0 ? round_up(most) : 1;
-    double mean = mean_luminance(a, c->mask);
+    double mean = mean_luminance(c);
     out->title = "Difference";
     out->caption = "Luminance of the test less that of the reference: red is brighter, blue "
                    "darker.";
@@ -210,7 +205,7 @@ static const float *make_blocks(const Comparison *c, Arena *arena, Shot *out) {
     const ChangeGrid *grid = &c->grid;
     size_t count = planes_pixel_count(&c->light[0]);
     float *change = ARENA_NEW(arena, float, count), *size = ARENA_NEW(arena, float, count);
-    double dark = DARK * mean_luminance(&c->light[0], c->mask);
+    double dark = DARK * mean_luminance(c);
     for (size_t i = 0; i < count; i++) {
         int x = (int)(i % (size_t)grid->width), y = (int)(i / (size_t)grid->width);
         const ChangeSum *cell = &grid->cells[y / grid->side * grid->columns + x / grid->side];

@@ -247,8 +247,8 @@ bool noisy_pair_number(const NoisyPair *pair, size_t i, NoisyChannel channel, do
     return true;
 }
 
-/* Student's t for the tail of a normal z: t^2 = n (exp(z^2 w^2 / n) - 1), w = (8 n + 3) / (8 n + 1),
- * n samples less one (Wallace 1959). */
+/* Student's t for the tail of a normal z: t^2 = n (exp(z^2 w^2 / n) - 1), w = (8 n + 3) / (8 n +
+ * 1), n samples less one (Wallace 1959). */
 double noisy_pair_sigma(const NoisyPair *pair, size_t i, double sigmas) {
     NoisyNumber number;
     double n = fmin(samples_at(&pair->side[0], i), samples_at(&pair->side[1], i)) - 1;

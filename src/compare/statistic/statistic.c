@@ -237,13 +237,13 @@ static void count_pixels(const NoisyPair *pair, StatisticResult *out, bool *is_e
 static void make_sigma(const NoisyPair *pair, Arena *arena, StatisticResult *out) {
     const ExrWindow d = pair->data, w = pair->display_window;
     int width = w.x1 - w.x0, height = w.y1 - w.y0;
-    out->sigma = ARENA_NEW(arena, float, (size_t)width * (size_t)height);
+    out->sigma = ARENA_NEW(arena, float, (size_t)width *(size_t)height);
     for (int y = 0; y < d.y1 - d.y0; y++)
         for (int x = 0; x < d.x1 - d.x0; x++) {
             int u = x + d.x0 - w.x0, v = y + d.y0 - w.y0;
             if (u >= 0 && v >= 0 && u < width && v < height)
-                out->sigma[(size_t)v * (size_t)width + (size_t)u] = (float)noisy_pair_sigma(
-                    pair, noisy_pair_index(pair, x, y), STANDOUT_SIGMAS);
+                out->sigma[(size_t)v * (size_t)width + (size_t)u] =
+                    (float)noisy_pair_sigma(pair, noisy_pair_index(pair, x, y), STANDOUT_SIGMAS);
         }
 }
 
