@@ -439,7 +439,7 @@ def check_report(report, program):
                  "the report asks a network, or lacks the verdict")
     with open(program.file("f.html"), encoding="utf-8") as file:
         folders = file.read()
-    report.claim(re.search(r"(</a>|</div>)\s*</div>\s*(<details class=.pair|<footer)", folders) is not None
+    report.claim(re.search(r"(</a>|</div>)\s*</div>\s*(<details class=.pair|<footer)", folders)
                  and "we&lt;i&gt;rd" in folders and folders.count('<strong>') == 4
                  and "<em>failed</em>" in folders, "the index of folders is not whole")
     program.compare("a.exr", "<b>&.exr", "--report", "again.html")
@@ -596,7 +596,8 @@ def check_views(report, program, name, limits=()):
     report.claim(given.keys() == wanted.keys() and all(
         math.isclose(given[k], wanted[k], rel_tol=1e-7) for k in wanted), f"{name}: properties")
     cards = [plain(card) for card in re.findall("<b>(.*?)</b><span>", page)]
-    report.claim(cards == [r["change"] or r["text"] for r in answer["rows"] if r["is_key"]], f"{name}: {cards}")
+    report.claim(cards == [r["change"] or r["text"] for r in answer["rows"] if r["is_key"]],
+                 f"{name}: {cards}")
     for row in answer["rows"]:
         if row["is_key"] and row["half_width"] is not None and not row["limit"]:
             report.claim(abs(row["value"]) > 2 * row["half_width"], f"{name}: a card of {row}")
