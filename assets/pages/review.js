@@ -32,12 +32,12 @@ function ofCalendar(d,value,column,row){
   return text+(failed?'fails for '+failed+' of '+of+' heading'+(of===1?'':'s'):'passes');
 }
 /* On a telephone each cell of these tables says its column. */
-[].forEach.call(document.querySelectorAll('table.variants'),function(table){
+[].forEach.call(document.querySelectorAll('table.variants,.verdicts table'),function(table){
   var heads=table.tHead?table.tHead.rows[0].cells:[];
   [].forEach.call(table.tBodies,function(body){
     [].forEach.call(body.rows,function(row){
       [].forEach.call(row.cells,function(cell,i){
-        if(heads[i])cell.dataset.name=heads[i].textContent;
+        if(heads[i]&&row.className!=='help')cell.dataset.name=heads[i].textContent;
       });
     });
   });

@@ -146,11 +146,12 @@ def check_reader(report, page, index, review):
     for name in ("When", "Rests on") + wanted.get(review["verdict"], fails):
         report.claim(re.search(rf"^{name}\n(.+)", words, re.M), f"{index}: no '{name}' in "
                      f"the first screen")
-    cause = re.search(r"^Source\n(\d+) % (\S.*?)(?: ·|$)", words, re.M)
+    cause = re.search(r"^Source\n(\S.*?), (\d+) %", words, re.M)
     if cause and cases:
         light = cases[0]["cause_groups"]["light"]
-        report.claim(not light or light[0]["what"].startswith(cause[2][:8]),
-                     f"{index}: largest cause {cause[2]}, of {light[:1]}")
+        name = {"direct sunlight": "sun"}.get(cause[1], cause[1])
+        report.claim(not light or light[0]["what"].startswith(name[:8]),
+                     f"{index}: largest cause {cause[1]}, of {light[:1]}")
 
 
 def check_summaries(report, program, folder, checker):

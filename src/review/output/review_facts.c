@@ -49,28 +49,13 @@ static const char *glasses_words(const ReviewCase *c, Arena *arena) {
                         words_ratio_as(c, contrast_without_loss(c), arena));
 }
 
-/* All of it in whole percent that add up to 100, the small ones together. */
-static const char *group_words(const CaseGroup *group, Arena *arena) {
-    Text text = {.arena = arena};
-    int listed = group->count > SHARES_LISTED + 1 ? SHARES_LISTED : group->count, left = 100;
-    bool has_rest = listed < group->count;
-    for (int i = 0; i < listed; i++) {
-        bool is_last = i == listed - 1 && !has_rest;
-        int percent = is_last ? left : (int)lrint(100 * group->list[i].share);
-        left -= percent;
-        const char *share = percent > 0 ? arena_format(arena, "%d", percent) : "<1";
-        text_format(&text, "%s%s %% %s", i ? " · " : "", share, group->list[i].what);
-    }
-    if (has_rest) text_format(&text, " · %d %% others", left > 0 ? left : 0);
-    return text.data ? text.data : "";
-}
-
 static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *c, Arena *arena) {
     static const char *const NAMES[CAUSE_GROUPS] = {"Source", "Path", "Off"};
     const char *whole = words_whole(c, arena);
     add(facts, "Seen through", glasses_words(c, arena));
     for (int g = 0; g < CAUSE_GROUPS; g++)
-        if (c->groups[g].count) add(facts, NAMES[g], group_words(&c->groups[g], arena));
+        if (c->groups[g].count)
+            add(facts, NAMES[g], words_group(&c->groups[g], SHARES_LISTED, arena));
     if (!c->groups[GROUP_LIGHT].count && c->cause_count)
         add(facts, "Source",
             arena_format(arena, "%s of the reflected light by %s",

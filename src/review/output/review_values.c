@@ -140,19 +140,8 @@ static void set_cause(json_t *to, const char *card, const ReviewCase *c, int i, 
     page_set(to, "without", isnan(without) ? NULL : words_ratio_as(c, without, arena));
 }
 
-/* The light by where it began, came in and shines from: each adds up to all of it. */
-static void set_groups(json_t *to, const ReviewCase *c, Arena *arena) {
-    static const char *const NAMES[CAUSE_GROUPS] = {"light", "opening", "surface"};
-    for (int g = 0; g < CAUSE_GROUPS; g++) {
-        Text text = {.arena = arena};
-        for (int i = 0; i < c->groups[g].count; i++)
-            text_format(&text, "%s%s %s", i ? " · " : "",
-                        words_share(c->groups[g].list[i].share, arena), c->groups[g].list[i].what);
-        page_set(to, NAMES[g], text.data);
-    }
-}
-
 static void set_causes(json_t *to, const ReviewCase *c, Arena *arena) {
+    static const char *const GROUPS[CAUSE_GROUPS] = {"light", "opening", "surface"};
     json_t *causes = json_object_get(to, "causes"), *more = values_list(to, "more_causes");
     int first = c->cause_count > FIRST_CAUSES + 1 ? FIRST_CAUSES : c->cause_count;
     double left = 1;
@@ -169,7 +158,10 @@ static void set_causes(json_t *to, const ReviewCase *c, Arena *arena) {
     page_set_count(to, "more_cause_count", c->cause_count - first);
     json_object_set_new(to, "other_ways", left >= 0.001 ? json_real(left) : json_null());
     page_set(to, "seat", words_empty_seat(c, arena));
-    set_groups(values_object(to, "groups"), c, arena);
+    json_t *groups = values_object(to, "groups");
+    for (int g = 0; g < CAUSE_GROUPS; g++)
+        page_set(groups, GROUPS[g],
+                 c->groups[g].count ? words_group(&c->groups[g], c->groups[g].count, arena) : NULL);
 }
 
 /* ---- figures ----------------------------------------------------------------------------- */

@@ -420,6 +420,31 @@ const char *words_chain(const CaseCause *cause, Arena *arena) {
     return text.data ? text.data : "";
 }
 
+/* In the field's words. */
+static const char *origin_words(const char *what) {
+    static const char *const WORDS[][2] = {{"sun", "direct sunlight"},
+                                           {"the sun itself", "direct sunlight"},
+                                           {"the sky itself", "sky"}};
+    for (int i = 0; i < 3; i++)
+        if (words_same(what, WORDS[i][0])) return WORDS[i][1];
+    return what;
+}
+
+const char *words_group(const CaseGroup *group, int most, Arena *arena) {
+    Text text = {.arena = arena};
+    int listed = group->count > most + 1 ? most : group->count, left = 100;
+    bool has_rest = listed < group->count;
+    for (int i = 0; i < listed; i++) {
+        bool is_last = i == listed - 1 && !has_rest;
+        int percent = is_last ? left : (int)lrint(100 * group->list[i].share);
+        left -= percent;
+        const char *share = percent > 0 ? arena_format(arena, "%d", percent) : "<1";
+        text_format(&text, "%s%s, %s %%", i ? " · " : "", origin_words(group->list[i].what), share);
+    }
+    if (has_rest) text_format(&text, " · others, %d %%", left > 0 ? left : 0);
+    return text.data ? text.data : "";
+}
+
 const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena) {
     int count = review->without_data_count;
     if (!count) return "";

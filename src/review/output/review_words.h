@@ -130,6 +130,10 @@ const char *words_headline(const ReviewCase *c, Arena *arena);
  * reached. */
 const char *words_precision(const ReviewCase *c, Arena *arena);
 
+/* "direct sunlight, 96 % · sky, 3 % · others, 1 %": in whole per cent that add up to 100, what is
+ * beyond `most` together. */
+const char *words_group(const CaseGroup *group, int most, Arena *arena);
+
 /* " 62 % of it came via 9 materials without optical data ..."; "" where all have some. */
 const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena);
 
