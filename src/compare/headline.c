@@ -17,6 +17,7 @@
 #define NAMED 4 /* inputs, settings */
 
 const char *const compare_outcome_names[] = {[COMPARE_SAME] = "same",
+                                             [COMPARE_SAME_LIGHT] = "same light",
                                              [COMPARE_WITHIN_NOISE] = "within noise",
                                              [COMPARE_WITHIN_LIMITS] = "within limits",
                                              [COMPARE_DIFFERENT] = "different"};
@@ -188,7 +189,6 @@ static const char *within_noise_text(const Comparison *c, Arena *arena) {
     const char *one = frame_string(&c->reference.frame, "parhelion:seed");
     const char *other = frame_string(&c->test.frame, "parhelion:seed");
     const Structure *s = &c->structure;
-    if (c->stat.verdict == STATISTIC_EQUAL) return "light equal in every pixel, layers differ";
     if (c->stat.shares_noise)
         return arena_format(arena, "changed, below the noise: %.0f of %ld pixels differ%s",
                             c->change.all.differing, c->selection.pixels, held_text(c, arena));
@@ -207,6 +207,8 @@ static const char *light_change(const Comparison *c, Arena *arena) {
     const char *text;
     if (c->channels.differing == 0 && c->channels.outside == 0)
         return c->selection.is_part ? "equal in every pixel that counts" : "equal in every pixel";
+    if (c->change.all.pixels < (double)c->selection.pixels && c->grid.most_difference == 0)
+        return "light equal in every other pixel";
     if (c->grid.most_difference == 0)
         return arena_format(arena, "light equal in every pixel, other channels differ in %ld",
                             c->channels.differing);
@@ -277,6 +279,7 @@ static const char *causes_text(const Comparison *c, Arena *arena) {
 static CompareOutcome outcome_of(const Comparison *c) {
     if (!c->same) return COMPARE_DIFFERENT;
     if (c->channels.differing == 0 && c->channels.outside == 0) return COMPARE_SAME;
+    if (c->grid.most_difference == 0) return COMPARE_SAME_LIGHT;
     return c->judged_by == JUDGED_BY_LIMITS ? COMPARE_WITHIN_LIMITS : COMPARE_WITHIN_NOISE;
 }
 

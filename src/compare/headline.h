@@ -11,7 +11,7 @@
 #pragma once
 #include "compare/comparison.h"
 
-/* "same", "within noise", "within limits", "different". */
+/* "same", "same light", "within noise", "within limits", "different". */
 extern const char *const compare_outcome_names[];
 
 /* Fills outcome, verdict and finding of what is complete otherwise. */

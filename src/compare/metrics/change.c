@@ -236,7 +236,10 @@ LightChange change_find(const ChangeGrid *grid, bool is_paired, double floor, Ar
                        ways > LEAST_WAYS * rgb_luminance(out.area.light[0]);
     for (int s = 0; s < 2; s++) uv_of(out.area.light[s], uv[s]);
     out.uv = hypot(uv[1][0] - uv[0][0], uv[1][1] - uv[0][1]);
-    out.has_colour = out.uv >= LEAST_UV && (!out.is_noisy || colour_quotient(&out.area) > SURE);
+    double sides[2] = {rgb_luminance(out.area.light[0]), rgb_luminance(out.area.light[1])};
+    out.has_colour = out.uv >= LEAST_UV &&
+                     fmin(sides[0], sides[1]) > DARK * fmax(sides[0], sides[1]) &&
+                     (!out.is_noisy || colour_quotient(&out.area) > SURE);
     return out;
 }
 
