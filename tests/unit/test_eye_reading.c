@@ -37,6 +37,12 @@ static Vec3 at_angle(double degrees) {
     return vec3(0, (float)sin(t), (float)-cos(t));
 }
 
+/* Of light of D65. */
+static void assert_white(EyeReading found) {
+    assert_close(found.beside[0], 0.95047 * found.veil, 0.01);
+    assert_close(found.beside[1], 1.08883 * found.veil, 0.01);
+}
+
 static void assert_veil(EyeReading found, double degrees, double lux) {
     double wanted = lux * eye_spread_at(degrees, whose);
     if (!(fabs(found.veil / wanted - 1) < 0.01))
@@ -198,6 +204,7 @@ TEST(a_uniform_sky_veils_by_the_integral) {
     EyeReading found = read_eye(&world);
     if (!(fabs(found.veil / (100 * sum) - 1) < 0.01))
         fail_msg("veil %g, required: %g", found.veil, 100 * sum);
+    assert_white(found);
     if (!(fabs(found.vertical_lx / (100 * PI) - 1) < 0.01)) fail_msg("%g lx", found.vertical_lx);
 }
 
@@ -226,6 +233,7 @@ TEST(parts_of_a_veil_add_up_and_rounds_agree) {
     assert_true(often.parts[EYE_SUN] == 0 && often.parts[EYE_GLINTS] == 0);
     assert_true(isnan(once.veil_sigma) && often.veil_sigma > 0);
     assert_true(often.veil_sigma < 0.002 * often.veil);
+    assert_white(often);
     assert_near(once.veil, often.veil, 5 * 4 * often.veil_sigma); /* a round's: 4 times */
 }
 
@@ -293,6 +301,7 @@ TEST(a_close_reading_knows_what_is_looked_at) {
     EyeReading close = read_look(&world, (EyeLook){vec3(0, 0, 0), at, 4, NULL, true, NULL});
     EyeReading plain = read_towards(&world, at, 4);
     assert_close(close.veil, wanted, 0.002);
+    assert_white(close);
     assert_true(close.veil_range.low < wanted && wanted < close.veil_range.high);
     assert_close(close.parts[EYE_LAMPS], close.veil, 1e-12);
     assert_true(close.veil_sigma < 0.2 * plain.veil_sigma);
@@ -313,6 +322,7 @@ TEST(a_close_reading_leaves_the_rest_alone) {
     EyeReading plain = read_towards(&world, at, 2);
     assert_close(close.veil, plain.veil, 1e-12);
     assert_true(close.veil > 0);
+    assert_white(close);
 }
 
 TEST_PROGRAM(NULL, NULL)
