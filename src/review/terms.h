@@ -26,6 +26,8 @@
     "(maximum %s)"
 #define TERM_UNKNOWN "%s could not be found out"
 #define TERM_MUST_NOT "must not be read"
+#define TERM_OTHER_PART \
+    "judged at another part of the symbol: %.0f to %.0f %% across its content, %.0f to %.0f %% down"
 
 /* ---- what to do -------------------------------------------------------------------------- */
 

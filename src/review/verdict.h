@@ -452,6 +452,8 @@ typedef struct ReviewDifference {
     double margin;             /* after less before, of the contrast's margin; NaN: one has none */
     MeanInterval margin_range; /* both were read by the same random numbers, whose luck they
                             share; NaN likewise */
+    bool is_other_part;        /* the same symbol is judged at another part of it: where that
+                                  changes, figures of variants that change smoothly have a step */
 } ReviewDifference;
 
 /* A file that was read. */

@@ -162,7 +162,7 @@ static json_t *difference_json(const ReviewDifference *d) {
     static const char *const FIRST[] = {
         "condition",         "eye",    "symbol", "verdict", "contrast_ratio",
         "contrast_interval", "margin", NULL};
-    static const char *const LAST[] = {"level", "when", "sun", NULL};
+    static const char *const LAST[] = {"judged_part_uv", "level", "when", "sun", NULL};
     json_t *out = json_object();
     case_members_json(d->after, FIRST, out);
     set(out, "margin_before", json_figure(d->before ? d->before->margin : (double)NAN));
@@ -170,6 +170,7 @@ static json_t *difference_json(const ReviewDifference *d) {
     set(out, "margin_difference_interval", pair(d->margin_range.low, d->margin_range.high));
     set(out, "reflected_cd_m2", json_figure(d->after->luminance_cd_m2.reflected));
     set(out, "alike_within", json_figure(d->after->alike_within));
+    set(out, "other_part", json_boolean(d->is_other_part));
     case_members_json(d->after, LAST, out);
     if (!d->sweep_after) return out;
     const ReviewSweep *before = d->sweep_before;

@@ -11,6 +11,7 @@
 #include "review/output/review_words.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
+#include "review/terms.h"
 #include "text/effect_text.h"
 
 /* ---- the order --------------------------------------------------------------------------- */
@@ -47,10 +48,17 @@ static const char *difference_words(const ReviewDifference *d, Arena *arena) {
     return effect_text(d->margin, d->margin_range, SHOWN_SHARE, arena);
 }
 
-/* "": it was read by itself. Rounded up: what is shown holds. */
-static const char *alike_words(const ReviewCase *c, Arena *arena) {
-    double percent = 100 * c->alike_within;
-    if (isnan(percent)) return "";
+static const char *other_part(const ReviewDifference *d, Arena *arena) {
+    const CaseBox *p = &d->after->whole.part;
+    if (!d->is_other_part) return "";
+    return arena_format(arena, TERM_OTHER_PART, 100 * p->left, 100 * p->right, 100 * p->top,
+                        100 * p->bottom);
+}
+
+/* How it was read, where that is to be said. Rounded up: what is shown holds. */
+static const char *read_words(const ReviewDifference *d, Arena *arena) {
+    double percent = 100 * d->after->alike_within;
+    if (isnan(percent)) return other_part(d, arena);
     if (percent > 0) {
         double digit = pow(10, floor(log10(percent)));
         percent = digit * ceil(percent / digit);
@@ -140,8 +148,9 @@ static const char *least_where(const ReviewDifference *d, Arena *arena) {
 static const char *margins_words(const ReviewDifference *d, Arena *arena) {
     const char *after = words_margin(d->after->margin, arena);
     if (!d->before) return arena_format(arena, "margin %s", after);
-    return arena_format(arena, "margin %s → %s, difference %s",
-                        words_margin(d->before->margin, arena), after, difference_words(d, arena));
+    return arena_format(arena, "margin %s → %s, difference %s%s%s",
+                        words_margin(d->before->margin, arena), after, difference_words(d, arena),
+                        d->is_other_part ? ", " : "", other_part(d, arena));
 }
 
 const char *review_variants_words(const ReviewVariantFound *v, Arena *arena) {
@@ -207,7 +216,7 @@ static void add_difference(json_t *list, const ReviewDifference *d, Arena *arena
     page_set(to, "after", words_margin(d->after->margin, arena));
     page_set(to, "kind", difference_class(d));
     page_set(to, "difference", difference_words(d, arena));
-    page_set(to, "alike", alike_words(d->after, arena));
+    page_set(to, "alike", read_words(d, arena));
 }
 
 /* Those that change most first. */

@@ -2,6 +2,7 @@
 #include "review/vary/variants.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/confidence.h"
 #include "base/mathd.h"
@@ -91,6 +92,8 @@ static ReviewDifference review_difference(const Profile *profile, const ReviewCa
                           .margin = (double)NAN,
                           .margin_range = {(double)NAN, (double)NAN}};
     if (!before || !after) return d;
+    d.is_other_part = !strcmp(before->symbol, after->symbol) &&
+                      memcmp(&before->whole.part, &after->whole.part, sizeof(CaseBox)) != 0;
     Arena scratch = arena_reserve(JUDGE_BYTES);
     set_difference(profile, &d, scratch);
     arena_release(&scratch);
