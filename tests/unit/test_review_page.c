@@ -379,9 +379,11 @@ TEST(sweeps_that_fail_come_first) {
     assert_string_equal(words_how_often(&review.sweeps[1], &arena), "at its worst");
     review.sweeps[1].failed_share = 0.04;
     review.sweeps[1].longest_failure_minutes = 7;
-    assert_string_equal(words_how_often(&review.sweeps[1], &arena), "4.0 % of the time");
+    assert_string_equal(words_how_often(&review.sweeps[1], &arena),
+                        "4.0 % of the time, 7 min at a stretch");
     review.sweeps[1].failed_minutes = 340;
-    assert_string_equal(words_how_often(&review.sweeps[1], &arena), "340 minutes a year");
+    assert_string_equal(words_how_often(&review.sweeps[1], &arena),
+                        "340 minutes a year, 7 min at a stretch");
     review.sweeps[1].failed_minutes = review.sweeps[1].longest_failure_minutes = NAN;
     review.sweeps[1].cases = 175; /* directions alone */
     assert_string_equal(words_how_often(&review.sweeps[1], &arena),
@@ -394,14 +396,16 @@ TEST(an_eye_box_names_whose_share_it_is) {
     static const struct {
         double eyes, failed, minutes, middle;
         const char *how_often;
-    } BOX[] = {{0.44, 0.012, 30, 1.69,
-                "44 % of eyes at its worst; middle eye: 1.2 % of the time, at its worst 1.69 : 1"},
-               {0.44, 0, 0, 3.25,
-                "44 % of eyes at its worst; middle eye: never, at its worst "
-                "3.25 : 1"},
-               {0.44, 0, 0, NAN, "44 % of eyes at its worst; middle eye: never"}, /* older */
-               {1, 0.5, NAN, NAN,
-                "100 % of eyes at its worst; middle eye: 17616 of 35232 tested sun positions"}};
+    } BOX[] = {
+        {0.44, 0.012, 30, 1.69,
+         "44 % of eyes at its worst; middle eye: 1.2 % of the time, 30 min at a stretch, at its "
+         "worst 1.69 : 1"},
+        {0.44, 0, 0, 3.25,
+         "44 % of eyes at its worst; middle eye: never, at its worst "
+         "3.25 : 1"},
+        {0.44, 0, 0, NAN, "44 % of eyes at its worst; middle eye: never"}, /* older */
+        {1, 0.5, NAN, NAN,
+         "100 % of eyes at its worst; middle eye: 17616 of 35232 tested sun positions"}};
     for (int i = 0; i < 4; i++) {
         Review review = fixture_review(&arena);
         ReviewSweep *s = &review.sweeps[0];
@@ -416,10 +420,6 @@ TEST(an_eye_box_names_whose_share_it_is) {
         Text shown = {.arena = &arena};
         escape_markup(&shown, BOX[i].how_often);
         assert_non_null(strstr(card, shown.data));
-        assert_non_null(strstr(card, "of eyes fail at its worst"));
-        assert_non_null(strstr(card, "middle eye fails"));
-        bool tells_worst = strstr(card, "middle eye at its own worst") != NULL;
-        assert_true(tells_worst == !isnan(BOX[i].middle));
     }
 }
 

@@ -94,9 +94,9 @@ TEST(a_variants_pair_stands_before_its_cases) {
     remove(path);
 }
 
-/* One display is lifted from 24 to 114 : 1, another has the least margin and stays: the row
- * shows both, in the limit's quantity, and how often its worst sweep fails. */
-TEST(a_variants_row_shows_what_moves_most_and_the_least) {
+/* One display is lifted from 24 to 114 : 1 and is first of all cases, another has the least margin
+ * and stays: the row shows it, in the limit's quantity, and how often its worst sweep fails. */
+TEST(a_variant_shows_its_least_margin_and_what_moves_most_first) {
     Review review = fixture_review(&arena), changed = fixture_review(&arena);
     const char *changes[] = {"hood of 40 mm"};
     ReviewCase *before = &review.cases[4], *after = &changed.cases[4];
@@ -126,24 +126,24 @@ TEST(a_variants_row_shows_what_moves_most_and_the_least) {
     for (int i = 0; i < 2; i++) changed.sweeps[i].worst.eye_failed_share = NAN;
     review.variants = &variant;
     review.variant_count = 1;
-    const char *row = strstr(page_of(&(ReviewPage){.review = &review}), "<b>hood</b>");
+    const char *page = page_of(&(ReviewPage){.review = &review});
+    const char *row = strstr(page, "<b>hood</b>"), *first = strstr(page, "<th>Case</th>");
     row = arena_string(&arena, row, (size_t)(strstr(row, "</table>") - row));
-    assert_non_null(strstr(row, "<b>24.0 → 114 : 1</b>"));
+    const char *moved = strstr(first, "24.0 → 114 : 1</td>");
+    assert_true(moved && strstr(first, words_case(after, &arena)) < moved);
     assert_non_null(strstr(row, arena_format(&arena, "→ %s</b>", least)));
-    assert_non_null(strstr(row, words_case(after, &arena)));
     assert_non_null(strstr(row, words_case(&changed.cases[3], &arena)));
     assert_non_null(strstr(row, "176 of 35232 tested sun positions"));
     after->unjudged = UNJUDGED_HIDDEN;
     after->visible_share = 0; /* it moves more than any figure can */
     after->verdict = VERDICT_UNJUDGED;
     all[2].margin = -9;
-    row = strstr(page_of(&(ReviewPage){.review = &review}), "<b>hood</b>");
-    assert_non_null(strstr(row, "<b>24.0 : 1 → hidden</b>"));
+    assert_non_null(strstr(page_of(&(ReviewPage){.review = &review}), "24.0 : 1 → hidden</td>"));
     after->unjudged = UNJUDGED_NOT; /* another quantity's name stands once */
     limits[0].kind = limits[1].kind = "luminance_contrast";
     all[2].margin = -0.1;
-    row = strstr(page_of(&(ReviewPage){.review = &review}), "<b>hood</b>");
-    assert_non_null(strstr(row, "<b>luminance contrast 24.0 → 114</b>"));
+    page = page_of(&(ReviewPage){.review = &review});
+    assert_non_null(strstr(page, "luminance contrast 24.0 → 114</td>"));
 }
 
 /* The eye at the origin looks along -z, a right angle wide. */

@@ -261,19 +261,11 @@ static bool set_sweep(const PageValues *v, const ReviewSweep *s, Error *err) {
     static const char *const NAMES[] = {"symbol", "eye", "condition", NULL};
     json_t *to = values_of_sweep(v, s);
     Arena *arena = v->arena;
-    bool is_sure = sweep_verdict(s) == VERDICT_FAIL, has_box = sweep_has_box(s);
-    bool has_middle = has_box && s->middle_contrast > 0;
     values_set_names(to, NAMES);
     values_set_verdict(to, sweep_verdict(s));
     page_set(to, "how_often", words_how_often(s, arena));
     page_set(to, "failing", words_failing(s, arena));
-    page_set(to, "middle_figure",
-             has_middle ? words_ratio_as(&s->worst, s->middle_contrast, arena) : NULL);
-    page_set_flag(to, "has_box", has_box);
-    page_set_flag(to, "some_eyes_fail", s->worst.eye_failed_share > 0);
-    page_set_flag(to, "is_over", is_sure && s->failed_share > 0);
-    page_set_flag(to, "is_unsure", !is_sure && s->failed_share > 0);
-    page_set_flag(to, "fails_long", s->longest_failure_minutes > 0);
+    page_set_flag(to, "is_unsure", sweep_verdict(s) != VERDICT_FAIL && s->failed_share > 0);
     return set_drawings(v, to, s, err);
 }
 

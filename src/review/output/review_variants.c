@@ -125,17 +125,6 @@ static double distance_of(const ReviewDifference *d) {
     return isnan(d->margin) ? -1 : fabs(d->margin);
 }
 
-/* NULL: of none is it known, or none moves. */
-static const ReviewDifference *moving_most(const ReviewVariantFound *v) {
-    const ReviewDifference *most = NULL;
-    for (int i = 0; i < v->difference_count; i++)
-        if (distance_of(&v->differences[i]) > (most ? distance_of(most) : -1))
-            most = &v->differences[i];
-    bool moves = most && (isnan(most->margin) ||
-                          !effect_is_none(most->margin, most->margin_range, SHOWN_SHARE));
-    return moves ? most : NULL;
-}
-
 /* Whose the least margin is, before and after. */
 static const char *least_where(const ReviewDifference *d, Arena *arena) {
     const ReviewCase *b = d->before, *a = d->after;
@@ -154,16 +143,10 @@ static const char *margins_words(const ReviewDifference *d, Arena *arena) {
 }
 
 const char *review_variants_words(const ReviewVariantFound *v, Arena *arena) {
-    const ReviewDifference *least = &v->worst, *most = moving_most(v);
-    Text text = {.arena = arena};
+    const ReviewDifference *least = &v->worst;
     if (!least->after) return "nothing has a limit of contrast";
-    text_format(&text, "least margin %s, %s: %s", moved_words(least, arena),
-                margins_words(least, arena), least_where(least, arena));
-    if (!most) text_add(&text, "; nothing moves");
-    else if (!words_same(words_case(most->after, arena), words_case(least->after, arena)))
-        text_format(&text, "; moves most %s, %s: %s", moved_words(most, arena),
-                    margins_words(most, arena), words_case(most->after, arena));
-    return text.data;
+    return arena_format(arena, "least margin %s, %s: %s", moved_words(least, arena),
+                        margins_words(least, arena), least_where(least, arena));
 }
 
 /* ---- the table of all -------------------------------------------------------------------- */
@@ -182,7 +165,6 @@ static json_t *add_row(json_t *list, const char *name, const char *changes, cons
     page_set(to, "name", name);
     page_set(to, "changes", changes);
     page_set(to, "least", NULL);
-    page_set(to, "most", NULL);
     values_set_verdict(to, review_verdict(review));
     page_set(to, "counts", counts_words(review, arena));
     page_set(to, "failed", failed_words(review, arena));
@@ -246,7 +228,7 @@ static bool add_pair(json_t *to, const ReviewPicture pair[2], Arena scratch, Err
 
 static bool add_variant(const PageValues *v, json_t *list, const ReviewVariantFound *variant,
                         Error *err) {
-    const ReviewDifference *most = moving_most(variant), *least = &variant->worst;
+    const ReviewDifference *least = &variant->worst;
     const ReviewPicture *pairs = v->page->pairs;
     Arena *arena = v->arena;
     json_t *to =
@@ -254,7 +236,6 @@ static bool add_variant(const PageValues *v, json_t *list, const ReviewVariantFo
     page_set_flag(to, "is_base", false);
     if (least->after)
         set_figure(values_object(to, "least"), least, least_where(least, arena), arena);
-    if (most) set_figure(values_object(to, "most"), most, words_case(most->after, arena), arena);
     add_differences(to, variant, arena);
     add_roads(to, v->review, variant->review, arena);
     return add_pair(to, pairs ? &pairs[2 * (variant - v->review->variants)] : NULL, *arena, err);

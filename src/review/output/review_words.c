@@ -151,7 +151,7 @@ const char *words_number(double value, Arena *arena) {
 
 const char *words_minutes(double minutes, Arena *arena) {
     if (isnan(minutes)) return "–";
-    if (minutes < 60) return arena_format(arena, "%s min", words_figure(minutes, arena));
+    if (minutes < 60) return arena_format(arena, "%.*g min", minutes < 1 ? 1 : 2, minutes);
     long whole = lround(minutes);
     return whole % 60 ? arena_format(arena, "%ld h %ld min", whole / 60, whole % 60)
                       : arena_format(arena, "%ld h", whole / 60);
@@ -184,17 +184,23 @@ bool sweep_has_box(const ReviewSweep *sweep) {
     return !isnan(sweep->worst.eye_failed_share);
 }
 
-const char *words_failing(const ReviewSweep *sweep, Arena *arena) {
+static const char *share_words(const ReviewSweep *sweep, Arena *arena) {
     double minutes = sweep->failed_minutes;
-    if (!(sweep->failed_share > 0)) return "never";
-    if (minutes > 0)
-        return minutes < 600
-                   ? arena_format(arena, "%s minutes a year", words_figure(minutes, arena))
-                   : arena_format(arena, "%s hours a year", words_figure(minutes / 60, arena));
+    if (minutes >= 600)
+        return arena_format(arena, "%s hours a year", words_figure(minutes / 60, arena));
+    if (minutes > 0) return arena_format(arena, "%s minutes a year", words_figure(minutes, arena));
     if (!isnan(sweep->longest_failure_minutes))
         return arena_format(arena, "%s of the time", words_share(sweep->failed_share, arena));
     return arena_format(arena, "%ld of %ld tested sun positions",
                         lround(sweep->failed_share * (double)sweep->cases), sweep->cases);
+}
+
+const char *words_failing(const ReviewSweep *sweep, Arena *arena) {
+    if (!(sweep->failed_share > 0)) return "never";
+    const char *share = share_words(sweep, arena);
+    if (!(sweep->longest_failure_minutes > 0)) return share;
+    return arena_format(arena, "%s, %s at a stretch", share,
+                        words_minutes(sweep->longest_failure_minutes, arena));
 }
 
 /* "middle eye: 340 minutes a year, at its worst 1.69 : 1". */

@@ -75,8 +75,8 @@ const char *words_verdict(Verdict verdict);
  * worst of those at every point. */
 bool sweep_has_box(const ReviewSweep *sweep);
 
-/* How often its steps fail: "340 minutes a year", "7 of 186 tested sun positions", "never"; of
- * a review that says no more "0.5 % of the time". */
+/* How often its steps fail: "340 minutes a year, 48 min at a stretch", "7 of 186 tested sun
+ * positions", "never"; of a review that says no more "0.5 % of the time". */
 const char *words_failing(const ReviewSweep *sweep, Arena *arena);
 
 /* How often a sweep fails, of a box "44 % of eyes at its worst; middle eye: ..."; where none of
