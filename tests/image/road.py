@@ -174,6 +174,11 @@ def check_left_out(report, reviews):
     report.claim("road" in done.stderr and "required" in done.stderr, "a road at symbols")
 
 
+def increment_of(finding, age):
+    return next(line for line in finding["lines"]
+                if line["quantity"] == "threshold_increment" and line["age_years"] == age)
+
+
 def check_variants(report, reviews):
     """Half as bright displays make half of their increment; the rest stays."""
     document = request({"*": 0.05}, 1)
@@ -185,15 +190,15 @@ def check_variants(report, reviews):
     age = gaze["road"]["ages"][-1]
     shown = age["threshold_increment_pct"]
     displays = sum(d["threshold_increment_pct"] for d in age["displays"])
-    row = half["roads"][0]
-    report.claim(row["before"]["threshold_increment_pct"] == shown, "before is the review's")
-    report.claim(math.isclose(row["after"]["threshold_increment_pct"], shown - displays / 2,
-                              rel_tol=1e-3), f"light is linear: {row}, {displays} of {shown}")
-    report.claim(row["before"]["outcome"] == "fail" and half["verdict"] == "pass",
+    row, line = half["findings"][0], increment_of(half["findings"][0], age["age_years"])
+    report.claim(line["found"][0] == shown, "before is the review's")
+    report.claim(math.isclose(line["found"][1], shown - displays / 2, rel_tol=1e-3),
+                 f"light is linear: {line}, {displays} of {shown}")
+    report.claim(row["verdict"][0] == "fail" and half["verdict"] == "pass",
                  "and what it keeps counts")
-    report.claim(back["roads"][0]["after"]["threshold_increment_interval"][0] >
-                 row["before"]["threshold_increment_interval"][1] and
-                 back["roads"][0]["after"]["outcome"] == back["verdict"],
+    behind = increment_of(back["findings"][0], age["age_years"])
+    report.claim(behind["interval"][1][0] > behind["interval"][0][1] and
+                 back["findings"][0]["verdict"][1] == back["verdict"],
                  "from farther back they stand nearer to the gaze and veil more")
     report.claim("variant half: road, seen by eye, night: threshold increment" in done.stdout,
                  "the console has it")

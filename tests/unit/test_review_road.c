@@ -2,6 +2,7 @@
 /* Gazes at roads: limits, what counts, and what is written of them. */
 #include "review/export/review_junit.h"
 #include "review/judge.h"
+#include "review/output/review_diff.h"
 #include "review/output/review_json.h"
 #include "review/finding.h"
 #include "review/output/review_page.h"
@@ -243,23 +244,21 @@ TEST(words_say_the_ways_of_light) {
 TEST(a_variants_road_stands_beside_the_reviews) {
     Review before = review_with(judged(30, 1, 0, 0));
     Review after = review_with(judged(9, 1, 0, 0));
-    RoadChange change;
     GazeFinding only = after.gazes[2];
+    int count;
     after.gazes = &only; /* a variant's has roads alone */
     after.gaze_count = 1;
-    assert_true(road_change_at(&before, &after, 0, &change));
-    assert_ptr_equal(change.before, &before.gazes[2]);
-    assert_same(30, change.age_before->increment_pct);
-    assert_same(9, change.age_after->increment_pct);
-    assert_false(road_change_at(&before, &after, 1, &change));
-    const char *words = road_change_words(&change, &arena);
-    assert_non_null(strstr(words, ": threshold increment 30 → 9 % (8 to 10) at "
-                                  "70 years, fail → pass"));
+    const FindingDiff *list = review_diff_beside(&before, &after, &count, &arena);
+    assert_int_equal(count, 1);
+    assert_int_equal(list[0].kind, DIFF_MENDED);
+    assert_ptr_equal(list[0].before->gaze, &before.gazes[2]);
+    const char *words = review_diff_words(&list[0], &arena);
+    if (!strstr(words, "threshold increment 30 % at 70 years → 9 % at 70 years, fail → pass"))
+        fail_msg("%s", words);
     only.condition = "another";
-    assert_true(road_change_at(&before, &after, 0, &change));
-    assert_null(change.before);
-    words = road_change_words(&change, &arena);
-    assert_non_null(strstr(words, "threshold increment 9 % (8 "));
+    list = review_diff_beside(&before, &after, &count, &arena);
+    assert_int_equal(list[0].kind, DIFF_NEW);
+    assert_null(list[0].before);
 }
 
 TEST_PROGRAM(page_begin, clear_folder)

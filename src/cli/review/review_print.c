@@ -6,6 +6,7 @@
 
 #include "print/print.h"
 #include "cli/options/answer.h"
+#include "review/output/review_diff.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_gaze.h"
 #include "review/output/review_json.h"
@@ -111,12 +112,14 @@ static void print_panes(const Review *review) {
 }
 
 static void print_variant(const Review *review, const ReviewVariantFound *v, Arena scratch) {
-    RoadChange change;
     print("%-16s variant %s: %s\n", verdict_names[review_verdict(v->review)], v->name,
           review_variants_words(v, &scratch));
-    for (int i = 0; road_change_at(review, v->review, i, &change); i++)
-        print("%-16s variant %s: %s\n", road_outcome(change.after), v->name,
-              road_change_words(&change, &scratch));
+    int count;
+    const FindingDiff *beside = review_diff_beside(review, v->review, &count, &scratch);
+    for (int i = 0; i < count; i++)
+        print("%-16s variant %s: %s\n",
+              beside[i].after->counts ? verdict_names[beside[i].after->verdict] : "no limit",
+              v->name, review_diff_words(&beside[i], &scratch));
 }
 
 static void print_fact(const ReviewFact *fact) {

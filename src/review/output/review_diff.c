@@ -3,7 +3,10 @@
 
 #include <math.h>
 
+#include "review/output/review_words.h"
 #include "review/private_image.h"
+#include "review/review_decide.h"
+#include "review/road_verdict.h"
 #include "text/json_text.h"
 
 const char *const diff_names[DIFF_COUNT] = {"broken", "mended", "worse", "better",
@@ -49,12 +52,20 @@ static void add_case_lines(const ReviewCase *c, LimitVerdict *out, int *count, A
 /* What no limit applies to comes first, then all lines that are held against one. */
 static void set_lines(Finding *f, Arena *arena) {
     int most = f->limit_count + 1, count = 0;
+    const GazeRoad *road = f->gaze ? f->gaze->road : NULL;
     if (f->c) most += f->c->image_count + f->c->visibility_count;
+    if (road) most += road->age_count;
     LimitVerdict *lines = ARENA_NEW(arena, LimitVerdict, most);
     if (f->c) add_case_lines(f->c, lines, &count, arena);
     if (f->gaze)
         lines[count++] = line_of(LIMIT_GAZE_CONTRAST, f->gaze->contrast_left,
                                  f->gaze->contrast_range.low, f->gaze->contrast_range.high);
+    for (int i = 0; road && !road_has_limit(road) && i < road->age_count; i++) {
+        const RoadAge *age = &road->ages[i];
+        lines[count] = line_of(LIMIT_THRESHOLD_INCREMENT, age->increment_pct,
+                               age->increment_range.low, age->increment_range.high);
+        lines[count++].age_years = age->age_years;
+    }
     for (int i = 0; i < f->limit_count; i++) lines[count++] = f->limits[i];
     f->limits = lines;
     f->limit_count = count;
@@ -133,6 +144,30 @@ ReviewDiff review_diff(const Review *before, const Review *after, const char *be
     return diff;
 }
 
+/* ---- of a variant ------------------------------------------------------------------------ */
+
+const FindingDiff *review_diff_beside(const Review *review, const Review *variant, int *count,
+                                      Arena *arena) {
+    ReviewDiff diff = review_diff(review, variant, NULL, NULL, arena);
+    *count = 0;
+    for (int i = 0; i < diff.list_count; i++)
+        if (diff.list[i].after && !diff.list[i].after->c) diff.list[(*count)++] = diff.list[i];
+    return diff.list;
+}
+
+const char *review_diff_words(const FindingDiff *d, Arena *arena) {
+    const Finding *a = d->after, *b = d->before;
+    const LimitVerdict *after = d->line[1] ? d->line[1] : &a->limits[a->limit_count - 1];
+    const LimitVerdict *before = b ? finding_line_like(b, after) : NULL;
+    const char *name = words_named(a->subject, a->viewer, a->condition, arena);
+    const char *was = before ? words_quantity(before, arena) : "–";
+    const char *verdicts =
+        !a->counts ? ""
+                   : arena_format(arena, ", %s → %s", b ? verdict_names[b->verdict] : "–",
+                                  verdict_names[a->verdict]);
+    return arena_format(arena, "%s: %s → %s%s", name, was, words_found(after, arena), verdicts);
+}
+
 /* ---- as JSON ----------------------------------------------------------------------------- */
 
 static json_t *two(double before, double after) {
@@ -153,7 +188,7 @@ static json_t *line_json(const LimitVerdict *b, const LimitVerdict *a) {
     return out;
 }
 
-static json_t *finding_json(const FindingDiff *d) {
+json_t *finding_diff_json(const FindingDiff *d) {
     const Finding *b = d->before, *a = d->after, *either = a ? a : b;
     json_t *lines = json_array();
     for (int i = 0; i < either->limit_count; i++) {
@@ -180,7 +215,7 @@ static json_t *finding_json(const FindingDiff *d) {
 json_t *review_diff_json(const ReviewDiff *diff) {
     json_t *list = json_array(), *count = json_object();
     for (int i = 0; i < diff->list_count; i++)
-        json_array_append_new(list, finding_json(&diff->list[i]));
+        json_array_append_new(list, finding_diff_json(&diff->list[i]));
     for (int kind = 0; kind < DIFF_COUNT; kind++)
         json_object_set_new(count, diff_names[kind], json_integer(diff->count[kind]));
     return json_pack("{s:o, s:o, s:[b,b], s:o, s:o}", "before", json_text(diff->before_name),

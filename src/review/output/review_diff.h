@@ -44,6 +44,18 @@ typedef struct ReviewDiff {
 ReviewDiff review_diff(const Review *before, const Review *after, const char *before_name,
                        const char *after_name, Arena *arena);
 
+/* What a variant does to all that is judged besides symbols: gazes, displays in glass, mirrors.
+ * The list lies in the arena, *count of them. */
+const FindingDiff *review_diff_beside(const Review *review, const Review *variant, int *count,
+                                      Arena *arena);
+
+/* "road, seen by driver, night: threshold increment 24.7 % at 70 years → 9.9 % at 70 years, fail →
+ * pass". */
+const char *review_diff_words(const FindingDiff *diff, Arena *arena);
+
+/* Of one. */
+json_t *finding_diff_json(const FindingDiff *diff);
+
 /* {"before", "after", "pass": [before, after], "count": {...}, "findings": [{"condition", "eye",
  * "subject", "change", "verdict": [,], "lines": [{"quantity", "limit", "age_years", "pane",
  * "found": [,], "interval": [[,],[,]], "margin": [,]}]}]}, of a sweep "failed_share" and

@@ -10,7 +10,7 @@
 #include "review/finding.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_privacy.h"
-#include "review/output/review_road.h"
+#include "review/output/review_diff.h"
 #include "review/pane_verdict.h"
 #include "review/review_decide.h"
 #include "review/road_verdict.h"
@@ -180,28 +180,6 @@ static json_t *difference_json(const ReviewDifference *d) {
     return out;
 }
 
-/* A road as it is before or after a change. */
-static json_t *road_side_json(const GazeFinding *gaze, const RoadAge *age) {
-    if (!gaze || !age) return json_null();
-    return json_pack("{s:o, s:[o,o], s:s}", "threshold_increment_pct",
-                     json_figure(age->increment_pct), "threshold_increment_interval",
-                     json_figure(age->increment_range.low), json_figure(age->increment_range.high),
-                     "outcome", road_outcome(gaze));
-}
-
-static json_t *road_changes_json(const Review *review, const Review *variant) {
-    json_t *list = json_array();
-    RoadChange c;
-    for (int i = 0; road_change_at(review, variant, i, &c); i++)
-        json_array_append_new(list,
-                              json_pack("{s:o, s:o, s:o, s:f, s:o, s:o}", "condition",
-                                        text(c.after->condition), "eye", text(c.after->eye), "gaze",
-                                        text(c.after->gaze), "age_years", c.age_after->age_years,
-                                        "before", road_side_json(c.before, c.age_before), "after",
-                                        road_side_json(c.after, c.age_after)));
-    return list;
-}
-
 static json_t *variant_json(const Review *review, const ReviewVariantFound *v) {
     json_t *out = json_pack("{s:o, s:o, s:b, s:s}", "name", text(v->name), "changes",
                             json_texts(v->words, v->word_count), "pass", v->review->pass, "verdict",
@@ -213,9 +191,13 @@ static json_t *variant_json(const Review *review, const ReviewVariantFound *v) {
                               difference_json(&v->differences[i]));
     set(out, "cases", cases);
     set(out, "sweeps", sweeps);
-    json_t *roads = road_changes_json(review, v->review);
-    if (json_array_size(roads)) set(out, "roads", roads);
-    else json_decref(roads);
+    Arena scratch = arena_reserve(DOCUMENT_BYTES);
+    int count;
+    const FindingDiff *beside = review_diff_beside(review, v->review, &count, &scratch);
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++) json_array_append_new(list, finding_diff_json(&beside[i]));
+    set(out, "findings", list);
+    arena_release(&scratch);
     if (v->frame)
         set(out, "frames",
             json_pack("{s:o, s:o}", "before", text(v->frame_before), "after", text(v->frame)));

@@ -105,46 +105,6 @@ const char *road_words(const GazeFinding *gaze, Arena *arena) {
         displays_words(age, arena));
 }
 
-/* ---- of variants ------------------------------------------------------------------------- */
-
-static const GazeFinding *gaze_like(const Review *review, const GazeFinding *like) {
-    for (int i = 0; i < review->gaze_count; i++) {
-        const GazeFinding *g = &review->gazes[i];
-        if (g->road && g->road->age_count && words_same(g->condition, like->condition) &&
-            words_same(g->eye, like->eye) && words_same(g->gaze, like->gaze))
-            return g;
-    }
-    return NULL;
-}
-
-bool road_change_at(const Review *review, const Review *variant, int at, RoadChange *out) {
-    for (int i = 0; i < variant->gaze_count; i++) {
-        const GazeFinding *after = &variant->gazes[i];
-        if (!after->road || !after->road->age_count || at-- > 0) continue;
-        *out = (RoadChange){gaze_like(review, after), after, NULL, shown_age(after)};
-        for (int k = 0; out->before && k < out->before->road->age_count; k++)
-            if (out->before->road->ages[k].age_years == out->age_after->age_years)
-                out->age_before = &out->before->road->ages[k];
-        return true;
-    }
-    return false;
-}
-
-const char *road_change_words(const RoadChange *c, Arena *arena) {
-    const RoadAge *a = c->age_after, *b = c->age_before;
-    const char *after =
-        words_within(a->increment_pct, a->increment_range.low, a->increment_range.high, arena);
-    const char *before = b ? arena_format(arena, "%s → ",
-                                          words_within(b->increment_pct, b->increment_range.low,
-                                                       b->increment_range.high, arena))
-                           : "";
-    const char *was = c->before ? arena_format(arena, "%s → ", road_outcome(c->before)) : "";
-    return arena_format(arena, "%s: threshold increment %s%s %% (%s) at %.4g years, %s%s",
-                        road_name(c->after, arena), before, after,
-                        words_interval(a->increment_range.low, a->increment_range.high, arena),
-                        a->age_years, was, road_outcome(c->after));
-}
-
 /* ---- windows ----------------------------------------------------------------------------- */
 
 static const char *percent(double level, Arena *arena) {

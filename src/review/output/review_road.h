@@ -18,21 +18,6 @@ const char *road_words(const GazeFinding *gaze, Arena *arena);
 /* "pass", "fail", ...; "no limit", "not evaluated". */
 const char *road_outcome(const GazeFinding *gaze);
 
-/* A variant's road and the review's own, of the same condition, eye and gaze, by the age that
- * is told of the variant. */
-typedef struct RoadChange {
-    const GazeFinding *before, *after;
-    const RoadAge *age_before, *age_after;
-} RoadChange;
-
-/* The at-th of a variant's evaluated roads; false: it has no more. before NULL: none is like
- * it. */
-bool road_change_at(const Review *review, const Review *variant, int at, RoadChange *out);
-
-/* "road, seen by driver, night: threshold increment 24.7 -> 9.9 % (9.8 to 10.0) at 70 years,
- * fail -> pass". */
-const char *road_change_words(const RoadChange *change, Arena *arena);
-
 /* Adds `roads` to the page's document. */
 void road_add_values(json_t *document, const Review *review, Arena *arena);
 

@@ -7,7 +7,7 @@
 
 #include "page/page.h"
 #include "review/output/review_values.h"
-#include "review/output/review_road.h"
+#include "review/output/review_diff.h"
 #include "review/output/review_words.h"
 #include "review/quantity.h"
 #include "review/review_decide.h"
@@ -211,11 +211,12 @@ static void add_differences(json_t *to, const ReviewVariantFound *v, Arena *aren
     for (size_t i = 0; i < count; i++) add_difference(list, sorted[i], arena);
 }
 
-static void add_roads(json_t *to, const Review *review, const Review *variant, Arena *arena) {
-    json_t *list = values_list(to, "road_changes");
-    RoadChange change;
-    for (int i = 0; road_change_at(review, variant, i, &change); i++)
-        json_array_append_new(list, json_string(road_change_words(&change, arena)));
+static void add_beside(json_t *to, const Review *review, const Review *variant, Arena *arena) {
+    json_t *list = values_list(to, "beside");
+    int count;
+    const FindingDiff *beside = review_diff_beside(review, variant, &count, arena);
+    for (int i = 0; i < count; i++)
+        json_array_append_new(list, json_string(review_diff_words(&beside[i], arena)));
 }
 
 static bool add_pair(json_t *to, const ReviewPicture pair[2], Arena scratch, Error *err) {
@@ -237,7 +238,7 @@ static bool add_variant(const PageValues *v, json_t *list, const ReviewVariantFo
     if (least->after)
         set_figure(values_object(to, "least"), least, least_where(least, arena), arena);
     add_differences(to, variant, arena);
-    add_roads(to, v->review, variant->review, arena);
+    add_beside(to, v->review, variant->review, arena);
     return add_pair(to, pairs ? &pairs[2 * (variant - v->review->variants)] : NULL, *arena, err);
 }
 
