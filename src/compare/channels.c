@@ -79,10 +79,9 @@ static bool add_gap(const Pair *pair, size_t i, long place, ChannelDifference *o
     return true;
 }
 
-static ChannelDifference compare_channel(const char *name, const Pair *pair,
-                                         const Selection *selection, ChannelDifferences *all) {
-    ChannelDifference out = {.name = name};
-    long finite = 0;
+/* differs: one byte a place. */
+static void add_values(const Pair *pair, PixelMask counts, unsigned char *differs,
+                       ChannelDifference *out, ChannelDifferences *all) {
     for (size_t i = 0; i < pair->count; i++) {
         long place = pair->frame ? selection_place(pair->frame, i) : (long)i;
         float a = pair->values[0][i], b = pair->values[1][i];
@@ -91,23 +90,21 @@ static ChannelDifference compare_channel(const char *name, const Pair *pair,
             all->outside += !same_gap(a, b);
             continue;
         }
-        if (!selection->counts[place]) {
+        if (!counts[place]) {
             all->left_out[0] += pair->is_light && !isfinite(a);
             all->left_out[1] += pair->is_light && !isfinite(b);
             continue;
         }
-        bool is_different = is_finite ? a != b : add_gap(pair, i, place, &out);
+        bool is_different = is_finite ? a != b : add_gap(pair, i, place, out);
         if (is_finite) {
             double distance = fabs((double)b - (double)a);
-            out.mean += distance;
-            out.max = fmax(out.max, distance);
-            finite++;
+            out->mean += distance;
+            out->max = fmax(out->max, distance);
+            out->finite++;
         }
-        out.differing += is_different;
-        if (is_different) all->differs[place] = 1;
+        out->differing += is_different;
+        if (is_different) differs[place] = 1;
     }
-    out.mean = finite ? out.mean / (double)finite : 0;
-    return out;
 }
 
 /* ---- the channels of frames and of pictures ---------------------------------------------- */
@@ -125,44 +122,48 @@ static Pair frame_pair(const CompareInput *reference, const CompareInput *test, 
                   !structure->shares_paths};
 }
 
-static void compare_frames(const CompareInput *reference, const CompareInput *test,
-                           const Structure *structure, const CompareRules *rules,
-                           const Selection *selection, ChannelDifferences *out) {
-    for (int i = 0; i < reference->frame.channel_count; i++) {
-        const char *name = reference->frame.channels[i].name;
-        Pair pair = frame_pair(reference, test, name, structure);
-        if (!pair.values[1] || metadata_ignores(rules, name)) continue;
-        out->list[out->count++] = compare_channel(name, &pair, selection, out);
-    }
+ChannelDifferences channels_start(int count, Arena *arena) {
+    return (ChannelDifferences){.list = ARENA_NEW(arena, ChannelDifference, count)};
 }
 
-static void compare_codes(const CompareInput *reference, const CompareInput *test,
-                          const CompareRules *rules, const Selection *selection,
-                          ChannelDifferences *out) {
-    static const char *const NAMES[4] = {"R", "G", "B", "A"};
-    for (int c = 0; c < 4; c++) {
-        Pair pair = {.count = planes_pixel_count(&reference->codes),
-                     .row = reference->codes.width,
-                     .width = reference->codes.width,
-                     .is_light = true};
-        pair.values[0] = c < 3 ? reference->codes.rgb[c] : reference->alpha;
-        pair.values[1] = c < 3 ? test->codes.rgb[c] : test->alpha;
-        if (!pair.values[0] || !pair.values[1] || metadata_ignores(rules, NAMES[c])) continue;
-        out->list[out->count++] = compare_channel(NAMES[c], &pair, selection, out);
-    }
+void channels_end(ChannelDifferences *all) {
+    for (int i = 0; i < all->count; i++) all->list[i].mean /= fmax((double)all->list[i].finite, 1);
 }
 
 ChannelDifferences channels_compare(const CompareInput *reference, const CompareInput *test,
                                     const Structure *structure, const CompareRules *rules,
                                     const Selection *selection, Arena *arena) {
+    ChannelDifferences out = channels_start(reference->frame.channel_count, arena);
     size_t pixels = planes_pixel_count(&reference->light);
-    ChannelDifferences out = {.differs = ARENA_NEW(arena, unsigned char, pixels)};
-    bool is_frame = reference->kind == INPUT_FRAME;
-    out.list = ARENA_NEW(arena, ChannelDifference, is_frame ? reference->frame.channel_count : 4);
-    if (is_frame) compare_frames(reference, test, structure, rules, selection, &out);
-    else compare_codes(reference, test, rules, selection, &out);
-    for (size_t i = 0; i < pixels; i++) out.differing += out.differs[i];
+    Arena scratch = *arena;
+    unsigned char *differs = ARENA_NEW(&scratch, unsigned char, pixels);
+    for (int i = 0; i < reference->frame.channel_count; i++) {
+        const char *name = reference->frame.channels[i].name;
+        Pair pair = frame_pair(reference, test, name, structure);
+        if (!pair.values[1] || metadata_ignores(rules, name)) continue;
+        ChannelDifference *to = &out.list[out.count++];
+        to->name = name;
+        add_values(&pair, selection->counts, differs, to, &out);
+    }
+    for (size_t i = 0; i < pixels; i++) out.differing += differs[i];
+    channels_end(&out);
     return out;
+}
+
+void channels_add_codes(const CodeRows sides[2], PixelMask counts, size_t count,
+                        const CompareRules *rules, unsigned char *differs,
+                        ChannelDifferences *all) {
+    static const char *const NAMES[4] = {"R", "G", "B", "A"};
+    int n = 0;
+    for (int c = 0; c < 4; c++) {
+        Pair pair = {.count = count, .width = sides[0].codes.width, .is_light = true};
+        for (int k = 0; k < 2; k++) pair.values[k] = c < 3 ? sides[k].codes.rgb[c] : sides[k].alpha;
+        if (!pair.values[0] || !pair.values[1] || metadata_ignores(rules, NAMES[c])) continue;
+        all->list[n].name = NAMES[c];
+        add_values(&pair, counts, differs, &all->list[n++], all);
+    }
+    all->count = n;
+    for (size_t i = 0; i < count; i++) all->differing += differs[i];
 }
 
 static void report_nonfinite(const ChannelDifference *c, Lines *reasons) {

@@ -19,19 +19,26 @@ typedef struct ChannelDifference {
     long nonfinite[2]; /* of light: in the reference, in the test */
     int first[2][2];   /* x, y of the first of those, each side */
     long gaps;         /* NaN or infinity on one side only, which nothing excuses */
+    long finite;       /* values that are so on both sides */
     double max, mean;  /* of |test - reference| where both are finite */
 } ChannelDifference;
 
 typedef struct ChannelDifferences {
     ChannelDifference *list;
     int count;
-    long differing;         /* pixels of which some channel differs */
-    unsigned char *differs; /* which: one byte a pixel of the display window */
-    long left_out[2];       /* pixels without finite light that do not count: see mask */
-    long outside;           /* values that differ outside of the display window */
+    long differing;   /* pixels of which some channel differs */
+    long left_out[2]; /* pixels without finite light that do not count: see mask */
+    long outside;     /* values that differ outside of the display window */
 } ChannelDifferences;
 
-/* Both sides have the same pixels. Only channels that both have are looked at. */
+/* Of pictures, band by band: `count` pixels of both, whose differs is scratch of as many bytes, 0;
+ * counts: their mask. */
+ChannelDifferences channels_start(int count, Arena *arena);
+void channels_add_codes(const CodeRows sides[2], PixelMask counts, size_t count,
+                        const CompareRules *rules, unsigned char *differs, ChannelDifferences *all);
+void channels_end(ChannelDifferences *all);
+
+/* Of frames that have the same pixels. Only channels that both have are looked at. */
 ChannelDifferences channels_compare(const CompareInput *reference, const CompareInput *test,
                                     const Structure *structure, const CompareRules *rules,
                                     const Selection *selection, Arena *arena);

@@ -102,13 +102,14 @@ static void judge(const CompareOptions *options, Arena *arena, Comparison *out) 
     judge_limits(out);
 }
 
-/* ---- two large pictures of codes, in bands of rows --------------------------------------- */
+/* ---- two pictures of codes, in bands of rows --------------------------------------------- */
 
-/* A band has as many rows around it as a filter reaches, so that no value depends on where it
- * begins; sums go on from band to band in the order of the pixels. All figures have the bits
- * that they would have of whole pictures. There are no maps at the end, and so no pictures of
- * them in a report. What is packed takes 4 bytes a pixel and side (8 of 16 bits), one map and
- * the selection 5 more a pixel, and a band of both sides. */
+/* A picture that is whole is one band. Those of large ones have as many rows around them as a
+ * filter reaches, so that no value depends on where a band begins; sums go on from band to band
+ * in the order of the pixels, and all figures have the bits that they would have of whole
+ * pictures. There are no maps at the end, and so no pictures of them in a report. What is packed
+ * takes 4 bytes a pixel and side (8 of 16 bits), one map and the selection 5 more a pixel, and a
+ * band of both sides. */
 
 #define BAND_ROWS 128
 
@@ -133,8 +134,10 @@ static void share_codes(const CompareRules *rules, const CodeRows *from, CodeRow
 /* The band that begins with row y0; false below the picture. */
 static bool next_band(const CompareOptions *options, const Comparison *c, int y0, int halo,
                       Arena *arena, RowBand *out) {
+    const CompareInput *const sides[2] = {&c->reference, &c->test};
     const Planes *size = &c->reference.codes;
-    int rows = options->band_rows > 0 ? options->band_rows : BAND_ROWS;
+    bool is_whole = !input_is_packed(&c->reference);
+    int rows = is_whole ? size->height : options->band_rows > 0 ? options->band_rows : BAND_ROWS;
     if (y0 >= size->height) return false;
     int y1 = size->height - y0 < rows ? size->height : y0 + rows;
     int top = y0 > halo ? y0 - halo : 0;
@@ -145,8 +148,9 @@ static bool next_band(const CompareOptions *options, const Comparison *c, int y0
                     .mask = c->selection.counts + (size_t)top * (size_t)size->width,
                     .first = (size_t)(y0 - top) * (size_t)size->width,
                     .end = (size_t)(y1 - top) * (size_t)size->width};
-    band.side[0] = input_unpack(&c->reference, top, bottom, arena);
-    band.side[1] = input_unpack(&c->test, top, bottom, arena);
+    for (int k = 0; k < 2; k++)
+        band.side[k] = is_whole ? (CodeRows){sides[k]->codes, sides[k]->light, sides[k]->alpha}
+                                : input_unpack(sides[k], top, bottom, arena);
     share_codes(&options->rules, &band.side[0], &band.side[1]);
     *out = band;
     return true;
@@ -154,49 +158,20 @@ static bool next_band(const CompareOptions *options, const Comparison *c, int y0
 
 /* ---- channels ---------------------------------------------------------------------------- */
 
-static const float *plane_of(const CodeRows *rows, int channel) {
-    return channel < 3 ? rows->codes.rgb[channel] : rows->alpha;
-}
-
-/* differs: one byte a pixel of the band. */
-static void add_channel(const RowBand *band, int channel, unsigned char *differs,
-                        ChannelDifference *out) {
-    const float *a = plane_of(&band->side[0], channel), *b = plane_of(&band->side[1], channel);
-    for (size_t i = band->first; i < band->end; i++) {
-        if (!band->mask[i]) continue;
-        double distance = fabs((double)b[i] - (double)a[i]);
-        out->mean += distance;
-        out->max = fmax(out->max, distance);
-        out->differing += a[i] != b[i];
-        if (a[i] != b[i]) differs[i] = 1;
-    }
-}
-
-/* The findings of channels_compare, without its map of differing pixels, and what changes the
- * grid of `out`, which has its sides and its selection. */
-static ChannelDifferences picture_bands_channels(const CompareOptions *options, Comparison *out,
-                                                 Arena *arena) {
-    static const char *const NAMES[4] = {"R", "G", "B", "A"};
-    ChannelDifferences found = {.list = ARENA_NEW(arena, ChannelDifference, 4)};
-    int channel[4];
-    bool both_have_alpha = out->reference.has_alpha && out->test.has_alpha;
-    for (int c = 0; c < (both_have_alpha ? 4 : 3); c++) {
-        if (metadata_ignores(&options->rules, NAMES[c])) continue;
-        channel[found.count] = c;
-        found.list[found.count++] = (ChannelDifference){.name = NAMES[c]};
-    }
+/* The channels of two pictures, and what changes the grid of `out`, which has its sides and its
+ * selection. */
+static ChannelDifferences picture_channels(const CompareOptions *options, Comparison *out,
+                                           Arena *arena) {
+    ChannelDifferences found = channels_start(4, arena);
     Arena scratch = *arena;
-    RowBand band;
-    for (int y = 0; next_band(options, out, y, 0, &scratch, &band); y = band.y1) {
-        unsigned char *differs = ARENA_NEW(&scratch, unsigned char, band.end);
-        const Planes *const light[2] = {&band.side[0].light, &band.side[1].light};
-        change_add_rows(&out->grid, light, band.mask, band.top, (const int[2]){band.y0, band.y1});
-        for (int c = 0; c < found.count; c++)
-            add_channel(&band, channel[c], differs, &found.list[c]);
-        for (size_t i = 0; i < band.end; i++) found.differing += differs[i];
-        scratch = *arena;
+    RowBand b;
+    for (int y = 0; next_band(options, out, y, 0, &scratch, &b); y = b.y1, scratch = *arena) {
+        const Planes *const light[2] = {&b.side[0].light, &b.side[1].light};
+        change_add_rows(&out->grid, light, b.mask, b.top, (const int[2]){b.y0, b.y1});
+        unsigned char *differs = ARENA_NEW(&scratch, unsigned char, b.end);
+        channels_add_codes(b.side, b.mask, b.end, &options->rules, differs, &found);
     }
-    for (int c = 0; c < found.count; c++) found.list[c].mean /= (double)out->selection.pixels;
+    channels_end(&found);
     return found;
 }
 
@@ -248,45 +223,58 @@ static void map_deltae(const RowBand *band, int threads, Arena scratch, float *m
 }
 
 /* A map over the whole picture, a band at a time. */
-static void fill_map(const CompareOptions *options, const Comparison *c, int halo, Arena arena,
-                     void (*map_band)(const RowBand *, int, Arena, float *), float *map) {
+static MapSummary fill_map(const CompareOptions *options, const Comparison *c, int halo,
+                           Arena arena, void (*map_band)(const RowBand *, int, Arena, float *),
+                           float *map) {
     Arena scratch = arena;
     RowBand b;
     for (int y = 0; next_band(options, c, y, halo, &scratch, &b); y = b.y1, scratch = arena)
         map_band(&b, options->threads, scratch,
                  map + (size_t)b.y0 * (size_t)c->reference.codes.width);
+    return map_summary(map, planes_pixel_count(&c->reference.codes), c->selection.counts);
 }
 
-/* One map after the other in the same place. */
-static void measure_maps(const CompareOptions *options, unsigned groups, Arena arena,
+/* Of large pictures one map after the other in the same place. */
+static void measure_maps(const CompareOptions *options, unsigned groups, Arena *arena,
                          Comparison *out) {
     size_t count = planes_pixel_count(&out->reference.codes);
-    float *map = ARENA_NEW(&arena, float, count);
+    bool is_whole = !input_is_packed(&out->reference);
+    Arena scratch = *arena;
+    Arena *from = is_whole ? arena : &scratch;
+    float *map = ARENA_NEW(from, float, count);
     if (groups & GROUP_FLIP) {
-        Arena scratch = arena;
-        int halo = flip_filters_create(FLIP_PIXELS_PER_DEGREE, &scratch).radius;
+        Arena filters = *from;
+        int halo = flip_filters_create(FLIP_PIXELS_PER_DEGREE, &filters).radius;
         /* what fills a mask comes from as far beyond what a filter reaches */
-        fill_map(options, out, 2 * halo, arena, map_flip, map);
-        MapSummary s = map_summary(map, count, out->selection.counts);
+        MapSummary s = fill_map(options, out, 2 * halo, *from, map_flip, map);
         metrics_set_flip(&s, out);
+        if (is_whole) out->flip_map = map;
+        if (is_whole) map = ARENA_NEW(from, float, count);
     }
     if (groups & GROUP_DELTAE) {
-        fill_map(options, out, 0, arena, map_deltae, map);
-        MapSummary e = map_summary(map, count, out->selection.counts);
+        MapSummary e = fill_map(options, out, 0, *from, map_deltae, map);
         metrics_set_deltae(&e, out);
+        if (is_whole) out->deltae_map = map;
     }
 }
 
-/* Values of `out`, and a note of what is left out. groups: GROUP_... bits. */
-static void picture_bands_measure(const CompareOptions *options, unsigned groups, Arena scratch,
-                                  Comparison *out) {
-    if (groups & (GROUP_MSE | GROUP_PSNR)) measure_errors(options, groups, scratch, out);
-    if (groups & GROUP_SSIM) measure_ssim(options, scratch, out);
-    if (groups & (GROUP_FLIP | GROUP_DELTAE)) measure_maps(options, groups, scratch, out);
+/* Values of `out`; of large pictures a note of what is left out. groups: GROUP_... bits. */
+static void measure_pictures(const CompareOptions *options, unsigned groups, Arena *arena,
+                             Comparison *out) {
+    RowBand all;
     out->mask = out->selection.counts;
-    lines_add(&out->notes, "compared in bands of rows, as pictures of so many pixels are: the "
-                           "figures are those of whole pictures, a report has neither the "
-                           "pictures nor maps of FLIP, of CIEDE2000 and of differences");
+    if (!input_is_packed(&out->reference) && next_band(options, out, 0, 0, arena, &all)) {
+        for (int k = 0; k < 2; k++) out->light[k] = all.side[k].light;
+        out->test.codes = all.side[1].codes;
+        out->test.light = all.side[1].light;
+    } else {
+        lines_add(&out->notes, "compared in bands of rows, as pictures of so many pixels are: the "
+                               "figures are those of whole pictures, a report has neither the "
+                               "pictures nor maps of FLIP, of CIEDE2000 and of differences");
+    }
+    if (groups & (GROUP_MSE | GROUP_PSNR)) measure_errors(options, groups, *arena, out);
+    if (groups & GROUP_SSIM) measure_ssim(options, *arena, out);
+    if (groups & (GROUP_FLIP | GROUP_DELTAE)) measure_maps(options, groups, arena, out);
 }
 
 /* ---- the comparison ---------------------------------------------------------------------- */
@@ -302,14 +290,14 @@ static void start(const CompareInput *reference, const CompareInput *test, Arena
     for (int i = 0; i < METRIC_COUNT; i++) out->value[i] = NAN;
 }
 
-/* Large pictures in bands, all others whole. */
 static bool measure(const CompareOptions *options, Arena *arena, Comparison *out, Error *err) {
     unsigned groups = groups_of(options);
     if (options->wants_stat && out->reference.kind == INPUT_PICTURE)
         return error_at(err, ERROR_INPUT, out->reference.name, "",
                         "is a picture: only frames tell their noise to a statistical test");
-    if (!input_is_packed(&out->reference)) return metrics_measure(options, groups, arena, out, err);
-    picture_bands_measure(options, groups, *arena, out);
+    if (out->reference.kind == INPUT_FRAME)
+        return metrics_measure(options, groups, arena, out, err);
+    measure_pictures(options, groups, arena, out);
     return true;
 }
 
@@ -351,8 +339,8 @@ static bool compare_pixels(const CompareOptions *options, Arena *arena, Comparis
     out->grid =
         change_grid(out->reference.light.width, out->reference.light.height,
                     out->reference.kind == INPUT_PICTURE || out->structure.shares_field, arena);
-    out->channels = input_is_packed(&out->reference)
-                        ? picture_bands_channels(options, out, arena)
+    out->channels = out->reference.kind == INPUT_PICTURE
+                        ? picture_channels(options, out, arena)
                         : channels_compare(&out->reference, &out->test, &out->structure,
                                            &options->rules, &out->selection, arena);
     out->value[METRIC_DIFFERING] = (double)out->channels.differing / (double)out->selection.pixels;
@@ -395,20 +383,14 @@ static void take_display(const CompareOptions *options, Arena *arena, Comparison
     lines_add(&out->notes, "%s: %s", why.file, why.text);
 }
 
-/* As share_codes, of whole pictures and of frames. */
+/* As share_codes, of frames. */
 static bool share_ignored(const CompareOptions *options, Arena *arena, Comparison *out,
                           Error *err) {
     FrameImage *frame = &out->test.frame;
     ExrChannel *channels = ARENA_NEW(arena, ExrChannel, frame->channel_count);
-    if (!out->structure.same_pixels || !options->rules.ignored_count) return true;
-    if (out->reference.kind == INPUT_PICTURE) {
-        const CodeRows from = {out->reference.codes, out->reference.light, NULL};
-        CodeRows to = {out->test.codes, out->test.light, NULL};
-        share_codes(&options->rules, &from, &to);
-        out->test.codes = to.codes;
-        out->test.light = to.light;
+    if (!out->structure.same_pixels || !options->rules.ignored_count ||
+        out->reference.kind == INPUT_PICTURE)
         return true;
-    }
     for (int i = 0; i < frame->channel_count; i++) {
         channels[i] = frame->channels[i];
         const float *other = frame_channel(&out->reference.frame, channels[i].name);

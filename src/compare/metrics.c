@@ -128,18 +128,6 @@ void metrics_set_deltae(const MapSummary *deltae, Comparison *out) {
 
 /* ---- metrics ----------------------------------------------------------------------------- */
 
-static void measure_errors(unsigned groups, Arena scratch, Comparison *out) {
-    bool is_frame = out->reference.kind == INPUT_FRAME;
-    const Planes *a = is_frame ? &out->light[0] : &out->reference.codes;
-    const Planes *b = is_frame ? &out->light[1] : &out->test.codes;
-    PixelErrors e = pixel_errors_measure(a, b, out->mask, is_frame, scratch);
-    /* A mean of luminance is one of light. */
-    if (!is_frame)
-        e.mean_shift =
-            pixel_errors_measure(&out->light[0], &out->light[1], out->mask, 0, scratch).mean_shift;
-    metrics_set_errors(&e, groups, out);
-}
-
 static void note_silly_range(Comparison *out) {
     const FlipExposures *e = &out->exposures;
     if (e->stop_ev - e->start_ev <= SILLY_STOPS) return;
@@ -160,23 +148,17 @@ static void measure_flip(const CompareOptions *options, Arena *arena, Comparison
         flip.start_ev = stops_of_ev(options->range_ev[1]);
         flip.stop_ev = stops_of_ev(options->range_ev[0]);
     }
-    if (out->reference.kind == INPUT_FRAME) {
-        out->exposures =
-            flip_hdr(&out->light[0], &out->light[1], &flip, *arena, out->flip_map, NULL);
-        if (!options->has_range) note_silly_range(out);
-    } else {
-        flip_ldr(&out->light[0], &out->light[1], &flip, *arena, out->flip_map);
-    }
+    out->exposures = flip_hdr(&out->light[0], &out->light[1], &flip, *arena, out->flip_map, NULL);
+    if (!options->has_range) note_silly_range(out);
     MapSummary s = map_summary(out->flip_map, count, out->mask);
     metrics_set_flip(&s, out);
 }
 
 static void measure_colour(Arena *arena, Comparison *out) {
-    bool is_frame = out->reference.kind == INPUT_FRAME;
     out->deltae_map = ARENA_NEW(arena, float, planes_pixel_count(&out->light[0]));
     Arena scratch = *arena;
-    Planes a = is_frame ? shown_light(&out->reference.codes, &scratch) : out->light[0];
-    Planes b = is_frame ? shown_light(&out->test.codes, &scratch) : out->light[1];
+    Planes a = shown_light(&out->reference.codes, &scratch);
+    Planes b = shown_light(&out->test.codes, &scratch);
     MapSummary e = deltae_pictures(&a, &b, out->mask, out->deltae_map);
     metrics_set_deltae(&e, out);
 }
@@ -269,16 +251,19 @@ static bool measure_statistic(const CompareOptions *options, Arena *arena, Compa
 
 bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *arena, Comparison *out,
                      Error *err) {
-    bool is_frame = out->reference.kind == INPUT_FRAME;
     clean_light(out, arena);
-    change_add_rows(&out->grid, (const Planes *const[2]){&out->light[0], &out->light[1]}, out->mask,
-                    0, (const int[2]){0, out->grid.height});
-    if (groups & (GROUP_MSE | GROUP_PSNR)) measure_errors(groups, *arena, out);
+    const Planes *a = &out->light[0], *b = &out->light[1];
+    change_add_rows(&out->grid, (const Planes *const[2]){a, b}, out->mask, 0,
+                    (const int[2]){0, out->grid.height});
+    if (groups & (GROUP_MSE | GROUP_PSNR)) {
+        PixelErrors e = pixel_errors_measure(a, b, out->mask, true, *arena);
+        metrics_set_errors(&e, groups, out);
+    }
     if (groups & GROUP_FLIP) measure_flip(options, arena, out);
     if (groups & GROUP_SSIM)
         out->value[METRIC_SSIM] =
             ssim_mean(&out->reference.codes, &out->test.codes, out->mask, NULL, *arena);
     if (groups & GROUP_DELTAE) measure_colour(arena, out);
-    if (is_frame && (groups & GROUP_CONTRAST)) measure_displays(arena, out);
-    return !is_frame || !(groups & GROUP_STAT) || measure_statistic(options, arena, out, err);
+    if (groups & GROUP_CONTRAST) measure_displays(arena, out);
+    return !(groups & GROUP_STAT) || measure_statistic(options, arena, out, err);
 }

@@ -14,8 +14,8 @@
  * theirs. */
 bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *out, Error *err);
 
-/* Fills light, mask, maps, values, contrasts and the statistic of `out`, whose sides have the
- * same pixels; adds notes. groups: GROUP_... bits. */
+/* Of frames: fills light, mask, grid, maps, values, contrasts and the statistic of `out`, whose
+ * sides have the same pixels; adds notes. groups: GROUP_... bits. */
 bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *arena, Comparison *out,
                      Error *err);
 
