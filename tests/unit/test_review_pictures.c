@@ -107,9 +107,9 @@ TEST(a_variant_shows_its_least_margin_and_what_moves_most_first) {
     after->limits = &limits[1];
     before->limit_count = after->limit_count = 1;
     ReviewDifference all[3] = {
-        {&review.cases[3], &changed.cases[3], NULL, NULL, 0, {0, 0}},
-        {before, after, NULL, NULL, 0.5, {0.49, 0.51}},
-        {&review.cases[1], &changed.cases[1], NULL, NULL, -0.1, {-0.11, -0.09}}};
+        {&review.cases[3], &changed.cases[3], NULL, NULL, 0, {0, 0}, false},
+        {before, after, NULL, NULL, 0.5, {0.49, 0.51}, false},
+        {&review.cases[1], &changed.cases[1], NULL, NULL, -0.1, {-0.11, -0.09}, false}};
     ReviewVariantFound variant = {.name = "hood",
                                   .words = changes,
                                   .word_count = 1,

@@ -22,32 +22,26 @@
 
 /* ---- the list ---------------------------------------------------------------------------- */
 
-static json_t *add_listed(json_t *verdicts, const char *name) {
-    return values_list(values_object(verdicts, name), "listed");
-}
-
-/* The worst first: what fails or is too close, what cannot be judged, and the others; most: so
- * many in all, 0: no end. */
+/* The worst first, by verdict; what does not count is with what passes. most: so many in all, 0:
+ * no end. */
 static void values_add_list(const PageValues *v, int most) {
+    static const char *const NAMES[] = {[VERDICT_PASS] = "others",
+                                        [VERDICT_FAIL] = "failing",
+                                        [VERDICT_TOO_CLOSE] = "close",
+                                        [VERDICT_UNJUDGED] = "unjudged",
+                                        "all"};
     Findings ranked = review_ranked(v->review, v->arena);
     int listed = most && most < ranked.count ? most : ranked.count;
-    json_t *verdicts = values_object(v->doc, "verdicts");
-    json_t *failing = add_listed(verdicts, "failing"), *open = add_listed(verdicts, "unjudged");
-    json_t *others = add_listed(verdicts, "others"), *all = add_listed(verdicts, "all");
+    json_t *verdicts = values_object(v->doc, "verdicts"), *lists[5];
+    for (int i = 0; i < 5; i++) lists[i] = values_list(values_object(verdicts, NAMES[i]), "listed");
     for (int i = 0; i < listed; i++) {
         const Finding *f = &ranked.list[i];
-        bool is_other = !f->counts || f->verdict == VERDICT_PASS;
-        values_add_finding(v,
-                           is_other                         ? others
-                           : f->verdict == VERDICT_UNJUDGED ? open
-                                                            : failing,
-                           f);
-        values_add_finding(v, all, f);
+        values_add_finding(v, lists[f->counts ? f->verdict : VERDICT_PASS], f);
+        values_add_finding(v, lists[4], f);
     }
-    page_set_count(verdicts, "failing_count", (int)json_array_size(failing));
-    page_set_count(verdicts, "unjudged_count", (int)json_array_size(open));
-    page_set_count(verdicts, "others_count", (int)json_array_size(others));
-    page_set_count(verdicts, "listed_count", listed);
+    for (int i = 0; i < 5; i++)
+        page_set_count(json_object_get(verdicts, NAMES[i]), "count",
+                       (long)json_array_size(lists[i]));
     page_set_count(verdicts, "unlisted", listed < ranked.count ? ranked.count : 0);
 }
 
