@@ -57,7 +57,8 @@ static double limit_value(LimitKind kind) {
         [LIMIT_VISIBILITY_LEVEL] = 10,    [LIMIT_VISUAL_SECURITY] = 0.7,
         [LIMIT_THRESHOLD_INCREMENT] = 15, [LIMIT_GAZE_VEIL] = 30,
         [LIMIT_GAZE_CONTRAST] = 0.5,      [LIMIT_IMAGE_CONTRAST] = 0.25,
-        [LIMIT_MIRRORED_SUN] = 200};
+        [LIMIT_MIRRORED_SUN] = 200,       [LIMIT_COLOUR_SHIFT] = 0.05,
+        [LIMIT_COLOUR_DIFFERENCE] = 0.05};
     return VALUES[kind] > 0 ? between(0.7, 1.3) * VALUES[kind] : between(0.5, 2);
 }
 
@@ -92,6 +93,7 @@ static ReviewCase random_case(int i, const Profile *profile) {
     ReviewCase c = review_case_unknown();
     double reflected = between(1, 300);
     CaseVisibility *level = ARENA_NEW(&arena, CaseVisibility, 1);
+    CaseColour *colours = ARENA_NEW(&arena, CaseColour, 3);
     *level = (CaseVisibility){.age_years = 60, .size_arcmin = 3, .glance_s = 0.2, .veil_times = 1};
     c.condition = name_of("c", i % 5);
     c.eye = name_of("e", i % 3);
@@ -110,6 +112,16 @@ static ReviewCase random_case(int i, const Profile *profile) {
                                          0.3 * reflected,  0.7 * reflected, between(0, 20)};
     c.visibilities = level;
     c.visibility_count = 1;
+    c.colours = colours;
+    c.colour_count = chance(0.5) ? 0 : 3;
+    for (int k = 0; k < 3; k++) {
+        double apart = between(0.01, 0.1);
+        MeanInterval range = about(apart);
+        colours[k] = (CaseColour){.symbol = name_of("s", k ? i + k : i),
+                                  .apart = apart,
+                                  .low = range.low,
+                                  .high = range.high};
+    }
     judge_contrasts(&c, about(reflected));
     judge_case(&c, profile, &arena);
     return c;

@@ -352,6 +352,13 @@ static inline Review fixture_odd_review(Arena *arena) {
     static ReviewResponse responses[] = {{WILD_NAME, WILD_NAME, 0, 0, NAN}};
     static ReviewFalseSun false_suns[] = {{WILD_NAME, WILD_NAME, WILD_NAME, NAN, NAN, NAN, NULL, 0,
                                            -1, 1e9, WILD_NAME, 0.1, 3e7, NULL, 0, VERDICT_PASS}};
+    static const CaseColour COLOURS[] = {{.symbol = WILD_NAME,
+                                          .uv = {0.2, 1.0 / 3},
+                                          .dark_uv = {NAN, NAN},
+                                          .apart = NAN,
+                                          .low = 0,
+                                          .high = NAN},
+                                         {.symbol = "", .apart = 1e-7, .high = 1e9}};
     ReviewCase wild = {.condition = WILD_NAME,
                        .eye = WILD_NAME,
                        .symbol = WILD_NAME,
@@ -370,6 +377,8 @@ static inline Review fixture_odd_review(Arena *arena) {
                        .stroke_ratio = NAN,
                        .jnd = NAN,
                        .visibility = NAN,
+                       .colours = COLOURS,
+                       .colour_count = 2,
                        .eye_failed_share = NAN,
                        .when = WILD_NAME,
                        .visible_share = NAN,

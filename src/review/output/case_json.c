@@ -80,12 +80,9 @@ TABLE(visibility_json, CaseVisibility, OWN(FIGURE, CaseVisibility, age_years),
       OWN(FIGURE, CaseVisibility, veil_doubt), OWN(FIGURE, CaseVisibility, size_arcmin),
       OWN(FIGURE, CaseVisibility, glance_s), OWN(TEXT, CaseVisibility, doubts));
 
-TABLE(colour_json, CaseColour, OWN(TEXT, CaseColour, symbol),
-      {"uv", RECORD_NUMBERS, MUST, RECORD_AT(CaseColour, uv), RECORD_RANGE(-HUGE_VAL, HUGE_VAL),
-       RECORD_COUNT(2, 2)},
-      {"dark_uv", RECORD_NUMBERS, MUST, RECORD_AT(CaseColour, dark_uv),
-       RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(2, 2)},
-      AS("delta_uv", FIGURE, CaseColour, apart), AS("interval", RANGE, CaseColour, low));
+TABLE(colour_json, CaseColour, OWN(TEXT, CaseColour, symbol), OWN(RANGE, CaseColour, uv),
+      OWN(RANGE, CaseColour, dark_uv), AS("delta_uv", FIGURE, CaseColour, apart),
+      AS("interval", RANGE, CaseColour, low));
 
 TABLE(place_json, CasePlace,
       {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CasePlace, eye_m),
