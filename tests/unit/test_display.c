@@ -11,7 +11,7 @@
 #include "world_fixture.h"
 
 /* CIE 15: u' = 4X / (X + 15Y + 3Z), v' = 9Y / (X + 15Y + 3Z). */
-static void uv_from_xyz(const float xyz[3], float uv[2]) {
+static void uv_by_hand(const float xyz[3], float uv[2]) {
     float sum = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
     uv[0] = 4 * xyz[0] / sum;
     uv[1] = 9 * xyz[1] / sum;
@@ -114,8 +114,8 @@ TEST(a_frame_shows_what_the_panel_emits) {
                     assert_close(seen.xyz[1], expected[1], 1e-4);
                     for (int k = 0; k < 3; k++) xyz[k] = (float)seen.xyz[k];
                     if (!(expected[1] > 0)) continue;
-                    uv_from_xyz(xyz, uv);
-                    uv_from_xyz(expected, wanted_uv);
+                    uv_by_hand(xyz, uv);
+                    uv_by_hand(expected, wanted_uv);
                     assert_near(uv[0], wanted_uv[0], 1e-4);
                     assert_near(uv[1], wanted_uv[1], 1e-4);
                 }
