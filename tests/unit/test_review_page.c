@@ -371,7 +371,7 @@ TEST(sweeps_that_fail_come_first) {
     const char *page = page_of(&(ReviewPage){.review = &review});
     const char *link = strstr(page, "Every sun, every hour");
     const char *fails = strstr(link, " open><summary><span class=\"chip bad\">");
-    const char *fold = strstr(fails, "1 that passes");
+    const char *fold = strstr(fails, "Passing: 1");
     assert_true(strstr(fails, " id=\"s1\"") < fold && strstr(page, " id=\"s0\"") > fold);
     review.sweeps[1].failed_share = 0;
     review.sweeps[1].worst.eye_failed_share = NAN; /* one eye */

@@ -47,59 +47,41 @@ static void values_add_list(const PageValues *v, int most) {
 
 /* ---- limits ----------------------------------------------------------------------------- */
 
-/* Some limits depend on the height of the characters: one row, from low to high. */
-typedef struct LimitRow {
-    const LimitVerdict *limit;
-    double low, high;
-} LimitRow;
-
-typedef struct LimitRows {
-    LimitRow *list;
-    int count, capacity;
-} LimitRows;
-
 static bool is_same_limit(const LimitVerdict *a, const LimitVerdict *b) {
     return words_same(a->name, b->name) && words_same(a->kind, b->kind) &&
            words_same(a->unit, b->unit) && words_same(a->source, b->source);
 }
 
-static LimitRow *row_of(LimitRows *rows, const LimitVerdict *limit, Arena *arena) {
-    for (int i = 0; i < rows->count; i++)
-        if (is_same_limit(rows->list[i].limit, limit)) return &rows->list[i];
-    if (rows->count == rows->capacity) {
-        rows->capacity = 2 * rows->count + 16;
-        rows->list = ARENA_GROW(arena, LimitRow, rows->list, rows->count, rows->capacity);
-    }
-    rows->list[rows->count] = (LimitRow){limit, limit->value, limit->value};
-    return &rows->list[rows->count++];
-}
-
-static void gather_limits(LimitRows *rows, const ReviewCase *c, Arena *arena) {
-    for (int i = 0; i < c->limit_count; i++) {
-        LimitRow *row = row_of(rows, &c->limits[i], arena);
-        row->low = fmin(row->low, c->limits[i].value);
-        row->high = fmax(row->high, c->limits[i].value);
-    }
-}
-
-static void set_limit_row(json_t *to, const LimitRow *row, Arena *arena) {
-    LimitVerdict low = *row->limit;
-    low.value = row->low;
-    page_set(to, "name", row->limit->name);
-    page_set(to, "source", row->limit->source);
-    page_set(to, "required", words_required(&low, arena));
-    page_set(to, "to", row->high > row->low ? words_number(row->high, arena) : NULL);
-    page_set_flag(to, "is_read", row->limit->read_in_the_standard);
-}
-
-/* Every limit that was requested, once, with where its value was read. */
+/* Every limit that was held against something, once, with where its value was read; one that
+ * hangs on the height of the characters from low to high. */
 static void values_add_limits(const PageValues *v) {
-    LimitRows rows = {NULL, 0, 0};
+    Findings all = review_findings(v->review, v->arena);
+    int most = 0, count = 0;
+    for (int i = 0; i < all.count; i++) most += all.list[i].limit_count;
+    LimitVerdict *rows = ARENA_NEW(v->arena, LimitVerdict, most);
+    double *high = ARENA_NEW(v->arena, double, most);
+    for (int i = 0; i < all.count; i++)
+        for (int k = 0; k < all.list[i].limit_count; k++) {
+            const LimitVerdict *limit = &all.list[i].limits[k];
+            int at = 0;
+            while (at < count && !is_same_limit(&rows[at], limit)) at++;
+            if (at == count) {
+                rows[count++] = *limit;
+                high[at] = limit->value;
+            }
+            rows[at].value = fmin(rows[at].value, limit->value);
+            high[at] = fmax(high[at], limit->value);
+        }
     json_t *list = values_list(v->doc, "limit_rows");
-    for (int i = 0; i < review_case_count(v->review); i++)
-        gather_limits(&rows, review_case_at(v->review, i), v->arena);
-    for (int i = 0; i < rows.count; i++) set_limit_row(page_add(list), &rows.list[i], v->arena);
-    page_set_flag(v->doc, "has_limit_rows", rows.count > 0);
+    for (int i = 0; i < count; i++) {
+        json_t *to = page_add(list);
+        page_set(to, "name", rows[i].name);
+        page_set(to, "source", rows[i].source);
+        page_set(to, "required", words_required(&rows[i], v->arena));
+        page_set(to, "to", high[i] > rows[i].value ? words_number(high[i], v->arena) : NULL);
+        page_set_flag(to, "is_read", rows[i].read_in_the_standard);
+    }
+    page_set_flag(v->doc, "has_limit_rows", count > 0);
 }
 
 /* ---- what changed ------------------------------------------------------------------------ */
@@ -155,7 +137,6 @@ static void values_add_diff(const PageValues *v) {
 }
 
 #define WORDS_BYTES ((size_t)1 << 34) /* address space */
-#define OPEN_SWEEPS 1
 
 #define SUMMARY_ROWS 5 /* verdicts that fit on one page of paper */
 
@@ -197,42 +178,34 @@ static bool set_head(const PageValues *v, Error *err) {
 
 /* ---- cards ------------------------------------------------------------------------------ */
 
-/* Those of the page in hand, the worst first. */
-typedef struct CardList {
-    const ReviewCase **list;
-    int count, passing, elsewhere;
-} CardList;
-
-static CardList list_cards(const Review *review, bool of_sweeps, Arena *arena) {
-    int all = review_case_count(review);
-    const ReviewCase **ranked = review_rank(review, arena);
-    CardList cards = {.list = ARENA_NEW(arena, const ReviewCase *, all)};
-    for (int i = 0; i < all; i++) {
-        bool is_here = !review->main_cards || (i < review->main_cards) != review->is_beside;
-        if ((review_sweep_of(review, ranked[i]) != NULL) != of_sweeps) continue;
-        cards.elsewhere += !is_here;
-        if (!is_here) continue;
-        cards.list[cards.count++] = ranked[i];
-        cards.passing += ranked[i]->verdict == VERDICT_PASS;
+/* Cards of moments, or of sweeps, on the page in hand, the worst first, which is open: others that
+ * do not pass, and those that do, are folded. */
+static json_t *set_folds(const PageValues *v, const char *name, bool of_sweeps) {
+    const Review *review = v->review;
+    const ReviewCase **ranked = review_rank(review, v->arena);
+    json_t *to = values_object(v->doc, name), *open = values_list(to, "open");
+    json_t *more = values_list(to, "more"), *passing = values_list(to, "passing");
+    int here = 0, elsewhere = 0;
+    for (int i = 0; i < review_case_count(review); i++) {
+        const ReviewSweep *sweep = review_sweep_of(review, ranked[i]);
+        if ((sweep != NULL) != of_sweeps) continue;
+        if (review->main_cards && (i < review->main_cards) == review->is_beside) {
+            elsewhere++;
+            continue;
+        }
+        json_t *card = sweep ? values_of_sweep(v, sweep) : values_of_case(v, ranked[i]);
+        page_set_flag(card, "is_open", here == 0);
+        if (sweep) page_set_flag(json_object_get(card, "worst"), "is_open", false);
+        json_array_append(!here++                              ? open
+                          : ranked[i]->verdict == VERDICT_PASS ? passing
+                                                               : more,
+                          card);
     }
-    return cards;
-}
-
-/* The first is open. */
-static void set_cards(const PageValues *v) {
-    CardList cards = list_cards(v->review, false, v->arena);
-    json_t *to = values_object(v->doc, "cards");
-    json_t *open = values_list(to, "open"), *passing = values_list(to, "passing");
-    int folded = cards.count > cards.passing ? cards.passing : 0;
-    for (int i = 0; i < cards.count; i++) {
-        json_t *card = values_of_case(v, cards.list[i]);
-        page_set_flag(card, "is_open", i == 0);
-        json_array_append(i < cards.count - folded ? open : passing, card);
-    }
-    page_set_count(to, "all", cards.count + cards.elsewhere);
-    page_set_count(to, "elsewhere", cards.elsewhere);
-    page_set_count(to, "passing_count", folded);
-    page_set(to, "passes", folded == 1 ? "passes" : "pass");
+    page_set_count(to, "all", here + elsewhere);
+    page_set_count(to, "elsewhere", elsewhere);
+    page_set_count(to, "more_count", (long)json_array_size(more));
+    page_set_count(to, "passing_count", (long)json_array_size(passing));
+    return json_array_get(open, 0);
 }
 
 /* ---- sweeps ----------------------------------------------------------------------------- */
@@ -263,26 +236,11 @@ static bool set_sweep(const PageValues *v, const ReviewSweep *s, Error *err) {
     return set_drawings(v, to, s, err);
 }
 
-/* The worst is open; all others are a line each. */
 static bool set_sweeps(const PageValues *v, Error *err) {
-    CardList cards = list_cards(v->review, true, v->arena);
-    json_t *to = values_object(v->doc, "swept"), *open = values_list(to, "open");
-    json_t *more = values_list(to, "more"), *passing = values_list(to, "passing");
-    int failing = cards.count - cards.passing;
     for (int i = 0; i < v->review->sweep_count; i++)
         if (!set_sweep(v, &v->review->sweeps[i], err)) return false;
-    for (int i = 0; i < cards.count; i++) {
-        json_t *sweep = values_of_sweep(v, review_sweep_of(v->review, cards.list[i]));
-        page_set_flag(sweep, "is_open", i < OPEN_SWEEPS);
-        page_set_flag(json_object_get(sweep, "worst"), "is_open", false);
-        json_array_append(i < OPEN_SWEEPS ? open : i < failing ? more : passing, sweep);
-    }
-    page_set_count(v->doc, "sweep_count", v->review->sweep_count);
-    page_set_count(to, "elsewhere", cards.elsewhere);
-    page_set_count(to, "more_count", (long)json_array_size(more));
-    page_set_count(to, "passing_count", json_array_size(passing) ? cards.passing : 0);
-    page_set(to, "passes", cards.passing == 1 ? "passes" : "pass");
-    if (cards.count) json_object_set(v->doc, "worst_sweep", json_array_get(open, 0));
+    json_t *worst = set_folds(v, "swept", true);
+    if (worst) json_object_set(v->doc, "worst_sweep", worst);
     return true;
 }
 
@@ -316,7 +274,7 @@ static bool set_all(const PageValues *v, int most, Error *err) {
     if (!set_head(v, err) || !values_add_cases(v, err) || !values_add_answer(v, err) ||
         !set_sweeps(v, err))
         return false;
-    set_cards(v);
+    set_folds(v, "cards", false);
     values_add_list(v, most);
     values_add_limits(v);
     values_add_diff(v);
