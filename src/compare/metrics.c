@@ -148,7 +148,7 @@ static void measure_flip(const CompareOptions *options, Arena *arena, Comparison
         flip.start_ev = stops_of_ev(options->range_ev[1]);
         flip.stop_ev = stops_of_ev(options->range_ev[0]);
     }
-    out->exposures = flip_hdr(&out->light[0], &out->light[1], &flip, *arena, out->flip_map, NULL);
+    out->exposures = flip_hdr(&out->light[0], &out->light[1], &flip, *arena, out->flip_map);
     if (!options->has_range) note_silly_range(out);
     MapSummary s = map_summary(out->flip_map, count, out->mask);
     metrics_set_flip(&s, out);

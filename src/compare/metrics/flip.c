@@ -10,7 +10,6 @@
 #include "base/mathf.h"
 #include "base/parallel.h"
 #include "compare/metrics/flip_filters.h"
-#include "compare/metrics/flip_tone.h"
 #include "compare/metrics/lab.h"
 #include "compare/metrics/planes.h"
 #include "compare/metrics/rank.h"
@@ -34,11 +33,9 @@ typedef struct FlipJob {
     double log_most;              /* of the difference of pure green and pure blue, a power */
     double log_knee, log_stretch; /* of colour differences, see flip_tile.c */
     bool is_hdr;
-    FlipToneMapper tone_mapper; /* these three: HDR */
-    int exposures;              /* LDR: 1 */
-    const double *gains;        /* 2^ev, one per exposure */
-    float *map;                 /* zeroed before the tiles start */
-    float *exposure_map;        /* zeroed, or NULL */
+    int exposures;       /* LDR: 1 */
+    const double *gains; /* HDR: 2^ev, one per exposure */
+    float *map;          /* zeroed before the tiles start */
 } FlipJob;
 
 typedef struct FlipScratch FlipScratch;
@@ -126,6 +123,21 @@ static double clamp_unit(double value) {
     return value > 1 ? 1 : value > 0 ? value : 0;
 }
 
+/* How a display shows light of any scale, which may be above 1: ACES as fitted in FLIP 1.6, a
+ * quotient of polynomials. */
+static const double ACES[6] = {0.36 * 2.51, 0.6 * 0.03, 0, 0.36 * 2.43, 0.6 * 0.59, 0.14};
+
+static double tone_mapped(double x) {
+    return (ACES[0] * x * x + ACES[1] * x + ACES[2]) / (ACES[3] * x * x + ACES[4] * x + ACES[5]);
+}
+
+/* The light that is shown as `shown`, 0 < shown < 1. */
+static double light_of_shown(double shown) {
+    double a = ACES[0] - shown * ACES[3], b = ACES[1] - shown * ACES[4];
+    double c = ACES[2] - shown * ACES[5];
+    return (-b + sqrt(b * b - 4 * a * c)) / (2 * a);
+}
+
 /* Pixel i as a display of the exposure shows it, 0 .. 1. */
 static void displayed_rgb(const FlipJob *job, const Planes *planes, size_t i, double gain,
                           double rgb[3]) {
@@ -134,8 +146,7 @@ static void displayed_rgb(const FlipJob *job, const Planes *planes, size_t i, do
         rgb[c] = value > 0 ? value : 0;
     }
     if (job->is_hdr) {
-        for (int c = 0; c < 3; c++) rgb[c] *= gain;
-        flip_tone_map(job->tone_mapper, rgb);
+        for (int c = 0; c < 3; c++) rgb[c] = tone_mapped(gain * rgb[c]);
     }
     for (int c = 0; c < 3; c++) rgb[c] = clamp_unit(rgb[c]);
 }
@@ -294,8 +305,7 @@ static double feature_difference(const FlipScratch *scratch, int x) {
     return sqrt((edges > points ? edges : points) * 0.7071067811865476);
 }
 
-static void set_pixels(const FlipJob *job, FlipTile tile, int y, int exposure,
-                       const FlipScratch *scratch) {
+static void set_pixels(const FlipJob *job, FlipTile tile, int y, const FlipScratch *scratch) {
     size_t first = (size_t)y * (size_t)job->reference->width;
     for (int x = tile.x0; x < tile.x1; x++) {
         size_t i = first + (size_t)x;
@@ -303,9 +313,7 @@ static void set_pixels(const FlipJob *job, FlipTile tile, int y, int exposure,
         if (log_colour == (double)-INFINITY) continue;
         double feature = feature_difference(scratch, x - tile.x0);
         float value = clampf(exp_f((float)((1 - feature) * log_colour)), 0, 1);
-        if (value <= job->map[i]) continue;
-        job->map[i] = value;
-        if (job->exposure_map) job->exposure_map[i] = (float)exposure;
+        if (value > job->map[i]) job->map[i] = value;
     }
 }
 
@@ -324,7 +332,7 @@ static void flip_exposure(const FlipJob *job, FlipTile tile, int exposure, FlipS
             smooth_column(job, scratch->ring[p], y, &scratch->filtered[p]);
             feature_column(job, scratch->ring[p], y, &scratch->filtered[p]);
         }
-        set_pixels(job, tile, y, exposure, scratch);
+        set_pixels(job, tile, y, scratch);
     }
 }
 
@@ -425,7 +433,6 @@ static void run(const FlipJob *job, int threads, Arena scratch) {
     Tiles tiles = {job, ARENA_NEW(&scratch, FlipScratch *, workers), columns};
     for (int i = 0; i < workers; i++) tiles.scratch[i] = flip_scratch_create(job, &scratch);
     memset(job->map, 0, count * sizeof *job->map);
-    if (job->exposure_map) memset(job->exposure_map, 0, count * sizeof *job->exposure_map);
     parallel_for(workers, items, work_on_tile, &tiles);
 }
 
@@ -472,7 +479,7 @@ static bool find_luminances(const Planes *picture, PixelMask mask, Arena scratch
 static FlipExposures find_exposures(const Planes *reference, const FlipOptions *options,
                                     Arena scratch) {
     FlipExposures range = {options->start_ev, options->stop_ev, options->exposures};
-    double median, most, bright = flip_tone_input(options->tone_mapper, 0.85);
+    double median, most, bright = light_of_shown(0.85);
     if (!options->has_range) {
         bool has_light = find_luminances(reference, options->mask, scratch, &median, &most);
         range.start_ev = has_light ? log2_d(bright / most) : 0;
@@ -485,7 +492,7 @@ static FlipExposures find_exposures(const Planes *reference, const FlipOptions *
 }
 
 FlipExposures flip_hdr(const Planes *reference, const Planes *test, const FlipOptions *options,
-                       Arena scratch, float *map, float *exposure_map) {
+                       Arena scratch, float *map) {
     const Planes filled[2] = {mask_fill(reference, options->mask, &scratch),
                               mask_fill(test, options->mask, &scratch)};
     FlipJob job = flip_job_create(&filled[0], &filled[1], chosen_ppd(options), &scratch);
@@ -494,11 +501,9 @@ FlipExposures flip_hdr(const Planes *reference, const Planes *test, const FlipOp
     double step = range.count > 1 ? (range.stop_ev - range.start_ev) / (range.count - 1) : 0;
     for (int i = 0; i < range.count; i++) gains[i] = exp2_d(range.start_ev + i * step);
     job.is_hdr = true;
-    job.tone_mapper = options->tone_mapper;
     job.exposures = range.count;
     job.gains = gains;
     job.map = map;
-    job.exposure_map = exposure_map;
     run(&job, options->threads, scratch);
     return range;
 }

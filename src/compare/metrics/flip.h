@@ -14,19 +14,17 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
-#include "compare/metrics/flip_tone.h"
 #include "compare/metrics/rank.h"
 
 #define FLIP_PIXELS_PER_DEGREE 67.0206432766 /* 0.7 m from a screen of 0.7 m and 3840 pixels */
 
 typedef struct FlipOptions {
-    double pixels_per_degree;   /* 1 .. 1000; 0: FLIP_PIXELS_PER_DEGREE */
-    int threads;                /* at least 1 */
-    PixelMask mask;             /* what counts: the pictures end there (mask_fill.h); NULL: all */
-    FlipToneMapper tone_mapper; /* HDR */
-    bool has_range;             /* HDR: the exposures below, else from the reference */
-    double start_ev, stop_ev;   /* HDR: light is multiplied by 2^ev; start <= stop */
-    int exposures;              /* HDR: 0: ceil(stop - start), at least 2; an empty range: 1 */
+    double pixels_per_degree; /* 1 .. 1000; 0: FLIP_PIXELS_PER_DEGREE */
+    int threads;              /* at least 1 */
+    PixelMask mask;           /* what counts: the pictures end there (mask_fill.h); NULL: all */
+    bool has_range;           /* HDR: the exposures below, else from the reference */
+    double start_ev, stop_ev; /* HDR: light is multiplied by 2^ev; start <= stop */
+    int exposures;            /* HDR: 0: ceil(stop - start), at least 2; an empty range: 1 */
 } FlipOptions;
 
 /* Linear Rec.709, clamped to 0 .. 1. map: width * height values. Symmetric. */
@@ -43,7 +41,6 @@ typedef struct FlipExposures {
  * LDR-FLIP of all exposures. The range comes from the whole reference: from the exposure that
  * shows its greatest luminance as 0.85 to the one that does so with its median (of what is not
  * black, where half of it is). With the sun in view nearly all exposures are black, so give a
- * range. A black reference has none: from 0 to 1.
- * exposure_map (may be NULL): the index of the exposure that decided. */
+ * range. A black reference has none: from 0 to 1. */
 FlipExposures flip_hdr(const Planes *reference, const Planes *test, const FlipOptions *options,
-                       Arena scratch, float *map, float *exposure_map);
+                       Arena scratch, float *map);
