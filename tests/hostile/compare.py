@@ -617,6 +617,54 @@ def check_kinds(report, program):
         check_views(report, program, words[0] + metric, ("--max", f"{metric}={limit}"))
 
 
+def check_random(report, program):
+    """Rectangles of any size and factor: all views agree, and the line has its direction."""
+    draw = random.Random(5)
+    for k in range(12):
+        seed, factor = draw.choice("12"), draw.choice((0.3, 0.9, 1.1, 3))
+        left, top = draw.randrange(WIDTH), draw.randrange(HEIGHT)
+        right, bottom = draw.randrange(left, WIDTH), draw.randrange(top, HEIGHT)
+        noisy(program, "k.exr", random.Random(int(seed)), times(
+            factor, factor, factor, lambda x, y: left <= x <= right and top <= y <= bottom),
+            draw.choice((INPUTS, {})), seed)
+        _, answer = check_views(report, program, f"random {k}")
+        words = {word for word in ("brighter", "darker") if word in answer["verdict"]}
+        count = (right - left + 1) * (bottom - top + 1)
+        report.claim(words <= {"brighter" if factor > 1 else "darker"}
+                     and (seed == "2" or (words or count < 10)
+                          and answer["differing_pixels"] == count),
+                     f"random {k}: {factor} in {count} pixels: {answer['verdict']}")
+
+
+def check_folder_views(report, program):
+    """Of folders the same, and one line has all pairs."""
+    for side, factor in (("fa", 1), ("fb", 0.5)):
+        for name in ("night", "noon"):
+            noisy(program, f"{side}/{name}.exr", random.Random(1),
+                  times(factor, factor, factor) if name == "night" else None,
+                  INPUTS if name == "night" and factor != 1 else {})
+    noisy(program, "fa/gone.exr", random.Random(1))
+    done = program.compare("fa", "fb", "--quiet", "--answer", "f.json", "--junit", "f.xml",
+                           "--report", "f.html")
+    with open(program.file("f.json"), encoding="utf-8") as file:
+        answer = json.load(file)
+    with open(program.file("f.html"), encoding="utf-8") as file:
+        page = file.read()
+    told(report, done, 1, "missing       gone.exr: missing in the test\ndifferent     night.exr: "
+         "50 % darker, everywhere. Inputs changed: night.gltf, centre.png\nsame          noon.exr: "
+         "equal in every pixel\n")
+    line = f"{answer['outcome']}: {answer['verdict']}"
+    headings = [html.unescape(re.sub("<[^>]*>", "", heading))
+                for heading in re.findall("<h1>(.*?)</h1>", page)]
+    cases = xml.parse(program.file("f.xml")).getroot().iter("testcase")
+    report.claim(done.stdout.splitlines()[-1] == line == headings[0] == "different: 1 of 3 pairs "
+                 "pass: 1 same, 1 different (night.exr), 1 missing (gone.exr). Inputs changed: "
+                 "night.gltf, centre.png", f"folders: {line} | {headings}")
+    report.claim([f"{pair['outcome']}: {pair['verdict']}" for pair in answer["pairs"]]
+                 == [case.find("system-out").text.splitlines()[0] for case in cases],
+                 "folders: JUnit's cases are not the pairs")
+
+
 def brighter(program, name, out, factor):
     """The same frame with its light times a factor, metadata and all."""
     frame = pictures.read_exr(program.file(name))
@@ -641,7 +689,7 @@ def main():
                       check_pictures, check_masks, check_usage, check_files,
                       check_json, check_folders, check_broken_pair,
                       check_pairs, check_not_made, check_junit, check_report, check_noise,
-                      check_limits_of_noise, check_kinds):
+                      check_limits_of_noise, check_kinds, check_random, check_folder_views):
             try:
                 check(report, program)
             except (ValueError, KeyError, IndexError, OSError, AttributeError,

@@ -118,4 +118,40 @@ ARENA_TEST(noise_explains_itself_and_no_pixel_that_is_lit) {
     }
 }
 
+static void set_pixel(FrameImage *frame, const char *layer, double value) {
+    for (int c = 0; c < 3; c++) {
+        const char *name = layer[0] ? (const char *[]){"variance.R", "variance.G", "variance.B"}[c]
+                                    : &"R\0G\0B"[2 * c];
+        ((float *)frame_channel(frame, name))[20 * WIDTH + 20] = (float)value;
+    }
+}
+
+/* A glint that half of a pixel's samples hit: of few samples all may, or none. */
+ARENA_TEST(a_glint_that_few_samples_hit_or_miss_is_noise) {
+    Random random = {7};
+    int all_or_none = 0;
+    for (uint32_t k = 0; k < 200; k++) {
+        Arena scratch = arena;
+        int samples = k % 2 ? 2 : 4;
+        Maker maker = plain_maker(NOISE_QUIET, samples, k);
+        FrameImage frames[2] = {make_frame(&maker, &scratch), make_frame(&maker, &scratch)};
+        double means[2];
+        for (int s = 0; s < 2; s++) {
+            double sum = 0, squares = 0;
+            for (int i = 0; i < samples; i++) {
+                double value = unit(&random) < 0.5 ? 2e4 * (0.9 + 0.2 * unit(&random)) : 0.1;
+                sum += value;
+                squares += value * value;
+            }
+            means[s] = sum / samples;
+            set_pixel(&frames[s], "", means[s]);
+            set_pixel(&frames[s], "variance", (squares - sum * means[s]) / (samples - 1) / samples);
+        }
+        all_or_none += fabs(means[0] - means[1]) > 1.7e4;
+        Standout found = standout_of(frames, &scratch);
+        assert_true(!found.count || found.is_explained);
+    }
+    assert_true(all_or_none > 5);
+}
+
 TEST_PROGRAM(make_arena, drop_arena)
