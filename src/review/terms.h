@@ -40,6 +40,10 @@
 #define TERM_REFLECT_LESS \
     "no level up to %s is enough; reflected light: %s cd/m² at most " \
     "(now %s): hood, tilt or coating"
+#define TERM_LESS_LIGHT \
+    "no level up to %s is surely enough: less reflected light: hood, tilt or coating"
+#define TERM_PURER "larger or bolder characters, purer colours, or less reflected light"
+#define TERM_SOFTER "softer colours of the content"
 #define TERM_CONTENT "no light or level matters: the content itself has %s : 1"
 #define TERM_NO_LEVEL_HIDES "no level hides it: a privacy state or film"
 #define TERM_NO_LEVEL_DIMS "no level is enough: move, tilt or shade %s"

@@ -189,6 +189,7 @@ TEST(every_failure_says_what_to_do) {
                           .verdict = VERDICT_FAIL};
     ReviewCase c = {.luminance_cd_m2 = {.foreground = 100, .background = 1, .reflected = 100},
                     .level = 0.5,
+                    .contrast_ratio = 1.98,
                     .limits = &limit,
                     .limit_count = 1,
                     .verdict = VERDICT_FAIL};
@@ -213,8 +214,19 @@ TEST(every_failure_says_what_to_do) {
     assert_string_equal(todo_of_case(&c, &arena),
                         "raise the level from 50 % to 80 %: contrast 2.1 : 1 (minimum 2 : 1)");
     c.remedy_count = 0;
+    c.luminance_cd_m2.reflected = 50; /* enough by the mean at 100 %, not for sure */
+    limit.value = 3;
+    assert_non_null(strstr(todo_of_case(&c, &arena), "no level up to 100 % is surely enough"));
+    limit.is_upper = true;
+    assert_string_equal(todo_of_case(&c, &arena), "softer colours of the content");
+    limit.is_upper = false;
     limit.kind = "visual_security";
+    c.must_not_be_read = true;
     assert_string_equal(todo_of_case(&c, &arena), "no level hides it: a privacy state or film");
+    c.must_not_be_read = false;
+    limit.kind = "visibility_level";
+    assert_string_equal(todo_of_case(&c, &arena),
+                        "larger or bolder characters, purer colours, or less reflected light");
     limit.kind = "character_height";
     limit.value = 12;
     limit.found = 10;

@@ -34,39 +34,45 @@ static const char *percent(double level, int away, Arena *arena) {
 
 /* ---- a case ------------------------------------------------------------------------------ */
 
-/* Of (H f + R)/(L f + R) = C, at the greatest level, the reflected light R, veil included where
- * the figure has it. */
+/* Of (H f + R)/(L f + R) = C, at the greatest level, the reflected light R, and the veil where the
+ * limit's figure has it. */
 static const char *reflect_less(const ReviewCase *c, const LimitVerdict *limit, Arena *arena) {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    double needed = ratio_from_contrast(limit_kind_named(limit->kind), limit->value);
+    LimitKind kind = limit_kind_named(limit->kind);
+    double needed = ratio_from_contrast(kind, limit->value);
+    double plain = contrast_from_ratio(kind, c->contrast_ratio);
+    double veil = fabs(limit->found - plain) > 1e-4 * fabs(plain) ? l->veil : 0;
     double level = fmax(c->level, 1), times = level / c->level;
     double high = fmax(l->foreground, l->background), low = fmin(l->foreground, l->background);
-    double most = times * (high - needed * low) / (needed - 1);
+    double most = times * (high - needed * low) / (needed - 1) - veil;
     if (!(high > needed * low))
         return arena_format(arena, TERM_CONTENT, words_figure(high / low, arena));
-    if (!(most > 0) || !isfinite(most)) return "";
+    if (!(most > 0 && most < l->reflected))
+        return arena_format(arena, TERM_LESS_LIGHT, percent(level, 1, arena));
     return arena_format(arena, TERM_REFLECT_LESS, percent(level, 1, arena),
                         figure_away(most, -1, arena), words_figure(l->reflected, arena));
 }
 
-static const char *todo_of_limit(const ReviewCase *c, const LimitVerdict *limit, Arena *arena) {
-    LimitKind kind = limit_kind_named(limit->kind);
+static const char *todo_of_light(const ReviewCase *c, const LimitVerdict *limit, Arena *arena) {
     const CaseRemedy *remedy = c->remedy_count ? &c->remedies[0] : NULL;
-    const ReviewQuantity *of = quantity_of(limit);
-    bool is_of_light = of && of->is_of_light;
-    double times = limit->value / limit->found;
-    if (is_of_light && remedy && remedy->then.verdict == VERDICT_PASS &&
+    if (remedy && remedy->then.verdict == VERDICT_PASS &&
         (words_same(remedy->then.name, limit->name) || remedy->verdict == VERDICT_PASS))
         return arena_format(arena, "%s: %s", remedy->what, words_remedy(remedy, arena));
-    if (is_of_light && limit_wants_less(limit)) return TERM_NO_LEVEL_HIDES;
-    if (is_of_light) return reflect_less(c, limit, arena);
-    if (kind == LIMIT_CHARACTER_HEIGHT)
-        return limit->is_upper ? arena_format(arena, TERM_SMALLER, figure_away(times, -1, arena))
-                               : arena_format(arena, TERM_TALLER, figure_away(times, 1, arena));
-    return kind == LIMIT_STROKE_RATIO
-               ? arena_format(arena, TERM_STROKES,
-                              figure_away(times, limit->is_upper ? -1 : 1, arena))
-               : "";
+    if (c->must_not_be_read) return TERM_NO_LEVEL_HIDES;
+    if (!quantity_is_contrast(limit_kind_named(limit->kind))) return TERM_PURER;
+    return limit_wants_less(limit) ? TERM_SOFTER : reflect_less(c, limit, arena);
+}
+
+static const char *todo_of_limit(const ReviewCase *c, const LimitVerdict *limit, Arena *arena) {
+    LimitKind kind = limit_kind_named(limit->kind);
+    const ReviewQuantity *of = quantity_of(limit);
+    double times = limit->value / limit->found;
+    const char *figure = figure_away(times, limit->is_upper ? -1 : 1, arena);
+    if (of && of->is_of_light) return todo_of_light(c, limit, arena);
+    if (kind == LIMIT_STROKE_RATIO) return arena_format(arena, TERM_STROKES, figure);
+    if (kind != LIMIT_CHARACTER_HEIGHT) return "";
+    return limit->is_upper ? arena_format(arena, TERM_SMALLER, figure)
+                           : arena_format(arena, TERM_TALLER, figure);
 }
 
 /* Why the visibility level that a case hangs on is not known is the observer's age. */
