@@ -88,6 +88,7 @@ static void add_contrasts(const CompareOptions *options, Arena *arena, Compariso
         row->value = d->ratio.value - 1;
         row->half_width = measured_half_width(d->ratio);
         row->is_finding = is_finding(row->value, row->half_width);
+        if (!isnan(row->half_width)) row->verdict = row->is_finding ? "moved" : "below the noise";
         set_limit(options, METRIC_CONTRAST_CHANGE, arena, out, row);
         row->is_key = (row->is_finding || row->is_beyond) && i < KEYS_OF_DISPLAYS;
         row->change = change_text(row->value, row->half_width, arena);
