@@ -47,7 +47,7 @@
 #define TERM_CONTENT "no light or level matters: the content itself has %s : 1"
 #define TERM_NO_LEVEL_HIDES "no level hides it: a privacy state or film"
 #define TERM_NO_LEVEL_DIMS "no level is enough: move, tilt or shade %s"
-#define TERM_NOTHING_HERE "nothing here: all light but the displays' makes %s (%s)"
+#define TERM_NOTHING_HERE "no display helps: all other light makes %s (%s)"
 #define TERM_DARKER "a darker or matt finish of %s, which %s mirrors"
 #define TERM_SHADE "shade what lies bright in view"
 #define TERM_MATT "matt, tilt or shade %s"
@@ -68,7 +68,7 @@
 #define TERM_GIVE_DATA \
     "colours or spectra for these materials, in the model or by `equip`; " \
     "`parhelion check` names them"
-#define TERM_GIVE_LIMIT "a profile with a limit that applies in this light"
+#define TERM_GIVE_LIMIT "a profile with a limit for this light"
 #define TERM_GIVE_BACKGROUND "a rectangle of the content that holds the symbol and its background"
 #define TERM_GIVE_AGE "an observer of an age for which the visibility level is published"
 #define TERM_EMPTY_SEAT \

@@ -207,7 +207,7 @@ TEST(a_road_that_fails_says_what_to_do) {
     row->level_most_range = (MeanInterval){0, 0};
     for (int i = 0; i < 2; i++) road->ages[1].displays[i].share = 0.2;
     assert_string_equal(todo_of(gaze),
-                        "nothing here: all light but the displays' makes 18.0 % (maximum 15 %)");
+                        "no display helps: all other light makes 18.0 % (maximum 15 %)");
     gaze->verdict = road->ages[1].limit.verdict = road->ages[0].limit.verdict = VERDICT_PASS;
     assert_string_equal(todo_of(gaze), "");
 }

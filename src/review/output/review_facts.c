@@ -50,13 +50,20 @@ static const char *glasses_words(const ReviewCase *c, Arena *arena) {
 }
 
 static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *c, Arena *arena) {
-    static const char *const NAMES[CAUSE_GROUPS] = {"Source", "Path", "Off"};
+    static const char *const NAMES[CAUSE_GROUPS] = {"Source", "Path", "Last surface"};
     const char *whole = words_whole(c, arena);
     add(facts, "Seen through", glasses_words(c, arena));
-    for (int g = 0; g < CAUSE_GROUPS; g++)
+    const LimitVerdict *limit = case_worst_limit(c);
+    bool is_read = c->must_not_be_read && c->verdict == VERDICT_FAIL;
+    if (is_read) /* what the display reflects hides it, if anything does */
+        add(facts, "Source",
+            limit && limit->by_pane
+                ? arena_format(arena, "the display itself, mirrored by %s", limit->by_pane)
+                : "the display itself, seen straight");
+    for (int g = 0; g < CAUSE_GROUPS && !is_read; g++)
         if (c->groups[g].count)
             add(facts, NAMES[g], words_group(&c->groups[g], SHARES_LISTED, arena));
-    if (!c->groups[GROUP_LIGHT].count && c->cause_count)
+    if (!c->groups[GROUP_LIGHT].count && c->cause_count && !is_read)
         add(facts, "Source",
             arena_format(arena, "%s of the reflected light by %s",
                          words_share(c->causes[0].share, arena),

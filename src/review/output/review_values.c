@@ -280,7 +280,11 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
     values_set_verdict(to, c->verdict);
     page_set(to, "id", review_card_id(v->review, c, arena));
     page_set(to, "link", review_card_link(v->review, c, arena));
-    page_set(to, "case", words_case(c, arena));
+    page_set(to, "case",
+             review_sweep_of(v->review, c)
+                 ? words_named(c->symbol, c->eye, arena_format(arena, "worst of %s", c->condition),
+                               arena)
+                 : words_case(c, arena));
     page_set(to, "figure", words_judged(c, arena));
     page_set(to, "reason", words_reason(c, arena));
     page_set(to, "headline", words_headline(c, arena));
