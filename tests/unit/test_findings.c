@@ -222,6 +222,12 @@ static Verdict verdict_by_hand(const LimitVerdict *line) {
     return low >= limit ? VERDICT_PASS : high < limit ? VERDICT_FAIL : VERDICT_TOO_CLOSE;
 }
 
+/* By hand: neither advice nor a figure that its shape has not. */
+static bool counts_by_hand(const LimitVerdict *line) {
+    bool may_lack = quantity_of(line)->may_be_missing;
+    return !line->is_advice && !(may_lack && isnan(line->found));
+}
+
 static void check_finding(const Finding *f) {
     int worst = 0;
     bool decides = false;
@@ -236,7 +242,7 @@ static void check_finding(const Finding *f) {
         else
             assert_true(f->why || f->verdict == VERDICT_FAIL || line->is_advice ||
                         isnan(line->found));
-        if (limit_counts(line) && verdict_rank(line->verdict) > worst)
+        if (counts_by_hand(line) && verdict_rank(line->verdict) > worst)
             worst = verdict_rank(line->verdict);
         decides = decides || line == f->worst;
     }
