@@ -232,7 +232,6 @@ static void cover_moment(ReviewRequest *request, const ReviewCondition *c, const
         !setup_eye_middle(&setup, &request->eyes[0], arena, &eye, &err))
         trials_stop(&err);
     const SymbolSurface *surface = &symbols[0].surface;
-    bool *is_visible = ARENA_NEW(&arena, bool, surface->point_count);
     Moment m = {request,
                 &setup,
                 &symbols[0],
@@ -240,8 +239,7 @@ static void cover_moment(ReviewRequest *request, const ReviewCondition *c, const
                 c->name,
                 runs,
                 arena_reserve((size_t)1 << 33)};
-    symbol_visibility(surface, &setup.context, eye, is_visible);
-    symbol_aim(surface, is_visible, &arena, &m.aim);
+    symbol_aim(surface, &arena, &m.aim);
     if (m.aim.target_count) cover(&m, ways, arena);
     arena_release(&m.scratch);
     setup_close(&setup);

@@ -197,10 +197,8 @@ static void cover_sweep(ReviewRequest *request, const ReviewCondition *c, const 
     t.symbol = &symbols[0];
     t.suns = sweep_suns(c, 2, &arena);
     make_table(&t, &arena);
-    bool *is_visible = ARENA_NEW(&arena, bool, symbols[0].surface.point_count);
-    symbol_visibility(&symbols[0].surface, &setup.context, eye, is_visible);
     t.aim = (ProbeAim){.context = &setup.context, .eye = eye};
-    symbol_aim(&symbols[0].surface, is_visible, &arena, &t.aim);
+    symbol_aim(&symbols[0].surface, &arena, &t.aim);
     cover(&t, ways, arena);
     arena_release(&t.scratch);
     setup_close(&setup);

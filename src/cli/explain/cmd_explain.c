@@ -74,9 +74,7 @@ static bool aim_at_display(const SceneQuestion *question, Arena *arena, ProbeAim
                          .point_count = SYMBOL_POINTS};
     if (!symbol_surface_build(&place, arena, &surface, err))
         return error_prefix(err, "--display %s", question->display);
-    bool *is_visible = ARENA_NEW(arena, bool, surface.point_count);
-    symbol_visibility(&surface, aim->context, aim->eye, is_visible);
-    symbol_aim(&surface, is_visible, arena, aim);
+    symbol_aim(&surface, arena, aim);
     return aim->target_count > 0 ||
            error_set(err, ERROR_USAGE, "--display %s: the eye sees nothing of it",
                      question->display);

@@ -26,12 +26,6 @@ static void add_count(XXH3_state_t *state, int64_t count) {
     XXH3_128bits_update(state, &count, sizeof count);
 }
 
-static void add_polariser(XXH3_state_t *state, const PolarisedEye *eye) {
-    add_floats(state, eye->right);
-    add_floats(state, vec3(eye->axis[0], eye->axis[1], eye->lets));
-    add_floats(state, vec3(eye->blocks, 0, 0));
-}
-
 static void add_aim(XXH3_state_t *state, const ProbeAim *aim) {
     add_count(state, aim->seed);
     add_count(state, aim->meter ? 1 + aim->meter->both_sides : 0);
@@ -42,7 +36,12 @@ static void add_aim(XXH3_state_t *state, const ProbeAim *aim) {
     }
     add_floats(state, aim->eye);
     if (aim->colour) XXH3_128bits_update(state, aim->colour, sizeof *aim->colour);
-    if (aim->context->eye) add_polariser(state, aim->context->eye);
+    const PolarisedEye *eye = aim->context->eye;
+    if (eye) {
+        add_floats(state, eye->right);
+        add_floats(state, vec3(eye->axis[0], eye->axis[1], eye->lets));
+        add_floats(state, vec3(eye->blocks, 0, 0));
+    }
     add_count(state, aim->target_count);
     XXH3_128bits_update(state, aim->targets, (size_t)aim->target_count * sizeof *aim->targets);
     if (aim->patches)
@@ -148,11 +147,6 @@ static void add_part(Batch *to, const Batch *part) {
     to->bright.fourths += part->bright.fourths;
 }
 
-/* Where no ray of the sun was seen to come in, a beam as wide as the map's pixels may. */
-static double unseen_by(const ProbeAim *aim) {
-    return (double)sunlit_map_unseen(&aim->context->sunlit);
-}
-
 static Estimate estimate_in(const Reading *reading, double known) {
     return (Estimate){.mean = reading->reflected,
                       .sigma = reading->sigma,
@@ -186,8 +180,9 @@ static double sky_unmet(const ProbeAim *aim, const Batch batches[BATCHES], doubl
 static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int paths,
                           const ReadingGoal *goal) {
     double known = goal->known;
-    EstimateSums sums = {
-        .batches = BATCHES, .paths = (long)paths * BATCHES, .piece = 1, .unseen = unseen_by(aim)};
+    EstimateSums sums = {.batches = BATCHES, .paths = (long)paths * BATCHES, .piece = 1};
+    /* where no ray of the sun was seen to come in, a beam as wide as the map's pixels may */
+    sums.unseen = (double)sunlit_map_unseen(&aim->context->sunlit);
     Reading reading = {.paths = sums.paths, .unseen = sums.unseen};
     double mirror = 0, found = 0, lost = 0, rare = 0;
     for (int i = 0; i < BATCHES; i++) {
@@ -228,10 +223,6 @@ static double uncertainty(const Reading *reading, const ReadingGoal *goal) {
     double bright = goal->brighter + r, dark = goal->darker + r;
     if (!(dark > 0)) return reading->sigma > 0 ? (double)INFINITY : 0;
     return fabs(1 / bright - 1 / dark) * reading->sigma;
-}
-
-static bool is_sure(const Reading *reading, const ReadingGoal *goal) {
-    return uncertainty(reading, goal) <= goal->precision;
 }
 
 static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena scratch) {
@@ -281,7 +272,8 @@ static bool will_do(void *user, long pilot, long paths) {
     Estimate then = estimate_expected(&now, (double)paths / (double)pilot);
     Reading fresh = work->reading;
     put_estimate(&then, &fresh);
-    return is_sure(&fresh, work->goal) || is_decided(&fresh, work->goal, work->scratch);
+    return uncertainty(&fresh, work->goal) <= work->goal->precision ||
+           is_decided(&fresh, work->goal, work->scratch);
 }
 
 /* A number of paths that nothing decides is the least and the most. */

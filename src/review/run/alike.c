@@ -49,15 +49,6 @@ static void read_piece(void *user, int item, int worker) {
     read_aim(work, item / pieces, item % pieces);
 }
 
-static void aim_at_all(const PilotArgs *args, Vec3 eye, ProbeAim *aim, Arena *arena) {
-    bool is_visible[SYMBOL_POINTS];
-    aim->eye = eye;
-    aim->target_count = 0;
-    aim->patches = NULL;
-    symbol_visibility(args->surface, aim->context, eye, is_visible);
-    symbol_aim(args->surface, is_visible, arena, aim);
-}
-
 const CasePilot *case_pilot(const PilotArgs *args, Arena *arena) {
     int count = 1 + args->point_count;
     const Scene *scene = args->setup->scene;
@@ -80,7 +71,8 @@ const CasePilot *case_pilot(const PilotArgs *args, Arena *arena) {
     aims[0].is_spread = true;
     for (int i = 1; i < count; i++) {
         aims[i] = aims[0];
-        aim_at_all(args, args->points[i - 1], &aims[i], &scratch);
+        aims[i].eye = args->points[i - 1];
+        symbol_aim(args->surface, &scratch, &aims[i]);
     }
     without.without_mirrored_sun = args->mirror > 0;
     AlikeWork work = {args->setup->tools.kernel, aims, pilot};

@@ -162,15 +162,9 @@ static double known_share(DirectSun direct, MeanInterval reflected) {
     return range > 0 ? fmin(4 * RESPONSE_MIRROR_ERROR * direct.mirror / range, 1) : 0;
 }
 
-/* For a variant: paths of its review's same case, a sweep's worst or a moment's; else 0. */
-static long base_paths(const VerdictArgs *args) {
-    const Review *review = args->tools->base;
-    const ReviewCase *base = review ? review_case_like(review, args->of) : NULL;
-    return base ? base->paths : 0;
-}
-
 /* The sun's image in a display is so small that few paths meet it: it is known by itself, but
- * not as a polariser sees it. */
+ * not as a polariser sees it. A variant takes the paths of its review's same case, a sweep's worst
+ * or a moment's, or more. */
 static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArgs *args,
                            Arena scratch) {
     PathContext without = *aim->context;
@@ -178,6 +172,8 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArg
     const Setup *setup = args->tools->setup;
     const ReviewRequest *request = setup->request;
     const CaseLuminances *shown = &args->of->luminance_cd_m2;
+    const Review *review = args->tools->base;
+    const ReviewCase *base = review ? review_case_like(review, args->of) : NULL;
     ReadingQuestion question = {is_verdict_clear, args, request->precision_clear};
     ReadingGoal goal = {.brighter = fmax(shown->foreground, shown->background),
                         .darker = fmin(shown->foreground, shown->background),
@@ -185,7 +181,7 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArg
                         .most = request->precision_paths,
                         .known = aim->context->eye ? 0 : args->direct.mirror,
                         .times = request->is_compared ? COMPARED_TIMES : 1,
-                        .least = base_paths(args),
+                        .least = base ? base->paths : 0,
                         .question = &question};
     if (args->of->colour_count) { /* which clear contrasts leave open */
         goal.question = NULL;
@@ -202,12 +198,6 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictArg
         goal.question = NULL;
     }
     return reading_take(&rest, &goal, &setup->tools, scratch);
-}
-
-/* The panel's emission dimmed by what the eye looks through. */
-static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double transmittance) {
-    l->foreground = emission->foreground_xyz[1] * transmittance;
-    l->background = emission->background_xyz[1] * transmittance;
 }
 
 static void see_stray_light(const CaseTools *tools, const SetupSymbol *symbol, Vec3 eye,
@@ -240,12 +230,6 @@ static double visibility_of(const ReviewCase *c, const SymbolSplit *split) {
 }
 
 _Static_assert(CASE_BATCHES == READING_BATCHES, "a case keeps what a reading has");
-
-static const double *keep_batches(const Reading *reading, Arena *arena) {
-    double *kept = ARENA_NEW(arena, double, READING_BATCHES);
-    for (int i = 0; i < READING_BATCHES; i++) kept[i] = reading->batches[i];
-    return kept;
-}
 
 /* A look without stray light has levels only where a limit is about them. */
 static bool has_visibility(const CaseTools *tools, const CaseLook *look) {
@@ -302,8 +286,10 @@ static Reading read_part(const CaseLook *look, WorstPart *part, ReviewCase *c, V
 static void keep_reading(const Reading *reading, const CaseLook *look, ReviewCase *c,
                          Arena *arena) {
     CaseLuminances *l = &c->luminance_cd_m2;
+    double *batches = look->is_coarse ? NULL : ARENA_NEW(arena, double, READING_BATCHES);
+    if (batches) memcpy(batches, reading->batches, sizeof reading->batches);
     c->paths = reading->paths;
-    c->batches = look->is_coarse ? NULL : keep_batches(reading, arena);
+    c->batches = batches;
     c->precision_reached = reading->reached;
     l->reflected = reading->reflected;
     l->mirror = reading->mirror;
@@ -400,7 +386,8 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     if (!case_is_seen(c)) return (ProbeAim){.target_count = 0};
     SymbolLook shown = {&symbol->surface, &symbol->split, look->eye, setup->tools.threads};
     SymbolEmission emission = symbol_emission(&shown, c->level);
-    set_shown(&c->luminance_cd_m2, &emission, seen.transmittance);
+    c->luminance_cd_m2.foreground = emission.foreground_xyz[1] * seen.transmittance;
+    c->luminance_cd_m2.background = emission.background_xyz[1] * seen.transmittance;
     ProbeAim aim = {.context = &setup->context,
                     .eye = look->eye,
                     .seed = review_seed(setup->request, look->is_coarse ? COARSE_SEED : EYE_SEED)};
@@ -502,7 +489,7 @@ static void see_others(const CaseTools *tools, const CaseLook *look, ReviewCase 
         if (k == asked->distinct_count) continue;
         name_symbol(tools->setup, symbol, &other);
         other.must_not_be_read = false;
-        other.colour_count = 0;
+        other.colour_count = other.visibility_count = 0;
         if (!see_symbol(tools, &one, &other, &direct, arena).target_count) continue;
         other.colours[0].light->is_on_display =
             symbol->display.display_id == look->symbol->display.display_id;
@@ -528,12 +515,11 @@ static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewC
     return aim;
 }
 
-/* The points of an eye; places, readings: NULL, or [count] to be filled; like: of a variant, the
- * review's readings [count], or NULL. */
+/* The points of an eye; readings: NULL, or [count] to be filled; like: of a variant, the review's
+ * readings [count], or NULL. */
 typedef struct EyePlaces {
     const Vec3 *points;
     int count;
-    CasePlace *places;
     LookReading *readings;
     const LookReading *like;
 } EyePlaces;
@@ -548,14 +534,20 @@ static CasePlace place_of(const Setup *setup, Vec3 eye, const ReviewCase *seen) 
     return place;
 }
 
-/* The index of an eye's worst point; sets the share of points that fail, and of what must not
- * be read how each sees it: [count] in `places`. */
+/* The index of an eye's worst point, which all of them are read for where there are several; sets
+ * the share of points that fail, and of what must not be read how each sees it. */
 static int worst_point(const CaseTools *tools, const CaseLook *look, const EyePlaces *of,
-                       ReviewCase *c, Arena scratch) {
+                       ReviewCase *c, Arena *arena) {
     ReviewCase start = *c, worst;
+    CasePlace *places = NULL;
     int at = 0, failed = 0;
+    if (of->count == 1) return 0;
+    if (c->must_not_be_read) {
+        c->places = places = ARENA_NEW(arena, CasePlace, of->count);
+        c->place_count = of->count;
+    }
     for (int i = 0; i < of->count; i++) {
-        Arena room = scratch;
+        Arena room = *arena;
         CaseLook one = {.symbol = look->symbol,
                         .eye = of->points[i],
                         .is_coarse = true,
@@ -573,24 +565,13 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const EyePl
         }
         if (of->readings) of->readings[i] = look_reading(&seen, direct);
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
-        if (of->places) of->places[i] = place_of(tools->setup, of->points[i], &seen);
+        if (places) places[i] = place_of(tools->setup, of->points[i], &seen);
         if (i && !is_worse(&seen, &worst)) continue;
         worst = seen;
         at = i;
     }
     c->eye_failed_share = (double)failed / of->count;
     return at;
-}
-
-/* The worst of an eye's points, which all of them are read for where there are several. */
-static int worst_place(const CaseTools *tools, const CaseLook *look, EyePlaces of, ReviewCase *c,
-                       Arena *arena) {
-    if (of.count == 1) return 0;
-    if (c->must_not_be_read) {
-        c->places = of.places = ARENA_NEW(arena, CasePlace, of.count);
-        c->place_count = of.count;
-    }
-    return worst_point(tools, look, &of, c, *arena);
 }
 
 /* The most by which a variant's light is apart from the review's, as a share; INFINITY: they
@@ -616,14 +597,6 @@ static const ReviewCase *like_of(const CaseTools *tools, CaseLook *look, const R
     return look->within <= tools->setup->request->precision_contrast ? like : NULL;
 }
 
-static void keep_case(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
-                      CaseKept kept, ReviewCase *c, Arena *arena) {
-    CaseKept *to = ARENA_NEW(arena, CaseKept, 1);
-    kept.pilot = pilot_of(tools, look, aim, kept.own.direct.mirror, arena);
-    *to = kept;
-    c->kept = to;
-}
-
 /* At the worst of its points. */
 static ProbeAim judge_eye(const CaseTools *tools, CaseLook *look, ReviewCase *c, Arena *arena) {
     const ReviewCase *like = like_of(tools, look, c, *arena);
@@ -632,12 +605,17 @@ static ProbeAim judge_eye(const CaseTools *tools, CaseLook *look, ReviewCase *c,
                     .count = look->point_count,
                     .readings = keeps ? ARENA_NEW(arena, LookReading, look->point_count) : NULL,
                     .like = like ? like->kept->points : NULL};
-    CaseKept kept = {.at = worst_place(tools, look, of, c, arena), .points = of.readings};
+    CaseKept kept = {.at = worst_point(tools, look, &of, c, arena), .points = of.readings};
     look->eye = of.points[kept.at];
     if (like && like->kept->at == kept.at) look->like = &like->kept->own;
     ProbeAim aim = judge_look(tools, look, c, &kept.own.direct, arena);
     kept.own = look_reading(c, kept.own.direct);
-    if (keeps && aim.target_count) keep_case(tools, look, &aim, kept, c, arena);
+    if (keeps && aim.target_count) {
+        CaseKept *to = ARENA_NEW(arena, CaseKept, 1);
+        kept.pilot = pilot_of(tools, look, &aim, kept.own.direct.mirror, arena);
+        *to = kept;
+        c->kept = to;
+    }
     return aim;
 }
 

@@ -15,44 +15,42 @@
 
 /* ---- names ------------------------------------------------------------------------------- */
 
-/* A list of names, and what they name. */
+/* A list of what has a name, its first member, and what it is called. */
 typedef struct KnownNames {
     const char *what;
-    const char **names;
+    const void *list;
+    size_t size; /* of one */
     int count;
 } KnownNames;
 
-static const char *all_names(const KnownNames *list, Arena *arena) {
-    Text text = {.arena = arena};
-    for (int i = 0; i < list->count; i++)
-        text_format(&text, "%s'%s'", i ? ", " : "", list->names[i]);
-    return text.size ? text.data : "none";
+static const char *name_at(const KnownNames *names, int i) {
+    const char *name;
+    memcpy(&name, (const char *)names->list + (size_t)i * names->size, sizeof name);
+    return name;
 }
 
 /* wanted NULL: the only one. */
-static bool find_name(const KnownNames *list, const char *wanted, int *out, Arena scratch,
-                      Error *err) {
-    for (int i = 0; i < list->count && wanted; i++)
-        if (!strcmp(list->names[i], wanted)) {
-            *out = i;
-            return true;
-        }
+static bool find_name(KnownNames names, const char *wanted, int *out, Arena scratch, Error *err) {
+    Text all = {.arena = &scratch};
+    for (*out = 0; *out < names.count && wanted; ++*out)
+        if (!strcmp(name_at(&names, *out), wanted)) return true;
     *out = 0;
-    if (!wanted && list->count == 1) return true;
+    if (!wanted && names.count == 1) return true;
+    for (int i = 0; i < names.count; i++)
+        text_format(&all, "%s'%s'", i ? ", " : "", name_at(&names, i));
+    const char *known = all.size ? all.data : "none";
     if (!wanted)
-        return error_set(err, ERROR_USAGE, "--%s: which one? There are %s", list->what,
-                         all_names(list, &scratch));
-    return error_set(err, ERROR_USAGE, "--%s '%s': there is none of this name, but %s", list->what,
-                     wanted, all_names(list, &scratch));
+        return error_set(err, ERROR_USAGE, "--%s: which one? There are %s", names.what, known);
+    return error_set(err, ERROR_USAGE, "--%s '%s': there is none of this name, but %s", names.what,
+                     wanted, known);
 }
 
 static bool find_condition(const ReviewRequest *request, const ExplainOptions *options,
                            const ReviewCondition **out, Arena scratch, Error *err) {
-    KnownNames list = {"condition", ARENA_NEW(&scratch, const char *, request->condition_count),
-                       request->condition_count};
+    KnownNames conditions = {"condition", request->conditions, sizeof *request->conditions,
+                             request->condition_count};
     int id;
-    for (int i = 0; i < list.count; i++) list.names[i] = request->conditions[i].name;
-    if (!find_name(&list, options->condition, &id, scratch, err)) return false;
+    if (!find_name(conditions, options->condition, &id, scratch, err)) return false;
     *out = &request->conditions[id];
     bool is_sweep = (*out)->kind != CONDITION_MOMENT;
     if (is_sweep == options->has_sun) return true;
@@ -62,38 +60,7 @@ static bool find_condition(const ReviewRequest *request, const ExplainOptions *o
                      (*out)->name);
 }
 
-static bool find_eye(const ReviewRequest *request, const char *wanted, const ReviewEye **out,
-                     Arena scratch, Error *err) {
-    KnownNames list = {"eye", ARENA_NEW(&scratch, const char *, request->eye_count),
-                       request->eye_count};
-    int id;
-    for (int i = 0; i < list.count; i++) list.names[i] = request->eyes[i].name;
-    if (!find_name(&list, wanted, &id, scratch, err)) return false;
-    *out = &request->eyes[id];
-    return true;
-}
-
-static bool find_symbol(const SetupSymbol *symbols, int count, const char *wanted,
-                        const SetupSymbol **out, Arena scratch, Error *err) {
-    KnownNames list = {"symbol", ARENA_NEW(&scratch, const char *, count), count};
-    int id;
-    for (int i = 0; i < count; i++) list.names[i] = symbols[i].name;
-    if (!find_name(&list, wanted, &id, scratch, err)) return false;
-    *out = &symbols[id];
-    return true;
-}
-
 /* ---- a symbol of a review ---------------------------------------------------------------- */
-
-static bool explain_symbol(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
-                           Arena *arena, Explained *out, Error *err) {
-    ReviewCase *c = &out->of;
-    if (!setup_case(tools, symbol, eye, arena, c, err)) return false;
-    c->symbol = arena_string(arena, c->symbol, strlen(c->symbol));
-    out->paths = tools->cause_paths;
-    out->shown = (double)NAN;
-    return true;
-}
 
 static bool light_setup(Setup *setup, const ExplainOptions *options, Arena *scratch, Error *err) {
     const ReviewCondition *condition = setup->condition;
@@ -111,22 +78,33 @@ static bool light_setup(Setup *setup, const ExplainOptions *options, Arena *scra
 /* The setup is open. */
 static bool explain_on(Setup *setup, const ExplainOptions *options, Arena *scratch, Arena *arena,
                        Explained *out, Error *err) {
-    const ReviewEye *eye;
-    const SetupSymbol *symbol;
+    const ReviewRequest *request = setup->request;
+    KnownNames known[2] = {
+        {.what = "symbol", .size = sizeof(SetupSymbol)},
+        {"eye", request->eyes, sizeof *request->eyes, request->eye_count},
+    };
     SetupSymbol *symbols;
     CaseTools tools = {.setup = setup,
                        .profile = options->profile,
                        .cause_paths = options->paths,
                        .cause_rays = CHAIN_RAYS};
+    ReviewCase *c = &out->of;
+    int symbol, eye;
     if (!light_setup(setup, options, scratch, err) ||
-        !setup_symbols(setup, scratch, &symbols, &tools.symbol_count, err) ||
+        !setup_symbols(setup, scratch, &symbols, &known[0].count, err) ||
         (setup->condition->kind == CONDITION_MOMENT &&
-         !setup_learn(setup, symbols, tools.symbol_count, scratch, err)) ||
-        !find_symbol(symbols, tools.symbol_count, options->symbol, &symbol, *scratch, err) ||
-        !find_eye(setup->request, options->eye, &eye, *scratch, err))
+         !setup_learn(setup, symbols, known[0].count, scratch, err)))
         return false;
-    tools.symbols = symbols;
-    return explain_symbol(&tools, symbol, eye, arena, out, err);
+    tools.symbols = known[0].list = symbols;
+    tools.symbol_count = known[0].count;
+    if (!find_name(known[0], options->symbol, &symbol, *scratch, err) ||
+        !find_name(known[1], options->eye, &eye, *scratch, err) ||
+        !setup_case(&tools, &symbols[symbol], &request->eyes[eye], arena, c, err))
+        return false;
+    c->symbol = arena_string(arena, c->symbol, strlen(c->symbol));
+    out->paths = tools.cause_paths;
+    out->shown = (double)NAN;
+    return true;
 }
 
 bool explain_review(const ReviewRequest *request, const ExplainOptions *options, Arena *arena,

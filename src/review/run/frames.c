@@ -103,7 +103,7 @@ const char *frame_view(const char *frame, FrameView view, Arena *arena) {
     return arena_format(arena, "%.*s%s.png", before_ending, frame, ENDS[view]);
 }
 
-/* *out: how a frame is exposed (image/exposure.h). */
+/* *out: how a frame is exposed (image/exposure.h), for others to be compared with it. */
 static bool exposure_of(const FrameImage *frame, const char *exr, Arena *arena, const char **out,
                         Error *err) {
     Picture picture;
@@ -112,12 +112,6 @@ static bool exposure_of(const FrameImage *frame, const char *exr, Arena *arena, 
     if (!develop_picture(frame, &look, arena, &picture, &report, err)) return false;
     *out = arena_format(arena, "%.9g", report.ev);
     return true;
-}
-
-/* The same of a file, for others to be compared with it. Fails when it cannot be read. */
-static bool frame_exposure(const char *exr, Arena *arena, const char **out, Error *err) {
-    FrameImage frame;
-    return frame_read(exr, arena, &frame, err) && exposure_of(&frame, exr, arena, out, err);
 }
 
 /* The frame's file and its views, written beside each other. */
@@ -480,13 +474,6 @@ static bool take_worst(const ReviewRun *run, const Candidate *of, const char *na
     return take_frame(run, (FrameCopy){part, made->frame, c->frame, FRAME_VIEWS}, *arena, err);
 }
 
-static void forget_frame(ReviewCase *c) {
-    c->frame = NULL;
-    c->view = NULL;
-    c->rim = NULL;
-    c->rim_count = 0;
-}
-
 static bool make_worst(const ReviewRun *run, const Candidate *of, int number, Arena *arena,
                        Error *err) {
     FrameWork work = {run, of, NULL, NULL};
@@ -535,9 +522,11 @@ static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review
                        Error *err) {
     FrameWork work = {run, of, name_of(of->of->frame, arena), NULL};
     Arena scratch = arena_reserve(SETUP_BYTES);
+    const char *exr = arena_format(&scratch, "%s/frames/%s.exr", run->folder, work.name);
+    FrameImage frame;
     bool ok = !review->variant_count || run->merged ||
-              frame_exposure(arena_format(&scratch, "%s/frames/%s.exr", run->folder, work.name),
-                             &scratch, &work.exposure, err);
+              (frame_read(exr, &scratch, &frame, err) &&
+               exposure_of(&frame, exr, &scratch, &work.exposure, err));
     for (int i = 0; i < review->variant_count && ok; i++)
         ok = review_goes_on(err) && make_pair(&work, i, &review->variants[i], arena, err);
     arena_release(&scratch);
@@ -549,7 +538,13 @@ static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review
 bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err) {
     int count, made = 0;
     Candidate *list = candidates(outcome, &count, arena);
-    for (int i = 0; i < count; i++) forget_frame(list[i].of);
+    for (int i = 0; i < count; i++) {
+        ReviewCase *c = list[i].of;
+        c->frame = NULL;
+        c->view = NULL;
+        c->rim = NULL;
+        c->rim_count = 0;
+    }
     for (int i = 0; i < count; i++) {
         int same = 0;
         while (same < i && !(list[same].of->frame && is_one_view(&list[same], &list[i]))) same++;

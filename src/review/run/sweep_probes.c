@@ -225,17 +225,16 @@ bool sight_is_seen(const Sight *sight) {
 static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena) {
     const Setup *setup = sweep->setup;
     const SymbolSurface *surface = &sight->symbol->surface;
-    bool *is_visible = ARENA_NEW(arena, bool, surface->point_count);
-    sight->seen = symbol_visibility(surface, &setup->context, sight->from, is_visible);
+    sight->probe.aim = (ProbeAim){.context = &setup->context,
+                                  .eye = sight->from,
+                                  .seed = review_seed(setup->request, EYE_SEED)};
+    sight->seen = symbol_aim(surface, arena, &sight->probe.aim);
     SymbolLook look = {surface, &sight->symbol->split, sight->from, setup->tools.threads};
     SymbolEmission shown = symbol_emission(&look, 1);
     sight->shown.foreground = shown.foreground_xyz[1] * sight->seen.transmittance;
     sight->shown.background = shown.background_xyz[1] * sight->seen.transmittance;
     sight->height_arcmin = symbol_height_arcmin(surface, sight->symbol->split.box, sight->from);
-    sight->probe.aim = (ProbeAim){.context = &setup->context,
-                                  .eye = sight->from,
-                                  .seed = review_seed(setup->request, EYE_SEED)};
-    if (sight_is_seen(sight)) symbol_aim(surface, is_visible, arena, &sight->probe.aim);
+    if (!sight_is_seen(sight)) sight->probe.aim.target_count = 0;
     if (!sight->probe.aim.target_count) return;
     LightParts *parts = ARENA_NEW(arena, LightParts, 1);
     *parts = symbol_parts(sight->symbol, &sight->probe.aim, SUN_PATHS, arena);

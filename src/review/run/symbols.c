@@ -25,16 +25,6 @@ typedef struct SymbolList {
     int count;
 } SymbolList;
 
-static const Image *shown_content(const Scene *scene, const ReviewDisplay *display) {
-    int id = scene->displays[display->display_id].content.texture_id;
-    return id == NO_ID ? NULL : &scene->textures[id].image;
-}
-
-static ReviewPolarity polarity_of(const Setup *setup, int symbol_id) {
-    if (setup->condition) return setup->condition->polarity[symbol_id];
-    return setup->request->symbols[symbol_id].polarity;
-}
-
 static bool add_symbol(SymbolList *list, SetupSymbol symbol, const SymbolQuestion *question,
                        Arena *arena, Error *err) {
     const Scene *scene = list->setup->scene;
@@ -84,13 +74,6 @@ static bool add_found(SymbolList *list, const SetupSymbol *symbol, SymbolQuestio
     return true;
 }
 
-static CasePanel panel_of(const Panel *panel, Arena *arena) {
-    PanelStated stated = panel_stated(panel, arena);
-    return (CasePanel){stated.verdict,     stated.reason,         stated.is_coarse,
-                       stated.is_unusable, stated.emission_error, stated.reflection_error,
-                       stated.assumed};
-}
-
 static const char *copied(const char *text, Arena *arena) {
     return text ? arena_string(arena, text, strlen(text)) : NULL;
 }
@@ -119,12 +102,17 @@ static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err) {
     SetupSymbol symbol = {.name = asked->name, .display_name = asked->display, .symbol_id = id};
     Image mask;
     if (!review_display_find(scene, asked->display, arena, &symbol.display, err)) return false;
-    const Panel *panel = scene->displays[symbol.display.display_id].panel;
-    symbol.panel = panel_of(panel, arena);
-    SymbolQuestion question = {.panel = panel,
-                               .content = shown_content(scene, &symbol.display),
+    const Display *display = &scene->displays[symbol.display.display_id];
+    const ReviewCondition *condition = list->setup->condition;
+    int content = display->content.texture_id;
+    PanelStated stated = panel_stated(display->panel, arena);
+    symbol.panel = (CasePanel){stated.verdict,     stated.reason,         stated.is_coarse,
+                               stated.is_unusable, stated.emission_error, stated.reflection_error,
+                               stated.assumed};
+    SymbolQuestion question = {.panel = display->panel,
+                               .content = content == NO_ID ? NULL : &scene->textures[content].image,
                                .uv = {0, 0, 1, 1},
-                               .polarity = polarity_of(list->setup, id)};
+                               .polarity = condition ? condition->polarity[id] : asked->polarity};
     if (asked->has_uv) memcpy(question.uv, asked->uv, sizeof question.uv);
     if (!read_mask(asked, &symbol.mask, &mask, arena, err)) return false;
     if (symbol.mask.path) question.mask = &mask;
@@ -140,9 +128,12 @@ SymbolPoint symbol_middle(const SetupSymbol *symbol) {
     return is_shown ? point : symbol->surface.points[0];
 }
 
-void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *arena, ProbeAim *aim) {
+SymbolVisibility symbol_aim(const SymbolSurface *surface, Arena *arena, ProbeAim *aim) {
     Vec3 *targets = ARENA_NEW(arena, Vec3, surface->point_count);
     ProbePatch *patches = ARENA_NEW(arena, ProbePatch, surface->point_count);
+    Arena scratch = *arena;
+    bool *is_visible = ARENA_NEW(&scratch, bool, surface->point_count);
+    SymbolVisibility seen = symbol_visibility(surface, aim->context, aim->eye, is_visible);
     aim->targets = targets;
     aim->patches = patches;
     aim->target_count = 0;
@@ -152,6 +143,7 @@ void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *are
         targets[aim->target_count] = patch.middle;
         patches[aim->target_count++] = (ProbePatch){patch.along, patch.down};
     }
+    return seen;
 }
 
 /* ---- its parts --------------------------------------------------------------------------- */
@@ -163,21 +155,14 @@ static int cells_along(double box, double part, int steps) {
     return part > 0 && part < box ? (int)floor(steps * box / part) : steps;
 }
 
-/* Lengths of a part within the box: its share of the content. */
-static void part_size(const SymbolSplit *split, double size[2]) {
-    size[0] = split->stroke_px / split->light.content_width;
-    size[1] = split->character_v;
-}
-
 /* Sets how the box is divided into no more than so many cells. */
 static void divide(const SymbolSplit *split, int most, LightParts *parts) {
-    double size[2], width = split->box[2] - split->box[0];
-    double height = split->box[3] - split->box[1], larger = 1;
-    part_size(split, size);
+    double width = split->box[2] - split->box[0], height = split->box[3] - split->box[1];
+    double stroke = split->stroke_px / split->light.content_width, larger = 1;
     int steps = STEPS_MOST;
     do {
-        parts->columns = cells_along(width, larger * size[0], steps);
-        parts->rows = cells_along(height, larger * size[1], steps);
+        parts->columns = cells_along(width, larger * stroke, steps);
+        parts->rows = cells_along(height, larger * split->character_v, steps);
         parts->wide = parts->high = steps;
         if (steps > 1) steps /= 2;
         else larger *= 2;
@@ -355,12 +340,6 @@ static double add_sun(const Setup *setup, const LightParts *parts, double *known
     return sun_parts_light(parts, &options, &sun, bands[1], known, scratch);
 }
 
-static bool is_shade(const double *known, int targets) {
-    for (int i = 0; i < targets; i++)
-        if (known[i] > 0) return false;
-    return true;
-}
-
 void worst_part_set_mean(CaseWhole *whole, const Reading *reading) {
     whole->reflected = reading->reflected;
     whole->reflected_range = reading->interval;
@@ -380,7 +359,9 @@ static int read_all(const Setup *setup, const LightParts *parts, CaseWhole *whol
     without.without_mirrored_sun = mirror > 0;
     aim.context = &without;
     aim.seed = FIELD_SEED;
-    long paths = is_shade(known, targets) ? SHADE_PATHS : FIELD_PATHS;
+    long paths = SHADE_PATHS;
+    for (int i = 0; i < targets; i++)
+        if (known[i] > 0) paths = FIELD_PATHS;
     Reading mean = reading_field(&aim, paths, mirror, &setup->tools, found, scratch);
     int part = light_parts_choose(parts, found, known, scratch);
     if (part != LIGHT_PARTS_ALL) {
@@ -414,13 +395,6 @@ static double lit_share(const Setup *setup, const PartArgs *args, Arena scratch)
     return symbol_lit_share(&surface, is_visible, &setup->context, towards);
 }
 
-/* At what is seen of a part. */
-static void aim_at(const SymbolSurface *surface, ProbeAim *aim, Arena *arena) {
-    bool is_visible[SYMBOL_POINTS];
-    symbol_visibility(surface, aim->context, aim->eye, is_visible);
-    symbol_aim(surface, is_visible, arena, aim);
-}
-
 /* False: nothing of it is seen, or some of it is not shown. */
 static bool aim_at_box(const SymbolSurface *all, const double uv[4], WorstPart *out, Arena *arena) {
     SymbolSurface surface;
@@ -428,14 +402,14 @@ static bool aim_at_box(const SymbolSurface *all, const double uv[4], WorstPart *
     memcpy(&out->whole.part, uv, sizeof out->whole.part);
     out->aim.target_count = 0;
     if (symbol_surface_within(all, uv, SYMBOL_POINTS, arena, &surface, &ignored))
-        aim_at(&surface, &out->aim, arena);
+        symbol_aim(&surface, arena, &out->aim);
     return out->aim.target_count > 0;
 }
 
-static void aim_at_all(const SymbolSurface *all, WorstPart *out, Arena *arena) {
-    memcpy(&out->whole.part, all->uv, sizeof out->whole.part);
-    out->is_all = true;
-    aim_at(all, &out->aim, arena);
+void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena) {
+    memcpy(&part->whole.part, symbol->surface.uv, sizeof part->whole.part);
+    part->is_all = true;
+    symbol_aim(&symbol->surface, arena, &part->aim);
 }
 
 WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena) {
@@ -455,7 +429,7 @@ WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena
         if (is_told) out.whole.lit_share = lit_share(setup, args, scratch);
     }
     arena_release(&scratch);
-    if (!aim_at_box(all, uv, &out, arena)) aim_at_all(all, &out, arena);
+    if (!aim_at_box(all, uv, &out, arena)) worst_part_take_all(args->symbol, &out, arena);
     return out;
 }
 
@@ -471,10 +445,6 @@ ProbeAim worst_part_aim(const SetupSymbol *symbol, const ProbeAim *aim, const do
 bool worst_part_is_better(const CaseWhole *whole, MeanInterval reading, bool is_private) {
     MeanInterval mean = whole->reflected_range; /* NaN where it is not known */
     return is_private ? reading.low > mean.high : reading.high < mean.low;
-}
-
-void worst_part_take_all(const SetupSymbol *symbol, WorstPart *part, Arena *arena) {
-    aim_at_all(&symbol->surface, part, arena);
 }
 
 bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err) {

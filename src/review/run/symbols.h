@@ -35,9 +35,9 @@ double symbol_stroke_ratio(const SetupSymbol *symbol);
 /* The middle of that box; where no triangle shows that, the surface's first point. */
 SymbolPoint symbol_middle(const SetupSymbol *symbol);
 
-/* Aims a probe, whose context and eye are set, at what is visible (symbol_visibility): targets
- * and patches, from the arena. */
-void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *arena, ProbeAim *aim);
+/* Aims a probe, whose context and eye are set, at what is visible: targets and patches, from the
+ * arena. Returns symbol_visibility. */
+SymbolVisibility symbol_aim(const SymbolSurface *surface, Arena *arena, ProbeAim *aim);
 
 /* The parts of a symbol by which it is judged (light/light_parts.h), for an aim whose context,
  * eye and seed are set: as wide as one of its strokes and one character high, within the box
