@@ -132,14 +132,16 @@ const char *review_outcome_words(const Review *review, Arena *arena) {
     for (int i = 0, listed = 0; i < 4 && by.unlimited[4]; i++)
         if (by.so[i])
             text_format(&text, "%s %s", listed++ ? " and" : "", words_ambient((Ambient)i));
-    for (int i = 0; i < 4; i++) {
-        if (!by.unlimited[i]) continue;
-        if (by.judged[i])
+    int bare = 0;
+    for (int i = 0; i < 4; i++)
+        if (by.unlimited[i] && !by.judged[i])
+            text_format(&text, "%s %s", bare++ ? " and" : ";", ambient_names[i]);
+    if (bare) text_format(&text, " %s no limit in this profile", bare == 1 ? "has" : "have");
+    for (int i = 0; i < 4; i++)
+        if (by.unlimited[i] && by.judged[i])
             text_format(&text, "; %d of %d cases %s %s no limit in this profile", by.unlimited[i],
                         by.unlimited[i] + by.judged[i], words_ambient((Ambient)i),
                         by.unlimited[i] == 1 ? "has" : "have");
-        else text_format(&text, "; %s has no limit in this profile", ambient_names[i]);
-    }
     for (int i = 0; i < review->gaze_count; i++)
         has_road |= review->gazes[i].road && !review->gazes[i].road->left_out &&
                     !road_has_limit(review->gazes[i].road);
