@@ -30,10 +30,11 @@ const char *headline_name(const char *path, Arena *arena) {
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
-/* Two digits, or the one that the interval allows. */
+/* Two digits, or as many as the interval's first digit allows, and one at least. */
 static const char *rounded(double size, double half_width, Arena *arena) {
-    int digits = half_width > 0.1 * size ? 1 : 2;
-    int decimals = digits - 1 - (size > 0 ? (int)floor(log10(size)) : 0);
+    int first = size > 0 ? -(int)floor(log10(size)) : 0, decimals = first + 1;
+    if (half_width > 0) decimals = (int)fmin(decimals, -floor(log10(half_width)));
+    if (decimals < first) decimals = first;
     double unit = pow(10, abs(decimals));
     return arena_format(arena, "%.15g",
                         decimals > 0 ? round(size * unit) / unit : round(size / unit) * unit);
