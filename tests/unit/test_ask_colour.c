@@ -2,10 +2,12 @@
 /* The colour of a symbol as it is seen, beside its own in the dark and other symbols'. */
 #include "fixture.h"
 
+#include "base/count.h"
 #include "base/mathd.h"
 #include "base/sampler.h"
 #include "base/units.h"
 #include "review/ask_colour.h"
+#include "review/judge.h"
 #include "spectrum/photometry.h"
 
 static const double D65[3] = {0.95047, 1, 1.08883};
@@ -105,6 +107,53 @@ ARENA_TEST(stated_errors_add_as_squares) {
     lights[0].reflection_error = 1e-4;
     colours = colours_of(lights, &arena);
     assert_close(colours[0].high - colours[0].apart, hypot_d(reflecting, emitting), 1e-3);
+}
+
+/* ---- limits ------------------------------------------------------------------------------ */
+
+static ReviewCase judged(ColourLight lights[2], int count, double shift, double difference,
+                         Arena *arena) {
+    const ProfileLimit limits[] = {{.name = "shift",
+                                    .kind = LIMIT_COLOUR_SHIFT,
+                                    .ambients = {true, true, true, true},
+                                    .is_upper = true,
+                                    .value = shift},
+                                   {.name = "difference",
+                                    .kind = LIMIT_COLOUR_DIFFERENCE,
+                                    .ambients = {true, true, true, true},
+                                    .value = difference}};
+    const Profile profile = {.limits = limits, .limit_count = COUNT_OF(limits)};
+    CaseColour *list = ARENA_NEW(arena, CaseColour, 2);
+    for (int i = 0; i < 2; i++)
+        list[i] = (CaseColour){.symbol = i ? "caution" : "warning", .light = &lights[i]};
+    ReviewCase c = {
+        .luminance_cd_m2 = {.foreground = lights[0].lit, .reflected = lights[0].reflected[1]},
+        .visible_share = 1,
+        .colours = list,
+        .colour_count = count};
+    judge_case(&c, &profile, arena);
+    assert_int_equal(c.limit_count, 2);
+    return c;
+}
+
+/* 2 % either side decide; the nearest is named. What nobody asked for does not count. */
+ARENA_TEST(limits_hold_shift_and_difference) {
+    ColourLight lights[2] = {light_of(RED, 100, 30), light_of(AMBER, 100, 30)};
+    const CaseColour *is = colours_of(lights, &arena);
+    for (int side = -1; side <= 1; side += 2) {
+        double shift = is[0].apart * (1 + 0.02 * side), apart = is[1].apart * (1 - 0.02 * side);
+        ReviewCase c = judged(lights, 2, shift, apart, &arena);
+        for (int i = 0; i < 2; i++)
+            assert_int_equal(c.limits[i].verdict, side > 0 ? VERDICT_PASS : VERDICT_FAIL);
+        assert_int_equal(c.verdict, c.limits[0].verdict);
+        assert_null(c.limits[0].beside);
+        assert_string_equal(c.limits[1].beside, "caution");
+        assert_true(limit_wants_less(&c.limits[0]) == limit_wants_less(&c.limits[1]));
+    }
+    ReviewCase alone = judged(lights, 1, is[0].apart * 1.02, 1, &arena);
+    assert_true(isnan(alone.limits[1].found));
+    assert_int_equal(alone.verdict, VERDICT_PASS);
+    assert_int_equal(judged(lights, 0, 1, 1, &arena).unjudged, UNJUDGED_LIMIT);
 }
 
 /* ---- how often intervals hold ------------------------------------------------------------ */
