@@ -157,8 +157,14 @@ static bool check_limit(const JsonView *view, void *item, Error *err) {
 }
 
 static const RecordFormat limit_format = {
-    "limit", sizeof(ProfileLimit), LIMIT, .check = check_limit,
-    .doc = "Of any quantity: assets/schemas/profile.md lists them with their units."};
+    "limit",
+    sizeof(ProfileLimit),
+    LIMIT,
+    .check = check_limit,
+    .doc = "Of any quantity: assets/schemas/profile.md lists them with their units.",
+    .rules = "{'if': {'properties': {'kind': {'enum': ['character_height', "
+             "'threshold_increment', 'gaze_veil', 'mirrored_sun']}}}, "
+             "'else': {'properties': {'unit': {'const': '1'}}}}"};
 
 /* ---- facts ------------------------------------------------------------------------------- */
 
