@@ -99,14 +99,8 @@ static void set_contrasts(ReviewCase *c, MeanInterval reflected) {
 
 /* What was read of a look. */
 typedef struct LookReading {
-    double visible_share, reflected, mirror;
-    MeanInterval range;
-    CaseWhole whole;
-    DirectSun direct;
-    const double *batches;
-    const ColourLight *colour; /* NULL: nobody asked */
-    long paths;
-    double asked, reached;
+    ReviewCase of;
+    DirectSun direct; /* of what is reflected */
 } LookReading;
 
 /* One point of an eye that looks at a symbol; coarse: to find the worst of many points; bare:
@@ -237,26 +231,6 @@ static bool has_visibility(const CaseTools *tools, const CaseLook *look) {
     return is_limited || (!look->is_bare && tools->setup->request->visibility.is_asked);
 }
 
-/* Before anything of it was seen. */
-static void start_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c, Arena *arena) {
-    const double nan = (double)NAN;
-    const Setup *setup = tools->setup;
-    const SymbolSurface *surface = &look->symbol->surface;
-    c->luminance_cd_m2 = (CaseLuminances){nan, nan, nan, nan, nan, nan};
-    c->glasses_transmittance = 1;
-    c->precision_asked = c->precision_reached = nan;
-    c->reflected_range = (MeanInterval){nan, nan};
-    c->whole = case_whole_unknown();
-    if (c->visible_share < 1 && !look->is_coarse)
-        case_hiders(surface, &setup->context, look->eye, c, arena);
-    c->height_arcmin = symbol_height_arcmin(surface, look->symbol->split.box, look->eye);
-    c->stroke_ratio = symbol_stroke_ratio(look->symbol);
-    c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
-        c->visibility = nan;
-    if (has_visibility(tools, look))
-        case_visibility_start(setup->request, &look->symbol->split, c, arena);
-}
-
 static void set_mean(const Profile *profile, ReviewCase *c) {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double veil = profile->uses_veil && !isnan(l->veil) ? l->veil : 0;
@@ -316,21 +290,6 @@ static bool is_kept(const CaseTools *tools, const ReviewCase *c) {
            !(setup->condition && setup->condition->glasses);
 }
 
-static LookReading look_reading(const ReviewCase *c, DirectSun direct) {
-    const CaseLuminances *l = &c->luminance_cd_m2;
-    return (LookReading){c->visible_share,
-                         l->reflected,
-                         l->mirror,
-                         c->reflected_range,
-                         c->whole,
-                         direct,
-                         c->batches,
-                         c->colour_count ? c->colours[0].light : NULL,
-                         c->paths,
-                         c->precision_asked,
-                         c->precision_reached};
-}
-
 /* The pilot of a part and, from all points, of all. */
 static const CasePilot *pilot_of(const CaseTools *tools, const CaseLook *look, const ProbeAim *part,
                                  double mirror, Arena *arena) {
@@ -339,38 +298,33 @@ static const CasePilot *pilot_of(const CaseTools *tools, const CaseLook *look, c
     return case_pilot(&args, arena);
 }
 
-static ProbeAim aim_at_part(const CaseLook *look, const ProbeAim *aim, const LookReading *like,
-                            Arena *arena) {
-    double part[4];
-    memcpy(part, &like->whole.part, sizeof part);
-    return worst_part_aim(look->symbol, aim, part, arena);
-}
-
 /* Takes the review's reading, in the part that the review judged. No targets: another share of
  * the symbol is seen. */
 static ProbeAim take_alike(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
                            ReviewCase *c, Arena *arena) {
-    const LookReading *like = look->like;
+    const ReviewCase *like = &look->like->of;
+    const CaseLuminances *was = &like->luminance_cd_m2;
     CaseLuminances *l = &c->luminance_cd_m2;
-    double more = look->within * like->reflected;
-    ProbeAim part = aim_at_part(look, aim, like, arena);
+    double more = look->within * was->reflected;
+    ProbeAim part = worst_part_aim(look->symbol, aim, &like->whole.part, arena);
     if (!part.target_count || like->visible_share != c->visible_share)
         return (ProbeAim){.target_count = 0};
-    l->reflected = like->reflected;
-    l->mirror = like->mirror;
-    l->scattered = like->reflected - like->mirror;
+    l->reflected = was->reflected;
+    l->mirror = was->mirror;
+    l->scattered = was->scattered;
     c->alike_within = look->within;
     c->paths = like->paths;
     c->batches = like->batches;
     c->whole = like->whole;
-    c->precision_asked = like->asked;
-    c->precision_reached = like->reached;
+    c->precision_asked = like->precision_asked;
+    c->precision_reached = like->precision_reached;
     set_mean(tools->profile, c);
-    set_contrasts(
-        c, (MeanInterval){fmax(l->reflected - hypot(l->reflected - like->range.low, more), 0),
-                          l->reflected + hypot(like->range.high - l->reflected, more)});
+    set_contrasts(c,
+                  (MeanInterval){
+                      fmax(l->reflected - hypot(l->reflected - like->reflected_range.low, more), 0),
+                      l->reflected + hypot(like->reflected_range.high - l->reflected, more)});
     c->visibility = visibility_of(c, &look->symbol->split);
-    if (c->colour_count && like->colour) symbol_colour_alike(like->colour, c);
+    if (c->colour_count) symbol_colour_alike(like->colours[0].light, c);
     return part;
 }
 
@@ -382,7 +336,12 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     const SetupSymbol *symbol = look->symbol;
     SymbolVisibility seen = symbol_visibility(&symbol->surface, &setup->context, look->eye, NULL);
     c->visible_share = seen.visible_share;
-    start_look(tools, look, c, arena);
+    if (c->visible_share < 1 && !look->is_coarse)
+        case_hiders(&symbol->surface, &setup->context, look->eye, c, arena);
+    c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, look->eye);
+    c->stroke_ratio = symbol_stroke_ratio(symbol);
+    if (has_visibility(tools, look))
+        case_visibility_start(setup->request, &symbol->split, c, arena);
     if (!case_is_seen(c)) return (ProbeAim){.target_count = 0};
     SymbolLook shown = {&symbol->surface, &symbol->split, look->eye, setup->tools.threads};
     SymbolEmission emission = symbol_emission(&shown, c->level);
@@ -482,14 +441,15 @@ static void see_others(const CaseTools *tools, const CaseLook *look, ReviewCase 
     for (int i = 0; i < tools->symbol_count; i++) {
         const SetupSymbol *symbol = &tools->symbols[i];
         CaseLook one = {.symbol = symbol, .eye = look->eye, .is_bare = true, .has_colour = true};
-        ReviewCase other = *c;
+        ReviewCase other = review_case_unknown();
         DirectSun direct;
         int k = 0;
         while (k < asked->distinct_count && asked->distinct_from[k] != symbol->symbol_id) k++;
         if (k == asked->distinct_count) continue;
         name_symbol(tools->setup, symbol, &other);
-        other.must_not_be_read = false;
-        other.colour_count = other.visibility_count = 0;
+        other.condition = c->condition;
+        other.eye = c->eye;
+        other.display_lux = c->display_lux;
         if (!see_symbol(tools, &one, &other, &direct, arena).target_count) continue;
         other.colours[0].light->is_on_display =
             symbol->display.display_id == look->symbol->display.display_id;
@@ -563,7 +523,7 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const EyePl
             seen = start;
             judge_look(tools, &one, &seen, &direct, &room);
         }
-        if (of->readings) of->readings[i] = look_reading(&seen, direct);
+        if (of->readings) of->readings[i] = (LookReading){seen, direct};
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_UNJUDGED;
         if (places) places[i] = place_of(tools->setup, of->points[i], &seen);
         if (i && !is_worse(&seen, &worst)) continue;
@@ -581,7 +541,7 @@ static double apart_from(const CaseTools *tools, const CaseLook *look, const Rev
     const Setup *setup = tools->setup;
     ProbeAim aim = {.context = &setup->context, .eye = look->points[like->kept->at]};
     if (c->has_sun && c->sun_elevation_deg != like->sun_elevation_deg) return (double)INFINITY;
-    aim = aim_at_part(look, &aim, &like->kept->own, &scratch);
+    aim = worst_part_aim(look->symbol, &aim, &like->whole.part, &scratch);
     if (!aim.target_count) return (double)INFINITY;
     double mirror = direct_sun(setup, &aim, scratch).mirror;
     return case_pilots_apart(like->kept->pilot, pilot_of(tools, look, &aim, mirror, &scratch));
@@ -609,7 +569,7 @@ static ProbeAim judge_eye(const CaseTools *tools, CaseLook *look, ReviewCase *c,
     look->eye = of.points[kept.at];
     if (like && like->kept->at == kept.at) look->like = &like->kept->own;
     ProbeAim aim = judge_look(tools, look, c, &kept.own.direct, arena);
-    kept.own = look_reading(c, kept.own.direct);
+    kept.own.of = *c;
     if (keeps && aim.target_count) {
         CaseKept *to = ARENA_NEW(arena, CaseKept, 1);
         kept.pilot = pilot_of(tools, look, &aim, kept.own.direct.mirror, arena);

@@ -433,9 +433,11 @@ WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena
     return out;
 }
 
-ProbeAim worst_part_aim(const SetupSymbol *symbol, const ProbeAim *aim, const double uv[4],
+ProbeAim worst_part_aim(const SetupSymbol *symbol, const ProbeAim *aim, const CaseBox *part,
                         Arena *arena) {
     WorstPart out = {.aim = *aim};
+    double uv[4];
+    memcpy(uv, part, sizeof uv);
     aim_at_box(&symbol->surface, uv, &out, arena);
     return out.aim;
 }

@@ -109,7 +109,7 @@ typedef struct WorstPart {
 WorstPart worst_part_find(const Setup *setup, const PartArgs *args, Arena *arena);
 
 /* That part of it, or all of it where the box is all. No target: nothing of it is seen. */
-ProbeAim worst_part_aim(const SetupSymbol *symbol, const ProbeAim *aim, const double uv[4],
+ProbeAim worst_part_aim(const SetupSymbol *symbol, const ProbeAim *aim, const CaseBox *part,
                         Arena *arena);
 
 /* The mean is that reading of all of the symbol. */
