@@ -34,11 +34,6 @@ static const char **all_paths(const SetupOptions *options, int *count, Arena *ar
     return paths;
 }
 
-/* "node:NAME" names a display's surface; what it shows belongs to its material. */
-static bool is_material(const char *display) {
-    return strncmp(display, "node:", 5) != 0;
-}
-
 /* Contents to be shown; the first that is added for a display counts. */
 typedef struct ContentList {
     SceneOverride *list;
@@ -69,20 +64,13 @@ static SceneOverride *all_contents(const SetupOptions *options, int *count, Aren
                                  (int)(c - request->conditions), c->contents[k].display));
     for (int i = 0; i < request->symbol_count; i++) {
         const ReviewSymbol *symbol = &request->symbols[i];
-        if (symbol->content && is_material(symbol->display))
+        bool is_node = !strncmp(symbol->display, "node:", 5); /* its material shows it */
+        if (symbol->content && !is_node)
             add_content(&contents, symbol->display, symbol->content,
                         arena_format(arena, "%s: /symbols/%s", request->file, symbol->name));
     }
     *count = contents.count;
     return contents.list;
-}
-
-static void set_change(const ReviewChange *change, SceneOptions *scene) {
-    if (!change) return;
-    scene->changes = change->scene;
-    scene->change_count = change->scene_count;
-    scene->panels = change->panels;
-    scene->panel_count = change->panel_count;
 }
 
 /* Of the files that the request names: contents and pictures of skies among them. */
@@ -103,7 +91,12 @@ static SceneOptions scene_options(const SetupOptions *options, Arena *arena) {
     SceneOptions scene = {.root = options->means.root, .state = options->means.state};
     scene.paths = all_paths(options, &scene.path_count, arena);
     scene.contents = all_contents(options, &scene.content_count, arena);
-    set_change(options->request->change, &scene);
+    const ReviewChange *change = options->request->change;
+    if (!change) return scene;
+    scene.changes = change->scene;
+    scene.change_count = change->scene_count;
+    scene.panels = change->panels;
+    scene.panel_count = change->panel_count;
     return scene;
 }
 
@@ -179,11 +172,6 @@ static const char *key_of(const SetupOptions *options, Arena *arena) {
     return key.data;
 }
 
-static int id_of(const SetupOptions *options) {
-    const ReviewCondition *condition = options->condition;
-    return condition ? (int)(condition - options->request->conditions) : NO_ID;
-}
-
 static void lend(KeptScene *kept, const SetupOptions *options, Setup *out) {
     *out = kept->setup;
     out->request = options->request;
@@ -192,7 +180,8 @@ static void lend(KeptScene *kept, const SetupOptions *options, Setup *out) {
     out->kept = kept;
     out->scene->environment = kept->environment;
     set_scene_levels(out);
-    kept->condition_id = id_of(options);
+    kept->condition_id =
+        options->condition ? (int)(options->condition - options->request->conditions) : NO_ID;
     kept->is_open = true;
 }
 
@@ -244,24 +233,20 @@ void scenes_kept_close(ScenesKept *scenes, int condition_id) {
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-/* Once for a kept scene: by the one that opened it, before it is lit by several threads. */
-static void know_lamps(Setup *setup) {
-    KeptScene *kept = setup->kept;
-    if (!kept || setup->context.knows_lamps) return;
-    path_context_know_lamps(&kept->setup.context, setup->context.lights, &kept->arena);
-    memcpy(setup->context.beams, kept->setup.context.beams, sizeof setup->context.beams);
-    setup->context.knows_lamps = true;
-}
-
-/* What paths need besides them is of the lights before. */
+/* What paths need besides them is of the lights before. Lamps are known once for a kept scene: by
+ * the one that opened it, before it is lit by several threads. */
 static bool take_lights(Setup *setup, Arena *arena, Error *err) {
     Lights *lights;
+    KeptScene *kept = setup->kept;
     const Lights *before = setup->context.lights;
     if (!(before ? lights_under_sky(before, arena, &lights, err)
                  : lights_build(setup->scene, arena, &lights, err)))
         return false;
     setup->context.lights = lights;
-    know_lamps(setup);
+    if (!kept || setup->context.knows_lamps) return true;
+    path_context_know_lamps(&kept->setup.context, lights, &kept->arena);
+    memcpy(setup->context.beams, kept->setup.context.beams, sizeof setup->context.beams);
+    setup->context.knows_lamps = true;
     return true;
 }
 
@@ -271,14 +256,11 @@ bool setup_relight(Setup *setup, Arena *arena, Error *err) {
     return true;
 }
 
-static void read_sensor(Setup *setup, const ReviewLevel *level, Arena scratch) {
-    LitPoint head = {scene_from_world(setup->scene->origin, level->position_m),
-                     vec3_from_doubles(level->normal), false};
+Reading setup_meter(const Setup *setup, LitPoint head, uint32_t seed, const ReadingGoal *goal,
+                    Arena scratch) {
     PathContext here = path_context_of_meter(&setup->context, head);
-    ProbeAim aim = {
-        .context = &here, .meter = &head, .seed = review_seed(setup->request, SENSOR_SEED)};
-    ReadingGoal goal = {.precision = SENSOR_PRECISION, .most = SENSOR_PATHS};
-    setup->sensor_lux = reading_take(&aim, &goal, &setup->tools, scratch).reflected;
+    ProbeAim aim = {.context = &here, .meter = &head, .seed = review_seed(setup->request, seed)};
+    return reading_take(&aim, goal, &setup->tools, scratch);
 }
 
 double setup_level_of(const Setup *setup, const ReviewLevel *level, int display_id,
@@ -301,12 +283,6 @@ static bool set_levels(Setup *setup, const ReviewLevel *level) {
     return any;
 }
 
-/* Under the same sky. */
-static void light_again(Setup *setup, Arena *arena) {
-    const Lights *lights = lights_with_levels(setup->context.lights, arena);
-    setup->context = path_context_relevel(&setup->context, lights, arena);
-}
-
 static const ReviewLevel *level_of(const Setup *setup) {
     const ReviewCondition *condition = setup->condition;
     bool has_level = condition && condition->level_id != NO_ID;
@@ -326,8 +302,13 @@ bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Err
     set_fixed_levels(setup);
     if (!setup_relight(setup, arena, err)) return false;
     if (!level || !level->is_curve) return true;
-    read_sensor(setup, level, *arena);
-    if (set_levels(setup, level)) light_again(setup, arena);
+    LitPoint sensor = {scene_from_world(setup->scene->origin, level->position_m),
+                       vec3_from_doubles(level->normal), false};
+    ReadingGoal goal = {.precision = SENSOR_PRECISION, .most = SENSOR_PATHS};
+    setup->sensor_lux = setup_meter(setup, sensor, SENSOR_SEED, &goal, *arena).reflected;
+    if (!set_levels(setup, level)) return true;
+    const Lights *lights = lights_with_levels(setup->context.lights, arena);
+    setup->context = path_context_relevel(&setup->context, lights, arena);
     return true;
 }
 
@@ -456,17 +437,14 @@ static bool has_same_files(const ReviewRequest *a, const ReviewRequest *b) {
     return true;
 }
 
-static bool has_same_lights(const GuideScene *a, const GuideScene *b) {
-    return a->light_count == b->light_count && a->lamp_count == b->lamp_count &&
-           memcmp(a->has, b->has, sizeof a->has) == 0;
-}
-
 static bool is_taken_over(const Setup *setup, const GuideScene *scene) {
     const MomentGuide *moment = setup->moment_guide;
     const ReviewChange *change = setup->request->change;
     return moment && moment->request && moment->guide && change && !change->mirror &&
            has_same_files(moment->request, setup->request) &&
-           has_same_lights(&moment->scene, scene);
+           moment->scene.light_count == scene->light_count &&
+           moment->scene.lamp_count == scene->lamp_count &&
+           memcmp(moment->scene.has, scene->has, sizeof scene->has) == 0;
 }
 
 void trained_guide_take(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena) {

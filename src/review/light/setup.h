@@ -89,6 +89,10 @@ bool setup_light_again(Setup *setup, const Setup *before, const Environment *env
  * setup's. */
 bool setup_relight(Setup *setup, Arena *arena, Error *err);
 
+/* What a luxmeter reads there, lx. */
+Reading setup_meter(const Setup *setup, LitPoint head, uint32_t seed, const ReadingGoal *goal,
+                    Arena scratch);
+
 void setup_close(Setup *setup);
 
 /* Closes those that setups of that condition used last; NO_ID: all of them. None may be open. */

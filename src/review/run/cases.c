@@ -41,16 +41,13 @@ static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena 
     const Setup *setup = tools->setup;
     SymbolPoint point = symbol_middle(symbol);
     LitPoint head = {symbol_point_start(setup->scene, &point), point.ns, false};
-    PathContext here = path_context_of_meter(&setup->context, head);
-    ProbeAim aim = {
-        .context = &here, .meter = &head, .seed = review_seed(setup->request, FACE_SEED)};
     ReadingGoal goal = {.precision = tools->base ? FACE_PRECISION_VARIANT : FACE_PRECISION,
                         .most = FACE_PATHS};
-    Reading face = reading_take(&aim, &goal, &setup->tools, scratch);
+    Reading face = setup_meter(setup, head, FACE_SEED, &goal, scratch);
     if (tools->base && profile_ambient(tools->profile, face.interval.low, false) !=
                            profile_ambient(tools->profile, face.interval.high, false)) {
         goal.precision = FACE_PRECISION;
-        face = reading_take(&aim, &goal, &setup->tools, scratch);
+        face = setup_meter(setup, head, FACE_SEED, &goal, scratch);
     }
     return face.reflected;
 }
