@@ -282,5 +282,6 @@ int review_steps(const ReviewRequest *request, const bool *only) {
         if (!only || only[i])
             steps += review_condition_steps(request, &request->conditions[i]) *
                      (1 + request->variant_count);
-    return steps + (request->frames.worst ? request->frames.worst + request->variant_count : 0);
+    int with_each = request->frames.has_variants ? request->variant_count : 0;
+    return steps + (request->frames.worst ? request->frames.worst + with_each : 0);
 }

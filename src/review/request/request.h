@@ -308,6 +308,7 @@ typedef struct ReviewFrames {
     double noise;      /* relative error, 0..1 */
     int worst;         /* how many of the worst cases are rendered; 0: none */
     bool is_denoised;  /* as pictures: what is measured of a frame never is */
+    bool has_variants; /* the worst is rendered with each, too */
 } ReviewFrames;
 
 /* For whom visibility levels are told besides the observer, and of how long a glance. */

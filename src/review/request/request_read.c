@@ -91,6 +91,8 @@ static const RecordRow FRAMES[] = {
     FLAG("denoise", 0, is_denoised,
          "Whether they are shown without most of their noise: pictures alone, never figures. "
          "Default: true."),
+    FLAG("variants", 0, has_variants,
+         "Whether the worst is rendered with each variant, too. Default: true."),
     {0}};
 _Static_assert(offsetof(OWNER, height) == offsetof(OWNER, width) + sizeof(int), "a pair");
 
@@ -171,7 +173,7 @@ static void start_review(void *item) {
                                              .precision_contrast = 0.01,
                                              .precision_clear = CLEAR_USUAL,
                                              .precision_paths = 262144,
-                                             .frames = {960, 540, 0.1, 2, true}};
+                                             .frames = {960, 540, 0.1, 2, true, true}};
 }
 
 /* Ahead on the horizontal, its front down by the tilt; across; upright on both. */

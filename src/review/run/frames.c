@@ -521,6 +521,7 @@ static bool make_pair(const FrameWork *before, int number, ReviewVariantFound *v
 static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review, Arena *arena,
                        Error *err) {
     FrameWork work = {run, of, name_of(of->of->frame, arena), NULL};
+    if (!run->request->frames.has_variants) return true;
     Arena scratch = arena_reserve(SETUP_BYTES);
     const char *exr = arena_format(&scratch, "%s/frames/%s.exr", run->folder, work.name);
     FrameImage frame;
