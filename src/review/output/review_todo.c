@@ -38,10 +38,8 @@ static const char *percent(double level, int away, Arena *arena) {
  * limit's figure has it. */
 static const char *reflect_less(const ReviewCase *c, const LimitVerdict *limit, Arena *arena) {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    LimitKind kind = limit_kind_named(limit->kind);
-    double needed = ratio_from_contrast(kind, limit->value);
-    double plain = contrast_from_ratio(kind, c->contrast_ratio);
-    double veil = fabs(limit->found - plain) > 1e-4 * fabs(plain) ? l->veil : 0;
+    double needed = ratio_from_contrast(limit_kind_named(limit->kind), limit->value);
+    double veil = limit->has_veil ? l->veil : 0;
     double level = fmax(c->level, 1), times = level / c->level;
     double high = fmax(l->foreground, l->background), low = fmin(l->foreground, l->background);
     double most = times * (high - needed * low) / (needed - 1) - veil;
