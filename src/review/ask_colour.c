@@ -204,22 +204,18 @@ static Figure find_difference(const Evidence *e, bool is_upper) {
     return e->c->colour_count > 1 ? least : figure_unknown();
 }
 
-const ReviewQuantity quantity_colour_shift = {
-    .unit = "1",
-    .words = "colour shift Δu′v′",
-    .doc = "CIE 1976: from the symbol's own colour in the dark to the one that is seen.",
-    .is_of_light = true,
-    .falls = true,
-    .may_be_missing = true,
-    .has_one_bound = true,
-    .is_upper = true,
-    .find = find_shift};
+const ReviewQuantity quantity_colour_shift = {.unit = "1",
+                                              .words = "colour shift Δu′v′",
+                                              .is_of_light = true,
+                                              .falls = true,
+                                              .may_be_missing = true,
+                                              .has_one_bound = true,
+                                              .is_upper = true,
+                                              .find = find_shift};
 
-const ReviewQuantity quantity_colour_difference = {
-    .unit = "1",
-    .words = "colour difference Δu′v′",
-    .doc = "CIE 1976: the least to the symbols of `distinct_from`, as they are seen.",
-    .is_of_light = true,
-    .may_be_missing = true,
-    .has_one_bound = true,
-    .find = find_difference};
+const ReviewQuantity quantity_colour_difference = {.unit = "1",
+                                                   .words = "colour difference Δu′v′",
+                                                   .is_of_light = true,
+                                                   .may_be_missing = true,
+                                                   .has_one_bound = true,
+                                                   .find = find_difference};

@@ -74,8 +74,6 @@ static Figure find_image(const Evidence *e, bool is_upper) {
 const ReviewQuantity quantity_contrast_ratio = {.unit = "1",
                                                 .words = "contrast",
                                                 .sign = ": 1",
-                                                .doc = "Brighter over darker part, all that is "
-                                                       "reflected included.",
                                                 .is_of_light = true,
                                                 .find = find_ratio,
                                                 .from_ratio = same,
@@ -83,7 +81,6 @@ const ReviewQuantity quantity_contrast_ratio = {.unit = "1",
 
 const ReviewQuantity quantity_luminance_contrast = {.unit = "1",
                                                     .words = "luminance contrast",
-                                                    .doc = "Weber's: the ratio less 1.",
                                                     .is_of_light = true,
                                                     .find = find_weber,
                                                     .from_ratio = weber_from_ratio,
@@ -91,7 +88,6 @@ const ReviewQuantity quantity_luminance_contrast = {.unit = "1",
 
 const ReviewQuantity quantity_modulation = {.unit = "1",
                                             .words = "modulation",
-                                            .doc = "Michelson's: difference over sum.",
                                             .is_of_light = true,
                                             .below = 1,
                                             .find = find_michelson,
@@ -100,8 +96,6 @@ const ReviewQuantity quantity_modulation = {.unit = "1",
 
 const ReviewQuantity quantity_image_contrast = {.unit = "1",
                                                 .words = "contrast of the image",
-                                                .doc = "Of a display in glass: Weber's, to what is "
-                                                       "seen there besides.",
                                                 .of = OF_PANE,
                                                 .is_of_light = true,
                                                 .has_one_bound = true,

@@ -32,21 +32,16 @@ static Figure find_mirrored_sun(const Evidence *e, bool is_upper) {
     return figure_exact(e->sun->veil_cd_m2);
 }
 
-const ReviewQuantity quantity_threshold_increment = {
-    .unit = "%",
-    .words = "threshold increment",
-    .doc = "Of a gaze at a road that is lit by night, "
-           "for each age (CIE 31).",
-    .of = OF_GAZE,
-    .is_of_light = true,
-    .has_one_bound = true,
-    .is_upper = true,
-    .find = find_increment};
+const ReviewQuantity quantity_threshold_increment = {.unit = "%",
+                                                     .words = "threshold increment",
+                                                     .of = OF_GAZE,
+                                                     .is_of_light = true,
+                                                     .has_one_bound = true,
+                                                     .is_upper = true,
+                                                     .find = find_increment};
 
 const ReviewQuantity quantity_gaze_veil = {.unit = "cd/m2",
                                            .words = "veil in the eye",
-                                           .doc =
-                                               "That stray light lays over what a gaze looks at.",
                                            .of = OF_GAZE,
                                            .is_of_light = true,
                                            .has_one_bound = true,
@@ -55,8 +50,6 @@ const ReviewQuantity quantity_gaze_veil = {.unit = "cd/m2",
 
 const ReviewQuantity quantity_gaze_contrast = {.unit = "1",
                                                .words = "share of contrast left",
-                                               .doc = "Of a distant object's contrast, under what "
-                                                      "glass mirrors over it and the veil.",
                                                .of = OF_GAZE,
                                                .is_of_light = true,
                                                .has_one_bound = true,
@@ -65,8 +58,6 @@ const ReviewQuantity quantity_gaze_contrast = {.unit = "1",
 
 const ReviewQuantity quantity_mirrored_sun = {.unit = "cd/m2",
                                               .words = "veil by the sun in a mirror",
-                                              .doc = "Of a sweep: at its worst, over what the eye "
-                                                     "looks at.",
                                               .of = OF_MIRROR,
                                               .is_of_light = true,
                                               .has_one_bound = true,

@@ -12,20 +12,11 @@ static Figure find_stroke(const Evidence *e, bool is_upper) {
     return figure_exact(e->c->stroke_ratio);
 }
 
-const ReviewQuantity quantity_character_height = {.unit = "arcmin",
-                                                  .words = "height",
-                                                  .doc = "Of the foreground, as the eye sees it.",
-                                                  .find = find_height};
+const ReviewQuantity quantity_character_height = {
+    .unit = "arcmin", .words = "height", .find = find_height};
 
-const ReviewQuantity quantity_stroke_ratio = {.unit = "1",
-                                              .words = "stroke ratio",
-                                              .doc = "Width of a stroke over the height.",
-                                              .may_be_missing = true,
-                                              .find = find_stroke};
+const ReviewQuantity quantity_stroke_ratio = {
+    .unit = "1", .words = "stroke ratio", .may_be_missing = true, .find = find_stroke};
 
 const ReviewQuantity quantity_width_ratio = {
-    .unit = "1",
-    .words = "width ratio",
-    .doc = "Width of a character over its height: listed, and "
-           "not measured.",
-    .may_be_missing = true};
+    .unit = "1", .words = "width ratio", .may_be_missing = true};

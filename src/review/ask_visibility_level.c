@@ -142,10 +142,5 @@ static Figure find(const Evidence *e, bool is_upper) {
                     .has_veil = true};
 }
 
-const ReviewQuantity quantity_visibility_level = {.unit = "1",
-                                                  .words = "visibility level",
-                                                  .doc =
-                                                      "Times what somebody of an age just sees; of "
-                                                      "all ages the least.",
-                                                  .is_of_light = true,
-                                                  .find = find};
+const ReviewQuantity quantity_visibility_level = {
+    .unit = "1", .words = "visibility level", .is_of_light = true, .find = find};

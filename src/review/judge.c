@@ -267,7 +267,8 @@ static const ProfileLimit *gaze_limits(const Profile *profile, int *count, Arena
     for (int i = 0; i < profile->limit_count; i++) {
         if (quantities[profile->limits[i].kind]->of != OF_GAZE) continue;
         list[(*count)++] = profile->limits[i];
-        has_increment |= profile->limits[i].kind == LIMIT_THRESHOLD_INCREMENT;
+        has_increment |=
+            profile->limits[i].kind == LIMIT_THRESHOLD_INCREMENT && !profile->limits[i].is_advice;
     }
     if (!has_increment && profile->increment_most_pct > 0)
         list[(*count)++] =
@@ -295,11 +296,14 @@ void judge_gaze(GazeFinding *g, const Profile *profile, Arena *arena) {
     Judging to = {.list =
                       ARENA_NEW(arena, LimitVerdict, count * ((is_road ? road->age_count : 0) + 1)),
                   .verdict = VERDICT_PASS};
+    for (int i = 0; is_road && i < road->age_count; i++) road->ages[i].limit.name = NULL;
     for (int i = 0; i < count; i++)
         for (e.age = 0; is_asked(&limits[i], OF_GAZE, &e) && e.age < ages_of(g, limits[i].kind);
              e.age++) {
             const LimitVerdict *judged = hold_against(&to, &limits[i], &e);
-            if (limits[i].kind == LIMIT_THRESHOLD_INCREMENT) road->ages[e.age].limit = *judged;
+            if (limits[i].kind != LIMIT_THRESHOLD_INCREMENT || !limit_counts(judged)) continue;
+            LimitVerdict *own = &road->ages[e.age].limit; /* of several the worst */
+            if (!own->name || limit_is_worse(judged, own)) *own = *judged;
         }
     g->limits = to.list;
     g->limit_count = to.count;

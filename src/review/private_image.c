@@ -64,8 +64,6 @@ static Figure find(const Evidence *e, bool is_upper) {
 
 const ReviewQuantity quantity_visual_security = {.unit = "1",
                                                  .words = "visual security S",
-                                                 .doc =
-                                                     "Of what must not be read: log10(C/(C - 1)).",
                                                  .of = OF_PRIVATE,
                                                  .is_of_light = true,
                                                  .falls = true,

@@ -147,6 +147,10 @@ static bool check_limit(const JsonView *view, void *item, Error *err) {
                             "leads to a limit of %g at %g arc minutes, "
                             "required: one above 0",
                             least, s->to_arcmin);
+    if (s->has_slope && quantities[limit->kind]->of > OF_PRIVATE)
+        return record_fails(view, "slope", err,
+                            "is by the height of characters, required: none of %s",
+                            limit_kind_names[limit->kind]);
     if (quantities[limit->kind]->has_one_bound) limit->is_upper = quantities[limit->kind]->is_upper;
     double below = quantities[limit->kind]->below;
     if (below > 0 && limit->value >= below)
@@ -246,10 +250,15 @@ static void start_profile(void *item) {
 /* Of a threshold increment the least is what displays are dimmed to. */
 static bool check_profile(const JsonView *view, void *item, Error *err) {
     Profile *p = item;
-    (void)view, (void)err;
-    for (int i = 0; i < p->limit_count; i++)
-        if (p->limits[i].kind == LIMIT_THRESHOLD_INCREMENT && !p->limits[i].is_advice)
-            p->increment_most_pct = fmin(p->increment_most_pct, p->limits[i].value);
+    bool has_key = !isnan(p->increment_most_pct);
+    for (int i = 0; i < p->limit_count; i++) {
+        if (p->limits[i].kind != LIMIT_THRESHOLD_INCREMENT || p->limits[i].is_advice) continue;
+        if (has_key)
+            return record_fails(view, "threshold_increment_max_pct", err,
+                                "is there beside a limit of threshold_increment, required: one "
+                                "of the two");
+        p->increment_most_pct = fmin(p->increment_most_pct, p->limits[i].value);
+    }
     return true;
 }
 

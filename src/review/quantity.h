@@ -90,7 +90,6 @@ typedef struct ReviewQuantity {
     const char *unit;  /* in files */
     const char *words; /* its label */
     const char *sign;  /* behind a figure in place of the unit; NULL: the unit */
-    const char *doc;   /* one line for the schema's reader */
     QuantityOf of;
     bool is_of_light;    /* it hangs on the light, as contrasts do */
     bool falls;          /* as the contrast rises */

@@ -181,6 +181,16 @@ static const Wrong WRONG[] = {
      "/limits/0/slope", "leads to a limit of -2 at 9 arc minutes, required: one above 0"},
     {LIMIT("\"ambient\": \"day\", \"kind\": \"modulation\", \"unit\": \"1\", \"value\": 30, " READ),
      "/limits/0/value", "is 30, required: less than 1"},
+    {LIMIT(
+         "\"ambient\": \"day\", \"kind\": \"gaze_veil\", \"unit\": \"cd/m2\", \"value\": 30, "
+         "\"slope\": {\"per_arcmin\": 1, \"reference_arcmin\": 20, \"heights_arcmin\": [10, 17]}, " READ),
+     "/limits/0/slope", "is by the height of characters, required: none of gaze_veil"},
+    {LIMIT("\"ambient\": \"day\", \"kind\": \"threshold_increment\", \"unit\": \"%\", "
+           "\"value\": 9, \"bound\": \"least\", " READ),
+     "/limits/0/bound", "is 'least', required: 'most' of threshold_increment"},
+    {"{" HEAD ", \"threshold_increment_max_pct\": 5, \"limits\": [{\"ambient\": \"night\", "
+     "\"kind\": \"threshold_increment\", \"unit\": \"%\", \"value\": 9, " READ "}]}",
+     "/threshold_increment_max_pct", "beside a limit of threshold_increment, required: one"},
     {LIMIT("\"ambient\": \"day\", " CONTRAST "\"value\": 1e999, " READ), "line 1",
      "not valid JSON"},
     {"", "line 1", "not valid JSON"},

@@ -49,6 +49,30 @@ TEST(an_increment_is_judged_by_its_whole_interval) {
     }
 }
 
+/* Of two limits the road's ages have the worse, advice apart; judged anew they have the new one. */
+TEST(of_several_limits_of_an_increment_the_worst_decides) {
+    ProfileLimit limits[3];
+    Profile both = {.limits = limits, .limit_count = 3, .increment_most_pct = 15};
+    for (int i = 0; i < 3; i++)
+        limits[i] = (ProfileLimit){.name = i == 1 ? "strict" : "loose",
+                                   .kind = LIMIT_THRESHOLD_INCREMENT,
+                                   .ambients = {true, true, true, true},
+                                   .is_upper = true,
+                                   .is_advice = i == 2,
+                                   .value = i == 1   ? 15
+                                            : i == 2 ? 1
+                                                     : 50};
+    GazeFinding gaze = judged(30, 1, 0, 0);
+    judge_gaze(&gaze, &both, &arena);
+    assert_int_equal(gaze.limit_count, 6);
+    assert_int_equal(gaze.verdict, VERDICT_FAIL);
+    assert_string_equal(gaze_worst_age(&gaze)->limit.name, "strict");
+    both.limit_count = 1;
+    judge_gaze(&gaze, &both, &arena);
+    assert_int_equal(gaze.verdict, VERDICT_PASS);
+    assert_string_equal(gaze_worst_age(&gaze)->limit.name, "loose");
+}
+
 TEST(what_nobody_measured_is_not_judged) {
     assert_int_equal(judged(2, 0.1, 0, 0.11).verdict, VERDICT_UNJUDGED);
     assert_int_equal(judged(2, 0.1, 0, 0.11).unjudged, UNJUDGED_DATA);

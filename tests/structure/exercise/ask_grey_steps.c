@@ -7,8 +7,5 @@ static Figure find(const Evidence *e, bool is_upper) {
     return figure_exact(e->c->jnd);
 }
 
-const ReviewQuantity quantity_grey_steps = {.unit = "1",
-                                            .words = "grey steps",
-                                            .doc = "Of DICOM's scale, the veil included.",
-                                            .is_of_light = true,
-                                            .find = find};
+const ReviewQuantity quantity_grey_steps = {
+    .unit = "1", .words = "grey steps", .is_of_light = true, .find = find};
