@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What spreadsheets get from a review: its cases, its gazes and its false suns, whatever the
- * names are. */
+/* What spreadsheets get from a review, whatever the names are. */
 #include "print/printable.h"
 #include "review/export/review_junit.h"
 #include "review/finding.h"
@@ -97,33 +96,6 @@ static void assert_csv_says(const Review *review) {
     assert_int_equal(*at, 0);
 }
 
-static void assert_gaze_csv_says(const Review *review) {
-    const char *path = in_folder("t.csv"), *cell[CSV_COLUMNS_MOST];
-    int count = 0, columns = 0;
-    assert_done(review_csv_write_gazes(review, path, &err));
-    const char *at = read_record(taken(path), cell, &columns);
-    assert_string_equal(cell[12], "veil_near_cd_m2");
-    assert_string_equal(cell[16], "mirrored_low");
-    for (int i = 0; i < review->gaze_count; i++) {
-        const GazeFinding *g = &review->gazes[i];
-        at = read_record(at, cell, &count);
-        assert_int_equal(count, columns);
-        assert_names(cell[2], g->gaze);
-        assert_same(g->veil_parts.near, number_of(cell[12]));
-        assert_same(g->mirrored_range.low, number_of(cell[16]));
-        assert_names(cell[18], g->mirrored_by);
-        assert_same(g->contrast_left, number_of(cell[23]));
-    }
-    assert_int_equal(*at, 0);
-}
-
-TEST(gazes_are_a_table_too) {
-    Review odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
-    assert_gaze_csv_says(&odd);
-    assert_gaze_csv_says(&plain);
-    assert_gaze_csv_says(&none);
-}
-
 TEST(csv_says_the_same) {
     Review odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
     assert_csv_says(&odd);
@@ -151,28 +123,6 @@ TEST(csv_has_columns_of_levels) {
         assert_same(v[1].low, number_of(cell[CSV_COLUMNS + 5]));
         assert_same(v[1].high, number_of(cell[CSV_COLUMNS + 6]));
         assert_names(cell[CSV_COLUMNS + 7], v[1].doubts);
-    }
-}
-
-TEST(csv_tells_every_false_sun) {
-    Review reviews[] = {fixture_odd_review(&arena), fixture_review(&arena)};
-    const char *cell[CSV_COLUMNS_MOST];
-    int count = 0;
-    for (int k = 0; k < 2; k++) {
-        const char *path = in_folder("t.csv");
-        assert_done(review_csv_write_false_suns(&reviews[k], path, &err));
-        const char *at = read_record(taken(path), cell, &count);
-        for (int i = 0; i < reviews[k].false_sun_count; i++) {
-            const ReviewFalseSun *f = &reviews[k].false_suns[i];
-            at = read_record(at, cell, &count);
-            assert_int_equal(count, 13);
-            assert_names(cell[2], f->mirror);
-            assert_same(f->minutes, number_of(cell[4]));
-            assert_names(cell[6], f->when);
-            assert_same(f->lux, number_of(cell[9]));
-            assert_same(f->veil_cd_m2, number_of(cell[12]));
-        }
-        assert_int_equal(*at, 0);
     }
 }
 

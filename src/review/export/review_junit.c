@@ -4,7 +4,6 @@
 #include "page/page.h"
 #include "review/output/review_json.h"
 #include "review/output/finding_words.h"
-#include "review/output/review_road.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
 
@@ -89,8 +88,7 @@ static json_t *read_beside(const json_t *document, const Review *review, const F
     return out;
 }
 
-/* Columns are the templates': assets/pages/cases.csv and the others. A row of cases.csv is a line
- * of a finding. */
+/* Columns are the template's. A row is a line of a finding. */
 bool review_csv_write(const Review *review, const char *path, Error *err) {
     Arena scratch = arena_reserve((size_t)1 << 32);
     Findings all = review_findings(review, &scratch);
@@ -115,24 +113,4 @@ bool review_csv_write(const Review *review, const char *path, Error *err) {
     set_ages(document, review);
     page_set_flag(document, "has_private", review_has_privacy(review));
     return page_write_values("cases.csv", document, NULL, path, err);
-}
-
-bool review_csv_write_false_suns(const Review *review, const char *path, Error *err) {
-    return page_write_values("false_suns.csv", review_json(review), NULL, path, err);
-}
-
-bool review_csv_write_gazes(const Review *review, const char *path, Error *err) {
-    json_t *document = review_json(review);
-    road_add_columns(document, review);
-    return page_write_values("gazes.csv", document, NULL, path, err);
-}
-
-bool review_csv_write_dimming(const Review *review, const char *path, Error *err) {
-    json_t *document = review_json(review);
-    road_add_columns(document, review);
-    return page_write_values("dimming.csv", document, NULL, path, err);
-}
-
-bool review_csv_write_pane_images(const Review *review, const char *path, Error *err) {
-    return page_write_values("pane_images.csv", review_json(review), NULL, path, err);
 }

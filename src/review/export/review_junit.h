@@ -12,21 +12,10 @@
 
 bool review_junit_write(const Review *review, const char *path, Error *err);
 
-/* The cases of a review, and its gazes, as tables (RFC 4180): a header with
- * units, one row each, figures as in review.json, an empty cell for what has no value.
+/* All findings of a review as a table (RFC 4180): a header with units, one row each, figures as in
+ * review.json, an empty cell for what has no value.
  *
  * Threads  pure.
  * Fails    when the file cannot be written. */
 
 bool review_csv_write(const Review *review, const char *path, Error *err);
-
-/* The same of its false suns, one row a condition, eye and mirror. */
-bool review_csv_write_false_suns(const Review *review, const char *path, Error *err);
-/* Eyes that look elsewhere than at symbols. */
-bool review_csv_write_gazes(const Review *review, const char *path, Error *err);
-
-/* How bright displays may be: one row a gaze at a road, display, age and road. */
-bool review_csv_write_dimming(const Review *review, const char *path, Error *err);
-
-/* Displays in glass. */
-bool review_csv_write_pane_images(const Review *review, const char *path, Error *err);

@@ -29,9 +29,12 @@
 #define LIST_BYTES ((size_t)1 << 24)
 
 const char *const review_files_fixed[REVIEW_FILES_FIXED] = {
-    "review.json",    "index.html",       "cases.csv", "gazes.csv", "dimming.csv",
-    "false_suns.csv", "pane_images.csv",  "junit.xml", "diff.json", "run.json",
-    "live.js",        REVIEW_PAGE_BESIDE, LIST};
+    "review.json", "index.html", "cases.csv",        "junit.xml", "diff.json",
+    "run.json",    "live.js",    REVIEW_PAGE_BESIDE, LIST};
+
+/* That earlier versions wrote besides: they go with the review that stood there. */
+static const char *const of_earlier[] = {"gazes.csv", "dimming.csv", "false_suns.csv",
+                                         "pane_images.csv"};
 
 /* Behind a frame's name. */
 static const char *const of_frame[] = {".png", ".exr", "-luminance.png", "-contrast.png"};
@@ -63,13 +66,17 @@ static bool is_numbered(const char *name, const char *folder) {
            !strchr(in_folder, '/');
 }
 
-/* Whether a review may write a file of this name at all. */
+static bool is_fixed(const char *name) {
+    return is_among(review_files_fixed, REVIEW_FILES_FIXED, name) ||
+           is_among(of_earlier, COUNT_OF(of_earlier), name);
+}
+
+/* Whether a review may have written a file of this name at all. */
 static bool review_files_may_have(const char *name) {
     bool is_summary =
         starts_with(name, "summary-") && !strchr(name, '/') && !strcmp(path_ending(name), ".html");
-    return is_summary || is_among(review_files_fixed, REVIEW_FILES_FIXED, name) ||
-           is_numbered(name, "frames/") || is_numbered(name, "sweeps/") ||
-           is_numbered(name, "conditions/");
+    return is_summary || is_fixed(name) || is_numbered(name, "frames/") ||
+           is_numbered(name, "sweeps/") || is_numbered(name, "conditions/");
 }
 
 /* Is the rest of a name, behind a frame's, one of its files? */
@@ -138,8 +145,7 @@ static void adopt(Lines *files, const char *dir) {
     const ReviewCase **ranked = review_rank(&review, arena);
     for (int i = 0; i < there.count; i++) {
         const char *name = there.list[i];
-        bool is_own = is_among(review_files_fixed, REVIEW_FILES_FIXED, name) ||
-                      review_files_is_named(&review, name);
+        bool is_own = is_fixed(name) || review_files_is_named(&review, name);
         for (int k = 0; k < all && !is_own; k++)
             is_own = !strcmp(name, review_summary_name(&review, ranked[k]->symbol, arena));
         if (is_own) lines_put(files, name);
@@ -474,8 +480,9 @@ static Lines to_publish(const ReviewDraft *draft, const Review *review, Arena *a
     review_files_list(&drafted, draft->folder, "");
     for (int i = 0; i < drafted.count; i++) {
         const char *name = drafted.list[i];
-        bool is_other = (starts_with(name, "frames/") || starts_with(name, "sweeps/")) &&
-                        !review_files_is_named(review, name);
+        bool is_other = is_among(of_earlier, COUNT_OF(of_earlier), name) ||
+                        ((starts_with(name, "frames/") || starts_with(name, "sweeps/")) &&
+                         !review_files_is_named(review, name));
         if (review_files_may_have(name) && strcmp(name, "review.json") != 0 && !is_other)
             lines_put(&files, name);
     }

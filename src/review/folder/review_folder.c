@@ -396,16 +396,6 @@ bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Are
     hash_inputs(review, arena);
     return write_tables(folder, outcome, arena, err) &&
            review_csv_write(review, arena_format(arena, "%s/cases.csv", folder->name), err) &&
-           (!review->false_sun_count ||
-            review_csv_write_false_suns(
-                review, arena_format(arena, "%s/false_suns.csv", folder->name), err)) &&
-           review_csv_write_gazes(review, arena_format(arena, "%s/gazes.csv", folder->name), err) &&
-           (!review_has_dimming(review) ||
-            review_csv_write_dimming(review, arena_format(arena, "%s/dimming.csv", folder->name),
-                                     err)) &&
-           (!review->pane_image_count ||
-            review_csv_write_pane_images(
-                review, arena_format(arena, "%s/pane_images.csv", folder->name), err)) &&
            review_junit_write(review, arena_format(arena, "%s/junit.xml", folder->name), err) &&
            review_json_write(review_json(review),
                              arena_format(arena, "%s/review.json", folder->name), err) &&

@@ -18,18 +18,6 @@ static const RoadAge *shown_age(const GazeFinding *g) {
     return age || !g->road->age_count ? age : &g->road->ages[g->road->age_count - 1];
 }
 
-static bool has_roads(const Review *review) {
-    for (int i = 0; i < review->gaze_count; i++)
-        if (review->gazes[i].road) return true;
-    return false;
-}
-
-bool review_has_dimming(const Review *review) {
-    for (int i = 0; i < review->gaze_count; i++)
-        if (review->gazes[i].road && review->gazes[i].road->dimming_count) return true;
-    return false;
-}
-
 /* ---- words ------------------------------------------------------------------------------- */
 
 const char *road_outcome(const GazeFinding *gaze) {
@@ -229,25 +217,4 @@ void road_add_values(json_t *document, const Review *review, Arena *arena) {
     for (int i = 0; i < review->gaze_count; i++)
         if (review->gazes[i].road) add_road(roads, &review->gazes[i], arena);
     page_set_flag(document, "has_roads", json_array_size(roads) > 0);
-}
-
-void road_add_columns(json_t *document, const Review *review) {
-    json_t *gazes = json_object_get(document, "gazes");
-    page_set_flag(document, "has_roads", has_roads(review));
-    for (int i = 0; i < review->gaze_count; i++) {
-        const GazeFinding *gaze = &review->gazes[i];
-        json_t *to = json_array_get(gazes, (size_t)i);
-        if (!gaze->road) {
-            json_object_set_new(to, "road", json_null());
-            continue;
-        }
-        json_t *road = json_object_get(to, "road");
-        const RoadAge *age = shown_age(gaze);
-        page_set(road, "outcome", road_outcome(gaze));
-        json_object_set_new(road, "shown", json_null());
-        if (age)
-            json_object_set(
-                road, "shown",
-                json_array_get(json_object_get(road, "ages"), (size_t)(age - gaze->road->ages)));
-    }
 }

@@ -20,9 +20,3 @@ const char *road_outcome(const GazeFinding *gaze);
 
 /* Adds `roads` to the page's document. */
 void road_add_values(json_t *document, const Review *review, Arena *arena);
-
-/* For gazes.csv and dimming.csv: has_roads, and the deciding age of each gaze beside it. */
-void road_add_columns(json_t *document, const Review *review);
-
-/* Has any gaze a table of levels? */
-bool review_has_dimming(const Review *review);
