@@ -5,7 +5,8 @@
  *     C = (R H + B) / (R D + B),  V = (R H + B) / (R H - R D) = C / (C - 1),  S = log10 V
  *
  * H and D are the luminances that the symbol's brighter and darker part send to the pane, R the
- * share that the pane mirrors of them (both faces, coatings, the light's polarisation) and
+ * share that the pane mirrors of them (both faces, coatings, the light's polarisation; of what
+ * the whole box sends, so that of two colours in a tinted mirror it is the mean) and
  * B all else that the eye gets from there: what lies behind the glass, and what panes mirror
  * besides. V and S are those of vision/privacy.h, with B in the place of what the display
  * reflects. The image is reversed left to right; that makes nothing of it unreadable here.

@@ -77,10 +77,12 @@ static Trial *cases_under(const Moment *m, const Profile *profile, unsigned seed
 }
 
 static double contrast_at(const Moment *m, double reflected) {
-    SymbolLook look = {&m->symbol->surface, &m->symbol->split, m->aim.eye, m->setup->tools.threads};
+    SymbolLook look = {&m->symbol->surface, &m->symbol->split, m->aim.eye, m->setup->tools.threads,
+                       NULL};
     double level = (double)m->setup->scene->displays[m->symbol->display.display_id].level;
     SymbolEmission shown = symbol_emission(&look, level);
-    return luminance_contrast(shown.foreground_xyz[1], shown.background_xyz[1], reflected);
+    return luminance_contrast(shown.xyz[SYMBOL_FOREGROUND][1], shown.xyz[SYMBOL_BACKGROUND][1],
+                              reflected);
 }
 
 static Truth cover_cases(const Moment *m, Arena arena) {

@@ -262,10 +262,10 @@ static void open_first(Brute *b, const ReviewRequest *request, Problems *problem
     for (int i = 0; i < surface->point_count; i++)
         if (is_visible[i]) targets[b->aim.target_count++] = surface->points[i].position;
     double level = (double)b->setup.scene->displays[symbols[0].display.display_id].level;
-    SymbolLook look = {surface, &symbols[0].split, eye, b->setup.tools.threads};
+    SymbolLook look = {surface, &symbols[0].split, eye, b->setup.tools.threads, &seen};
     SymbolEmission shown = symbol_emission(&look, level);
-    b->shown[0] = seen.transmittance * shown.foreground_xyz[1];
-    b->shown[1] = seen.transmittance * shown.background_xyz[1];
+    b->shown[0] = shown.xyz[SYMBOL_FOREGROUND][1];
+    b->shown[1] = shown.xyz[SYMBOL_BACKGROUND][1];
 }
 
 int main(int argc, char **argv) {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""colour.py PARHELION -- the colours of red, amber and white symbols behind a tinted pane: as a
-frame of the same view shows them, in the dark and in even light; their limits; and a request
-that asks for none.
+"""colour.py PARHELION -- the colours of red, amber and white symbols behind a tinted pane, and
+how bright they are: as a frame of the same view shows them, in the dark and in even light; their
+limits; and a request that asks for none.
 """
 import json
 import math
@@ -57,7 +57,7 @@ def request(**more):
 
 
 def in_frame(reviewer, luminance):
-    """u'v' of the middle of each bar, in a frame of the same view."""
+    """What is measured in the middle of each bar, in a frame of the same view."""
     reviewer.run("render", "room.gltf", "--size", "240x135", "--spp", "16", "--environment",
                  f"constant:{luminance}", "-o", "f.exr")
     pixels, found = 67.5 / math.tan(math.radians(10)), {}  # a metre, at the display
@@ -67,7 +67,7 @@ def in_frame(reviewer, luminance):
         y = int(67.5 - pixels * (0.05 - 0.05 * (top + bottom) / SIZE[1]))
         answer = reviewer.run("measure", "f.exr", "--region",
                               f"{x - 3},{y - 6},{x + 3},{y + 6}", "--json").stdout
-        found[name] = json.loads(answer)["uv"]
+        found[name] = json.loads(answer)
     return found
 
 
@@ -87,7 +87,7 @@ def check_case(report, case, frame):
     report.claim(abs(own["delta_uv"] - delta(own["uv"], own["dark_uv"])) < 3e-6, "its shift")
     for other in case["colours"]:
         low, high = other["interval"]
-        seen = frame[other["symbol"]]
+        seen = frame[other["symbol"]]["uv"]
         print(f"{other['symbol']}: {other['uv']}, in the frame {seen}")
         report.claim(low <= other["delta_uv"] <= high, "in its interval")
         report.claim(delta(other["uv"], seen) < 0.001, "as a frame shows it")
@@ -119,13 +119,30 @@ def main():
         frame = in_frame(reviewer, 1e-6)
         for name in BARS:
             dark = by_name["dark", name]["colours"][0]
-            report.claim(dark["delta_uv"] < 1e-4 and delta(dark["dark_uv"], frame[name]) < 0.001,
+            report.claim(dark["delta_uv"] < 1e-4 and
+                         delta(dark["dark_uv"], frame[name]["uv"]) < 0.001,
                          "in the dark, behind the pane")
+            check_light(report, reviewer, name, by_name, frame[name]["luminance_cd_m2"])
             report.claim(by_name["dark", name]["verdict"] == "pass", "which passes")
         report.claim(by_name["even", "red"]["judged"]["kind"] == "colour_shift" and
                      by_name["even", "red"]["verdict"] == "fail", "red pales")
         check_unasked(report, reviewer, house, by_name)
     report.finish()
+
+
+def check_light(report, reviewer, name, by_name, seen):
+    """Each by its own spectrum: what passes of red is more than of white. So does explain."""
+    i = list(BARS).index(name)
+    left, top, right, bottom = bar_of(i)
+    uv = ",".join(str(v) for v in (left / SIZE[0], top / SIZE[1], right / SIZE[0],
+                                   bottom / SIZE[1]))
+    explained = json.loads(reviewer.run(
+        "explain", "room.gltf", "--camera", "eye", "--display", "screen", "--uv", uv, "--paths",
+        "256", "--environment", "constant:1e-6", "--json").stdout)["luminance_cd_m2"]
+    shown = by_name["dark", name]["luminance_cd_m2"]["foreground"]
+    print(f"{name}: {shown} cd/m2, explained {explained['emitted']}, in the frame {seen}")
+    report.claim(abs(shown / seen - 1) < 0.005, "as bright as in the frame")
+    report.claim(abs(explained["emitted"] / shown - 1) < 0.01, "and as explained")
 
 
 def check_unasked(report, reviewer, house, asked):

@@ -393,16 +393,16 @@ EASEL_TEST(one_colour_has_the_panels_own_light) {
         Vec3 towards = vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
         float xyz[3];
         panel_emission_xyz(easel->panel, towards, codes, xyz);
-        SymbolLook look = {&surface, &split, vec3_scale(towards, 300), 1 + i % 3};
+        SymbolLook look = {&surface, &split, vec3_scale(towards, 300), 1 + i % 3, NULL};
         SymbolEmission seen = symbol_emission(&look, 0.3);
         for (int k = 0; k < 3; k++) {
-            assert_close(seen.foreground_xyz[k], 0.3 * (double)xyz[k], 1e-3);
-            assert_close(seen.background_xyz[k], 0.3 * (double)xyz[k], 1e-3);
+            assert_close(seen.xyz[SYMBOL_FOREGROUND][k], 0.3 * (double)xyz[k], 1e-3);
+            assert_close(seen.xyz[SYMBOL_BACKGROUND][k], 0.3 * (double)xyz[k], 1e-3);
         }
     }
-    SymbolLook back = {&surface, &split, vec3(0, 0, -1), 1};
+    SymbolLook back = {&surface, &split, vec3(0, 0, -1), 1, NULL};
     SymbolEmission behind = symbol_emission(&back, 1);
-    assert_true(isnan(behind.foreground_xyz[1]));
+    assert_true(isnan(behind.xyz[SYMBOL_FOREGROUND][1]));
 }
 
 /* Half of the pixels white, half black: half of white's light, not the light of half a code. */
@@ -412,10 +412,10 @@ EASEL_TEST(light_is_averaged_and_not_codes) {
     SymbolSplit split = split_halves(easel, &content);
     ENDS_BY(world_end) World world = flat_world(easel);
     SymbolSurface surface = first_part(&world, ALL);
-    SymbolLook look = {&surface, &split, vec3(0, 0, 500), 2};
+    SymbolLook look = {&surface, &split, vec3(0, 0, 500), 2, NULL};
     SymbolEmission seen = symbol_emission(&look, 1);
     double half = 0.5 * (easel_luminance(easel, 255) + easel_luminance(easel, 0));
-    assert_close(seen.foreground_xyz[1], half, 1e-3);
+    assert_close(seen.xyz[SYMBOL_FOREGROUND][1], half, 1e-3);
     assert_close(split.foreground_cd_m2, half, 1e-5);
 }
 
@@ -427,11 +427,69 @@ EASEL_TEST(each_class_has_its_own_light) {
     SymbolSplit split = split_halves(easel, &content);
     ENDS_BY(world_end) World world = flat_world(easel);
     SymbolSurface surface = first_part(&world, ALL);
-    SymbolLook look = {&surface, &split, vec3(0, 0, 500), 2};
+    SymbolLook look = {&surface, &split, vec3(0, 0, 500), 2, NULL};
     SymbolEmission seen = symbol_emission(&look, 1);
-    assert_close(seen.foreground_xyz[1], split.foreground_cd_m2, 1e-3);
-    assert_close(seen.background_xyz[1], split.background_cd_m2, 1e-3);
-    assert_true(seen.foreground_xyz[1] > 2 * seen.background_xyz[1]);
+    assert_close(seen.xyz[SYMBOL_FOREGROUND][1], split.foreground_cd_m2, 1e-3);
+    assert_close(seen.xyz[SYMBOL_BACKGROUND][1], split.background_cd_m2, 1e-3);
+    assert_true(seen.xyz[SYMBOL_FOREGROUND][1] > 2 * seen.xyz[SYMBOL_BACKGROUND][1]);
+}
+
+/* Y of a code's light behind a pane of that colour, summed nanometre by nanometre. */
+static double behind_pane(const Easel *easel, const float codes[3], const float rgb[3]) {
+    double sum = 0;
+    for (int i = 0; i < 512; i++) {
+        Wavelengths w;
+        wavelengths_sample(((float)i + 0.5f) / 512, &w);
+        Spectrum sent = panel_emission_spectrum(easel->panel, vec3(0, 0, 1), codes, &w);
+        sum += (double)spectrum_sum(sent * spectrum_from_rgb(&w, rgb) * w.xyz[1]) / 512;
+    }
+    return sum;
+}
+
+/* Left red, right blue, behind a pane without faces: each loses by its own spectrum, before
+ * lenses and behind them; a grey pane takes the same of both, to the last bit. */
+EASEL_TEST(a_tint_takes_of_each_class_by_its_own_spectrum) {
+    const float codes[2][3] = {{0, 0, 255}, {255, 0, 0}}; /* [SymbolClass] */
+    const float panes[2][3] = {{1, 0.6f, 0.3f}, {0.5f, 0.5f, 0.5f}};
+    uint8_t *pixels = ARENA_NEW(&easel->arena, uint8_t, 4 * 60 * 30);
+    for (int i = 0; i < 60 * 30; i++)
+        for (int k = 0; k < 4; k++)
+            pixels[4 * i + k] = k == 3 ? 255 : (uint8_t)codes[i % 60 < 30][k];
+    Texture shown = {.image = {60, 30, IMAGE_RGBA8, pixels}};
+    SymbolSplit split = split_halves(easel, &shown.image);
+    const Vec3 far = vec3(0, 0, 500);
+    for (int i = 0; i < 2; i++) {
+        ENDS_BY(world_end) World world = flat_world(easel);
+        world.scene->textures = &shown;
+        world.scene->texture_count = 1;
+        world.scene->displays[0].content.texture_id = 0;
+        Material pane = builder_pane(1);
+        memcpy(pane.base_color, panes[i], sizeof panes[i]);
+        builder_part(world.scene, pane);
+        builder_quad(world.scene, vec3(0, 0, 0.5f), vec3(2, 0, 0), vec3(0, 2, 0));
+        SymbolSurface surface = first_part(&world, ALL);
+        world_ready(&world, 1);
+        SymbolVisibility through = symbol_visibility(&surface, &world.context, far, NULL);
+        SymbolLook look = {&surface, &split, far, 2, &through},
+                   bare = {&surface, &split, far, 2, NULL};
+        SymbolEmission seen = symbol_emission(&look, 0.3), sent = symbol_emission(&bare, 0.3);
+        assert_true(through.is_tinted == (i == 0));
+        for (int c = 0; c < 2; c++) {
+            assert_close(seen.xyz[c][1], 0.3 * behind_pane(easel, codes[c], panes[i]), 2e-3);
+            if (i) assert_true(seen.xyz[c][1] == sent.xyz[c][1] * through.transmittance);
+        }
+        Curve lens; /* two that let through all together */
+        for (int n = 0; n < CURVE_COUNT; n++) lens.value[n] = n < 200 ? 0.2f : 0.8f;
+        SymbolEmission worn = seen;
+        symbol_emission_behind(&look, &lens, &worn);
+        for (int n = 0; n < CURVE_COUNT; n++) lens.value[n] = 1 - lens.value[n];
+        SymbolEmission rest = seen;
+        symbol_emission_behind(&look, &lens, &rest);
+        for (int c = 0; c < 2; c++) {
+            assert_close(worn.xyz[c][1] + rest.xyz[c][1], seen.xyz[c][1], 1e-5);
+            assert_true(c ? worn.xyz[c][1] > rest.xyz[c][1] : worn.xyz[c][1] < rest.xyz[c][1]);
+        }
+    }
 }
 
 /* A mirrored node: u grows to the left, the front stays where the light is. */
@@ -456,9 +514,9 @@ EASEL_TEST(a_mirrored_display_is_seen_from_its_front) {
     SymbolSplit split = split_halves(easel, &content);
     float xyz[3]; /* in the display's own frame the eye stands at the other side */
     panel_emission_xyz(easel->panel, vec3(-0.6f, 0, 0.8f), codes, xyz);
-    SymbolLook look = {&surface, &split, vec3(180, 0, 240), 2};
+    SymbolLook look = {&surface, &split, vec3(180, 0, 240), 2, NULL};
     SymbolEmission seen = symbol_emission(&look, 1);
-    assert_close(seen.foreground_xyz[1], xyz[1], 1e-3);
+    assert_close(seen.xyz[SYMBOL_FOREGROUND][1], xyz[1], 1e-3);
     world_ready(&world, 1);
     assert_true(symbol_visibility(&surface, &world.context, EYE, NULL).visible_share == 1);
 }

@@ -44,6 +44,7 @@ Glasses glasses_worn(const ReviewCondition *condition, Vec3 towards, Arena *aren
     const ReviewGlasses *given = condition->glasses;
     Glasses out = {.transmittance = 1};
     if (!given) return out;
+    out.words = given->words;
     out.transmittance = given->curve ? glasses_luminous(given->curve) : given->transmittance;
     if (given->curve) out.colour = colour_of(given->curve, out.transmittance, arena);
     if (given->is_polarising) out.polariser = polariser_of(given, towards, arena);

@@ -18,6 +18,7 @@ typedef struct Glasses {
     double transmittance;          /* luminous; 1: none are worn */
     const Curve *colour;           /* transmittance at each wavelength over that; NULL: 1 */
     const PolarisedEye *polariser; /* mean over all directions 1; NULL: none */
+    const char *words;             /* as the request has them; NULL: none */
 } Glasses;
 
 /* As the condition has them, on an eye that looks along `towards`. */

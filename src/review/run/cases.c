@@ -340,17 +340,17 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     if (has_visibility(tools, look))
         case_visibility_start(setup->request, &symbol->split, c, arena);
     if (!case_is_seen(c)) return (ProbeAim){.target_count = 0};
-    SymbolLook shown = {&symbol->surface, &symbol->split, look->eye, setup->tools.threads};
+    SymbolLook shown = {&symbol->surface, &symbol->split, look->eye, setup->tools.threads, &seen};
     SymbolEmission emission = symbol_emission(&shown, c->level);
-    c->luminance_cd_m2.foreground = emission.foreground_xyz[1] * seen.transmittance;
-    c->luminance_cd_m2.background = emission.background_xyz[1] * seen.transmittance;
     ProbeAim aim = {.context = &setup->context,
                     .eye = look->eye,
                     .seed = review_seed(setup->request, look->is_coarse ? COARSE_SEED : EYE_SEED)};
-    symbol_put_on_glasses(setup, symbol, &aim, c, arena);
-    if (look->has_colour && !look->is_coarse)
-        symbol_colour_start(&(ColourStart){&shown, &emission, &seen.tint, aim.colour, symbol}, c,
-                            arena);
+    Glasses glasses =
+        glasses_worn(setup->condition, vec3_sub(symbol_middle(symbol).position, look->eye), arena);
+    symbol_put_on_glasses(&glasses, &shown, &aim, &emission, c, arena);
+    c->luminance_cd_m2.foreground = emission.xyz[SYMBOL_FOREGROUND][1];
+    c->luminance_cd_m2.background = emission.xyz[SYMBOL_BACKGROUND][1];
+    if (look->has_colour && !look->is_coarse) symbol_colour_start(symbol, &emission, c, arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil ||
                       profile_has(tools->profile, LIMIT_VISIBILITY_LEVEL);
     if (!look->is_coarse && wants_veil) see_stray_light(tools, symbol, look->eye, c, arena);

@@ -164,12 +164,14 @@ static bool meet(const ExplainPlace *place, Vec3 target, bool wants_display, Hit
     return false;
 }
 
-/* Adds the Y that the display there sends towards the eye, in white, in black and as it is. */
+#define STRATA 16 /* of SPECTRUM_LANES wavelengths each */
+
+/* Adds the Y of white, of black and of what the display there shows, as they come to the eye. */
 static bool add_sent(const ExplainPlace *place, Vec3 target, double sent[3], int *display_id) {
-    static const float codes[2][3] = {{255, 255, 255}, {0, 0, 0}};
     const Scene *scene = place->aim.context->scene;
+    float codes[3][3] = {{255, 255, 255}, {0, 0, 0}};
+    double bare[3] = {0}, passed[3] = {0};
     Hit hit;
-    float xyz[3];
     if (!meet(place, target, true, &hit)) return false;
     TrianglePoint point = triangle_point(scene, hit.triangle, hit.u, hit.v);
     const Part *part = &scene->parts[scene->triangles[hit.triangle].part_id];
@@ -177,13 +179,27 @@ static bool add_sent(const ExplainPlace *place, Vec3 target, double sent[3], int
     const Display *display = &scene->displays[*display_id];
     Frame frame = display_frame(scene, display, hit.triangle, &point);
     Vec3 wo = vec3_normalize(vec3_sub(place->aim.eye, point.position));
-    for (int k = 0; k < 2; k++) {
-        (k ? display_panel_xyz : display_full_xyz)(display, &point, frame_to_local(&frame, wo),
-                                                   codes[k], xyz);
-        sent[k] += (double)(xyz[1] * display->level);
+    Vec3 local = frame_to_local(&frame, wo);
+    SymbolPoint at = {hit.triangle, hit.u, hit.v, .position = point.position, .ng = frame.z};
+    display_codes(scene, display, &point, codes[2]);
+    for (int s = 0; s < STRATA; s++) {
+        Wavelengths w;
+        Spectrum lets = spectrum_all(0);
+        wavelengths_sample(((float)s + 0.5f) / STRATA, &w);
+        symbol_point_passed(&at, place->aim.context, &w, place->aim.eye, &lets);
+        for (int k = 0; k < 3; k++) {
+            Spectrum light = (k ? display_panel_spectrum
+                                : display_full_spectrum)(display, &point, local, codes[k], &w) *
+                             w.xyz[1];
+            bare[k] += (double)spectrum_mean(light);
+            passed[k] += (double)spectrum_mean(light * lets);
+        }
     }
-    display_emission_xyz(scene, display, hit.triangle, &point, wo, xyz);
-    sent[2] += (double)xyz[1];
+    for (int k = 0; k < 3; k++) {
+        float xyz[3];
+        (k ? display_panel_xyz : display_full_xyz)(display, &point, local, codes[k], xyz);
+        if (bare[k] > 0) sent[k] += (double)(xyz[1] * display->level) * (passed[k] / bare[k]);
+    }
     return true;
 }
 

@@ -50,6 +50,6 @@ typedef struct ExplainPlace {
 } ExplainPlace;
 
 /* Where at least half of the targets show a display, contrasts are those of white and black as
- * the display sends them, on what it reflects. Of a display without a pixel those targets alone
- * count, and the light is what it reflects; else it is all that comes to the eye. */
+ * they come to the eye, on what the display reflects. Of a display without a pixel those targets
+ * alone count, and the light is what it reflects; else it is all that comes to the eye. */
 void explain_place(const ExplainPlace *place, Arena *arena, Explained *out);

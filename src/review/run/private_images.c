@@ -114,7 +114,7 @@ static CaseImage read_by_pane(const PrivateLook *look, const PaneImageGoal *goal
     const SetupSymbol *symbol = look->symbol;
     const PaneImage *image = goal->image;
     Vec3 from = seen_from(image);
-    SymbolLook shown = {&symbol->surface, &symbol->split, from, setup->tools.threads};
+    SymbolLook shown = {&symbol->surface, &symbol->split, from, setup->tools.threads, NULL};
     SymbolEmission sent = symbol_emission(&shown, c->level);
     PaneImageReading read = pane_image_read(setup, goal, scratch);
     double mean = sent_mean(&symbol->surface, image), over = mean > 0 ? 1 / mean : 0;
@@ -122,8 +122,8 @@ static CaseImage read_by_pane(const PrivateLook *look, const PaneImageGoal *goal
     CaseImage out = {.shown_share = image->share.shown,
                      .height_arcmin =
                          symbol_height_arcmin(&symbol->surface, symbol->split.box, from),
-                     .sent_foreground = sent.foreground_xyz[1],
-                     .sent_background = sent.background_xyz[1],
+                     .sent_foreground = sent.xyz[SYMBOL_FOREGROUND][1],
+                     .sent_background = sent.xyz[SYMBOL_BACKGROUND][1],
                      .reflectance = fmax(read.image.mean, 0) * over,
                      .reflectance_range = within(read.image, 0, over),
                      .against = fmax(read.against.mean, least),

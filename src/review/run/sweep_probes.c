@@ -229,10 +229,11 @@ static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena) {
                                   .eye = sight->from,
                                   .seed = review_seed(setup->request, EYE_SEED)};
     sight->seen = symbol_aim(surface, arena, &sight->probe.aim);
-    SymbolLook look = {surface, &sight->symbol->split, sight->from, setup->tools.threads};
+    SymbolLook look = {surface, &sight->symbol->split, sight->from, setup->tools.threads,
+                       &sight->seen};
     SymbolEmission shown = symbol_emission(&look, 1);
-    sight->shown.foreground = shown.foreground_xyz[1] * sight->seen.transmittance;
-    sight->shown.background = shown.background_xyz[1] * sight->seen.transmittance;
+    sight->shown.foreground = shown.xyz[SYMBOL_FOREGROUND][1];
+    sight->shown.background = shown.xyz[SYMBOL_BACKGROUND][1];
     sight->height_arcmin = symbol_height_arcmin(surface, sight->symbol->split.box, sight->from);
     if (!sight_is_seen(sight)) sight->probe.aim.target_count = 0;
     if (!sight->probe.aim.target_count) return;

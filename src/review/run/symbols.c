@@ -12,7 +12,6 @@
 #include "panel/query/panel_stated.h"
 #include "render/identity.h"
 #include "review/keep/frame_kept.h"
-#include "review/light/glasses.h"
 #include "review/light/response_suns.h"
 #include "review/request/request_check.h"
 #include "review/symbol/text_find.h"
@@ -226,70 +225,47 @@ bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *cou
 
 /* ---- through glasses --------------------------------------------------------------------- */
 
-static void scale_shown(ReviewCase *c, double foreground, double background) {
-    c->luminance_cd_m2.foreground *= foreground;
-    c->luminance_cd_m2.background *= background;
+static double brighter(const SymbolEmission *shown) {
+    return fmax(shown->xyz[SYMBOL_FOREGROUND][1], shown->xyz[SYMBOL_BACKGROUND][1]);
 }
 
-static double brighter(const CaseLuminances *l) {
-    return fmax(l->foreground, l->background);
-}
-
-static void polarise_case(const SymbolSurface *surface, const PolarisedEye *polariser,
-                          ProbeAim *aim, ReviewCase *c, Arena *arena) {
+static void polarise(const PolarisedEye *polariser, const SymbolLook *look, ProbeAim *aim,
+                     SymbolEmission *shown, Arena *arena) {
     PathContext *context = ARENA_NEW(arena, PathContext, 1);
-    double passed = symbol_polarised_share(surface, aim->context, aim->eye, polariser);
+    double passed = symbol_polarised_share(look->surface, aim->context, look->eye, polariser);
     *context = *aim->context;
     context->eye = polariser;
     aim->context = context;
-    scale_shown(c, passed, passed);
+    for (int i = 0; i < 6; i++) shown->xyz[i / 3][i % 3] *= passed;
 }
 
-void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeAim *aim,
-                           ReviewCase *c, Arena *arena) {
-    Vec3 towards = vec3_sub(symbol_middle(symbol).position, aim->eye);
-    Glasses glasses = glasses_worn(setup->condition, towards, arena);
-    SymbolLook shown = {&symbol->surface, &symbol->split, aim->eye, setup->tools.threads};
-    double bare = brighter(&c->luminance_cd_m2);
-    c->glasses_transmittance = glasses.transmittance;
-    c->glasses =
-        setup->condition && setup->condition->glasses ? setup->condition->glasses->words : NULL;
-    if (glasses.polariser) polarise_case(&symbol->surface, glasses.polariser, aim, c, arena);
-    if (glasses.colour) {
-        aim->colour = glasses.colour;
-        double share[2][3];
-        symbol_coloured_share(&shown, SYMBOL_FOREGROUND, glasses.colour, share[0]);
-        symbol_coloured_share(&shown, SYMBOL_BACKGROUND, glasses.colour, share[1]);
-        scale_shown(c, share[0][1], share[1][1]);
-    }
-    c->glasses_display_loss = bare > 0 ? 1 - brighter(&c->luminance_cd_m2) / bare : 0;
+void symbol_put_on_glasses(const Glasses *glasses, const SymbolLook *look, ProbeAim *aim,
+                           SymbolEmission *shown, ReviewCase *c, Arena *arena) {
+    double bare = brighter(shown);
+    c->glasses_transmittance = glasses->transmittance;
+    c->glasses = glasses->words;
+    aim->colour = glasses->colour;
+    if (glasses->polariser) polarise(glasses->polariser, look, aim, shown, arena);
+    if (glasses->colour) symbol_emission_behind(look, glasses->colour, shown);
+    c->glasses_display_loss = bare > 0 ? 1 - brighter(shown) / bare : 0;
 }
 
 /* ---- its colour -------------------------------------------------------------------------- */
 
-void symbol_colour_start(const ColourStart *start, ReviewCase *c, Arena *arena) {
+void symbol_colour_start(const SetupSymbol *symbol, const SymbolEmission *shown, ReviewCase *c,
+                         Arena *arena) {
     const CaseLuminances *l = &c->luminance_cd_m2;
     const double nan = (double)NAN;
     bool is_light_on_dark = l->foreground >= l->background;
-    const double *sent =
-        is_light_on_dark ? start->emission->foreground_xyz : start->emission->background_xyz;
-    double lit = is_light_on_dark ? l->foreground : l->background, share[3], worn[3] = {1, 1, 1};
-    SymbolClass which = is_light_on_dark ? SYMBOL_FOREGROUND : SYMBOL_BACKGROUND;
-    Curve between = *start->tint;
-    for (int i = 0; i < CURVE_COUNT && start->glasses; i++)
-        between.value[i] *= start->glasses->value[i];
-    symbol_coloured_share(start->shown, which, &between, share);
-    if (start->glasses) symbol_coloured_share(start->shown, which, start->glasses, worn);
-    const char *name = start->symbol->name;
+    const double *lit = shown->xyz[is_light_on_dark ? SYMBOL_FOREGROUND : SYMBOL_BACKGROUND];
     ColourLight *light = ARENA_NEW(arena, ColourLight, 1);
     CaseColour *colour = ARENA_NEW(arena, CaseColour, 1);
-    *light = (ColourLight){.lit = lit,
-                           .emission_error = start->symbol->panel.emission_error,
-                           .reflection_error = start->symbol->panel.reflection_error,
+    *light = (ColourLight){.lit = lit[1],
+                           .emission_error = symbol->panel.emission_error,
+                           .reflection_error = symbol->panel.reflection_error,
                            .is_on_display = true};
-    for (int k = 0; k < 3 && sent[1] > 0; k++)
-        light->emitted[k] = sent[k] * share[k] * lit / (sent[1] * worn[1]);
-    *colour = (CaseColour){.symbol = arena_string(arena, name, strlen(name)),
+    memcpy(light->emitted, lit, sizeof light->emitted);
+    *colour = (CaseColour){.symbol = arena_string(arena, symbol->name, strlen(symbol->name)),
                            .uv = {nan, nan},
                            .dark_uv = {nan, nan},
                            .apart = nan,

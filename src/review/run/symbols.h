@@ -8,6 +8,7 @@
  * Threads  const once made.
  */
 #pragma once
+#include "review/light/glasses.h"
 #include "review/light/setup.h"
 #include "review/symbol/symbol_sight.h"
 #include "review/verdict.h"
@@ -49,26 +50,16 @@ LightParts symbol_parts(const SetupSymbol *symbol, const ProbeAim *aim, int most
 /* Fails with the request's file and the symbol's place in it. */
 bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *count, Error *err);
 
-/* A case seen through the sunglasses of its condition (light/glasses.h): what the display
- * shows, and how the aim counts light, as they weigh it, but for the one factor by which they
- * darken all, which goes to c->glasses_transmittance. */
-void symbol_put_on_glasses(const Setup *setup, const SetupSymbol *symbol, ProbeAim *aim,
-                           ReviewCase *c, Arena *arena);
+/* A case seen through sunglasses: how the aim counts light, and what the display shows, as they
+ * weigh it, but for the one factor by which they darken all, which goes to
+ * c->glasses_transmittance. */
+void symbol_put_on_glasses(const Glasses *glasses, const SymbolLook *look, ProbeAim *aim,
+                           SymbolEmission *shown, ReviewCase *c, Arena *arena);
 
 /* The light of which a case's colour is made; judging makes the colour (review/ask_colour.h).
- *
- * What lies between the display and the eye takes from what is emitted by the spectra of the
- * panel's primaries, at the 16 wavelengths of a path; of the case's luminance it takes as of light
- * of equal energy (symbol_visibility): behind tinted glass the two differ. */
-typedef struct ColourStart {
-    const SymbolLook *shown;
-    const SymbolEmission *emission; /* as the display sends it */
-    const Curve *tint, *glasses;    /* of what lies between; and worn: NULL: none */
-    const SetupSymbol *symbol;
-} ColourStart;
-
-/* What is emitted, of a case whose luminances are as they arrive: it has one colour then. */
-void symbol_colour_start(const ColourStart *start, ReviewCase *c, Arena *arena);
+ * What is emitted, of a case whose luminances are as they arrive: it has one colour then. */
+void symbol_colour_start(const SetupSymbol *symbol, const SymbolEmission *shown, ReviewCase *c,
+                         Arena *arena);
 
 /* What is reflected. */
 void symbol_colour_read(const Reading *reading, ReviewCase *c);

@@ -92,10 +92,8 @@ static bool is_stopped(const Ray *ray, SightQuestion *question) {
     return luminous(question->wavelengths, &question->passed) < HIDES_BELOW;
 }
 
-/* The share of light that comes from the point to the eye; 0: it is hidden, or seen from
- * behind. by_lane: the same of each wavelength; or NULL. */
-static float passed_from(const SymbolPoint *point, const PathContext *context,
-                         const Wavelengths *wavelengths, Vec3 eye, Spectrum *by_lane) {
+float symbol_point_passed(const SymbolPoint *point, const PathContext *context,
+                          const Wavelengths *wavelengths, Vec3 eye, Spectrum *by_lane) {
     SightQuestion question = {
         .context = context, .wavelengths = wavelengths, .passed = spectrum_all(1)};
     Ray look = look_at(context->scene, point, eye);
@@ -104,30 +102,64 @@ static float passed_from(const SymbolPoint *point, const PathContext *context,
     return luminous(wavelengths, &question.passed);
 }
 
+#define TINT 1e-5 /* of the light: by less wavelengths differ in rounding alone */
+
+/* Sums of what passes in one set of wavelengths, over points by their areas. */
+typedef struct PassedSums {
+    double seen, passed, nm[SPECTRUM_LANES], by_lane[SPECTRUM_LANES];
+} PassedSums;
+
+/* False: it is hidden. */
+static bool add_passed(const SymbolPoint *point, const PathContext *context, Vec3 eye, float offset,
+                       PassedSums *to) {
+    Spectrum by_lane = spectrum_all(1);
+    Wavelengths wavelengths;
+    wavelengths_sample(offset, &wavelengths);
+    double share = (double)symbol_point_passed(point, context, &wavelengths, eye, &by_lane);
+    if (!(share > 0)) return false;
+    to->seen += (double)point->area_m2;
+    to->passed += share * (double)point->area_m2;
+    for (int k = 0; k < SPECTRUM_LANES; k++) {
+        to->nm[k] = (double)wavelengths.nm[k];
+        to->by_lane[k] += (double)by_lane[k] * (double)point->area_m2;
+    }
+    return true;
+}
+
+static bool is_tinted(const PassedSums *sums) {
+    for (int k = 0; k < SPECTRUM_LANES; k++)
+        if (fabs(sums->by_lane[k] - sums->passed) > TINT * sums->passed) return true;
+    return false;
+}
+
+#define STRATA 16 /* of SPECTRUM_LANES wavelengths each: steps of 1 to 2 nm */
+
+static void set_way(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
+                    Curve *out) {
+    double nm[STRATA * SPECTRUM_LANES], share[STRATA * SPECTRUM_LANES];
+    for (int s = 0; s < STRATA; s++) {
+        PassedSums sums = {0};
+        for (int i = 0; i < surface->point_count; i++)
+            add_passed(&surface->points[i], context, eye, ((float)s + 0.5f) / STRATA, &sums);
+        for (int k = 0; k < SPECTRUM_LANES; k++) {
+            nm[k * STRATA + s] = sums.nm[k];
+            share[k * STRATA + s] = sums.by_lane[k] / sums.seen;
+        }
+    }
+    curve_from_points(nm, share, STRATA * SPECTRUM_LANES, out);
+}
+
 SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathContext *context,
                                    Vec3 eye, bool *is_visible) {
-    double seen = 0, passed = 0, nm[SPECTRUM_LANES], tint[SPECTRUM_LANES] = {0};
-    SymbolVisibility out;
-    Wavelengths wavelengths;
-    wavelengths_sample(0.5f, &wavelengths);
+    PassedSums sums = {0};
     for (int i = 0; i < surface->point_count; i++) {
-        const SymbolPoint *point = &surface->points[i];
-        Spectrum by_lane = spectrum_all(1);
-        double share = (double)passed_from(point, context, &wavelengths, eye, &by_lane);
-        if (is_visible) is_visible[i] = share > 0;
-        if (!(share > 0)) continue;
-        seen += (double)point->area_m2;
-        passed += share * (double)point->area_m2;
-        for (int k = 0; k < SPECTRUM_LANES; k++)
-            tint[k] += (double)by_lane[k] * (double)point->area_m2;
+        bool is_seen = add_passed(&surface->points[i], context, eye, 0.5f, &sums);
+        if (is_visible) is_visible[i] = is_seen;
     }
-    for (int k = 0; k < SPECTRUM_LANES; k++) {
-        nm[k] = (double)wavelengths.nm[k];
-        tint[k] /= passed;
-    }
-    out.visible_share = seen / surface->area_m2;
-    out.transmittance = passed / seen;
-    curve_from_points(nm, tint, SPECTRUM_LANES, &out.tint);
+    SymbolVisibility out = {.visible_share = sums.seen / surface->area_m2,
+                            .transmittance = sums.passed / sums.seen,
+                            .is_tinted = is_tinted(&sums)};
+    if (out.is_tinted) set_way(surface, context, eye, &out.way);
     return out;
 }
 
@@ -183,7 +215,7 @@ static bool sees_corners(const SymbolSurface *surface, const double box[4],
         double uv[2] = {box[0] + u * (box[2] - box[0]), box[1] + v * (box[3] - box[1])};
         SymbolPoint corner;
         if (!symbol_surface_at(surface, uv, &corner) ||
-            !(passed_from(&corner, context, &wavelengths, eye, NULL) > 0))
+            !(symbol_point_passed(&corner, context, &wavelengths, eye, NULL) > 0))
             return false;
     }
     return true;
@@ -204,7 +236,7 @@ bool symbol_box_seen(const SymbolSurface *surface, const double uv[4], const Pat
     Wavelengths wavelengths;
     wavelengths_sample(0.5f, &wavelengths);
     if (!symbol_surface_at(surface, at, &middle) ||
-        !(passed_from(&middle, context, &wavelengths, eye, NULL) > 0))
+        !(symbol_point_passed(&middle, context, &wavelengths, eye, NULL) > 0))
         return false;
     *out = sees_corners(surface, uv, context, eye) ? symbol_patch_of(surface, uv, middle.position)
                                                    : (SymbolPatch){.middle = middle.position};
@@ -304,15 +336,61 @@ static void mean_of_class(const SymbolLook *look, SymbolClass which, double xyz[
     for (int k = 0; k < 3; k++) xyz[k] /= (double)counted;
 }
 
-SymbolEmission symbol_emission(const SymbolLook *look, double level) {
-    SymbolEmission out;
-    mean_of_class(look, SYMBOL_FOREGROUND, out.foreground_xyz);
-    mean_of_class(look, SYMBOL_BACKGROUND, out.background_xyz);
-    for (int k = 0; k < 3; k++) {
-        out.foreground_xyz[k] *= level;
-        out.background_xyz[k] *= level;
+#define COLOUR_PIXELS 64 /* of a class: it shows few colours */
+
+/* Adds a pixel's XYZ behind one glass, or none, and behind both. */
+static void add_coloured(const SymbolLook *look, uint32_t pixel, const Curve *const glass[2],
+                         double sum[2][3]) {
+    const Scene *scene = look->surface->scene;
+    const ContentLight *light = &look->split->light;
+    int x = light->x + (int)(pixel % (uint32_t)light->width);
+    int y = light->y + (int)(pixel / (uint32_t)light->width);
+    double uv[2] = {(x + 0.5) / light->content_width, (y + 0.5) / light->content_height};
+    SymbolPoint at;
+    if (!symbol_surface_at(look->surface, uv, &at)) return;
+    Vec3 way = vec3_normalize(vec3_sub(look->eye, at.position));
+    TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
+    for (int i = 0; i < STRATA; i++) {
+        Wavelengths w;
+        wavelengths_sample(((float)i + 0.5f) / STRATA, &w);
+        Spectrum sent = triangle_emission(scene, at.triangle, &point, way, &w);
+        for (int j = 0; j < 2; j++) {
+            if (glass[j]) sent *= curve_lookup(glass[j], &w);
+            for (int k = 0; k < 3; k++) sum[j][k] += (double)spectrum_mean(sent * w.xyz[k]);
+        }
     }
+}
+
+/* Of a class that emits nothing all passes. */
+static void pass_glass(const SymbolLook *look, const Curve *before, const Curve *glass,
+                       SymbolEmission *emission) {
+    for (SymbolClass which = SYMBOL_BACKGROUND; which <= SYMBOL_FOREGROUND; which++) {
+        ClassWork work = {.surface = look->surface, .light = &look->split->light, .eye = look->eye};
+        double sum[2][3] = {{0}};
+        list_pixels(look->split, which, &work);
+        long step = work.count / COLOUR_PIXELS + 1;
+        for (long i = 0; i < work.count; i += step)
+            add_coloured(look, work.pixels[i], (const Curve *[2]){before, glass}, sum);
+        for (int k = 0; k < 3; k++)
+            emission->xyz[which][k] *= sum[0][k] > 0 ? sum[1][k] / sum[0][k] : 1;
+    }
+}
+
+SymbolEmission symbol_emission(const SymbolLook *look, double level) {
+    const SymbolVisibility *through = look->through;
+    double lets = through && !through->is_tinted ? through->transmittance : 1;
+    SymbolEmission out;
+    for (SymbolClass which = SYMBOL_BACKGROUND; which <= SYMBOL_FOREGROUND; which++) {
+        mean_of_class(look, which, out.xyz[which]);
+        for (int k = 0; k < 3; k++) out.xyz[which][k] *= level, out.xyz[which][k] *= lets;
+    }
+    if (through && through->is_tinted) pass_glass(look, NULL, &through->way, &out);
     return out;
+}
+
+void symbol_emission_behind(const SymbolLook *look, const Curve *colour, SymbolEmission *emission) {
+    const SymbolVisibility *through = look->through;
+    pass_glass(look, through && through->is_tinted ? &through->way : NULL, colour, emission);
 }
 
 /* ---- behind glasses ---------------------------------------------------------------------- */
@@ -353,47 +431,9 @@ double symbol_polarised_share(const SymbolSurface *surface, const PathContext *c
     wavelengths_sample(0.5f, &wavelengths);
     for (int i = 0; i < surface->point_count; i++) {
         const SymbolPoint *point = &surface->points[i];
-        if (!(passed_from(point, context, &wavelengths, eye, NULL) > 0)) continue;
+        if (!(symbol_point_passed(point, context, &wavelengths, eye, NULL) > 0)) continue;
         sum += (double)point->area_m2 * polarised_at(point, context, eye, polariser);
         area += (double)point->area_m2;
     }
     return area > 0 ? sum / area : 1;
-}
-
-#define COLOUR_PIXELS 64 /* of a class: it shows few colours */
-#define COLOUR_STRATA 16 /* of SPECTRUM_LANES wavelengths each */
-
-/* Adds a pixel's XYZ as it is, and behind the glass. */
-static void add_coloured(const SymbolLook *look, uint32_t pixel, const Curve *colour,
-                         double sum[2][3]) {
-    const Scene *scene = look->surface->scene;
-    const ContentLight *light = &look->split->light;
-    int x = light->x + (int)(pixel % (uint32_t)light->width);
-    int y = light->y + (int)(pixel / (uint32_t)light->width);
-    double uv[2] = {(x + 0.5) / light->content_width, (y + 0.5) / light->content_height};
-    SymbolPoint at;
-    if (!symbol_surface_at(look->surface, uv, &at)) return;
-    Vec3 way = vec3_normalize(vec3_sub(look->eye, at.position));
-    TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
-    for (int i = 0; i < COLOUR_STRATA; i++) {
-        Wavelengths w;
-        wavelengths_sample(((float)i + 0.5f) / COLOUR_STRATA, &w);
-        Spectrum sent = triangle_emission(scene, at.triangle, &point, way, &w);
-        Spectrum passed = curve_lookup(colour, &w);
-        for (int k = 0; k < 3; k++) {
-            Spectrum seen = sent * w.xyz[k];
-            sum[0][k] += (double)spectrum_mean(seen);
-            sum[1][k] += (double)spectrum_mean(seen * passed);
-        }
-    }
-}
-
-void symbol_coloured_share(const SymbolLook *look, SymbolClass which, const Curve *colour,
-                           double share[3]) {
-    ClassWork work = {.surface = look->surface, .light = &look->split->light, .eye = look->eye};
-    double sum[2][3] = {{0}};
-    list_pixels(look->split, which, &work);
-    long step = work.count / COLOUR_PIXELS + 1;
-    for (long i = 0; i < work.count; i += step) add_coloured(look, work.pixels[i], colour, sum);
-    for (int k = 0; k < 3; k++) share[k] = sum[0][k] > 0 ? sum[1][k] / sum[0][k] : 1;
 }

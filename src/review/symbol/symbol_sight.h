@@ -20,12 +20,18 @@ typedef struct SymbolVisibility {
                              hundredth of the light passes them */
     double transmittance; /* of what lies between, mean over what is visible, 0..1, for light of
                              equal energy by V(lambda); NaN where nothing is visible */
-    Curve tint;           /* the same at each wavelength, over that */
+    bool is_tinted;       /* it takes more of one wavelength than of another */
+    Curve way;            /* then the same at each wavelength */
 } SymbolVisibility;
 
 /* is_visible: [surface->point_count], filled; NULL: not requested. */
 SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathContext *context,
                                    Vec3 eye, bool *is_visible);
+
+/* The share of light of equal energy that comes from the point to the eye, by V(lambda); 0: it
+ * is hidden, or seen from behind. by_lane: the same of each wavelength; or NULL. */
+float symbol_point_passed(const SymbolPoint *point, const PathContext *context,
+                          const Wavelengths *wavelengths, Vec3 eye, Spectrum *by_lane);
 
 /* The hidden shares of the surface's area, by the first thing on the look from the eye that
  * lets too little through: with the visible share they add up to 1. */
@@ -52,11 +58,11 @@ bool symbol_box_seen(const SymbolSurface *surface, const double uv[4], const Pat
 double symbol_lit_share(const SymbolSurface *surface, const bool *is_visible,
                         const PathContext *context, Vec3 towards);
 
-/* XYZ that the display sends towards the eye: means of light (not of codes) over the pixels of
- * a class; edges are in neither. Pixels that turn their back to the eye are left out; NaN: all
- * of them do. What stands between is not tested. */
+/* XYZ of a display's light, cd m^-2: means of light (not of codes) over the pixels of a class;
+ * edges are in neither. Pixels that turn their back to the eye are left out; NaN: all of them
+ * do. */
 typedef struct SymbolEmission {
-    double foreground_xyz[3], background_xyz[3];
+    double xyz[2][3]; /* [SymbolClass] */
 } SymbolEmission;
 
 typedef struct SymbolLook {
@@ -64,18 +70,18 @@ typedef struct SymbolLook {
     const SymbolSplit *split;
     Vec3 eye;
     int threads;
+    const SymbolVisibility *through; /* what stands between the two; NULL: nothing */
 } SymbolLook;
+
+/* As it comes to the eye. What is tinted takes from it by the spectra of the panel's primaries.
+ * level: of the display; 1: as measured. Of more than 20,000 pixels of a class so many, evenly
+ * chosen, stand for all. The same for any number of threads. */
+SymbolEmission symbol_emission(const SymbolLook *look, double level);
+
+/* The same behind glass of that colour, which is worn. */
+void symbol_emission_behind(const SymbolLook *look, const Curve *colour, SymbolEmission *emission);
 
 /* What a polariser before the eye lets through of the display's light, beside unpolarised light
  * by the same ways: mean over the points that are visible. */
 double symbol_polarised_share(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
                               const PolarisedEye *polariser);
-
-/* X, Y and Z of a class behind glass of that colour, over those that were measured: by the
- * spectra of the panel's primaries. 1: it emits nothing. */
-void symbol_coloured_share(const SymbolLook *look, SymbolClass which, const Curve *colour,
-                           double share[3]);
-
-/* level: of the display; 1: as measured. Of more than 20,000 pixels of a class so many, evenly
- * chosen, stand for all. The same for any number of threads. */
-SymbolEmission symbol_emission(const SymbolLook *look, double level);
