@@ -42,7 +42,14 @@ typedef struct PaneFinding {
     double off_deg;      /* from the area's axis to the nearest of the image */
     bool has_limit;
     LimitVerdict limit; /* the least of the areas that it lies in */
+    const char *shows;  /* the display as symbols name it; NULL: none is on it, or a file's */
+    const RemedyBreak *breaks; /* at pane_level_share */
+    int break_count;
 } PaneFinding;
+
+/* The share of the display's level, to three digits, at which its image keeps its limit; NaN: at
+ * none anything of it would be seen. */
+double pane_level_share(const PaneFinding *finding);
 
 /* image over against, and its 95 % interval. */
 void pane_set_contrast(PaneFinding *finding);

@@ -37,6 +37,7 @@
 #define TERM_DIM_ALL "dim all displays to %s of their levels"
 #define TERM_DIM_IMAGE "dim %s to %s of its level"
 #define TERM_TOWARDS " towards this eye"
+#define TERM_THEN "; then %s (%s) %s: %s %s (%s)%s" /* what the level breaks */
 #define TERM_REFLECT_LESS \
     "no level up to %s is enough; reflected light: %s cd/m² at most " \
     "(now %s): hood, tilt or coating"

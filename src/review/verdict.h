@@ -162,6 +162,12 @@ typedef struct CaseView {
     int width, height; /* pixels */
 } CaseView;
 
+/* What passes and no longer does once a display stands at another level. */
+typedef struct RemedyBreak {
+    const char *subject, *viewer; /* Finding's */
+    LimitVerdict line;            /* judged again with it */
+} RemedyBreak;
+
 /* A change that would remedy the case, or help. */
 typedef struct CaseRemedy {
     const char *what;
@@ -169,6 +175,8 @@ typedef struct CaseRemedy {
     double level;          /* of the display with it; NaN: the figure has no meaning */
     LimitVerdict then;     /* the limit that it is to remedy, judged again with it */
     Verdict verdict;       /* the case's with it */
+    const RemedyBreak *breaks;
+    int break_count;
 } CaseRemedy;
 
 typedef struct CaseLuminances {
@@ -324,13 +332,13 @@ typedef struct ReviewCase {
     const CaseCause *causes; /* greatest first */
     int cause_count;
     CaseGroup groups[CAUSE_GROUPS];
-    double without_data_share;  /* of the reflected light, via materials without data */
-    double guessed_share;       /* of it, via materials that `equip` guessed */
-    double extrapolated_share;  /* of it, as the panel extrapolates what was measured */
-    const char *empty_seat;     /* its back, behind an eye where nobody sits, via which much of
-                                   the reflected light comes; NULL: none */
-    double empty_seat_share;    /* of the reflected light */
-    const CaseRemedy *remedies; /* a brightness; or none */
+    double without_data_share; /* of the reflected light, via materials without data */
+    double guessed_share;      /* of it, via materials that `equip` guessed */
+    double extrapolated_share; /* of it, as the panel extrapolates what was measured */
+    const char *empty_seat;    /* its back, behind an eye where nobody sits, via which much of
+                                  the reflected light comes; NULL: none */
+    double empty_seat_share;   /* of the reflected light */
+    CaseRemedy *remedies;      /* a brightness; or none */
     int remedy_count;
     const char *frame;    /* picture's name within the folder; NULL: none was rendered */
     const CaseView *view; /* of the frame; NULL: not known */

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """private.py PARHELION -- a symbol that the driver must not read and sees in a pane alone: its
 review fails by that pane and every view names it, a darker display passes, and figures that
-belong together agree.
+belong together agree; what would dim it in the pane says what can be read no more.
 """
 import csv
 import json
@@ -36,14 +36,15 @@ def scene_of(folder):
     shutil.copy(PANEL, os.path.join(folder, "ips.panel"))
 
 
-def review(program, folder, name, **symbol):
+def review(program, folder, name, more=None, **symbol):
     document = {"title": name, "scene": ["room.gltf"], "profile": "iso-15008",
                 "eyes": {"eye": {"camera": "eye"}},
                 "symbols": {"bar": {"display": "screen", "uv": [0.1, 0.1, 0.9, 0.9], **symbol}},
                 "precision": {"contrast": 0.2, "paths": 8192}, "frames": {"worst": 0},
                 "variants": {"dim": {"brightness": {"*": 0.1}}},
                 "conditions": [{"name": "dusk", "environment": {"type": "constant",
-                                                                "luminance": 100}}]}
+                                                                "luminance": 100}}],
+                **(more or {})}
     path, out = os.path.join(folder, f"{name}.review.json"), os.path.join(folder, name)
     with open(path, "w", encoding="utf-8") as file:
         json.dump(document, file)
@@ -70,6 +71,27 @@ def check_views(report, done, out, pane):
                      os.path.join(out, "cases.html")) else ""), "and the page")
 
 
+def check_breaks(report, program, folder):
+    """Who sits before the display reads nothing once the driver sees nothing of it."""
+    more = {"eyes": {"eye": {"camera": "eye"}, "reader": {"position_m": [0.5, 0, -0.4]}},
+            "pane_images": {"within_deg": 90, "contrast_max": 0.0005}}
+    done, out = review(program, folder, "glass", more)
+    answer = json.loads(text_of(out, "review.json"))
+    pane = next(p for p in answer["pane_images"] if p["eye"] == "eye")
+    then = pane["breaks"][0]
+    share = pane["limit"]["value"] / pane["limit"]["interval"][1]
+    words = f"{math.floor(1e5 * share) / 1e3:.3g} % of its level; then bar (reader) fails: contrast"
+    report.claim(words in done.stdout and words in text_of(out, "index.html"), words)
+    more["variants"] = {"dim": {"brightness": {"*": share}}}
+    _, out = review(program, folder, "dimmed", more)
+    case = next(c for c in json.loads(text_of(out, "review.json"))["variants"][0]["cases"]
+                if c["eye"] == "reader")
+    print(f"then {then['limit']['found']:.4g} : 1, in a review so dim {case['contrast_ratio']:.4g}")
+    report.claim(then["subject"] == "bar" and case["verdict"] == "fail" and
+                 math.isclose(case["contrast_ratio"], then["limit"]["found"], rel_tol=0.03),
+                 "as a review of that level has it")
+
+
 def main():
     report = Report()
     program = os.path.abspath(sys.argv[1])
@@ -94,6 +116,7 @@ def main():
                      "the whole interval misses the limit")
         report.claim(answer["variants"][0]["verdict"] == "pass", "a tenth of it passes")
         check_views(report, done, out, image["pane"])
+        check_breaks(report, program, folder)
         _, out = review(program, folder, "open")
         plain = text_of(out, "review.json") + text_of(out, "cases.csv")
         report.claim("by_pane" not in plain and "images" not in json.loads(

@@ -3,6 +3,7 @@
  * order are the same on the console, in JSON, CSV, JUnit, on the page and in differences. */
 #include "review/export/review_junit.h"
 #include "cli/review/review_print.h"
+#include "review/chain/remedies.h"
 #include "review/judge.h"
 #include "review/output/finding_words.h"
 #include "review/output/review_diff.h"
@@ -459,6 +460,144 @@ TEST(every_view_tells_the_same_findings) {
     for (int v = 0; v < 4; v++) assert_true(kinds[v] > findings / 50);
     for (int kind = 0; kind < LIMIT_KIND_COUNT; kind++)
         if (!lines[kind]) fail_msg("no finding has a limit of %s", limit_kind_names[kind]);
+}
+
+/* ---- what a level changes ---------------------------------------------------------------- */
+
+enum { SHOWN = 18, DISPLAYS = 3, ROADS = 4, IMAGES = 6 };
+
+/* One moment: symbols on displays that roads, too, see, and panes. */
+static Review random_moment(const Profile *profile) {
+    Review r = {.cases = ARENA_NEW(&arena, ReviewCase, SHOWN),
+                .case_count = SHOWN,
+                .gazes = ARENA_NEW(&arena, GazeFinding, ROADS),
+                .gaze_count = ROADS,
+                .pane_images = ARENA_NEW(&arena, PaneFinding, IMAGES),
+                .pane_image_count = IMAGES};
+    for (int i = 0; i < SHOWN; i++) {
+        ReviewCase *c = &r.cases[i];
+        *c = random_case(i, profile);
+        c->display = name_of("d", i % DISPLAYS);
+        c->level = i < SHOWN / 2 ? 0.5 : 0.25;
+        c->veil_displays = 0;
+        case_remedies(profile, 1, c, &arena);
+    }
+    for (int i = 0; i < ROADS; i++) {
+        GazeFinding *g = &r.gazes[i];
+        *g = random_gaze(i, profile);
+        for (int a = 0; g->road && a < g->road->age_count; a++) {
+            RoadAge *age = &g->road->ages[a];
+            age->displays = ARENA_NEW(&arena, RoadDisplay, DISPLAYS);
+            age->display_count = DISPLAYS;
+            for (int d = 0; d < DISPLAYS; d++) {
+                double pct = 0.3 * age->increment_pct;
+                age->displays[d] = (RoadDisplay){.display = name_of("d", d),
+                                                 .increment_pct = pct,
+                                                 .increment_range = {pct, pct}};
+            }
+        }
+    }
+    for (int i = 0; i < IMAGES; i++) {
+        r.pane_images[i] = random_pane(i, profile);
+        r.pane_images[i].shows = name_of("d", i % DISPLAYS);
+    }
+    remedies_judge(profile, &r, &arena);
+    return r;
+}
+
+/* The finding once a display is so many times as bright, judged as any other is. */
+static void brighten(Finding *f, const char *display, double times, const Profile *profile) {
+    if (f->c && !strcmp(f->c->display, display)) {
+        ReviewCase *c = ARENA_NEW(&arena, ReviewCase, 1);
+        *c = *f->c;
+        c->luminance_cd_m2.foreground *= times;
+        c->luminance_cd_m2.background *= times;
+        judge_contrasts(c, c->reflected_range);
+        judge_case(c, profile, &arena);
+        f->limits = c->limits;
+    }
+    if (f->pane && !strcmp(f->pane->shows, display)) {
+        PaneFinding *p = ARENA_NEW(&arena, PaneFinding, 1);
+        *p = *f->pane;
+        p->image *= times;
+        p->image_range.low *= times;
+        p->image_range.high *= times;
+        pane_set_contrast(p);
+        judge_pane(p, profile, AMBIENT_NIGHT, p->limit.value);
+        f->limits = &p->limit;
+    }
+    if (f->gaze && f->gaze->road) {
+        GazeFinding *g = ARENA_NEW(&arena, GazeFinding, 1);
+        GazeRoad *road = ARENA_NEW(&arena, GazeRoad, 1);
+        *g = *f->gaze;
+        *road = *g->road;
+        road->ages = ARENA_NEW(&arena, RoadAge, road->age_count);
+        for (int a = 0; a < road->age_count; a++) {
+            RoadAge *age = &road->ages[a];
+            *age = g->road->ages[a];
+            double more = (times - 1) * age->displays[0].increment_pct;
+            age->increment_pct += more;
+            age->increment_range.low += more;
+            age->increment_range.high += more;
+        }
+        g->road = road;
+        judge_gaze(g, profile, &arena);
+        f->limits = g->limits;
+    }
+}
+
+/* Of one change: all that passes and then does not is named, and nothing else is; how much. */
+static int check_breaks(const Review *r, const Profile *profile, const ReviewCase *of,
+                        const PaneFinding *pane) {
+    const RemedyBreak *breaks = of ? of->remedies->breaks : pane->breaks;
+    int count = of ? of->remedies->break_count : pane->break_count, found = 0;
+    double times = of ? of->remedies->level / of->level : pane_level_share(pane);
+    const char *display = of ? of->display : pane->shows;
+    Findings all = review_findings(r, &arena);
+    for (int i = 0; i < all.count; i++) {
+        Finding f = all.list[i];
+        bool breaks_it = false, is_named = false;
+        if (f.c && (f.c == of || (of && f.c->level != of->level))) continue;
+        if (of && of->must_not_be_read && strcmp(f.viewer, of->eye) != 0) continue;
+        brighten(&f, display, times, profile);
+        for (int k = 0; k < f.limit_count && f.counts; k++)
+            breaks_it = breaks_it || (counts_by_hand(&f.limits[k]) &&
+                                      all.list[i].limits[k].verdict == VERDICT_PASS &&
+                                      f.limits[k].verdict != VERDICT_PASS);
+        for (int k = 0; k < count; k++)
+            is_named = is_named || (!strcmp(breaks[k].subject, f.subject) &&
+                                    !strcmp(breaks[k].viewer, f.viewer));
+        if (breaks_it != is_named)
+            fail_msg("%s of %s: %d, said %d", f.subject, display, breaks_it, is_named);
+        found += breaks_it;
+    }
+    assert_int_equal(found, count);
+    return count;
+}
+
+TEST(a_level_that_mends_one_says_what_it_breaks_and_breaks_nothing_else) {
+    int broken = 0, fine = 0;
+    for (int round = 0; round < 200; round++) {
+        Arena kept = arena;
+        seed = (uint64_t)round + 1;
+        Profile profile = random_profile();
+        Review r = random_moment(&profile);
+        for (int i = 0; i < SHOWN; i++) {
+            if (!r.cases[i].remedy_count) continue;
+            int count = check_breaks(&r, &profile, &r.cases[i], NULL);
+            const char *words = words_remedy(r.cases[i].remedies, &arena);
+            assert_int_equal(strstr(words, "; then ") != NULL, count > 0);
+            *(count ? &broken : &fine) += 1;
+        }
+        for (int i = 0; i < IMAGES; i++) {
+            const PaneFinding *f = &r.pane_images[i];
+            if (!f->has_limit || f->limit.verdict == VERDICT_PASS || isnan(pane_level_share(f)))
+                continue;
+            *(check_breaks(&r, &profile, NULL, f) ? &broken : &fine) += 1;
+        }
+        arena = kept;
+    }
+    assert_true(broken > 100 && fine > 100);
 }
 
 TEST_PROGRAM(page_begin, clear_folder)

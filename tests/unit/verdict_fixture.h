@@ -100,7 +100,7 @@ static inline const CaseCause *fixture_causes(Arena *arena, double reflected) {
     return causes;
 }
 
-static inline const CaseRemedy *fixture_remedies(Arena *arena, const ReviewCase *c) {
+static inline CaseRemedy *fixture_remedies(Arena *arena, const ReviewCase *c) {
     CaseRemedy *remedies = ARENA_NEW(arena, CaseRemedy, 2);
     double scale = c->limits[0].value / c->contrast_ratio * 1.4;
     LimitVerdict then = c->limits[0];
@@ -325,30 +325,30 @@ static inline Review fixture_odd_review(Arena *arena) {
                                            false}};
     static const CaseCause CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0},
                                        {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0}};
-    static const CaseRemedy REMEDIES[] = {{.what = WILD_NAME,
-                                           .contrast_ratio = NAN,
-                                           .level = NAN,
-                                           .then = {WILD_NAME,
-                                                    "glare",
-                                                    WILD_NAME,
-                                                    WILD_NAME,
-                                                    2,
-                                                    false,
-                                                    false,
-                                                    false,
-                                                    NAN,
-                                                    NAN,
-                                                    NAN,
-                                                    NAN,
-                                                    VERDICT_UNJUDGED,
-                                                    0,
-                                                    NULL,
-                                                    NULL,
-                                                    {0, 0},
-                                                    {false, false},
-                                                    false},
-                                           .verdict = VERDICT_UNJUDGED},
-                                          {.what = "", .contrast_ratio = 3, .level = 4}};
+    static CaseRemedy REMEDIES[] = {{.what = WILD_NAME,
+                                     .contrast_ratio = NAN,
+                                     .level = NAN,
+                                     .then = {WILD_NAME,
+                                              "glare",
+                                              WILD_NAME,
+                                              WILD_NAME,
+                                              2,
+                                              false,
+                                              false,
+                                              false,
+                                              NAN,
+                                              NAN,
+                                              NAN,
+                                              NAN,
+                                              VERDICT_UNJUDGED,
+                                              0,
+                                              NULL,
+                                              NULL,
+                                              {0, 0},
+                                              {false, false},
+                                              false},
+                                     .verdict = VERDICT_UNJUDGED},
+                                    {.what = "", .contrast_ratio = 3, .level = 4}};
     static ReviewResponse responses[] = {{WILD_NAME, WILD_NAME, 0, 0, NAN}};
     static ReviewFalseSun false_suns[] = {{WILD_NAME, WILD_NAME, WILD_NAME, NAN, NAN, NAN, NULL, 0,
                                            -1, 1e9, WILD_NAME, 0.1, 3e7, NULL, 0, VERDICT_PASS}};

@@ -2,11 +2,15 @@
 #include "review/chain/remedies.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/mathd.h"
+#include "review/finding.h"
 #include "review/judge.h"
+#include "review/pane_verdict.h"
 #include "review/private_image.h"
 #include "review/quantity.h"
+#include "review/road_verdict.h"
 #include "review/terms.h"
 
 #define SEEN_CD_M2 0.01    /* what is darker no eye reads */
@@ -161,7 +165,11 @@ static void set_remedy(const Remedying *m, double factor, const ReviewCase *then
                                   : arena_format(m->arena, TERM_DIM "%s", from, to,
                                                  c->must_not_be_read ? TERM_TOWARDS : "");
     CaseRemedy *remedy = ARENA_NEW(m->arena, CaseRemedy, 1);
-    *remedy = (CaseRemedy){what, then->contrast_ratio, then->level, *after, then->verdict};
+    *remedy = (CaseRemedy){.what = what,
+                           .contrast_ratio = then->contrast_ratio,
+                           .level = then->level,
+                           .then = *after,
+                           .verdict = then->verdict};
     c->remedies = remedy;
     c->remedy_count = 1;
 }
@@ -241,4 +249,95 @@ CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena sc
                  SEEN_CD_M2 / fmax(c->luminance_cd_m2.foreground, c->luminance_cd_m2.background));
     double sure = isinf(least) ? least : surely_from(&m, fmax(least, 1e-6), other);
     return (CaseLeast){least * c->level, sure * c->level};
+}
+
+/* ---- what else a level changes ----------------------------------------------------------- */
+
+/* A display that is `factor` times as bright as at that level; NaN: at any. eye: the only one
+ * that sees it so; NULL: all do. */
+typedef struct LevelChange {
+    const char *display, *eye;
+    double level, factor;
+    const ReviewCase *of; /* whose remedy it is; or NULL */
+} LevelChange;
+
+static bool is_named(const char *name, const char *other) {
+    return name && other && !strcmp(name, other);
+}
+
+static void move_line(LimitVerdict *line, double by, const double found_low_high[3]) {
+    line->found += by * found_low_high[0];
+    line->low += by * found_low_high[1];
+    line->high += by * found_low_high[2];
+    line->verdict = quantity_verdict(line);
+}
+
+/* The lines of a finding with it, in their order; of what it does not change its own. */
+static const LimitVerdict *lines_with(const Profile *profile, const LevelChange *change,
+                                      const Finding *f, Arena *arena) {
+    double by = change->factor - 1;
+    LimitVerdict *lines = ARENA_NEW(arena, LimitVerdict, f->limit_count);
+    if (f->limit_count) memcpy(lines, f->limits, (size_t)f->limit_count * sizeof *lines);
+    if (f->c && is_named(f->c->display, change->display) &&
+        (isnan(change->level) || f->c->level == change->level)) {
+        Remedying m = {.profile = profile, .c = f->c, .arena = arena};
+        ReviewCase then =
+            judged_with(&m, change->factor, f->c->luminance_cd_m2.reflected - own_light(f->c));
+        return then.limit_count == f->limit_count ? then.limits : lines;
+    }
+    if (f->pane && is_named(f->pane->shows, change->display))
+        move_line(lines, by, (double[3]){lines->found, lines->low, lines->high});
+    for (int i = 0; f->gaze && f->gaze->road && i < f->limit_count; i++)
+        for (int a = 0; a < f->gaze->road->age_count; a++) {
+            const RoadAge *age = &f->gaze->road->ages[a];
+            for (int d = 0; d < age->display_count; d++) {
+                const RoadDisplay *own = &age->displays[d];
+                if (limit_kind_named(lines[i].kind) == LIMIT_THRESHOLD_INCREMENT &&
+                    age->age_years == lines[i].age_years && is_named(own->display, change->display))
+                    move_line(&lines[i], by,
+                              (double[3]){own->increment_pct, own->increment_range.low,
+                                          own->increment_range.high});
+            }
+        }
+    return lines;
+}
+
+static int find_breaks(const Profile *profile, const LevelChange *change, const Findings *all,
+                       const RemedyBreak **out, Arena *arena) {
+    RemedyBreak *list = ARENA_NEW(arena, RemedyBreak, all->count);
+    int count = 0;
+    for (int i = 0; i < all->count; i++) {
+        const Finding *f = &all->list[i];
+        const LimitVerdict *then, *worst = NULL;
+        if (!f->counts || (f->c && f->c == change->of) ||
+            (change->eye && !is_named(f->viewer, change->eye)))
+            continue;
+        then = lines_with(profile, change, f, arena);
+        for (int k = 0; k < f->limit_count; k++)
+            if (limit_counts(&f->limits[k]) && f->limits[k].verdict == VERDICT_PASS &&
+                then[k].verdict != VERDICT_PASS && (!worst || limit_is_worse(&then[k], worst)))
+                worst = &then[k];
+        if (worst) list[count++] = (RemedyBreak){f->subject, f->viewer, *worst};
+    }
+    *out = list;
+    return count;
+}
+
+void remedies_judge(const Profile *profile, Review *review, Arena *arena) {
+    Findings all = review_findings(review, arena);
+    for (int i = 0; i < all.count; i++) {
+        const ReviewCase *c = all.list[i].c;
+        CaseRemedy *remedy = c && c->remedy_count ? c->remedies : NULL;
+        if (!remedy) continue;
+        LevelChange change = {c->display, c->must_not_be_read ? c->eye : NULL, c->level,
+                              remedy->level / c->level, c};
+        remedy->break_count = find_breaks(profile, &change, &all, &remedy->breaks, arena);
+    }
+    for (int i = 0; i < review->pane_image_count; i++) {
+        PaneFinding *f = &review->pane_images[i];
+        LevelChange change = {f->shows, NULL, (double)NAN, pane_level_share(f), NULL};
+        bool is_wanted = f->has_limit && !f->none && f->limit.verdict != VERDICT_PASS;
+        if (is_wanted && !isnan(change.factor))
+            f->break_count = find_breaks(profile, &change, &all, &f->breaks, arena);
+    }
 }

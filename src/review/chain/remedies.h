@@ -30,3 +30,9 @@ CaseLeast case_least_level(const Profile *profile, const ReviewCase *c, Arena sc
  * with which the limit is judged to be kept although as much more (or less, where less contrast is
  * required) is reflected as the interval is wide. */
 void case_remedies(const Profile *profile, double level_most, ReviewCase *c, Arena *arena);
+
+/* Sets what the remedies of one condition's cases, and the dimming of what stands in glass
+ * (pane_level_share), break: of all that is judged of the same display at the same level, every
+ * limit that counts and passes, by every eye (towards one eye: by that one), judged again. Of a
+ * display that is brighter images in glass and roads, too; light is linear in its level. */
+void remedies_judge(const Profile *profile, Review *review, Arena *arena);

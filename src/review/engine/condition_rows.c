@@ -79,8 +79,13 @@ ROWS(view, FLOATS(CaseView, eye, forward), FLAG(CaseView, is_perspective),
      INT(CaseView, height, 1, 1 << 20));
 static const PackFormat view = FORMAT(view, CaseView);
 
+ROWS(remedy_break, TEXT(RemedyBreak, subject), TEXT(RemedyBreak, viewer),
+     PART(RemedyBreak, line, limit));
+static const PackFormat remedy_break = FORMAT(remedy_break, RemedyBreak);
+
 ROWS(remedy, TEXT(CaseRemedy, what), NUMBERS(CaseRemedy, contrast_ratio, level),
-     PART(CaseRemedy, then, limit), CHOICE(CaseRemedy, verdict, VERDICTS));
+     PART(CaseRemedy, then, limit), CHOICE(CaseRemedy, verdict, VERDICTS),
+     LIST(CaseRemedy, breaks, break_count, remedy_break));
 static const PackFormat remedy = FORMAT(remedy, CaseRemedy);
 
 ROWS(level, NUMBER(CaseVisibility, age_years), FLAG(CaseVisibility, is_observer),
@@ -220,7 +225,8 @@ ROWS(pane, TEXT(PaneFinding, condition), TEXT(PaneFinding, eye), TEXT(PaneFindin
       .low = 2,
       .of = &point},
      NUMBERS(PaneFinding, image, ghost_arcmin), TEXT(PaneFinding, area),
-     NUMBER(PaneFinding, off_deg), FLAG(PaneFinding, has_limit), PART(PaneFinding, limit, limit));
+     NUMBER(PaneFinding, off_deg), FLAG(PaneFinding, has_limit), PART(PaneFinding, limit, limit),
+     LIST(PaneFinding, breaks, break_count, remedy_break));
 static const PackFormat pane = FORMAT(pane, PaneFinding);
 
 /* ---- what they rest on ------------------------------------------------------------------- */

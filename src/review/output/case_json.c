@@ -51,9 +51,13 @@ TABLE(groups_json, ReviewCase, GROUP("light", GROUP_LIGHT), GROUP("opening", GRO
 
 TABLE(hider_json, CaseHider, OWN(TEXT, CaseHider, what), OWN(FIGURE, CaseHider, share));
 
+PUBLIC_TABLE(break_json, RemedyBreak, OWN(TEXT, RemedyBreak, subject),
+             OWN(TEXT, RemedyBreak, viewer), PART("limit", MUST, RemedyBreak, line, limit_json));
+
 TABLE(remedy_json, CaseRemedy, OWN(TEXT, CaseRemedy, what), OWN(FIGURE, CaseRemedy, contrast_ratio),
       OWN(FIGURE, CaseRemedy, level), PART("then", 0, CaseRemedy, then, limit_json),
-      LATER("verdict", VERDICT, CaseRemedy, verdict));
+      LATER("verdict", VERDICT, CaseRemedy, verdict),
+      LIST("breaks", RECORD_BRIEF, CaseRemedy, breaks, break_count, break_json));
 
 PUBLIC_TABLE(panel_json, CasePanel, OWN(TEXT, CasePanel, verdict), OWN(TEXT, CasePanel, reason),
              AS("coarse", FLAG, CasePanel, is_coarse),

@@ -11,9 +11,9 @@
 #include "record/record.h"
 #include "review/verdict.h"
 
-/* Of a ReviewCase, a LimitVerdict and a CasePanel, and of two doubles: the sun's
+/* Of a ReviewCase, a LimitVerdict, a RemedyBreak and a CasePanel, and of two doubles: the sun's
  * azimuth and elevation. */
-extern const RecordFormat case_json, limit_json, panel_json, sun_json;
+extern const RecordFormat case_json, limit_json, break_json, panel_json, sun_json;
 
 /* A row's verdict, also by the names that older reviews have. */
 bool case_read_verdict(const JsonView *view, const RecordRow *row, void *item, Error *err);
@@ -24,7 +24,7 @@ void case_members_json(const ReviewCase *c, const char *const *keys, json_t *to)
 /* {"light": [{"what", "share", "cd_m2"}, ...], "opening": ..., "surface": ...} */
 json_t *case_groups_json(const ReviewCase *c);
 
-/* [{"what", "contrast_ratio", "level", "then", "verdict"}, ...] */
+/* [{"what", "contrast_ratio", "level", "then", "verdict", "breaks"}, ...] */
 json_t *case_remedies_json(const ReviewCase *c);
 
 /* Sets "symbol_mean", "lit_share" and "judged_part_uv" of a symbol's case. */

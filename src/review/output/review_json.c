@@ -129,7 +129,8 @@ TABLE(pane_image_json, PaneFinding, OWN(TEXT, PaneFinding, condition), OWN(TEXT,
       OWN(FIGURE, PaneFinding, ghost_share), OWN(FIGURE, PaneFinding, ghost_arcmin),
       OWN(TEXT, PaneFinding, area), OWN(FIGURE, PaneFinding, off_deg),
       {"limit", RECORD_OBJECT, MUST | RECORD_NULL, RECORD_AT(PaneFinding, limit),
-       .count = offsetof(PaneFinding, has_limit), .of = &limit_json});
+       .count = offsetof(PaneFinding, has_limit), .of = &limit_json},
+      LIST("breaks", RECORD_BRIEF, PaneFinding, breaks, break_count, break_json));
 
 TABLE(rest_json, ReviewRest,
       {"kind", RECORD_CHOICE, MUST, RECORD_AT(ReviewRest, kind), .words = rest_kinds},

@@ -13,7 +13,6 @@
 #include "review/terms.h"
 #include "text/text.h"
 
-#define SEEN_CD_M2 0.01 /* of an image: what is darker hardly anybody sees */
 #define LEAST_LEVEL 1e-3
 
 static void part(Text *text, const char *words) {
@@ -161,10 +160,11 @@ static const char *todo_of_road(const GazeFinding *gaze, Arena *arena) {
 /* ---- the others -------------------------------------------------------------------------- */
 
 static const char *todo_of_pane(const PaneFinding *f, Arena *arena) {
-    double factor = f->limit.value / f->contrast_range.high;
-    return factor > 0 && factor < 1 && factor * f->image >= SEEN_CD_M2
-               ? arena_format(arena, TERM_DIM_IMAGE, f->display, percent(factor, -1, arena))
-               : arena_format(arena, TERM_NO_LEVEL_DIMS, f->display);
+    double share = pane_level_share(f);
+    return isnan(share)
+               ? arena_format(arena, TERM_NO_LEVEL_DIMS, f->display)
+               : arena_format(arena, TERM_DIM_IMAGE "%s", f->display, percent(share, -1, arena),
+                              words_breaks(f->breaks, f->break_count, arena));
 }
 
 static const char *todo_of_gaze(const Finding *f, Arena *arena) {

@@ -412,9 +412,23 @@ const char *words_headline(const ReviewCase *c, Arena *arena) {
 
 const char *words_remedy(const CaseRemedy *r, Arena *arena) {
     bool is_another = r->then.verdict == VERDICT_PASS && r->verdict != VERDICT_PASS;
-    return arena_format(arena, "%s %s (%s)%s", words_kind(&r->then), words_found(&r->then, arena),
+    return arena_format(arena, "%s %s (%s)%s%s", words_kind(&r->then), words_found(&r->then, arena),
                         words_bound(&r->then, arena),
-                        is_another ? "; another limit is not kept" : "");
+                        is_another ? "; another limit is not kept" : "",
+                        words_breaks(r->breaks, r->break_count, arena));
+}
+
+const char *words_breaks(const RemedyBreak *breaks, int count, Arena *arena) {
+    const RemedyBreak *worst = breaks;
+    for (int i = 1; i < count; i++)
+        if (limit_is_worse(&breaks[i].line, &worst->line)) worst = &breaks[i];
+    if (!count) return "";
+    return arena_format(arena, TERM_THEN, worst->subject, worst->viewer,
+                        worst->line.verdict == VERDICT_FAIL ? "fails"
+                                                            : verdict_names[worst->line.verdict],
+                        words_kind(&worst->line), words_found(&worst->line, arena),
+                        words_bound(&worst->line, arena),
+                        count > 1 ? arena_format(arena, "; and %d more", count - 1) : "");
 }
 
 const char *words_chain(const CaseCause *cause, Arena *arena) {

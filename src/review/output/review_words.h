@@ -115,6 +115,9 @@ const char *words_unjudged(const ReviewCase *c, Arena *arena);
  * (minimum 2)". */
 const char *words_remedy(const CaseRemedy *remedy, Arena *arena);
 
+/* What of it is worst, behind the words of the level that breaks it; "": nothing. */
+const char *words_breaks(const RemedyBreak *breaks, int count, Arena *arena);
+
 /* What the worst part does not say: "mean of the symbol 1.83 : 1; 80 % of it is in the sun".
  * The mean stands where it differs by more than both intervals, the share where an edge of the
  * sun lies on it; "" where neither does. */

@@ -8,6 +8,7 @@
 #include "review/chain/chains.h"
 #include "review/eye/pane_image_reading.h"
 #include "review/judge.h"
+#include "review/request/request_check.h"
 
 #define PRECISION 0.01
 #define PATHS_MOST 32768
@@ -172,6 +173,20 @@ typedef struct PaneEye {
     Ambient ambient;
 } PaneEye;
 
+/* The name by which symbols are on it. */
+static const char *name_on(const Setup *setup, const Part *part, Arena scratch) {
+    const ReviewRequest *request = setup->request;
+    int id = setup->scene->materials[part->material_id].display_id;
+    ReviewDisplay display;
+    Error ignored;
+    for (int i = 0; i < request->symbol_count; i++)
+        if (review_display_find(setup->scene, request->symbols[i].display, &scratch, &display,
+                                &ignored) &&
+            display.display_id == id)
+            return request->symbols[i].display;
+    return NULL;
+}
+
 static PaneFinding finding_of(const PaneEye *eye, const PaneImage *image, Arena scratch,
                               Arena *arena) {
     const Setup *setup = eye->setup;
@@ -181,6 +196,7 @@ static PaneFinding finding_of(const PaneEye *eye, const PaneImage *image, Arena 
     out.eye = eye->name;
     out.display = chain_part_words(setup->scene, image->part_id, arena);
     out.pane = chain_part_words(setup->scene, image->pane_id, arena);
+    out.shows = name_on(setup, &setup->scene->parts[image->part_id], scratch);
     out.shown_share = image->share.shown;
     out.ends_share = image->share.ends;
     out.away_share = image->share.away;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "render/identity.h"
+#include "review/chain/remedies.h"
 #include "review/keep/frame_kept.h"
 #include "review/request/request_check.h"
 #include "review/review_decide.h"
@@ -190,6 +191,7 @@ bool review_run_condition(const ReviewRun *run, int condition_id, Arena *arena, 
          !run_after_dark(&own, condition, arena, out, err)) ||
         !review_goes_on(err)) /* else its last reading may be cut off */
         return false;
+    remedies_judge(run->profile, &out->review, arena);
     progress_end(&part, part.total);
     return true;
 }
