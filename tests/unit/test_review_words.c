@@ -199,7 +199,7 @@ TEST(every_failure_says_what_to_do) {
     limit.value = 200;
     assert_string_equal(todo_of_case(&c, &arena),
                         "no light or level matters: the content itself has 100 : 1");
-    const CaseRemedy remedy = {.what = "raise the level from 50 % to 80 %",
+    CaseRemedy remedy = {.what = "raise the level from 50 % to 80 %",
                                .then = {.name = "x",
                                         .kind = "contrast_ratio",
                                         .unit = "1",
