@@ -19,7 +19,7 @@ base="$build src/print src/base src/spectrum"
 panels="$base src/text src/record src/hemisphere src/image src/panel src/library assets/panels"
 light="$panels src/import src/sky src/scene src/bvh src/light src/mirror src/keep src/guide
     src/camera src/sunlit src/surface src/path src/film src/kernel src/estimate src/render shaders"
-options="$light src/missed src/denoise src/vision src/cli/ src/cli/options"
+options="$light src/table src/missed src/denoise src/vision src/cli/ src/cli/options"
 render="$options assets src/cli/render"
 tables="$render src/page src/plot src/cli/panel"
 review="$render src/review src/page src/plot src/cli/review src/equip src/cli/explain"

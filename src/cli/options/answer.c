@@ -40,6 +40,17 @@ bool cli_print_json(json_t *document, Error *err) {
            error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s", strerror(reason));
 }
 
+bool cli_print_answer(const TableKind *kind, json_t *document, bool as_json, Error *err) {
+    if (as_json) return cli_print_json(document, err);
+    Arena arena = arena_reserve(DOCUMENT_BYTES);
+    Text text = {.arena = &arena};
+    table_add_record(kind, document, &text);
+    print_own(stdout, text.data);
+    arena_release(&arena);
+    json_decref(document);
+    return true;
+}
+
 void cli_error_line(const Error *error, char *buffer, int size) {
     const char *advice = strstr(error->text, " — ");
     int length = advice ? (int)(advice - error->text) : (int)strlen(error->text);

@@ -12,11 +12,15 @@
 
 #include "base/error.h"
 #include "base/problems.h"
+#include "table/table.h"
 
 /* Prints the document to stdout with a newline, and releases it. False: stdout is full. */
 bool cli_print_json(json_t *document, Error *err);
 
-/* The same into a file, which it does not release. */
+/* The document, or what people read of it: the columns of the kind. */
+bool cli_print_answer(const TableKind *kind, json_t *document, bool as_json, Error *err);
+
+/* The document into a file, which it does not release. */
 bool cli_write_json(const json_t *document, const char *path, Error *err);
 
 /* `parhelion: FILE: what is wrong (where) — what to do`: one line in buffer, no newline. */

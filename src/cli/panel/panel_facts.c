@@ -17,7 +17,9 @@
 #include "panel/set/display_traits.h"
 #include "panel/set/halo_square.h"
 #include "spectrum/gamut.h"
+#include "plot/report/file_report.h"
 #include "spectrum/photometry.h"
+#include "table/table.h"
 
 static const float WHITE[3] = {255, 255, 255}, BLACK[3] = {0, 0, 0};
 
@@ -221,247 +223,134 @@ void panel_facts_add(const Panel *panel, json_t *report) {
 
 /* ---- as text ----------------------------------------------------------------------------- */
 
-static double number(const json_t *facts, const char *key) {
-    return json_number_value(json_object_get(facts, key));
-}
+#define PARTS_SIDES "right|up|left|down"
+#define PARTS_PRIMARIES "red|green|blue"
+#define BEYOND "beyond what was measured"
 
-static double item(const json_t *list, size_t i) {
-    return json_number_value(json_array_get(list, i));
-}
+static const Column BESIDE[] = {COLUMN_DIGITS("mm", "from its middle", "mm", 4),
+                                COLUMN_DIGITS("black_cd_m2", "black", "cd/m2", 3)};
+static const TableKind BESIDE_KIND = TABLE_KIND("halo", "black beside the white square", BESIDE);
 
-static void print_cone(const json_t *facts, const char *key, const char *label) {
-    static const char *const side[] = {"right", "up", "left", "down"};
-    const json_t *list = json_object_get(facts, key);
-    if (!list) return;
-    print("%s", label);
-    for (size_t i = 0; i < 4; i++) {
-        print("%s %s ", i ? "," : "", side[i]);
-        if (json_is_null(json_array_get(list, i))) print("beyond what was measured");
-        else print("%.1f", item(list, i));
-    }
-    print(" degrees\n");
-}
+static const Column SPOTS[] = {{.key = "position", .words = "spot (right, down)", .places = 4},
+                               COLUMN_FIXED("bytes", "bytes", NULL, 0),
+                               COLUMN_SHARE("max_error", "largest error"),
+                               COLUMN_TEXT("verdict", "verdict")};
+static const TableKind SPOTS_KIND = TABLE_KIND("spots", "spots", SPOTS);
 
-static void print_gamut(const json_t *facts) {
-    const json_t *xy = json_object_get(facts, "primaries_xy"), *gamma;
-    if (!xy) return;
-    print("gamut      red %.3f %.3f, green %.3f %.3f, blue %.3f %.3f (xy); covers %.1f %% of "
-          "sRGB, %.1f %% of DCI-P3 by area in xy\n",
-          item(json_array_get(xy, 0), 0), item(json_array_get(xy, 0), 1),
-          item(json_array_get(xy, 1), 0), item(json_array_get(xy, 1), 1),
-          item(json_array_get(xy, 2), 0), item(json_array_get(xy, 2), 1),
-          100 * number(facts, "srgb_coverage"), 100 * number(facts, "dci_p3_coverage"));
-    gamma = json_object_get(facts, "gamma");
-    if (json_is_number(json_array_get(gamma, 0)))
-        print("gamma      red %.2f, green %.2f, blue %.2f\n", item(gamma, 0), item(gamma, 1),
-              item(gamma, 2));
-}
+static const Column FLAGS[] = {
+    COLUMN_TEXT("table", "table"), COLUMN_DIGITS("theta_deg", "theta", "degrees", 0),
+    COLUMN_DIGITS("phi_deg", "phi", "degrees", 0), COLUMN_DIGITS("value", "value", "cd/m2", 5),
+    COLUMN_DIGITS("expected", "expected", "cd/m2", 5)};
+static const TableKind OUTLIERS_KIND = TABLE_KIND("outliers", "outliers", FLAGS);
+static const TableKind HOLES_KIND = TABLE_KIND("holes", "holes", FLAGS);
 
-static void print_polarisation(const json_t *polarisation) {
-    if (!polarisation) return;
-    print("polarised  %.4g %%, linearly, along azimuth %.6g degrees\n",
-          100 * number(polarisation, "degree"), number(polarisation, "azimuth_deg"));
-}
+#define EVENNESS(pattern) \
+    COLUMN_DIGITS("display.places." pattern ".nine_least", pattern ", nine points, least", \
+                  "cd/m2", 4), \
+        COLUMN_DIGITS("display.places." pattern ".nine_most", pattern ", nine points, most", \
+                      "cd/m2", 4), \
+        COLUMN_DIGITS("display.places." pattern ".nine_mean", pattern ", nine points, mean", \
+                      "cd/m2", 4), \
+        COLUMN_SHARE("display.places." pattern ".nine_non_uniformity", \
+                     pattern ", non-uniformity"), \
+        COLUMN_DIGITS("display.places." pattern ".least", pattern ", anywhere, least", "cd/m2", \
+                      4), \
+        COLUMN_DIGITS("display.places." pattern ".most", pattern ", anywhere, most", "cd/m2", 4), \
+        COLUMN_DIGITS("display.places." pattern ".mean", pattern ", anywhere, mean", "cd/m2", 4)
 
-static void print_spread(const json_t *spread) {
-    const json_t *radius = json_object_get(spread, "radius_mm");
-    if (!radius) {
-        print("Gaussian of sigma %.4g mm", number(spread, "sigma_mm"));
-        return;
-    }
-    print("a table to %.4g mm", item(radius, json_array_size(radius) - 1));
-}
-
-static void print_zones(const json_t *zones) {
-    const json_t *count = json_object_get(zones, "zones"), *one;
-    const json_t *drive = json_object_get(zones, "drive"), *halo = json_object_get(zones, "halo");
-    size_t i;
-    if (!zones) return;
-    print("zones      %.0f x %.0f, light spread by ", item(count, 0), item(count, 1));
-    print_spread(json_object_get(zones, "spread"));
-    print("; driven by the %s%s, black %.3g %%; pixels %s\n",
-          json_string_value(json_object_get(drive, "rule")),
-          json_object_get(drive, "codes") ? " through a table" : "",
-          100 * number(zones, "mean_drive_black"),
-          json_is_true(json_object_get(zones, "compensates")) ? "keep their light"
-                                                              : "fall with their backlight");
-    print("halo       of a white square of %.4g mm on black: black is ", number(halo, "square_mm"));
-    json_array_foreach(json_object_get(halo, "beside"), i, one) print(
-        "%s%.3g cd/m2 at %.4g mm", i ? ", " : "", number(one, "black_cd_m2"), number(one, "mm"));
-    print("; mean drive %.3g %%\n", 100 * number(halo, "mean_drive"));
-}
-
-static void print_reflection(const json_t *facts) {
-    if (!json_object_get(facts, "mirror_reflectance")) return;
-    print("reflects   %.3g %% like a mirror, %.3g %% diffusely (haze and floor, into the "
-          "hemisphere), light from %g degrees\n",
-          100 * number(facts, "mirror_reflectance"), 100 * number(facts, "diffuse_reflectance"),
-          number(facts, "reflectance_incidence_deg"));
-    print("haze       %.4g sr^-1 in the mirror direction", number(facts, "haze_peak_sr"));
-    if (json_object_get(facts, "haze_fwhm_deg"))
-        print(", %.3g degrees wide at half of it", number(facts, "haze_fwhm_deg"));
-    print("\n");
-}
-
-static void print_evenness(const char *label, const json_t *e) {
-    if (!e) return;
-    print("%-10s nine points %.4g to %.4g cd/m2, mean %.4g, non-uniformity %.3g %%; anywhere "
-          "%.4g to %.4g, mean %.4g\n",
-          label, number(e, "nine_least"), number(e, "nine_most"), number(e, "nine_mean"),
-          100 * number(e, "nine_non_uniformity"), number(e, "least"), number(e, "most"),
-          number(e, "mean"));
-}
-
-static void print_places(const json_t *facts, const json_t *report) {
-    const json_t *places = json_object_get(facts, "places"), *spot;
-    const json_t *spots = json_object_get(places, "spots");
-    const json_t *map = json_object_get(places, "map");
-    size_t i;
-    if (!places) return;
-    if (map) print("uniformity map of %.0f x %.0f pixels\n", item(map, 0), item(map, 1));
-    json_array_foreach((json_t *)spots, i, spot)
-        print("%s%.4g,%.4g", i ? "; " : "spots at   ", item(spot, 0), item(spot, 1));
-    if (json_array_size(spots)) print(" (right, down; of the active area)\n");
-    print_evenness("white", json_object_get(places, "white"));
-    print_evenness("black", json_object_get(places, "black"));
-    json_array_foreach(json_object_get(report, "spots"), i, spot) {
-        const json_t *at = json_object_get(spot, "position");
-        print("spot       %.4g,%.4g: %.0f bytes, largest error %.2g%%, %s\n", item(at, 0),
-              item(at, 1), number(spot, "bytes"), 100 * number(spot, "max_error"),
-              json_string_value(json_object_get(spot, "verdict")));
-    }
-}
-
-static void print_facts(const json_t *report) {
-    const json_t *facts = json_object_get(report, "display");
-    const json_t *xy = json_object_get(facts, "white_xy");
-    if (xy) {
-        print("white      %.4g cd/m2, xy %.4f %.4f; ", number(facts, "white_cd_m2"), item(xy, 0),
-              item(xy, 1));
-        if (json_is_null(json_object_get(facts, "contrast"))) print("black not measured\n");
-        else print("contrast %.4g : 1\n", number(facts, "contrast"));
-    }
-    print_gamut(facts);
-    print_polarisation(json_object_get(facts, "polarisation"));
-    print_zones(json_object_get(facts, "local_dimming"));
-    print_cone(facts, "half_luminance_deg", "half white");
-    print_cone(facts, "contrast_10_deg", "10 : 1    ");
-    print_reflection(facts);
-    print_places(facts, report);
-}
-
-/* ---- the report -------------------------------------------------------------------------- */
-
-static void print_table(const json_t *table) {
-    print("%-16s %10.0f %12.0f %9.0f %8.1f %8.3g%% %8.2g%% %8.2g%% %8.2g%% %6.2f%%\n",
-          json_string_value(json_object_get(table, "name")),
-          json_number_value(json_object_get(table, "source_bytes_text")),
-          json_number_value(json_object_get(table, "stored_values")),
-          json_number_value(json_object_get(table, "bytes")),
-          json_number_value(json_object_get(table, "ratio")),
-          100 * json_number_value(json_object_get(table, "max_error")),
-          100 * json_number_value(json_object_get(table, "rms_error")),
-          100 * json_number_value(json_object_get(table, "integral_error")),
-          100 * json_number_value(json_object_get(table, "noise")),
-          100 * json_number_value(json_object_get(table, "extrapolated_share")));
-}
-
-/* What no error of a table counts. */
-static void print_left_out(const json_t *table) {
-    double outliers = json_number_value(json_object_get(table, "outliers"));
-    if (outliers > 0)
-        print("left out   %s: %.0f outliers, up to %.3g %%\n",
-              json_string_value(json_object_get(table, "name")), outliers,
-              100 * json_number_value(json_object_get(table, "outliers_max_error")));
-}
-
-static void print_numbers(const char *key, const json_t *list) {
-    size_t i;
-    json_t *value;
-    if (!json_is_number(json_array_get(list, 0))) return;
-    print(" %s", key);
-    json_array_foreach((json_t *)list, i, value)
-        print("%s%.6g", i ? "," : " ", json_number_value(value));
-    print(";");
-}
-
-/* "a name": its text or numbers behind the line's label, for everything a fit has chosen. */
-static void print_choices(const char *label, const json_t *choices) {
-    const char *key;
-    json_t *value;
-    if (!choices) return;
-    print("%-10s", label);
-    json_object_foreach((json_t *)choices, key, value) {
-        if (json_is_string(value)) print(" %s %s;", key, json_string_value(value));
-        if (json_is_number(value)) print(" %s %.4g;", key, json_number_value(value));
-        if (json_is_boolean(value)) print(" %s %s;", key, json_is_true(value) ? "yes" : "no");
-        print_numbers(key, value);
-    }
-    print("\n");
-}
-
-/* Samples that stand out, and directions that are missing: of a fit, not of a file. */
-static void print_flags(const char *label, const json_t *flags) {
-    size_t i;
-    json_t *flag, *value;
-    json_array_foreach((json_t *)flags, i, flag) {
-        print("%-10s %s, theta %.6g, phi %.6g", label,
-              json_string_value(json_object_get(flag, "table")),
-              json_number_value(json_object_get(flag, "theta_deg")),
-              json_number_value(json_object_get(flag, "phi_deg")));
-        if ((value = json_object_get(flag, "value")))
-            print(": %.5g cd/m2, expected %.5g", json_number_value(value),
-                  json_number_value(json_object_get(flag, "expected")));
-        print("\n");
-    }
-}
-
-/* The verdict and why; files from before verdicts have none. */
-static void print_verdict(const json_t *report) {
-    size_t i;
-    json_t *reason;
-    const char *verdict = json_string_value(json_object_get(report, "verdict"));
-    print("verdict    %s\n", verdict ? verdict : "none in this file: fit the set again");
-    json_array_foreach(json_object_get(report, "reasons"), i, reason)
-        print("reason     %s\n", json_string_value(reason));
-}
-
-static void print_text(const json_t *report) {
-    size_t i;
-    json_t *value;
-    print("panel      %s\nsource     %s (%s)\n",
-          json_string_value(json_object_get(report, "panel")),
-          json_string_value(json_object_get(report, "source")),
-          json_string_value(json_object_get(report, "instrument")));
-    print_verdict(report);
-    print_facts(report);
-    print_choices("emission", json_object_get(report, "emission"));
-    print_choices("reflection", json_object_get(report, "reflection"));
-    json_array_foreach(json_object_get(report, "notes"), i, value)
-        print("note       %s\n", json_string_value(value));
-    print_flags("outlier", json_object_get(report, "outliers"));
-    print_flags("hole", json_object_get(report, "holes"));
-    print("each table: bytes of its text; numbers and bytes that the panel keeps of it (an "
-          "even share of what all share); how many times smaller than 32-bit numbers that "
-          "is;\nerrors of the samples that the fit follows, relative to the measured values: "
-          "the largest, the root of the mean "
-          "square, that of the hemispherical integral; the table's own noise; share of the "
-          "hemisphere that was not measured\n%-16s %10s %12s %9s %8s %9s %9s %9s %9s %7s\n",
-          "table", "text", "values", "bytes", "ratio", "max err", "rms err", "integral", "noise",
-          "extrap.");
-    json_array_foreach(json_object_get(report, "tables"), i, value) print_table(value);
-    print_table(json_object_get(report, "total"));
-    json_array_foreach(json_object_get(report, "tables"), i, value) print_left_out(value);
-    print_left_out(json_object_get(report, "total"));
-    if ((value = json_object_get(report, "peak_memory_bytes")))
-        print("took       %.1f s of processor time, %.0f MB at most\n",
-              json_number_value(json_object_get(report, "cpu_seconds")),
-              1e-6 * json_number_value(value));
-}
+static const Column INFO[] = {
+    COLUMN_TEXT("panel", "panel"),
+    COLUMN_TEXT("source", "source"),
+    COLUMN_TEXT("instrument", "instrument"),
+    {.key = "verdict", .words = "verdict", .none = "none in this file: fit the set again"},
+    COLUMN_TEXT("reasons", "reason"),
+    COLUMN_DIGITS("display.white_cd_m2", "white", "cd/m2", 4),
+    {.key = "display.white_xy", .words = "white, xy", .is_fixed = true, .places = 4},
+    {.key = "display.contrast",
+     .words = "contrast",
+     .unit = ": 1",
+     .places = 4,
+     .none = "black not measured"},
+    {.key = "display.primaries_xy",
+     .words = "primaries, xy",
+     .is_fixed = true,
+     .places = 3,
+     .parts = PARTS_PRIMARIES},
+    {.key = "display.srgb_coverage",
+     .words = "covers of sRGB",
+     .unit = "% by area in xy",
+     .is_fixed = true,
+     .places = 1,
+     .times = 100},
+    {.key = "display.dci_p3_coverage",
+     .words = "covers of DCI-P3",
+     .unit = "% by area in xy",
+     .is_fixed = true,
+     .places = 1,
+     .times = 100},
+    {.key = "display.gamma",
+     .words = "gamma",
+     .is_fixed = true,
+     .places = 2,
+     .parts = PARTS_PRIMARIES,
+     .none = "not measured"},
+    COLUMN_SHARE("display.polarisation.degree", "polarised"),
+    COLUMN_DIGITS("display.polarisation.azimuth_deg", "polarised along", "degrees", 0),
+    COLUMN_TEXT("display.local_dimming.zones", "zones (across, down)"),
+    COLUMN_DIGITS("display.local_dimming.spread.sigma_mm", "light spread, sigma", "mm", 4),
+    COLUMN_DIGITS("display.local_dimming.spread.radius_mm", "light spread, radii", "mm", 4),
+    COLUMN_TEXT("display.local_dimming.drive.rule", "zones driven by"),
+    COLUMN_SHARE("display.local_dimming.mean_drive_black", "drive of black"),
+    COLUMN_TEXT("display.local_dimming.compensates", "pixels keep their light"),
+    COLUMN_DIGITS("display.local_dimming.halo.square_mm", "white square on black", "mm", 4),
+    COLUMN_SHARE("display.local_dimming.halo.mean_drive", "its mean drive"),
+    {.key = "display.half_luminance_deg",
+     .words = "half luminance",
+     .unit = "degrees",
+     .is_fixed = true,
+     .places = 1,
+     .parts = PARTS_SIDES,
+     .none = BEYOND},
+    {.key = "display.contrast_10_deg",
+     .words = "contrast 10 : 1",
+     .unit = "degrees",
+     .is_fixed = true,
+     .places = 1,
+     .parts = PARTS_SIDES,
+     .none = BEYOND},
+    COLUMN_DIGITS("display.reflectance_incidence_deg", "reflectance, light from", "degrees", 0),
+    COLUMN_SHARE("display.mirror_reflectance", "like a mirror"),
+    COLUMN_SHARE("display.diffuse_reflectance", "diffusely (haze and floor)"),
+    COLUMN_DIGITS("display.haze_peak_sr", "haze, mirror direction", "sr^-1", 4),
+    COLUMN_DIGITS("display.haze_fwhm_deg", "haze, width at half", "degrees", 3),
+    COLUMN_TEXT("display.places.map", "uniformity map, pixels"),
+    EVENNESS("white"),
+    EVENNESS("black"),
+    {.key = "emission", .words = "emission"},
+    {.key = "reflection", .words = "reflection"},
+    COLUMN_TEXT("notes", "note"),
+    COLUMN_DIGITS("cpu_seconds", "processor time", "s", 3),
+    {.key = "peak_memory_bytes",
+     .words = "memory, at most",
+     .unit = "MB",
+     .is_fixed = true,
+     .times = 1e-6},
+    {.key = "display.local_dimming.halo.beside", .of = &BESIDE_KIND},
+    {.key = "spots", .of = &SPOTS_KIND},
+    {.key = "outliers", .of = &OUTLIERS_KIND},
+    {.key = "holes", .of = &HOLES_KIND},
+};
+static const TableKind INFO_KIND = TABLE_KIND("info", NULL, INFO);
 
 bool panel_print_report(json_t *report, bool as_json, Error *err) {
     if (as_json) return cli_print_json(report, err);
-    print_text(report);
+    Arena arena = arena_reserve((size_t)1 << 30);
+    Text text = {.arena = &arena};
+    table_add_record(&INFO_KIND, report, &text);
+    const Table *tables = panel_file_table(report, &arena);
+    if (tables) table_add_text(tables, &text);
+    print_own(stdout, text.data);
+    arena_release(&arena);
     json_decref(report);
     return true;
 }

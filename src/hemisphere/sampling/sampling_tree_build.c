@@ -10,11 +10,11 @@
 _Static_assert(sizeof(SamplingHeader) == 16, "the blob's layout");
 
 /* A triangle that may become a cell or be split. */
-typedef struct Cell {
+typedef struct GainCell {
     double gain; /* what splitting takes off the variance, over all functions */
     int level;
     uint32_t id;
-} Cell;
+} GainCell;
 
 typedef struct Build {
     const SamplingOptions *options;
@@ -22,7 +22,7 @@ typedef struct Build {
     float *root[GEODESIC_MAX_LEVEL + 1];  /* of sqrt f, taken constant in leaves */
     double *area[GEODESIC_MAX_LEVEL + 1]; /* octant 0 only */
     bool *split[GEODESIC_MAX_LEVEL + 1];
-    Cell *heap; /* largest gain first */
+    GainCell *heap; /* largest gain first */
     int heap_count, cells, splits;
     double *variance; /* of each function's weights with the cells so far */
     uint8_t *step;    /* [function][node][3], nodes as a walk in depth meets them */
@@ -87,14 +87,14 @@ static double cell_variance(const Build *build, int level, uint32_t id, int func
     return left > 0 ? 4 * left : 0;
 }
 
-static bool comes_first(Cell a, Cell b) {
+static bool comes_first(GainCell a, GainCell b) {
     if (a.gain != b.gain) return a.gain > b.gain;
     return a.level != b.level ? a.level < b.level : a.id < b.id;
 }
 
 /* A new cell: into the functions' variances and onto the heap. */
 static void add_cell(Build *build, int level, uint32_t id) {
-    Cell cell = {0, level, id};
+    GainCell cell = {0, level, id};
     for (int f = 0; f < build->options->functions; f++) {
         double variance = cell_variance(build, level, id, f);
         build->variance[f] += variance;
@@ -106,8 +106,8 @@ static void add_cell(Build *build, int level, uint32_t id) {
     build->heap[at] = cell;
 }
 
-static Cell heap_pop(Build *build) {
-    Cell first = build->heap[0], last = build->heap[--build->heap_count];
+static GainCell heap_pop(Build *build) {
+    GainCell first = build->heap[0], last = build->heap[--build->heap_count];
     int at = 0;
     for (int child = 1; child < build->heap_count; child = 2 * at + 1) {
         if (child + 1 < build->heap_count &&
@@ -130,12 +130,12 @@ static bool is_fine_enough(const Build *build) {
 
 static void split_cells(Build *build, Arena *arena) {
     const SamplingOptions *o = build->options;
-    build->heap = ARENA_NEW(arena, Cell, o->cells + 4);
+    build->heap = ARENA_NEW(arena, GainCell, o->cells + 4);
     build->variance = ARENA_NEW(arena, double, o->functions);
     build->cells = o->octants;
     for (int q = 0; q < o->octants; q++) add_cell(build, 0, (uint32_t)q);
     while (build->cells + 3 <= o->cells && !is_fine_enough(build)) {
-        Cell cell = heap_pop(build);
+        GainCell cell = heap_pop(build);
         if (!(cell.gain > 1e-7)) return; /* constant inside, to rounding; all masses sum to 1 */
         for (int f = 0; f < o->functions; f++)
             build->variance[f] -= cell_variance(build, cell.level, cell.id, f);

@@ -18,9 +18,9 @@
 
 extern const char PANEL_WORDS[]; /* panel_words.txt */
 
-typedef struct Column {
+typedef struct ReportColumn {
     char kind, key[TEXT_MAX + 1];
-} Column;
+} ReportColumn;
 
 /* ---- compression ------------------------------------------------------------------------ */
 
@@ -72,7 +72,7 @@ static char kind_of(const char *key, const json_t *value) {
     return !strcmp(key, "bytes") || !strcmp(key, "stored_values") ? 'f' : 'h';
 }
 
-static int find_columns(const json_t *tables, Column *column) {
+static int find_columns(const json_t *tables, ReportColumn *column) {
     int count = 0;
     size_t i;
     json_t *table, *value;
@@ -132,7 +132,7 @@ static const char *name_of(const json_t *table) {
 }
 
 static size_t plain_tables(const json_t *tables, Arena *arena, const void **bytes) {
-    Column column[COLUMNS_MAX];
+    ReportColumn column[COLUMNS_MAX];
     size_t i, size = 3, rows = json_array_size(tables);
     json_t *table;
     uint8_t columns = (uint8_t)find_columns(tables, column);
@@ -181,7 +181,7 @@ static bool get_text(Reader *from, char text[TEXT_MAX + 1]) {
     return true;
 }
 
-static bool get_number(Reader *from, const Column *column, json_t *table) {
+static bool get_number(Reader *from, const ReportColumn *column, json_t *table) {
     uint32_t bits = 0;
     uint16_t half = 0;
     float number;
@@ -209,7 +209,7 @@ static void add_ratio(json_t *table, const char *source, const char *key) {
         json_object_set_new(table, key, json_real(stored > 0 ? bytes / stored : 0));
 }
 
-static bool get_columns(Reader *from, Column *column, int columns) {
+static bool get_columns(Reader *from, ReportColumn *column, int columns) {
     for (int c = 0; c < columns; c++)
         if (!get(from, &column[c].kind, 1) || !strchr("ifh", column[c].kind) || !column[c].kind ||
             !get_text(from, column[c].key))
@@ -217,7 +217,7 @@ static bool get_columns(Reader *from, Column *column, int columns) {
     return true;
 }
 
-static bool get_rows(Reader *from, const Column *column, int columns, int rows, json_t *out) {
+static bool get_rows(Reader *from, const ReportColumn *column, int columns, int rows, json_t *out) {
     char text[TEXT_MAX + 1];
     for (int i = 0; i < rows; i++) {
         if (!get_text(from, text)) return false;
@@ -241,7 +241,7 @@ static json_t *open_plain_tables(const void *bytes, size_t size) {
     Reader from = {bytes, (const unsigned char *)bytes + size};
     uint16_t rows;
     uint8_t columns;
-    Column column[COLUMNS_MAX];
+    ReportColumn column[COLUMNS_MAX];
     json_t *out = json_array();
     if (get(&from, &rows, sizeof rows) && get(&from, &columns, 1) && columns <= COLUMNS_MAX &&
         get_columns(&from, column, columns) && get_rows(&from, column, columns, rows, out))

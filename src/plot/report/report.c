@@ -12,14 +12,10 @@
 #include "panel/query/panel_info.h"
 #include "plot/draw/ticks.h"
 #include "plot/panel/grey_inversion.h"
-#include "plot/report/colour_tables.h"
-#include "plot/report/error_tables.h"
+#include "panel/set/set_writer.h"
 #include "plot/report/file_report.h"
-#include "plot/report/level_tables.h"
-#include "plot/report/light_tables.h"
-#include "plot/report/place_tables.h"
+#include "plot/report/panel_tables.h"
 #include "plot/report/report_figures.h"
-#include "plot/report/viewing_tables.h"
 #include "spectrum/gamut.h"
 #include "text/json_text.h"
 
@@ -121,8 +117,11 @@ static bool write_page(json_t *to, const PlotData *s, const Report *report,
     set_number(to, "mirror_percent", s->has_mirror ? 100 * plot_data_mirror(s, 0, 0) : NAN);
     if (s->emits) set_emission(to, s);
     if (s->reflects) set_reflection(to, s);
-    json_object_set_new(to, "tables", report_values(report));
-    report_of_file(to, s->source.report, *arena);
+    json_t *tables = json_array();
+    for (int i = 0; i < report->count; i++)
+        json_array_append_new(tables, table_page(report->table[i]));
+    json_object_set_new(to, "tables", tables);
+    report_of_file(to, s->source.report, arena);
     if (page_set_head(to, &head, err) &&
         report_figures(to, plot_charts(s, PLOT_ALL, arena), options->is_dark, arena, err))
         return page_write_values("panel.html", to, FORMATS, path, err);
@@ -130,17 +129,40 @@ static bool write_page(json_t *to, const PlotData *s, const Report *report,
     return false;
 }
 
-static Report *make_tables(const PlotData *data, Arena *arena) {
-    Report *report = ARENA_NEW(arena, Report, 1);
-    report->arena = arena;
-    report_viewing(report, data);
-    report_colour(report, data);
-    report_levels(report, data);
-    report_reflection(report, data);
-    report_ambient(report, data);
-    report_places(report, data);
-    report_errors(report, data);
-    return report;
+/* ---- JSON and CSV ------------------------------------------------------------------------ */
+
+static json_t *tables_json(const Report *report) {
+    json_t *tables = json_array();
+    for (int i = 0; i < report->count; i++) {
+        const Table *table = report->table[i];
+        json_array_append_new(
+            tables, json_pack("{s:s, s:s, s:o, s:o, s:o}", "name", table->kind->key, "title",
+                              table->kind->words, "note", json_text(table->note), "missing",
+                              json_text_or_null(table->missing), "rows", table_json(table)));
+    }
+    return tables;
+}
+
+/* KEY.csv of every table that is there, and report.json with `answer`, into a folder: all or
+ * none. input: a file that none of them may replace. */
+static bool write_csv(const Report *report, const json_t *answer, const char *folder,
+                      const char *input, Error *err) {
+    SetWriter writer;
+    Arena *arena = report->arena;
+    Lines inputs = {.arena = arena};
+    lines_put(&inputs, input);
+    const char *document = arena_format(arena, "%s/report.json", folder);
+    if (!set_writer_open(document, &inputs, &writer, err)) return false;
+    bool ok = true;
+    for (int i = 0; i < report->count && ok; i++) {
+        const Table *table = report->table[i];
+        if (table->missing) continue;
+        Text csv = {.arena = arena};
+        table_add_csv(table, &csv);
+        ok = set_writer_add(&writer, arena_format(arena, "%s.csv", table->kind->key), &csv);
+    }
+    ok = ok && set_writer_add_manifest(&writer, answer, 17);
+    return set_writer_close(&writer, ok);
 }
 
 bool panel_report_write(const PlotInput *input, const PlotOptions *options,
@@ -151,11 +173,11 @@ bool panel_report_write(const PlotInput *input, const PlotOptions *options,
     all.wants_reflectance = true;
     PlotData *data = plot_query(input, &all, arena, &source, err);
     if (!data) return false;
-    const Report *report = make_tables(data, arena);
+    const Report *report = panel_tables(data, arena);
     json_t *document = facts_json(data);
-    json_object_set_new(document, "tables", report_json(report));
+    json_object_set_new(document, "tables", tables_json(report));
     bool ok =
-        (!output->tables || report_write_csv(report, document, output->tables, input->file, err)) &&
+        (!output->tables || write_csv(report, document, output->tables, input->file, err)) &&
         (!output->page || write_page(facts_json(data), data, report, options, output->page, err));
     if (ok) *answer = document;
     else json_decref(document);

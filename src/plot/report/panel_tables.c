@@ -1,0 +1,714 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "plot/report/panel_tables.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/count.h"
+#include "base/units.h"
+#include "panel/query/panel_place.h"
+#include "plot/panel/grey_inversion.h"
+#include "spectrum/gamut.h"
+#include "spectrum/photometry.h"
+#include "table/table.h"
+
+/* ---- azimuths ---------------------------------------------------------------------------- */
+
+/* Eight, from the viewer's right counter-clockwise. What lies between azimuths that were
+ * measured more than 45 degrees apart, and more than 22.5 from each, is not stated. */
+#define AZIMUTHS 8
+#define NOT_MEASURED "not measured"
+
+#define AZIMUTH_COLUMNS(places) \
+    COLUMN_FIXED("phi_0", "φ 0° right", NULL, places), \
+        COLUMN_FIXED("phi_45", "φ 45°", NULL, places), \
+        COLUMN_FIXED("phi_90", "φ 90° up", NULL, places), \
+        COLUMN_FIXED("phi_135", "φ 135°", NULL, places), \
+        COLUMN_FIXED("phi_180", "φ 180° left", NULL, places), \
+        COLUMN_FIXED("phi_225", "φ 225°", NULL, places), \
+        COLUMN_FIXED("phi_270", "φ 270° down", NULL, places), \
+        COLUMN_FIXED("phi_315", "φ 315°", NULL, places)
+
+/* emission.azimuths_deg of the file: those measured, where they stand 45 degrees apart or
+ * more; without it every azimuth has a measured one near. */
+static bool has_azimuth(const PlotData *data, int index) {
+    const json_t *emission = json_object_get(data->source.report, "emission");
+    const json_t *list = json_object_get(emission, "azimuths_deg"), *one;
+    size_t i;
+    json_array_foreach(list, i, one) if (fabs(remainder(json_number_value(one) - 45 * index, 360)) <
+                                         22.5 + 1e-6) return true;
+    return json_array_size(list) == 0;
+}
+
+/* ---- the list of tables ------------------------------------------------------------------ */
+
+static Table *report_add(Report *report, const TableKind *kind, const char *note) {
+    Table *table = report->table[report->count++] = table_new(kind, report->arena);
+    table->note = note;
+    return table;
+}
+
+/* A table that is not there, and why. */
+static void report_missing(Report *report, const char *key, const char *words, const char *why) {
+    TableKind *kind = ARENA_NEW(report->arena, TableKind, 1);
+    *kind = (TableKind){.key = key, .words = words};
+    report_add(report, kind, "")->missing = why;
+}
+
+/* ---- crossings --------------------------------------------------------------------------- */
+
+typedef enum ViewingKind { VIEWING_CONTRAST, VIEWING_LUMINANCE, VIEWING_SHIFT } ViewingKind;
+
+static const struct {
+    ViewingKind kind;
+    double limit;
+    const char *key, *text;
+} CRITERIA[] = {{VIEWING_CONTRAST, 100, "contrast_100", "Contrast ratio ≥ 100 : 1"},
+                {VIEWING_CONTRAST, 10, "contrast_10", "Contrast ratio ≥ 10 : 1"},
+                {VIEWING_LUMINANCE, 0.5, "half_luminance", "Luminance ≥ half of the normal's"},
+                {VIEWING_SHIFT, 0.01, "shift_0.01", "Δu′v′ of white ≤ 0.01"},
+                {VIEWING_SHIFT, 0.02, "shift_0.02", "Δu′v′ of white ≤ 0.02"}};
+
+static double shift_at(const PlotData *s, Pattern pattern, double theta, double phi) {
+    double uv[2], at_normal[2], xyz[3];
+    float rgb[3];
+    pattern_codes(pattern, rgb);
+    plot_data_xyz(s, theta, phi, rgb, xyz);
+    uv_from_xyz(xyz, uv);
+    plot_data_normal_uv(s, pattern, at_normal);
+    return hypot(uv[0] - at_normal[0], uv[1] - at_normal[1]);
+}
+
+/* Above 0 where the limit is held. */
+static double margin_at(const PlotData *s, int criterion, double theta, double phi) {
+    const PlotLight dark = {0};
+    double xyz[3], limit = CRITERIA[criterion].limit;
+    switch (CRITERIA[criterion].kind) {
+    case VIEWING_CONTRAST: return ambient_contrast(s, theta, phi, &dark) - limit;
+    case VIEWING_SHIFT: return limit - shift_at(s, PATTERN_WHITE, theta, phi);
+    default:
+        plot_data_xyz(s, theta, phi, (float[3]){255, 255, 255}, xyz);
+        return xyz[1] / (double)s->normal[PATTERN_WHITE][1] - limit;
+    }
+}
+
+/* The first theta, degrees, at which the limit is crossed, by quarters and then halved; 0: it
+ * is not held at the normal. NaN: it is held as far as was measured. */
+static double crossing_deg(const PlotData *s, int criterion, double phi) {
+    double last = degrees_from_radians(s->cone), low = 0, high = 0;
+    if (margin_at(s, criterion, 0, phi) < 0) return 0;
+    for (;; low = high) {
+        if (low >= last) return NAN;
+        high = fmin(low + 0.25, last);
+        if (margin_at(s, criterion, radians_from_degrees(high), phi) < 0) break;
+    }
+    while (high - low > 1e-4) {
+        double middle = 0.5 * (low + high);
+        if (margin_at(s, criterion, radians_from_degrees(middle), phi) < 0) high = middle;
+        else low = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+static void add_crossings(Table *table, const PlotData *s, int criterion) {
+    table_row(table);
+    table_text(table, CRITERIA[criterion].text);
+    bool is_contrast = CRITERIA[criterion].kind == VIEWING_CONTRAST;
+    const char *beyond = arena_format(table->arena, "> %.4g", degrees_from_radians(s->cone));
+    for (int i = 0; i < AZIMUTHS; i++) {
+        double deg = crossing_deg(s, criterion, i * PI / 4);
+        if (!has_azimuth(s, i)) table_text(table, NOT_MEASURED);
+        else if (is_contrast && !s->has_black) table_text(table, "no black");
+        else if (is_contrast && s->is_white_only && !(deg <= 0))
+            table_text(table, NOT_MEASURED); /* black on the axis alone */
+        else if (isnan(deg)) table_text(table, beyond);
+        else if (deg <= 0) table_text(table, "not at 0");
+        else table_number(table, deg);
+    }
+}
+
+static void add_viewing_angles(Report *report, const PlotData *s) {
+    static const Column COLUMNS[] = {COLUMN_TEXT("limit", "Limit"), AZIMUTH_COLUMNS(2)};
+    static const TableKind KIND = TABLE_KIND("viewing_angle", "Viewing angle", COLUMNS);
+    const char *note = arena_format(
+        report->arena,
+        "The polar angle θ in degrees, from the "
+        "normal outwards, at which the limit is first crossed; “> %.4g”: it is held as far "
+        "as was measured; “not at 0”: not even at the normal. Full white over black in the "
+        "dark; Δu′v′ from white at the normal.%s",
+        degrees_from_radians(s->cone),
+        !s->has_black      ? " Black was not measured, or gives no light: no contrast is stated."
+        : s->is_white_only ? " Black was measured at the normal only: no contrast is stated at "
+                             "other angles."
+                           : "");
+    Table *table = report_add(report, &KIND, note);
+    for (int i = 0; i < COUNT_OF(CRITERIA); i++) add_crossings(table, s, i);
+}
+
+/* ---- colour at 30, 45 and 60 degrees ----------------------------------------------------- */
+
+static const int ANGLES_DEG[] = {30, 45, 60};
+
+static bool is_measured(const PlotData *s, int deg, int azimuth) {
+    return radians_from_degrees(deg) <= s->cone + 1e-6 && has_azimuth(s, azimuth);
+}
+
+static void add_shifts(Report *report, const PlotData *s) {
+    static const Column COLUMNS[] = {COLUMN_TEXT("pattern", "Pattern"),
+                                     COLUMN_FIXED("theta_deg", "θ", "°", 0), AZIMUTH_COLUMNS(4)};
+    static const TableKind KIND =
+        TABLE_KIND("colour_shift", "Colour shift with the angle", COLUMNS);
+    Table *table = report_add(
+        report, &KIND,
+        s->is_white_only ? "Δu′v′ from white at the normal, CIE 1976. Only white was measured."
+                         : "Δu′v′ from the same pattern at the normal, CIE 1976; each primary "
+                           "alone at full drive, black included.");
+    for (int p = PATTERN_WHITE; p <= (s->is_white_only ? PATTERN_WHITE : PATTERN_BLUE); p++)
+        for (int k = 0; k < COUNT_OF(ANGLES_DEG); k++) {
+            table_row(table);
+            table_text(table, pattern_name((Pattern)p));
+            table_number(table, ANGLES_DEG[k]);
+            for (int i = 0; i < AZIMUTHS; i++)
+                if (is_measured(s, ANGLES_DEG[k], i))
+                    table_number(table, shift_at(s, (Pattern)p, radians_from_degrees(ANGLES_DEG[k]),
+                                                 i * PI / 4));
+                else table_text(table, NOT_MEASURED);
+        }
+}
+
+/* The row of one direction; azimuth -1: the normal. */
+static void add_white(Table *table, const PlotData *s, int deg, int azimuth) {
+    double xyz[3], uv[2], sum;
+    plot_data_xyz(s, radians_from_degrees(deg), azimuth * PI / 4, (float[3]){255, 255, 255}, xyz);
+    uv_from_xyz(xyz, uv);
+    sum = xyz[0] + xyz[1] + xyz[2];
+    ColourTemperature white = colour_temperature(uv);
+    table_row(table);
+    table_number(table, deg);
+    table_number(table, 45 * azimuth);
+    table_number(table, xyz[1]);
+    table_number(table, xyz[0] / sum);
+    table_number(table, xyz[1] / sum);
+    table_number(table, uv[0]);
+    table_number(table, uv[1]);
+    if (white.is_defined) table_number(table, white.kelvin);
+    else table_text(table, "not defined");
+    if (white.is_defined) table_number(table, white.duv);
+    else table_text(table, "not defined");
+}
+
+static void add_whites(Report *report, const PlotData *s) {
+    static const Column COLUMNS[] = {COLUMN_FIXED("theta_deg", "θ", "°", 0),
+                                     COLUMN_FIXED("phi_deg", "φ", "°", 0),
+                                     COLUMN_DIGITS("luminance_cd_m2", "L", "cd/m²", 4),
+                                     COLUMN_FIXED("x", "x", NULL, 4),
+                                     COLUMN_FIXED("y", "y", NULL, 4),
+                                     COLUMN_FIXED("u", "u′", NULL, 4),
+                                     COLUMN_FIXED("v", "v′", NULL, 4),
+                                     COLUMN_FIXED("cct_k", "CCT", "K", 0),
+                                     COLUMN_FIXED("duv", "Duv", NULL, 4)};
+    static const TableKind KIND = TABLE_KIND("white", "White and its colour temperature", COLUMNS);
+    Table *table = report_add(
+        report, &KIND,
+        "Correlated colour temperature (CIE 15): of the black body nearest in the CIE 1960 "
+        "plane; Duv the distance from it, above 0 on the green side. Not defined further than "
+        "0.05 away, below 1,000 or above 25,000 K. Directions that were not measured have no "
+        "row.");
+    add_white(table, s, 0, 0);
+    for (int k = 0; k < COUNT_OF(ANGLES_DEG); k++)
+        for (int i = 0; i < AZIMUTHS; i += 2)
+            if (is_measured(s, ANGLES_DEG[k], i)) add_white(table, s, ANGLES_DEG[k], i);
+}
+
+static void report_viewing(Report *report, const PlotData *data) {
+    if (!data->emits) {
+        report_missing(report, "viewing_angle", "Viewing angle",
+                       "The emission was not "
+                       "measured: no luminance, contrast, colour or grey levels are stated.");
+        return;
+    }
+    add_viewing_angles(report, data);
+    add_whites(report, data);
+    add_shifts(report, data);
+}
+
+/* Primaries and gamut. */
+
+static GamutTriangle own_triangle(const PlotData *s) {
+    GamutTriangle out;
+    for (int p = 0; p < 3; p++) {
+        const float *xyz = s->normal[PATTERN_RED + p];
+        double sum = (double)xyz[0] + (double)xyz[1] + (double)xyz[2];
+        for (int c = 0; c < 2; c++) out.at[p][c] = (double)xyz[c] / sum;
+    }
+    return out;
+}
+
+static void add_primaries(Report *report, const PlotData *s, const GamutTriangle *xy) {
+    GamutTriangle uv = gamut_in_uv(xy);
+    static const Column COLUMNS[] = {
+        COLUMN_TEXT("primary", "Primary"), COLUMN_DIGITS("luminance_cd_m2", "L", "cd/m²", 4),
+        COLUMN_FIXED("x", "x", NULL, 4),   COLUMN_FIXED("y", "y", NULL, 4),
+        COLUMN_FIXED("u", "u′", NULL, 4),  COLUMN_FIXED("v", "v′", NULL, 4)};
+    static const TableKind KIND = TABLE_KIND("primaries", "Primaries", COLUMNS);
+    Table *table =
+        report_add(report, &KIND, "At the normal, each alone at full drive, black included.");
+    for (int p = 0; p < 3; p++) {
+        table_row(table);
+        table_text(table, pattern_name((Pattern)(PATTERN_RED + p)));
+        table_number(table, (double)s->normal[PATTERN_RED + p][1]);
+        for (int c = 0; c < 2; c++) table_number(table, xy->at[p][c]);
+        for (int c = 0; c < 2; c++) table_number(table, uv.at[p][c]);
+    }
+}
+
+static void add_gamut(Report *report, const GamutTriangle *xy) {
+    GamutTriangle uv = gamut_in_uv(xy);
+    static const Column COLUMNS[] = {
+        COLUMN_TEXT("standard", "Standard"), COLUMN_FIXED("area_xy_percent", "Area in xy", "%", 1),
+        COLUMN_FIXED("coverage_xy_percent", "Coverage in xy", "%", 1),
+        COLUMN_FIXED("area_uv_percent", "Area in u′v′", "%", 1),
+        COLUMN_FIXED("coverage_uv_percent", "Coverage in u′v′", "%", 1)};
+    static const TableKind KIND = TABLE_KIND("gamut", "Gamut", COLUMNS);
+    Table *table = report_add(
+        report, &KIND,
+        "Area: the triangle of the primaries over the standard's. Coverage: the share of the "
+        "standard's triangle that lies inside. In CIE 1931 xy and in CIE 1976 u′v′; they "
+        "differ, so state the plane with the figure.");
+    for (int i = 0; i < GAMUT_STANDARDS; i++) {
+        GamutTriangle in_xy = gamut_triangle((GamutStandard)i), in_uv = gamut_in_uv(&in_xy);
+        table_row(table);
+        table_text(table, gamut_name((GamutStandard)i));
+        table_number(table, 100 * gamut_area(xy, &in_xy));
+        table_number(table, 100 * gamut_coverage(xy, &in_xy));
+        table_number(table, 100 * gamut_area(&uv, &in_uv));
+        table_number(table, 100 * gamut_coverage(&uv, &in_uv));
+    }
+}
+
+static void report_colour(Report *report, const PlotData *data) {
+    if (!data->emits) return;
+    if (data->is_white_only) {
+        report_missing(report, "gamut", "Primaries and gamut",
+                       "Only white was measured: the "
+                       "panel's primaries are assumed, and no gamut is stated.");
+        return;
+    }
+    GamutTriangle xy = own_triangle(data);
+    add_primaries(report, data, &xy);
+    add_gamut(report, &xy);
+}
+
+/* Gamma by angle, and grey inversion. */
+
+static const int GAMMA_DEG[] = {0, 15, 30, 45, 60};
+
+/* ---- gamma ------------------------------------------------------------------------------- */
+
+/* Exponent of the power law through full drive: least squares of the logarithms over the
+ * measured levels of grey, black subtracted. */
+static double gamma_at(const PlotData *s, double theta, double phi) {
+    double code[PANEL_INFO_LEVELS_MAX], black[3], full[3], xyz[3], xx = 0, xy = 0;
+    int count = panel_info_levels(s->source.panel, 1, code);
+    plot_data_xyz(s, theta, phi, (float[3]){0, 0, 0}, black);
+    plot_data_xyz(s, theta, phi, (float[3]){255, 255, 255}, full);
+    for (int i = 0; i < count; i++) {
+        float c = (float)code[i];
+        plot_data_xyz(s, theta, phi, (float[3]){c, c, c}, xyz);
+        double light = (xyz[1] - black[1]) / (full[1] - black[1]), x = log(code[i] / 255);
+        if (!(light > 0) || x == 0) continue;
+        xx += x * x;
+        xy += x * log(light);
+    }
+    return xx > 0 ? xy / xx : NAN;
+}
+
+static void add_gamma_row(Table *table, const PlotData *s, int deg) {
+    table_row(table);
+    table_number(table, deg);
+    for (int i = 0; i < AZIMUTHS; i++) {
+        double theta = radians_from_degrees(deg);
+        bool is_measured =
+            theta <= s->cone + 1e-6 && has_azimuth(s, i) && !(s->is_white_only && deg > 0);
+        if (is_measured || deg == 0) table_number(table, gamma_at(s, theta, i * PI / 4));
+        else table_text(table, NOT_MEASURED);
+    }
+}
+
+static void add_gamma(Report *report, const PlotData *s) {
+    static const Column COLUMNS[] = {COLUMN_FIXED("theta_deg", "θ", "°", 0), AZIMUTH_COLUMNS(3)};
+    static const TableKind KIND = TABLE_KIND("gamma", "Gamma by angle", COLUMNS);
+    Table *table = report_add(
+        report, &KIND,
+        s->is_white_only
+            ? "Exponent of the power law through full white, least squares of the logarithms "
+              "over the measured levels, black subtracted. The levels were measured at the "
+              "normal only."
+            : "Exponent of the power law through full white, least squares of the logarithms "
+              "over the measured levels of grey (red, green and blue at one code), black "
+              "subtracted.");
+    for (int k = 0; k < COUNT_OF(GAMMA_DEG); k++) add_gamma_row(table, s, GAMMA_DEG[k]);
+}
+
+/* ---- inversion --------------------------------------------------------------------------- */
+
+static void add_inversion_row(Table *table, const char *where, const GreyInversion *most,
+                              double first) {
+    table_row(table);
+    table_text(table, where);
+    table_text(table, most->share > 0 ? "yes" : "none");
+    table_number(table, degrees_from_radians(first));
+    table_number(table, most->share > 0 ? 100 * most->share : NAN);
+    table_number(table, most->share > 0 ? degrees_from_radians(most->theta) : NAN);
+    table_number(table, most->share > 0 ? degrees_from_radians(most->phi) : NAN);
+    table_number(table, most->share > 0 ? most->low : NAN);
+    table_number(table, most->share > 0 ? most->high : NAN);
+}
+
+static void add_inversion(Report *report, const PlotData *s, const GreyLevels *levels) {
+    static const char *const WHERE[] = {"φ 0° right",  "φ 45°",  "φ 90° up",    "φ 135°",
+                                        "φ 180° left", "φ 225°", "φ 270° down", "φ 315°"};
+    static const Column COLUMNS[] = {COLUMN_TEXT("where", "Where"),
+                                     COLUMN_TEXT("inverts", "Inverts"),
+                                     COLUMN_FIXED("from_theta_deg", "From θ", "°", 2),
+                                     COLUMN_FIXED("largest_percent", "Largest", "%", 1),
+                                     COLUMN_FIXED("theta_deg", "at θ", "°", 1),
+                                     COLUMN_FIXED("phi_deg", "φ", "°", 0),
+                                     COLUMN_FIXED("level", "Level", NULL, 0),
+                                     COLUMN_FIXED("brighter_than_level", "brighter than", NULL, 0)};
+    static const TableKind KIND = TABLE_KIND("grey_inversion", "Grey inversion", COLUMNS);
+    Table *table = report_add(
+        report, &KIND,
+        "Where a higher grey level gives less light than a lower one: the largest of all pairs "
+        "of measured levels, 1 − L(higher) / L(lower), black included. Less than 1 % counts as "
+        "none. The last row is the largest of all azimuths, every 5°, or of those measured "
+        "where they are few.");
+    double first = NAN;
+    for (int i = 0; i < AZIMUTHS; i++) {
+        GreyInversion most = grey_inversion_along(s, levels, i * PI / 4, &first);
+        if (!has_azimuth(s, i)) continue;
+        add_inversion_row(table, WHERE[i], &most, first);
+    }
+    GreyInversion all = grey_inversion_most(s, levels);
+    if (all.share > 0) grey_inversion_along(s, levels, all.phi, &first);
+    add_inversion_row(table, "largest of all", &all, all.share > 0 ? first : NAN);
+}
+
+static void report_levels(Report *report, const PlotData *data) {
+    GreyLevels levels = grey_levels(data);
+    double code[PANEL_INFO_LEVELS_MAX];
+    if (!data->emits) return;
+    bool has_levels = data->is_white_only ? data->has_gamma_table
+                                          : panel_info_levels(data->source.panel, 1, code) > 1;
+    if (has_levels) add_gamma(report, data);
+    else
+        report_missing(report, "gamma", "Gamma by angle",
+                       "One level was measured: the level "
+                       "curve is assumed, and no gamma is stated.");
+    if (levels.count) add_inversion(report, data, &levels);
+    else
+        report_missing(report, "grey_inversion", "Grey inversion",
+                       "Grey levels were not "
+                       "measured over the angle: whether greys invert is not known.");
+}
+
+/* Reflectance by incidence and in the usual geometries; contrast in ambient light. */
+
+#define WITHOUT_REFLECTION \
+    "The reflection was not measured: no reflectance and no contrast in ambient light are " \
+    "stated."
+
+/* ---- reflectance ------------------------------------------------------------------------- */
+
+static void add_incidence(Table *table, const PlotData *s, double theta) {
+    double mirror = plot_data_mirror(s, theta, 0), all = plot_data_albedo(s, theta);
+    double even = fmin(PI * plot_data_lambertian(s, theta), all);
+    table_row(table);
+    table_number(table, degrees_from_radians(theta));
+    table_number(table, 100 * mirror);
+    table_number(table, 100 * (all - even));
+    table_number(table, 100 * even);
+    table_number(table, 100 * (mirror + all));
+    table_number(table, plot_data_brdf(s, theta, theta, 0, 0));
+}
+
+/* How wavelengths are weighted. */
+static const char *weights_text(Report *report, const PlotData *s) {
+    if (s->wavelength_count != 1) return "weighted by V(λ) for equal-energy light";
+    return arena_format(report->arena, "at %.4g nm, the only wavelength that was measured",
+                        (double)s->wavelength_nm[0]);
+}
+
+static void add_incidences(Report *report, const PlotData *s) {
+    const char *note = arena_format(
+        report->arena,
+        "Directional-hemispherical, %s. Specular: "
+        "the mirror part. Lambertian: the floor that is the same into every direction. Haze: "
+        "what is left, spread about the mirror direction. What leaves beyond the last measured "
+        "angle is extrapolated. One row for each measured incidence.",
+        weights_text(report, s));
+    static const Column COLUMNS[] = {COLUMN_FIXED("incidence_deg", "Incidence", "°", 1),
+                                     COLUMN_DIGITS("specular_percent", "Specular", "%", 4),
+                                     COLUMN_DIGITS("haze_percent", "Haze", "%", 4),
+                                     COLUMN_DIGITS("lambertian_percent", "Lambertian", "%", 4),
+                                     COLUMN_DIGITS("total_percent", "Total", "%", 4),
+                                     COLUMN_DIGITS("brdf_mirror_direction_sr",
+                                                   "BRDF in the mirror direction without specular",
+                                                   "sr⁻¹", 4)};
+    static const TableKind KIND = TABLE_KIND("reflectance", "Reflectance by incidence", COLUMNS);
+    Table *table = report_add(report, &KIND, note);
+    for (int i = 0; i < s->incidence_count; i++) add_incidence(table, s, s->incidence[i]);
+}
+
+static void add_factor(Table *table, const char *const texts[2], bool is_measured, double value) {
+    table_row(table);
+    for (int i = 0; i < 2; i++) table_text(table, texts[i]);
+    if (is_measured) table_number(table, 100 * value);
+    else table_text(table, NOT_MEASURED);
+}
+
+static void add_factors(Report *report, const PlotData *s) {
+    double at_8 = radians_from_degrees(8), at_45 = radians_from_degrees(45);
+    bool has_8 = plot_data_brdf_is_measured(s, at_8, at_8, PI);
+    bool has_45 = plot_data_brdf_is_measured(s, at_45, 0, 0);
+    double diffuse = plot_data_albedo(s, at_8);
+    static const Column COLUMNS[] = {COLUMN_TEXT("geometry", "Geometry"),
+                                     COLUMN_TEXT("meaning", "Light : view"),
+                                     COLUMN_DIGITS("factor_percent", "Factor", "%", 4)};
+    static const TableKind KIND = TABLE_KIND("reflectance_factors", "Reflectance factors", COLUMNS);
+    Table *table = report_add(
+        report, &KIND,
+        arena_format(
+            report->arena,
+            "Factors over a perfect white diffuser, %s, geometries of "
+            "CIE 15. 8/de takes off the mirror part alone: the haze that would fall into an "
+            "instrument's gloss trap, whose size no standard fixes, stays in it.",
+            weights_text(report, s)));
+    add_factor(table, (const char *const[]){"45/0", "from 45°, seen at the normal"}, has_45,
+               PI * plot_data_brdf(s, at_45, 0, 0, 0));
+    add_factor(table,
+               (const char *const[]){"8/di", "from 8°, into the hemisphere, "
+                                             "specular included"},
+               has_8, diffuse + plot_data_mirror(s, at_8, 0));
+    add_factor(table,
+               (const char *const[]){"8/de", "from 8°, into the hemisphere, "
+                                             "specular excluded"},
+               has_8, diffuse);
+}
+
+static void report_reflection(Report *report, const PlotData *data) {
+    if (!data->reflects) {
+        report_missing(report, "reflectance", "Reflectance", WITHOUT_REFLECTION);
+        return;
+    }
+    add_incidences(report, data);
+    add_factors(report, data);
+}
+
+/* ---- ambient contrast -------------------------------------------------------------------- */
+
+/* Levels as the public abstracts and summaries of the standards quote them. */
+static const struct {
+    const char *name;
+    double lux, directed_lux;
+} CONDITIONS[] = {{"Dark room", 0, 0},
+                  {"Daylight, IDMS: surround and source together", 15000, 65000},
+                  {"SAE J1757-1 diffuse, CRd: surround alone", 5000, 0},
+                  {"SAE J1757-1 direct, CRh: source alone", 0, 45000}};
+
+static void add_condition(Table *table, const PlotData *s, const char *name,
+                          const PlotLight *light) {
+    table_row(table);
+    table_text(table, name);
+    table_number(table, light->lux);
+    table_number(table, light->directed_lux);
+    table_number(table,
+                 light->directed_lux > 0 ? degrees_from_radians(light->directed_theta) : NAN);
+    table_number(table, ambient_reflected(s, 0, 0, light));
+    table_number(table, ambient_contrast(s, 0, 0, light));
+    for (int i = 0; i < AZIMUTHS; i += 2) {
+        bool is_measured = s->cone >= radians_from_degrees(30) && has_azimuth(s, i) &&
+                           !(s->has_black && s->is_white_only); /* black on the axis alone */
+        if (is_measured)
+            table_number(table, ambient_contrast(s, radians_from_degrees(30), i * PI / 4, light));
+        else table_text(table, NOT_MEASURED);
+    }
+}
+
+static const char *ambient_note(Report *report, const PlotData *s) {
+    const char *black = s->has_black
+                            ? ""
+                            : " Black was not measured, or gives no light: it "
+                              "counts as 0, so contrasts are upper limits, and the dark has none.";
+    bool is_seen = s->last_incidence >= radians_from_degrees(45);
+    return arena_format(
+        report->arena,
+        "Contrast = " AMBIENT_FORMULA ". The source stands at "
+        "the angle given, at azimuth φ %.4g°; its mirror image is seen in one direction only "
+        "and is in no figure.%s SAE J1757-1 states the two lights apart: CRd = (Ldark,w + "
+        "Lamb-d) / (Ldark,k + Lamb-d), CRh = (Ldark,w + Lamb-s) / (Ldark,k + Lamb-s), of full "
+        "white w and full black k, and sets no limits. The illuminances of both standards are "
+        "those that public summaries quote; others by --ambient and --directed.%s",
+        degrees_from_radians(s->source.incidence_phi),
+        is_seen ? ""
+                : " Light from 45° was not "
+                  "measured: its part is extrapolated.",
+        black);
+}
+
+static void report_ambient(Report *report, const PlotData *data) {
+    const PlotAmbient *ambient = &data->source.ambient;
+    static const Column COLUMNS[] = {
+        COLUMN_TEXT("condition", "Light"),
+        COLUMN_FIXED("diffuse_lx", "Surround", "lx", 0),
+        COLUMN_FIXED("directed_lx", "Source", "lx", 0),
+        COLUMN_FIXED("directed_theta_deg", "from θ", "°", 1),
+        COLUMN_DIGITS("reflected_cd_m2", "Lr at the normal", "cd/m²", 4),
+        COLUMN_DIGITS("contrast", "Contrast at the normal", NULL, 4),
+        COLUMN_DIGITS("contrast_30_phi_0", "at 30° right", NULL, 4),
+        COLUMN_DIGITS("contrast_30_phi_90", "30° up", NULL, 4),
+        COLUMN_DIGITS("contrast_30_phi_180", "30° left", NULL, 4),
+        COLUMN_DIGITS("contrast_30_phi_270", "30° down", NULL, 4)};
+    static const TableKind KIND =
+        TABLE_KIND("ambient_contrast", "Contrast in ambient light", COLUMNS);
+    if (!data->emits || !data->reflects) {
+        report_missing(report, "ambient_contrast", "Contrast in ambient light",
+                       data->emits ? WITHOUT_REFLECTION : "The emission was not measured.");
+        return;
+    }
+    Table *table = report_add(report, &KIND, ambient_note(report, data));
+    for (int i = 0; i < COUNT_OF(CONDITIONS); i++)
+        add_condition(table, data, CONDITIONS[i].name,
+                      &(PlotLight){CONDITIONS[i].lux, CONDITIONS[i].directed_lux, PI / 4});
+    for (int i = 0; i < ambient->count; i++)
+        add_condition(table, data, "as asked", &ambient->light[i]);
+}
+
+static void add_places(Table *table, const PlotData *s, Pattern pattern) {
+    float rgb[3];
+    pattern_codes(pattern, rgb);
+    PanelEvenness e = panel_evenness(s->source.panel, rgb);
+    table_row(table);
+    table_text(table, pattern_name(pattern));
+    for (int i = 0; i < PANEL_NINE; i++) table_number(table, e.nine[i]);
+    table_number(table, e.nine_mean);
+    table_number(table, 100 * panel_non_uniformity(e.nine_least, e.nine_most));
+}
+
+static void report_places(Report *report, const PlotData *data) {
+    if (!data->emits) return;
+    if (!panel_varies(data->source.panel)) {
+        report_missing(report, "uniformity", "Over the active area",
+                       "One place was measured: "
+                       "how even the panel is, is not known.");
+        return;
+    }
+#define POINT(n) COLUMN_DIGITS("point_" n "_cd_m2", n, NULL, 4)
+    static const Column COLUMNS[] = {
+        COLUMN_TEXT("pattern", "Pattern"),
+        POINT("1"),
+        POINT("2"),
+        POINT("3"),
+        POINT("4"),
+        POINT("5"),
+        POINT("6"),
+        POINT("7"),
+        POINT("8"),
+        POINT("9"),
+        COLUMN_DIGITS("mean_cd_m2", "Mean", NULL, 4),
+        COLUMN_FIXED("non_uniformity_percent", "Non-uniformity", "%", 1)};
+    static const TableKind KIND = TABLE_KIND("uniformity", "Over the active area", COLUMNS);
+    Table *table = report_add(
+        report, &KIND,
+        "Luminance along the local normal, cd/m², at nine points, a tenth, a half and nine "
+        "tenths of width and height, row by row from the upper left corner (SID, IDMS). "
+        "Non-uniformity is 1 − least / most of the nine. All other tables are of the place "
+        "where the file's own panel was measured.");
+    add_places(table, data, PATTERN_WHITE);
+    if (data->has_black) add_places(table, data, PATTERN_BLACK);
+}
+
+/* How far the panel file is from what was measured: one figure, explained. */
+
+typedef struct PartError {
+    double most, squares, outliers, outlier_most;
+    int tables;
+    const char *worst;
+} PartError;
+
+/* Tables of the reflection are named "brdf ...". */
+static PartError error_of(const json_t *tables, bool of_reflection) {
+    PartError out = {.worst = ""};
+    size_t i;
+    const json_t *table;
+    json_array_foreach(tables, i, table) {
+        const char *name = json_string_value(json_object_get(table, "name"));
+        if (!name || !strncmp(name, "brdf", 4) != of_reflection) continue;
+        double most = json_number_value(json_object_get(table, "max_error"));
+        double rms = json_number_value(json_object_get(table, "rms_error"));
+        if (most >= out.most) out.most = most, out.worst = name;
+        out.squares += rms * rms;
+        out.outliers += json_number_value(json_object_get(table, "outliers"));
+        out.outlier_most =
+            fmax(out.outlier_most, json_number_value(json_object_get(table, "outliers_max_error")));
+        out.tables++;
+    }
+    return out;
+}
+
+static void add_part(Table *table, const PlotData *s, bool of_reflection) {
+    PartError e = error_of(json_object_get(s->source.report, "tables"), of_reflection);
+    if (!e.tables) return;
+    table_row(table);
+    table_text(table, of_reflection ? "reflection" : "emission");
+    table_number(table, e.tables);
+    table_number(table, 100 * e.most);
+    table_text(table, arena_printable(table->arena, e.worst));
+    table_number(table, 100 * sqrt(e.squares / e.tables));
+    table_number(table, e.outliers);
+    table_number(table, 100 * e.outlier_most);
+}
+
+static void report_errors(Report *report, const PlotData *data) {
+    const json_t *emission = json_object_get(data->source.report, "emission");
+    double floor = json_number_value(json_object_get(emission, "error_floor"));
+    const char *dim = floor > 0 ? arena_format(report->arena,
+                                               ", or over %.3g %% of the "
+                                               "table's largest value where it is less",
+                                               100 * floor)
+                                : "";
+    static const Column COLUMNS[] = {
+        COLUMN_TEXT("part", "Part"),
+        COLUMN_FIXED("tables", "Tables", NULL, 0),
+        COLUMN_DIGITS("largest_error_percent", "Largest error", "%", 4),
+        COLUMN_TEXT("in_table", "in the table"),
+        COLUMN_DIGITS("rms_error_percent", "RMS error", "%", 4),
+        COLUMN_FIXED("outliers", "Outliers left out", NULL, 0),
+        COLUMN_DIGITS("outliers_error_percent", "up to", "%", 4)};
+    static const TableKind KIND = TABLE_KIND("error", "Panel file against measurement", COLUMNS);
+    Table *table = report_add(
+        report, &KIND,
+        arena_format(
+            report->arena,
+            "The error of this page: the difference between the panel "
+            "file, from which every figure here is made, and a measured value (X, Y and Z of "
+            "emission, every wavelength of reflection), over the measured value%s. Largest: of "
+            "all directions of all tables, the noise of the source included. RMS: root of the "
+            "mean square over the tables of each table's own. Outliers, which the file does "
+            "not follow, are not counted in either.",
+            dim));
+    for (int part = 0; part < 2; part++) add_part(table, data, part == 1);
+}
+
+Report *panel_tables(const PlotData *data, Arena *arena) {
+    Report *report = ARENA_NEW(arena, Report, 1);
+    report->arena = arena;
+    report_viewing(report, data);
+    report_colour(report, data);
+    report_levels(report, data);
+    report_reflection(report, data);
+    report_ambient(report, data);
+    report_places(report, data);
+    report_errors(report, data);
+    return report;
+}

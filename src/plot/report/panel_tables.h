@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* panel_tables.h -- the tables of a panel's report: at which angle a display falls below a
+ * limit, its white, colour shift, primaries and gamut, gamma and grey inversion, reflectance,
+ * contrast in ambient light, evenness, and how far the file is from what was measured.
+ *
+ * Units    degrees, cd m^-2, K, lx, percent. Memory: the arena's. Threads: one at a time.
+ * Fails    never.
+ */
+#pragma once
+#include "plot/panel/plot_data.h"
+#include "table/table.h"
+
+#define REPORT_TABLES_MAX 24
+
+typedef struct Report {
+    Arena *arena;
+    int count;
+    Table *table[REPORT_TABLES_MAX];
+} Report;
+
+Report *panel_tables(const PlotData *data, Arena *arena);

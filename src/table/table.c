@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "table/table.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "print/utf8.h"
+#include "text/interval_text.h"
+#include "text/json_text.h"
+
+#define NOTHING "–"
+
+/* ---- made by hand ------------------------------------------------------------------------ */
+
+Table *table_new(const TableKind *kind, Arena *arena) {
+    assert(kind->column_count <= TABLE_COLUMNS);
+    Table *table = ARENA_NEW(arena, Table, 1);
+    *table = (Table){.arena = arena, .kind = kind, .total_row = -1};
+    return table;
+}
+
+void table_row(Table *table) {
+    int columns = table->kind->column_count;
+    if (table->row_count == table->row_capacity) {
+        int capacity = table->row_capacity ? 2 * table->row_capacity : 8;
+        table->cells = ARENA_GROW(table->arena, Cell, table->cells, table->row_count * columns,
+                                  capacity * columns);
+        table->row_capacity = capacity;
+    }
+    memset(table->cells + table->row_count * columns, 0, sizeof(Cell) * (size_t)columns);
+    table->row_count++;
+    table->filled = 0;
+}
+
+static Cell *cell_at(const Table *table, int column) {
+    assert(column < table->kind->column_count);
+    return &table->cells[(table->row_count - 1) * table->kind->column_count + column];
+}
+
+static Cell number_cell(double value) {
+    return (Cell){.kind = CELL_NUMBER, .value = value, .low = NAN, .high = NAN};
+}
+
+void table_number(Table *table, double value) {
+    *cell_at(table, table->filled++) = number_cell(value);
+}
+
+void table_text(Table *table, const char *text) {
+    *cell_at(table, table->filled++) = (Cell){.kind = CELL_TEXT, .text = text};
+}
+
+/* ---- of a document ----------------------------------------------------------------------- */
+
+/* "display.gamma": a member's member. */
+static const json_t *value_at(const json_t *object, const char *path) {
+    for (;; path++) {
+        size_t length = strcspn(path, ".");
+        object = json_object_getn(object, path, length);
+        path += length;
+        if (!*path || !object) return object;
+    }
+}
+
+static Cell cell_of(const json_t *value) {
+    if (!value) return (Cell){.kind = CELL_ABSENT};
+    if (json_is_string(value)) return (Cell){.kind = CELL_TEXT, .text = json_string_value(value)};
+    if (json_is_boolean(value)) return (Cell){.kind = CELL_FLAG, .value = json_is_true(value)};
+    if (json_is_array(value) || json_is_object(value))
+        return (Cell){.kind = CELL_DOCUMENT, .document = value};
+    Cell cell = number_cell(json_is_null(value) ? NAN : json_number_value(value));
+    if (json_is_integer(value)) cell.kind = CELL_COUNT;
+    return cell;
+}
+
+static Cell cell_in(const json_t *object, const Column *column) {
+    Cell cell = cell_of(value_at(object, column->key));
+    const json_t *ends = column->interval ? value_at(object, column->interval) : NULL;
+    if (json_array_size(ends) != 2) return cell;
+    const json_t *high = json_array_get(ends, 1);
+    cell.low = json_number_value(json_array_get(ends, 0));
+    cell.high = json_is_number(high) ? json_number_value(high) : INFINITY;
+    return cell;
+}
+
+void table_add_object(Table *table, const json_t *object) {
+    table_row(table);
+    for (int c = 0; c < table->kind->column_count; c++)
+        *cell_at(table, c) = cell_in(object, &table->kind->columns[c]);
+}
+
+Table *table_of_list(const TableKind *kind, const json_t *list, Arena *arena) {
+    const json_t *object;
+    size_t i;
+    Table *table = table_new(kind, arena);
+    json_array_foreach(list, i, object) table_add_object(table, object);
+    return table;
+}
+
+/* The name with blanks for underscores. */
+static const char *readable(const char *name, Arena *arena) {
+    char *copy = arena_string(arena, name, strlen(name));
+    for (char *c = copy; *c; c++)
+        if (*c == '_') *c = ' ';
+    return copy;
+}
+
+Table *table_of_objects(const Column *known, int known_count, const json_t *list, Arena *arena) {
+    json_t *first = json_array_get(list, 0), *value;
+    const char *key;
+    if (!json_is_object(first)) return NULL;
+    Column *columns = ARENA_NEW(arena, Column, json_object_size(first));
+    TableKind *kind = ARENA_NEW(arena, TableKind, 1);
+    *kind = (TableKind){.columns = columns};
+    json_object_foreach(first, key, value) {
+        if (kind->column_count == TABLE_COLUMNS) break;
+        Column *column = &columns[kind->column_count++];
+        *column = (Column){.key = key, .words = readable(key, arena)};
+        for (int k = 0; k < known_count; k++)
+            if (!strcmp(known[k].key, key)) *column = known[k];
+    }
+    return table_of_list(kind, list, arena);
+}
+
+/* ---- a cell for people ------------------------------------------------------------------- */
+
+static const char *fixed_text(double value, int decimals, Arena *arena) {
+    if (fabs(value) < 0.5 * pow(10, -decimals)) value = 0; /* no "-0.00" */
+    return arena_format(arena, "%.*f", decimals, value);
+}
+
+/* Never "1e+05"; below 1e-4 with an exponent. digits 0: no more than it takes. */
+static const char *digits_text(double value, int digits, Arena *arena) {
+    double size = fabs(value);
+    if (!digits && size < 1e6) return arena_format(arena, "%.6g", value);
+    if (!digits) digits = 7;
+    if (size > 0 && size < 1e-4) return arena_format(arena, "%.*e", digits - 1, value);
+    int place = size > 0 ? (int)floor(log10(size) + 1e-12) : 0;
+    return fixed_text(value, place > digits - 1 ? 0 : digits - 1 - place, arena);
+}
+
+static const char *number_text(const Cell *cell, const Column *column, Arena *arena) {
+    double times = column->times > 0 ? column->times : 1, value = cell->value * times;
+    if (isnan(value)) return column->none;
+    if (isinf(value)) return value > 0 ? "infinite" : "-infinite";
+    if (!isnan(cell->low))
+        return interval_text(value, cell->low * times, cell->high * times, arena);
+    return column->is_fixed ? fixed_text(value, column->places, arena)
+                            : digits_text(value, column->places, arena);
+}
+
+static const char *cell_text(const Cell *cell, const Column *column, Arena *arena);
+
+/* "right 60.1, up 55.2": items under their names. */
+static void add_list(Text *text, const json_t *list, const Column *column, const char *between) {
+    const char *part = column->parts;
+    const json_t *item;
+    size_t i;
+    json_array_foreach(list, i, item) {
+        const Column own = {.is_fixed = column->is_fixed, .places = column->places};
+        const Cell cell = cell_of(item);
+        size_t length = part ? strcspn(part, "|") : 0;
+        if (i) text_add(text, between);
+        if (length) text_format(text, "%.*s ", (int)length, part);
+        if (json_is_array(item)) add_list(text, item, &own, " ");
+        else {
+            const char *words = cell_text(&cell, column, text->arena);
+            text_add(text, words ? words : NOTHING);
+        }
+        if (part) part += length + (part[length] == '|');
+    }
+}
+
+/* "level 7; tolerance 0.0025": members that are no objects. */
+static void add_members(Text *text, const json_t *object, const Column *column) {
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)object, key, value) {
+        const Cell cell = cell_of(value);
+        if (json_is_object(value) || json_is_object(json_array_get(value, 0))) continue;
+        const char *words = cell_text(&cell, column, text->arena);
+        if (!words) continue;
+        text_format(text, "%s%s %s", text->size ? "; " : "", readable(key, text->arena), words);
+    }
+}
+
+static bool is_all_null(const json_t *list) {
+    const json_t *item;
+    size_t i;
+    json_array_foreach(list, i, item) if (!json_is_null(item)) return false;
+    return true;
+}
+
+static const char *cell_text(const Cell *cell, const Column *column, Arena *arena) {
+    Text text = {.arena = arena};
+    switch (cell->kind) {
+    case CELL_ABSENT: return NULL;
+    case CELL_NUMBER: return number_text(cell, column, arena);
+    case CELL_COUNT: return arena_format(arena, "%.0f", cell->value);
+    case CELL_FLAG: return cell->value > 0 ? "yes" : "no";
+    case CELL_TEXT: return cell->text && *cell->text ? cell->text : column->none;
+    case CELL_DOCUMENT: break;
+    }
+    if (column->of) return NULL;
+    if (json_is_object(cell->document)) add_members(&text, cell->document, column);
+    else if (is_all_null(cell->document)) return column->none;
+    else add_list(&text, cell->document, column, ", ");
+    return text.data;
+}
+
+const char *table_cell_text(const Table *table, int row, int column) {
+    const Cell *cell = &table->cells[row * table->kind->column_count + column];
+    const char *words = cell_text(cell, &table->kind->columns[column], table->arena);
+    return words || cell->kind == CELL_ABSENT ? words : NOTHING;
+}
+
+static bool has_column(const Table *table, int column) {
+    for (int r = 0; r < table->row_count; r++)
+        if (table_cell_text(table, r, column)) return true;
+    return table->row_count == 0;
+}
+
+static bool is_read(const Table *table, int column) {
+    return table->kind->columns[column].words && has_column(table, column);
+}
+
+/* Stands to the right: figures are in it. */
+static bool is_number_column(const Table *table, int column) {
+    for (int r = 0; r < table->row_count; r++) {
+        CellKind kind = table->cells[r * table->kind->column_count + column].kind;
+        if (kind == CELL_NUMBER || kind == CELL_COUNT) return true;
+    }
+    return false;
+}
+
+/* ---- text -------------------------------------------------------------------------------- */
+
+static int characters(const char *text) {
+    int count = 0;
+    for (; *text; text++) count += !utf8_continues(*text);
+    return count;
+}
+
+static void add_blanks(Text *text, int count) {
+    for (; count > 0; count--) text_add(text, " ");
+}
+
+static const char *heading(const Column *column, Arena *arena) {
+    return column->unit ? arena_format(arena, "%s, %s", column->words, column->unit)
+                        : column->words;
+}
+
+void table_add_text(const Table *table, Text *text) {
+    const TableKind *kind = table->kind;
+    int width[TABLE_COLUMNS];
+    for (int c = 0; c < kind->column_count; c++) {
+        width[c] = is_read(table, c) ? characters(heading(&kind->columns[c], table->arena)) : -1;
+        for (int r = 0; width[c] >= 0 && r < table->row_count; r++) {
+            const char *words = table_cell_text(table, r, c);
+            if (words && characters(words) > width[c]) width[c] = characters(words);
+        }
+    }
+    if (kind->words) text_format(text, "%s\n", kind->words);
+    for (int r = -1; r < table->row_count; r++) {
+        int owed = 0; /* blanks, which no line ends with */
+        for (int c = 0; c < kind->column_count; c++) {
+            if (width[c] < 0) continue;
+            const char *words =
+                r < 0 ? heading(&kind->columns[c], table->arena) : table_cell_text(table, r, c);
+            if (!words) words = "";
+            int rest = width[c] - characters(words);
+            bool is_right = is_number_column(table, c);
+            add_blanks(text, owed + (is_right ? rest : 0));
+            text_add_printable(text, words, strlen(words));
+            owed = 2 + (is_right ? 0 : rest);
+        }
+        text_add(text, "\n");
+    }
+}
+
+static void add_line(Text *text, const char *words, int width, const char *value) {
+    text_add(text, words);
+    add_blanks(text, width + 2 - characters(words));
+    text_add_printable(text, value, strlen(value));
+}
+
+/* A list of sentences has a line each. */
+static bool is_sentences(const Cell *cell, const Column *column) {
+    return cell->kind == CELL_DOCUMENT && !column->of && !column->parts &&
+           json_is_string(json_array_get(cell->document, 0));
+}
+
+void table_add_record(const TableKind *kind, const json_t *document, Text *text) {
+    int width = 0;
+    for (int c = 0; c < kind->column_count; c++) {
+        const Column *column = &kind->columns[c];
+        if (!column->words || column->of || !value_at(document, column->key)) continue;
+        if (characters(column->words) > width) width = characters(column->words);
+    }
+    for (int c = 0; c < kind->column_count; c++) {
+        const Column *column = &kind->columns[c];
+        const Cell cell = cell_in(document, column);
+        const json_t *sentence;
+        size_t i;
+        if (!column->words || column->of) continue;
+        if (is_sentences(&cell, column)) {
+            json_array_foreach(cell.document, i, sentence) {
+                add_line(text, column->words, width, json_string_value(sentence));
+                text_add(text, "\n");
+            }
+            continue;
+        }
+        const char *words = cell_text(&cell, column, text->arena);
+        if (!words) continue;
+        add_line(text, column->words, width, words);
+        if (column->unit && words != column->none) text_format(text, " %s", column->unit);
+        text_add(text, "\n");
+    }
+    for (int c = 0; c < kind->column_count; c++) {
+        const json_t *list = value_at(document, kind->columns[c].key);
+        if (kind->columns[c].of && json_array_size(list))
+            table_add_text(table_of_list(kind->columns[c].of, list, text->arena), text);
+    }
+}
+
+/* ---- JSON, CSV, page --------------------------------------------------------------------- */
+
+json_t *table_json(const Table *table) {
+    json_t *rows = json_array();
+    for (int r = 0; r < table->row_count; r++) {
+        json_t *object = json_object();
+        for (int c = 0; c < table->kind->column_count; c++) {
+            const char *words = table_cell_text(table, r, c);
+            double number;
+            bool is_number = table->cells[r * table->kind->column_count + c].kind == CELL_NUMBER &&
+                             number_read(words, &number);
+            if (words)
+                json_object_set_new(object, table->kind->columns[c].key,
+                                    is_number ? json_real(number) : json_text(words));
+        }
+        json_array_append_new(rows, object);
+    }
+    return rows;
+}
+
+void table_add_csv(const Table *table, Text *csv) {
+    for (int r = -1; r < table->row_count; r++) {
+        bool is_first = true;
+        for (int c = 0; c < table->kind->column_count; c++) {
+            if (!has_column(table, c)) continue;
+            const char *words = r < 0 ? table->kind->columns[c].key : table_cell_text(table, r, c);
+            if (!is_first) text_add(csv, ",");
+            text_add_cell(csv, words ? words : "");
+            is_first = false;
+        }
+        text_add(csv, "\n");
+    }
+}
+
+json_t *table_page(const Table *table) {
+    json_t *columns = json_array(), *rows = json_array();
+    for (int r = -1; r < table->row_count; r++) {
+        json_t *cells = r < 0 ? columns : json_array();
+        for (int c = 0; c < table->kind->column_count; c++) {
+            if (!is_read(table, c)) continue;
+            const char *words = r < 0 ? heading(&table->kind->columns[c], table->arena)
+                                      : table_cell_text(table, r, c);
+            json_array_append_new(cells, json_pack("{s:o, s:b}", r < 0 ? "title" : "text",
+                                                   json_text(words ? words : ""), "n",
+                                                   (int)is_number_column(table, c)));
+        }
+        if (r >= 0)
+            json_array_append_new(rows, json_pack("{s:b, s:o}", "is_total",
+                                                  (int)(r == table->total_row), "cells", cells));
+    }
+    return json_pack("{s:s?, s:o, s:o, s:s, s:o, s:o}", "title", table->kind->words, "missing",
+                     json_text_or_null(table->missing), "note", json_text_or_null(table->note),
+                     "kind", table->kind->key ? table->kind->key : "", "columns", columns, "rows",
+                     rows);
+}
