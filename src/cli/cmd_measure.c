@@ -107,24 +107,81 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
                                       : read_frame_request(region, out, err);
 }
 
-/* ---- as text ----------------------------------------------------------------------------- */
+/* ---- what people read -------------------------------------------------------------------- */
 
-#define INTERVAL_BYTES 4096 /* of its words */
+#define MEASURED(key_, words_, unit_, interval_) \
+    {.key = key_, .words = words_, .unit = unit_, .interval = interval_}
 
-static void print_figure(const char *name, Measured figure, const char *unit) {
-    if (isnan(figure.value)) {
-        print("%-12s undefined: there is no light\n", name);
-        return;
-    }
-    if (isnan(figure.low)) {
-        print("%-12s %.6g%s\n", name, figure.value, unit);
-        return;
-    }
-    Arena scratch = arena_reserve(INTERVAL_BYTES);
-    print("%-12s %s%s\n", name, interval_text(figure.value, figure.low, figure.high, &scratch),
-          unit);
-    arena_release(&scratch);
-}
+static const Column LIGHTS[] = {COLUMN_TEXT("name", "light"),
+                                COLUMN_DIGITS("cd_m2", "luminance", "cd/m2", 6),
+                                COLUMN_SHARE("share", "share")};
+static const TableKind LIGHTS_KIND = TABLE_KIND("lights", NULL, LIGHTS);
+
+static const Column FIGURES[] = {
+    COLUMN_TEXT("pixels", "pixels"),
+    COLUMN_TEXT("rim", "pixels at the rim"),
+    COLUMN_DIGITS("area_pixels", "pixels by their part", NULL, 0),
+    COLUMN_TEXT("rim_pixels", "at the rim"),
+    {.key = "shared_pixels", .words = "of two displays, not in the contrast", .hides_zero = true},
+    {.key = "unknown_pixels", .words = "of more displays, left out", .hides_zero = true},
+    {.key = "nonfinite_pixels", .words = "not finite, left out", .hides_zero = true},
+    {.key = "luminance_cd_m2",
+     .words = "luminance",
+     .unit = "cd/m2",
+     .interval = "luminance_interval"},
+    COLUMN_DIGITS("luminance_min_cd_m2", "least pixel", "cd/m2", 0),
+    COLUMN_DIGITS("luminance_max_cd_m2", "greatest pixel", "cd/m2", 0),
+    {.key = "xy.0",
+     .words = "x",
+     .interval = "xy_interval.0",
+     .none = "undefined: there is no light"},
+    MEASURED("xy.1", "y", NULL, "xy_interval.1"),
+    MEASURED("uv.0", "u'", NULL, "uv_interval.0"),
+    MEASURED("uv.1", "v'", NULL, "uv_interval.1"),
+    {.key = "contrast.value",
+     .words = "contrast",
+     .unit = ": 1",
+     .interval = "contrast.interval",
+     .none = "missing: no pixel of a display, or no layers of it (--layers display)"},
+    COLUMN_DIGITS("contrast.white_cd_m2", "white", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.black_cd_m2", "black", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.reflected_cd_m2", "reflected", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.mirror_cd_m2", "by the mirror", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.haze_cd_m2", "by haze", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.lambertian_cd_m2", "lambertian", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.shown_cd_m2", "shown", "cd/m2", 0),
+    {.key = "contrast.extrapolated_share",
+     .words = "reflected, by extrapolation",
+     .unit = "%",
+     .places = 3,
+     .times = 100,
+     .hides_zero = true},
+    {.key = "contrast.extrapolated_emitted_share",
+     .words = "emitted, by extrapolation",
+     .unit = "%",
+     .places = 3,
+     .times = 100,
+     .hides_zero = true},
+    COLUMN_TEXT("content.missing", "no contrast of content"),
+    MEASURED("content.ratio", "content, contrast", ": 1", "content.ratio_interval"),
+    MEASURED("content.characters_cd_m2", "characters", "cd/m2", "content.characters_interval"),
+    MEASURED("content.ground_cd_m2", "ground", "cd/m2", "content.ground_interval"),
+    MEASURED("content.michelson", "Michelson", NULL, "content.michelson_interval"),
+    MEASURED("content.weber", "Weber", NULL, "content.weber_interval"),
+    COLUMN_TEXT("content.edges_left_out", "edges of strokes left out"),
+    COLUMN_TEXT("may_miss", "may miss light"),
+    {.key = "rare_error",
+     .words = "rare light, error at most",
+     .unit = "%",
+     .places = 3,
+     .times = 100,
+     .hides_zero = true},
+    COLUMN_TEXT("missing_layers", "missing (render --layers)"),
+    {.key = "lights", .of = &LIGHTS_KIND},
+};
+static const TableKind FIGURES_KIND = TABLE_KIND("measure", NULL, FIGURES);
+
+/* ---- the answer --------------------------------------------------------------------------- */
 
 /* Why there is no contrast of the content. */
 static const char *content_reason(ContentVerdict verdict) {
@@ -135,106 +192,6 @@ static const char *content_reason(ContentVerdict verdict) {
     case CONTENT_NOISY: return "no two luminances stand out from the noise";
     }
     return NULL;
-}
-
-static void print_content(const ContentContrast *c) {
-    const char *reason = content_reason(c->verdict);
-    if (reason) {
-        print("%-12s missing: %s\n", "content", reason);
-        return;
-    }
-    print_figure("content", c->ratio, " : 1");
-    print_figure("  characters", c->characters, " cd/m2");
-    print_figure("  ground", c->ground, " cd/m2");
-    print_figure("  Michelson", c->michelson, "");
-    print_figure("  Weber", c->weber, "");
-    if (!c->edges_left_out)
-        print("  strokes are too thin to leave their edges out: the contrast is at least "
-              "this\n");
-}
-
-/* Of frames with the layer. */
-static void print_extrapolated(const FrameMeasurement *m) {
-    if (isnan(m->extrapolated_reflected)) return;
-    print("  %.1f %% of the light that it reflects", 100 * m->extrapolated_reflected);
-    if (!isnan(m->extrapolated_shown))
-        print(" and %.1f %% of what it emits", 100 * m->extrapolated_shown);
-    print(" by directions that were not measured\n");
-}
-
-static void print_display(const FrameMeasurement *m) {
-    print("  white %.6g, black %.6g, reflected %.6g cd/m2", m->white, m->black, m->reflected);
-    if (!isnan(m->mirror)) print(": %.6g by the mirror", m->mirror);
-    if (!isnan(m->lambertian)) print(", %.6g lambertian", m->lambertian);
-    print("\n");
-    print_extrapolated(m);
-    if (!isnan(m->shown)) print("  shown %.6g cd/m2\n", m->shown);
-}
-
-/* How a display's rim counts. */
-static void print_rim(const FrameMeasurement *m) {
-    switch (m->rim) {
-    case RIM_BY_COVERAGE:
-        print("%-12s %ld of them, by their part: %.6g pixels in all\n", "  at the rim",
-              m->rim_pixels, m->area);
-        break;
-    case RIM_LEFT_OUT:
-        print("%-12s %ld more are left out: their part is not known (--layers display)\n",
-              "  at the rim", m->rim_pixels);
-        break;
-    case RIM_WHOLE:
-        print("%-12s whole, with what is around: their part is not known (--layers "
-              "display)\n",
-              "  at the rim");
-    }
-    if (m->shared_pixels)
-        print("%-12s %ld show two displays: they have no part in the contrast\n", "",
-              m->shared_pixels);
-    if (m->unknown_pixels)
-        print("%-12s %ld show more displays, and are left out\n", "", m->unknown_pixels);
-}
-
-static void print_text(const FrameMeasurement *m, bool is_display) {
-    print("%-12s %ld\n", "pixels", m->pixels);
-    if (is_display) print_rim(m);
-    if (m->nonfinite) print("%-12s %ld\n", "left out", m->nonfinite);
-    print_figure("luminance", m->luminance, " cd/m2");
-    print("%-12s %.6g to %.6g cd/m2\n", "  of pixels", m->least, m->greatest);
-    print_figure("x", m->x, "");
-    print_figure("y", m->y, "");
-    print_figure("u'", m->u, "");
-    print_figure("v'", m->v, "");
-    if (m->has_contrast) {
-        print_figure("contrast", m->contrast, " : 1");
-        print_display(m);
-    } else {
-        print("%-12s missing: no pixel of a display, or no layers of it (--layers display)\n",
-              "contrast");
-    }
-    if (m->has_content) print_content(&m->content);
-    if (!m->has_variance)
-        print("%-12s missing: no layer variance (--layers variance)\n", "intervals");
-}
-
-/* What render found out about the frame. */
-static void print_missed(const FrameImage *frame) {
-    const char *missed = frame_string(frame, "parhelion:mayMiss");
-    const ExrAttribute *rare = frame_attribute(frame, "parhelion:rareError");
-    char error[32];
-    if (missed) print("%-12s light: %s\n", "may miss", missed);
-    if (rare)
-        print("%-12s " RARE_WORDS "\n", "of the frame",
-              cli_relative_error(rare->values[0], error, sizeof error));
-}
-
-static void print_lights(const LightShares *lights, bool is_display) {
-    if (lights->count && is_display && !lights->pixels) {
-        print("%-12s missing: no pixel shows the display alone\n", "by light");
-        return;
-    }
-    for (int i = 0; i < lights->count; i++)
-        print("%-12s %.6g cd/m2 (%.1f %%) of %s\n", i ? "" : "by light", lights->list[i].cd_m2,
-              100 * lights->list[i].share, lights->list[i].name);
 }
 
 /* ---- as JSON ----------------------------------------------------------------------------- */
@@ -320,8 +277,8 @@ static json_t *json_lights(const LightShares *lights) {
     return out;
 }
 
-static bool print_json(const MeasureWords *typed, const FrameImage *frame,
-                       const FrameMeasurement *m, const LightShares *lights, Error *err) {
+static bool print_answer(const MeasureWords *typed, const FrameImage *frame,
+                         const FrameMeasurement *m, const LightShares *lights, Error *err) {
     const MeasureRequest *r = &typed->request;
     json_t *answer =
         json_pack("{s:o, s:I, s:I, s:[o,o,o], s:o, s:o, s:o, s:o}", "frame",
@@ -350,7 +307,7 @@ static bool print_json(const MeasureWords *typed, const FrameImage *frame,
         json_object_set_new(
             answer, "region",
             json_pack("[i,i,i,i]", r->region.x0, r->region.y0, r->region.x1, r->region.y1));
-    return cli_print_json(answer, err);
+    return cli_print_answer(&FIGURES_KIND, answer, typed->cli.json, err);
 }
 
 /* ---- the command ------------------------------------------------------------------------- */
@@ -369,11 +326,7 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err) {
     if (!measure_frame(&file.frame, &typed->request, *arena, &measured, err)) return false;
     LightShares lights =
         light_shares_measure(&file.frame, &typed->request, measured.luminance.value, arena);
-    if (typed->cli.json) return print_json(typed, &file.frame, &measured, &lights, err);
-    print_text(&measured, typed->request.display != NULL);
-    print_lights(&lights, typed->request.display != NULL);
-    print_missed(&file.frame);
-    return true;
+    return print_answer(typed, &file.frame, &measured, &lights, err);
 }
 
 static Outcome run_measure(int argc, char **argv, Arena *arena, Error *err) {

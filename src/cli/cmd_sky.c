@@ -24,9 +24,8 @@
 #include "spectrum/photometry.h"
 #include "text/json_text.h"
 
-#define LANE_SETS 8     /* of 16 wavelengths: enough for smooth spectra */
-#define FIGURE_LINES 20 /* at most */
-#define PATH_STEPS 145  /* every 10 minutes of a day */
+#define LANE_SETS 8    /* of 16 wavelengths: enough for smooth spectra */
+#define PATH_STEPS 145 /* every 10 minutes of a day */
 
 /* One run of the command. */
 typedef struct SkyRun {
@@ -177,7 +176,7 @@ static double relief_of(const SkyRun *work) {
     return has_relief ? daylight->input.cloud_relief_m : 0;
 }
 
-static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err) {
+static json_t *answer_of(const SkyRun *work, const DaylightMetrics *f) {
     json_t *sun = work->sky.model || work->sky.has_sun
                       ? json_pack("{s:f, s:f, s:f, s:f, s:b, s:f, s:f}", "azimuth_deg",
                                   f->sun_azimuth_deg, "zenith_deg", f->sun_zenith_deg,
@@ -200,79 +199,56 @@ static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err)
     if (relief_of(work) > 0)
         json_object_set_new(document, "synthetic_cloud_relief_m", json_real(relief_of(work)));
     if (work->output) json_object_set_new(document, "output", json_text(work->output));
-    return cli_print_json(document, err);
+    return document;
 }
 
-/* Whole lux by day; a night is thousandths of one. */
-static const char *lux_line(const SkyRun *work, const char *name, double lux) {
-    return arena_format(work->arena, lux >= 100 ? "%s|%.0f lx" : "%s|%.4g lx", name, lux);
-}
+/* ---- what people read -------------------------------------------------------------------- */
 
-/* At night only: by day its place stands in the JSON. */
-static int moon_lines(const SkyRun *work, const NightMetrics *m, const char **line) {
-    int n = 0;
-    if (!(m->background_lx > 0)) return 0;
-    if (m->has_moon) {
-        line[n++] = arena_format(work->arena, "moon's azimuth|%.3f°", m->moon_azimuth_deg);
-        line[n++] = arena_format(work->arena, "moon's elevation|%.3f°%s, %.0f %% lit",
-                                 m->moon_elevation_deg, m->is_moon_up ? "" : " (down)",
-                                 100 * m->illuminated);
-    }
-    if (m->moon_normal_lx > 0) line[n++] = lux_line(work, "moon direct normal", m->moon_normal_lx);
-    line[n++] = lux_line(work, "night background", m->background_lx);
-    return n;
-}
+#define FIGURE(key_, words_, unit_, places_) \
+    {.key = key_, .words = words_, .unit = unit_, .places = places_, .hides_zero = true}
+#define WATTS(key_, words_) \
+    {.key = key_, \
+     .words = words_, \
+     .unit = "W/m²", \
+     .is_fixed = true, \
+     .places = 1, \
+     .hides_zero = true}
+#define XY(key_, words_) \
+    {.key = key_, .words = words_, .is_fixed = true, .places = 4, .hides_zero = true}
 
-/* What made lux of a Perez sky's irradiances. */
-static int efficacy_lines(const SkyRun *work, const DaylightMetrics *f, const char **line) {
-    const DaylightInput *in = &work->scene->environment.daylight;
-    Arena *arena = work->arena;
-    if (work->sky.kind != ENVIRONMENT_PEREZ) return 0;
-    const char *direct =
-        in->direct_w_m2 > 0 ? arena_format(arena, "direct %.1f, ", f->efficacy.direct) : "";
-    line[0] =
-        arena_format(arena, "luminous efficacy|%sdiffuse %.1f lm/W", direct, f->efficacy.diffuse);
-    line[1] = arena_format(arena, "lux by|%s", weather_light_rule_text(in, arena));
-    return 2;
-}
+static const Column FIGURES[] = {
+    COLUMN_FIXED("sun.azimuth_deg", "sun's azimuth", "°", 3),
+    COLUMN_FIXED("sun.elevation_deg", "sun's elevation", "°", 3),
+    FIGURE("direct_normal_lx", "direct normal", "lx", 4),
+    COLUMN_DIGITS("diffuse_horizontal_lx", "diffuse horizontal", "lx", 4),
+    COLUMN_DIGITS("global_horizontal_lx", "global horizontal", "lx", 4),
+    COLUMN_DIGITS("zenith_cd_m2", "zenith", "cd/m²", 4),
+    FIGURE("ground_cd_m2", "ground below", "cd/m²", 4),
+    XY("zenith_xy", "zenith x, y"),
+    XY("sun_xy", "sun x, y"),
+    WATTS("direct_normal_w_m2", "direct normal"),
+    WATTS("diffuse_horizontal_w_m2", "diffuse horizontal"),
+    FIGURE("luminous_efficacy.direct_lm_w", "efficacy, direct", "lm/W", 4),
+    FIGURE("luminous_efficacy.diffuse_lm_w", "efficacy, diffuse", "lm/W", 4),
+    COLUMN_TEXT("luminous_efficacy.rule", "lux by"),
+    FIGURE("luminous_efficacy.water_cm", "with water of", "cm", 3),
+    FIGURE("synthetic_cloud_relief_m", "cloud relief, synthetic", "m", 4),
+    FIGURE("horizon_deg", "horizon", "°", 3),
+    COLUMN_TEXT("weather.file", "weather file"),
+    COLUMN_TEXT("weather.line", "its line"),
+    FIGURE("night_background_lx", "night background", "lx", 4),
+    /* at night: */
+    COLUMN_FIXED("moon.azimuth_deg", "moon's azimuth", "°", 3),
+    COLUMN_FIXED("moon.elevation_deg", "moon's elevation", "°", 3),
+    COLUMN_SHARE("moon.illuminated_fraction", "moon lit"),
+    FIGURE("moon.direct_normal_lx", "moon direct normal", "lx", 4),
+};
+#define OF_THE_MOON 4 /* by day it stands in JSON alone */
 
-static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char **line) {
-    Arena *arena = work->arena;
-    int n = 0;
-    if (work->sky.model || work->sky.has_sun) {
-        line[n++] = arena_format(arena, "sun's azimuth|%.3f°", f->sun_azimuth_deg);
-        line[n++] = arena_format(arena, "sun's elevation|%.3f°%s", f->sun_elevation_deg,
-                                 f->is_sun_up ? "" : " (down)");
-        if (!(f->night.background_lx > 0))
-            line[n++] = lux_line(work, "direct normal", f->direct_normal_lx);
-    }
-    line[n++] = lux_line(work, "diffuse horizontal", f->diffuse_horizontal_lx);
-    line[n++] = lux_line(work, "global horizontal", f->global_horizontal_lx);
-    line[n++] = arena_format(arena, "zenith|%.4g cd/m²", f->zenith_cd_m2);
-    if (!work->sky.model) return n;
-    line[n++] = arena_format(arena, "ground below|%.4g cd/m²", f->floor_cd_m2);
-    line[n++] = arena_format(arena, "zenith x, y|%.4f, %.4f", f->zenith_xy[0], f->zenith_xy[1]);
-    if (f->is_sun_up)
-        line[n++] = arena_format(arena, "sun x, y|%.4f, %.4f", f->sun_xy[0], f->sun_xy[1]);
-    if (f->direct_normal_w_m2 > 0)
-        line[n++] = arena_format(arena, "direct normal|%.1f W/m²", f->direct_normal_w_m2);
-    if (f->diffuse_horizontal_w_m2 > 0.05)
-        line[n++] = arena_format(arena, "diffuse horizontal|%.1f W/m²", f->diffuse_horizontal_w_m2);
-    n += efficacy_lines(work, f, line + n);
-    if (relief_of(work) > 0)
-        line[n++] = arena_format(arena,
-                                 "cloud relief|%.0f m, synthetic, for pictures; the "
-                                 "deck's mean light stays",
-                                 relief_of(work));
-    if (f->horizon_deg < -0.01) line[n++] = arena_format(arena, "horizon|%.2f°", f->horizon_deg);
-    return n + moon_lines(work, &f->night, line + n);
-}
-
-static void print_lines(const char *const *line, int count) {
-    for (int i = 0; i < count; i++) {
-        const char *bar = strchr(line[i], '|');
-        print("%-20.*s %s\n", (int)(bar - line[i]), line[i], bar + 1);
-    }
+static TableKind figures_kind(const DaylightMetrics *f) {
+    TableKind kind = TABLE_KIND("sky", NULL, FIGURES);
+    if (!(f->night.background_lx > 0)) kind.column_count -= OF_THE_MOON;
+    return kind;
 }
 
 /* ---- pictures ---------------------------------------------------------------------------- */
@@ -349,7 +325,8 @@ static int sun_path(const SkyRun *work, SkyPlotSun *path) {
 static bool write_picture(const SkyRun *work, const DaylightMetrics *f, bool is_svg, Error *err) {
     size_t count = (size_t)work->size[0] * (size_t)work->size[1];
     float *luminance = ARENA_NEW(work->arena, float, count);
-    const char *line[FIGURE_LINES];
+    const TableKind kind = figures_kind(f);
+    json_t *answer = answer_of(work, f);
     SkyPlotSun path[PATH_STEPS];
     PlotBytes bytes;
     for (size_t i = 0; i < count; i++)
@@ -372,11 +349,12 @@ static bool write_picture(const SkyRun *work, const DaylightMetrics *f, bool is_
                     .heading = (double)work->scene->environment.heading,
                     .title = kind_text(work),
                     .subtitle = moment_text(work),
-                    .line = line,
-                    .line_count = figure_lines(work, f, line),
                     .is_dark = work->is_dark};
-    return sky_plot_draw(&plot, is_svg, 0, work->arena, &bytes, err) &&
-           file_write(work->output, bytes.data, bytes.size, err);
+    plot.line = table_lines(&kind, answer, work->arena, &plot.line_count);
+    bool ok = sky_plot_draw(&plot, is_svg, 0, work->arena, &bytes, err) &&
+              file_write(work->output, bytes.data, bytes.size, err);
+    json_decref(answer);
+    return ok;
 }
 
 /* ---- the command ------------------------------------------------------------------------- */
@@ -425,7 +403,6 @@ static bool build(SkyRun *work, Error *err) {
 }
 
 static bool run(SkyRun *work, OutputKind kind, Error *err) {
-    const char *line[FIGURE_LINES];
     if (!build(work, err)) return false;
     if (kind != OUTPUT_EXR) work->is_fisheye = false;
     choose_lanes(work);
@@ -435,11 +412,8 @@ static bool run(SkyRun *work, OutputKind kind, Error *err) {
               : kind == OUTPUT_EXR ? write_exr(work, err)
                                    : write_picture(work, &figures, kind == OUTPUT_SVG, err);
     if (!ok) return false;
-    if (work->cli.json) return print_json(work, &figures, err);
-    print_lines(line, figure_lines(work, &figures, line));
-    const char *weather = weather_option_text(&work->scene->environment, work->arena);
-    if (weather) print("%-20s %s\n", "weather file", weather);
-    return true;
+    const TableKind figures_read = figures_kind(&figures);
+    return cli_print_answer(&figures_read, answer_of(work, &figures), work->cli.json, err);
 }
 
 static Outcome run_sky(int argc, char **argv, Arena *arena, Error *err) {

@@ -9,8 +9,6 @@
 #include "text/interval_text.h"
 #include "text/json_text.h"
 
-#define SOURCES_TOLD 10
-
 bool glare_words_check(GlareWords *words, Error *err) {
     const struct {
         const char *option;
@@ -33,71 +31,48 @@ bool glare_words_check(GlareWords *words, Error *err) {
     return true;
 }
 
-/* ---- as text ----------------------------------------------------------------------------- */
+/* ---- what people read -------------------------------------------------------------------- */
 
-static void print_figure(const char *name, Measured figure, const char *unit, Arena scratch) {
-    const char *text = isnan(figure.low)
-                           ? arena_format(&scratch, "%.6g", figure.value)
-                           : interval_text(figure.value, figure.low, figure.high, &scratch);
-    print("%-12s %s%s\n", name, text, unit);
-}
+static const Column SOURCES[] = {COLUMN_DIGITS("luminance_cd_m2", "luminance", "cd/m2", 4),
+                                 COLUMN_DIGITS("solid_angle_sr", "size", "sr", 3),
+                                 COLUMN_DIGITS("position_index", "position index", NULL, 3),
+                                 COLUMN_FIXED("right_deg", "right", "deg", 1),
+                                 COLUMN_FIXED("up_deg", "up", "deg", 1),
+                                 COLUMN_DIGITS("illuminance_lx", "at the eye", "lx", 4),
+                                 COLUMN_TEXT("pixels", "pixels"),
+                                 {.key = "pixel", .words = "about pixel", .is_fixed = true}};
+static const TableKind SOURCES_KIND = TABLE_KIND("sources", "Sources", SOURCES);
 
-static void print_index(const char *name, Measured figure, GlareNone none, Arena scratch) {
-    if (isnan(figure.value)) print("%-12s none: %s\n", name, discomfort_none_words(none));
-    else print_figure(name, figure, "", scratch);
-}
+#define MEASURED(key_, words_, unit_, interval_) \
+    {.key = key_, .words = words_, .unit = unit_, .interval = interval_}
 
-static void print_sources(const FrameGlare *g) {
-    print("%-12s %d brighter than %.6g cd/m2\n", "sources", g->source_count, g->threshold_cd_m2);
-    for (int i = 0; i < g->source_count && i < SOURCES_TOLD; i++) {
-        const FrameSource *s = &g->sources[i];
-        print("  %.4g cd/m2, %.3g sr, position index %.3g, at %.1f deg right, %.1f deg up, "
-              "%.4g lx (%ld pixels about %.0f,%.0f)\n",
-              s->source.luminance_cd_m2, s->source.solid_angle_sr, s->source.position_index,
-              s->right_deg, s->up_deg, s->lx, s->pixels, s->x, s->y);
-    }
-    if (g->source_count > SOURCES_TOLD) print("  and %d more\n", g->source_count - SOURCES_TOLD);
-}
+static const Column FIGURES[] = {
+    MEASURED("vertical_illuminance_lx", "at the eye", "lx", "vertical_illuminance_interval"),
+    COLUMN_TEXT("vertical_illuminance_given", "of these lx, as given"),
+    MEASURED("background_cd_m2", "background", "cd/m2", "background_interval"),
+    COLUMN_TEXT("missing", "no UGR"),
+    MEASURED("ugr", "UGR", NULL, "ugr_interval"),
+    MEASURED("dgp", "DGP", NULL, "dgp_interval"),
+    COLUMN_TEXT("settings.low_light", "DGP's factor for less than 1000 lx"),
+    MEASURED("dgi", "DGI", NULL, "dgi_interval"),
+    COLUMN_DIGITS("settings.threshold_cd_m2", "sources brighter than", "cd/m2", 0),
+    COLUMN_TEXT("source_count", "sources"),
+    {.key = "sources_without_core",
+     .words = "too small for the frame, dimmed by it",
+     .hides_zero = true},
+    {.key = "areas_of_noise",
+     .words = "above it by noise, not counted",
+     .none = "not known: no layers of noise (--layers halves,variance)"},
+    {.key = "sources", .of = &SOURCES_KIND}};
+static const TableKind FIGURES_KIND = TABLE_KIND("glare", NULL, FIGURES);
+
+/* ---- the answer --------------------------------------------------------------------------- */
 
 static long count_small(const FrameGlare *g) {
     long count = 0;
     for (int i = 0; i < g->source_count; i++) count += !g->sources[i].has_core;
     return count;
 }
-
-static void print_doubts(const FrameGlare *g) {
-    long small = count_small(g);
-    if (small)
-        print("%-12s %ld sources are too small for the frame: their pixels show their "
-              "surroundings, too, and dim them; a larger frame tells\n",
-              "size", small);
-    if (g->doubtful)
-        print("%-12s %ld areas are above the threshold by noise alone, as two halves of the "
-              "samples tell: not counted\n",
-              "noise", g->doubtful);
-    if (!g->has_noise)
-        print("%-12s not looked for, without layers of it (--layers halves,variance): "
-              "bright pixels of few samples count as sources\n",
-              "noise");
-    if (!g->has_intervals)
-        print("%-12s missing: no layers halves or variance (--layers halves,variance)\n",
-              "intervals");
-}
-
-static void print_text(const FrameGlare *g, const GlareWords *words, Arena scratch) {
-    print_figure("at the eye", g->vertical_lx, words->request.has_lux ? " lx, as given" : " lx",
-                 scratch);
-    print_figure("background", g->background_cd_m2, " cd/m2", scratch);
-    print_index("UGR", g->ugr, g->none, scratch);
-    print_index("DGP", g->dgp, g->none, scratch);
-    print("%-12s its factor for less than 1000 lx is %s\n", "",
-          words->request.settings.low_light ? "in it (--no-low-light)" : "left out");
-    print_index("DGI", g->dgi, g->none, scratch);
-    print_sources(g);
-    print_doubts(g);
-}
-
-/* ---- as JSON ----------------------------------------------------------------------------- */
 
 static void set_figure(json_t *object, const char *key, const char *interval_key, Measured figure) {
     json_object_set_new(object, key, json_figure(figure.value));
@@ -130,7 +105,8 @@ static json_t *json_settings(const FrameGlare *g, const GlareSettings *s) {
     return out;
 }
 
-static bool print_json(const char *name, const FrameGlare *g, const GlareWords *words, Error *err) {
+static bool print_answer(const char *name, const FrameGlare *g, const GlareWords *words,
+                         bool as_json, Error *err) {
     json_t *sources = json_array();
     for (int i = 0; i < g->source_count; i++)
         json_array_append_new(sources, json_source(&g->sources[i]));
@@ -149,7 +125,7 @@ static bool print_json(const char *name, const FrameGlare *g, const GlareWords *
     json_object_set_new(out, "sources_without_core", json_integer(count_small(g)));
     json_object_set_new(out, "areas_of_noise",
                         g->has_noise ? json_integer(g->doubtful) : json_null());
-    return cli_print_json(out, err);
+    return cli_print_answer(&FIGURES_KIND, out, as_json, err);
 }
 
 bool measure_glare(const Cli *cli, const FrameImage *frame, const GlareWords *words, Arena *arena,
@@ -158,7 +134,5 @@ bool measure_glare(const Cli *cli, const FrameImage *frame, const GlareWords *wo
     FrameGlare glare;
     if (!frame_glare_measure(frame, &words->request, arena, &glare, err))
         return error_in_file(err, name);
-    if (cli->json) return print_json(name, &glare, words, err);
-    print_text(&glare, words, *arena);
-    return true;
+    return print_answer(name, &glare, words, cli->json, err);
 }

@@ -286,15 +286,13 @@ static void draw_scale(const SkyDrawing *work, Box box) {
 static void draw_lines(const SkyDrawing *work, double x, double y) {
     Canvas *canvas = work->canvas;
     for (int i = 0; i < work->plot->line_count; i++) {
-        const char *line = work->plot->line[i], *bar = strchr(line, '|');
-        size_t length = bar ? (size_t)(bar - line) : strlen(line);
+        const TableLine *line = &work->plot->line[i];
         double column = i % 2 ? x + PANORAMA_W / 2 : x, down = y + 17 * (i / 2);
         canvas_text(canvas, column, down, (Letters){.size = SIZE_TEXT, .ink = canvas->theme.soft},
-                    arena_string(canvas->arena, line, length));
-        if (bar)
-            canvas_text(canvas, column + 138, down,
-                        (Letters){.size = SIZE_TEXT, .ink = canvas->theme.ink, .is_bold = true},
-                        bar + 1);
+                    line->words);
+        canvas_text(canvas, column + 138, down,
+                    (Letters){.size = SIZE_TEXT, .ink = canvas->theme.ink, .is_bold = true},
+                    line->value);
     }
 }
 

@@ -10,6 +10,7 @@
 #pragma once
 #include "base/error.h"
 #include "plot/draw/picture.h"
+#include "table/table.h"
 
 typedef struct SkyPlotSun {
     double azimuth, elevation;
@@ -29,7 +30,7 @@ typedef struct SkyPlot {
     bool has_heading;
     double heading;
     const char *title, *subtitle;
-    const char *const *line; /* figures, one a line: "name|value" */
+    const TableLine *line; /* figures */
     int line_count;
     bool is_dark;
 } SkyPlot;

@@ -53,13 +53,16 @@ void table_text(Table *table, const char *text) {
 
 /* ---- of a document ----------------------------------------------------------------------- */
 
-/* "display.gamma": a member's member. */
-static const json_t *value_at(const json_t *object, const char *path) {
+/* "display.gamma.2": a member's member, an item; null where what should have it is null. */
+static const json_t *value_at(const json_t *value, const char *path) {
     for (;; path++) {
         size_t length = strcspn(path, ".");
-        object = json_object_getn(object, path, length);
+        uint64_t item = 0;
+        value = json_is_array(value) && number_read_count(path, &item)
+                    ? json_array_get(value, (size_t)item)
+                    : json_object_getn(value, path, length);
         path += length;
-        if (!*path || !object) return object;
+        if (!*path || !value || json_is_null(value)) return value;
     }
 }
 
@@ -90,7 +93,7 @@ void table_add_object(Table *table, const json_t *object) {
         *cell_at(table, c) = cell_in(object, &table->kind->columns[c]);
 }
 
-Table *table_of_list(const TableKind *kind, const json_t *list, Arena *arena) {
+static Table *table_of_list(const TableKind *kind, const json_t *list, Arena *arena) {
     const json_t *object;
     size_t i;
     Table *table = table_new(kind, arena);
@@ -279,48 +282,59 @@ void table_add_text(const Table *table, Text *text) {
     }
 }
 
-static void add_line(Text *text, const char *words, int width, const char *value) {
-    text_add(text, words);
-    add_blanks(text, width + 2 - characters(words));
-    text_add_printable(text, value, strlen(value));
-}
-
 /* A list of sentences has a line each. */
 static bool is_sentences(const Cell *cell, const Column *column) {
     return cell->kind == CELL_DOCUMENT && !column->of && !column->parts &&
            json_is_string(json_array_get(cell->document, 0));
 }
 
-void table_add_record(const TableKind *kind, const json_t *document, Text *text) {
-    int width = 0;
-    for (int c = 0; c < kind->column_count; c++) {
-        const Column *column = &kind->columns[c];
-        if (!column->words || column->of || !value_at(document, column->key)) continue;
-        if (characters(column->words) > width) width = characters(column->words);
+static int add_lines(const Column *column, const Cell *cell, TableLine *line, Arena *arena) {
+    const json_t *sentence;
+    size_t i;
+    if (is_sentences(cell, column)) {
+        json_array_foreach(cell->document, i, sentence) line[i] =
+            (TableLine){column->words, json_string_value(sentence)};
+        return (int)json_array_size(cell->document);
     }
+    const char *words = cell_text(cell, column, arena);
+    bool is_zero = words && !words[strspn(words, "-0., ")];
+    if (!words || (is_zero && column->hides_zero)) return 0;
+    bool has_unit = column->unit && words != column->none;
+    *line = (TableLine){column->words,
+                        has_unit ? arena_format(arena, "%s %s", words, column->unit) : words};
+    return 1;
+}
+
+TableLine *table_lines(const TableKind *kind, const json_t *document, Arena *arena, int *count) {
+    int most = 0;
+    for (int c = 0; c < kind->column_count; c++)
+        most += 1 + (int)json_array_size(value_at(document, kind->columns[c].key));
+    TableLine *lines = ARENA_NEW(arena, TableLine, most);
+    *count = 0;
     for (int c = 0; c < kind->column_count; c++) {
-        const Column *column = &kind->columns[c];
-        const Cell cell = cell_in(document, column);
-        const json_t *sentence;
-        size_t i;
-        if (!column->words || column->of) continue;
-        if (is_sentences(&cell, column)) {
-            json_array_foreach(cell.document, i, sentence) {
-                add_line(text, column->words, width, json_string_value(sentence));
-                text_add(text, "\n");
-            }
-            continue;
-        }
-        const char *words = cell_text(&cell, column, text->arena);
-        if (!words) continue;
-        add_line(text, column->words, width, words);
-        if (column->unit && words != column->none) text_format(text, " %s", column->unit);
+        const Cell cell = cell_in(document, &kind->columns[c]);
+        if (kind->columns[c].words && !kind->columns[c].of)
+            *count += add_lines(&kind->columns[c], &cell, lines + *count, arena);
+    }
+    return lines;
+}
+
+void table_add_record(const TableKind *kind, const json_t *document, Text *text) {
+    Arena *arena = text->arena;
+    int count, width = 0;
+    const TableLine *lines = table_lines(kind, document, arena, &count);
+    for (int i = 0; i < count; i++)
+        if (characters(lines[i].words) > width) width = characters(lines[i].words);
+    for (int i = 0; i < count; i++) {
+        text_add(text, lines[i].words);
+        add_blanks(text, width + 2 - characters(lines[i].words));
+        text_add_printable(text, lines[i].value, strlen(lines[i].value));
         text_add(text, "\n");
     }
     for (int c = 0; c < kind->column_count; c++) {
         const json_t *list = value_at(document, kind->columns[c].key);
         if (kind->columns[c].of && json_array_size(list))
-            table_add_text(table_of_list(kind->columns[c].of, list, text->arena), text);
+            table_add_text(table_of_list(kind->columns[c].of, list, arena), text);
     }
 }
 

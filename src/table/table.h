@@ -20,7 +20,7 @@
 typedef struct TableKind TableKind;
 
 typedef struct Column {
-    const char *key;   /* in JSON and CSV, with its unit; of a document a path, "display.gamma" */
+    const char *key;   /* in JSON and CSV, with its unit; of a document a path, "display.gamma.2" */
     const char *words; /* for people; NULL: not for them */
     const char *unit;  /* for people, behind the figure; NULL: none */
     bool is_fixed;     /* `places` are digits behind the point, else digits that count */
@@ -29,6 +29,7 @@ typedef struct Column {
     const char *interval; /* path of [low, high], which then decides the digits; NULL: none */
     const char *parts;    /* of a list: what its items are, "right|up|left|down" */
     const char *none;     /* for people, where it is null; NULL: a record leaves the line out */
+    bool hides_zero;      /* a record leaves the line out that would show 0 */
     const TableKind *of;  /* of lists of objects: rows, shown behind the record */
 } Column;
 
@@ -89,11 +90,8 @@ void table_text(Table *table, const char *text);
 
 /* ---- of a document ----------------------------------------------------------------------- */
 
-/* A row for each object of the list. */
-Table *table_of_list(const TableKind *kind, const json_t *list, Arena *arena);
-
-/* The same with a column for each member of the first object: as the known one of that key, else
- * under its own name. NULL: there is no object. */
+/* A row for each object of the list, with a column for each member of the first one: as the known
+ * column of that key, else under its own name. NULL: there is no object. */
 Table *table_of_objects(const Column *known, int known_count, const json_t *list, Arena *arena);
 
 void table_add_object(Table *table, const json_t *object);
@@ -107,8 +105,15 @@ const char *table_cell_text(const Table *table, int row, int column);
  * a column that no row has is left out. */
 void table_add_text(const Table *table, Text *text);
 
-/* The document as people read it: a line for each column of the kind, its words, figure and
- * unit; then the tables of its lists. */
+/* The document as people read it: for each column of the kind its words, and the figure with its
+ * unit; a list of sentences has a line each. */
+typedef struct TableLine {
+    const char *words, *value;
+} TableLine;
+
+TableLine *table_lines(const TableKind *kind, const json_t *document, Arena *arena, int *count);
+
+/* The same as text; then the tables of its lists. */
 void table_add_record(const TableKind *kind, const json_t *document, Text *text);
 
 /* A list of objects; numbers are those that people read. */
