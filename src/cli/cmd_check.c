@@ -45,31 +45,9 @@ static const char *environment_kind(EnvironmentKind kind) {
     return "";
 }
 
-static const char *camera_name(const SceneCamera *camera) {
-    return camera->node_name[0] ? camera->node_name : camera->camera_name;
-}
-
 static const Image *content_of(const Scene *scene, const Display *display) {
     int id = display->content.texture_id;
     return id == NO_ID ? NULL : &scene->textures[id].image;
-}
-
-/* ---- for people ------------------------------------------------------------------------ */
-
-static void print_displays(const Scene *scene) {
-    for (int i = 0; i < scene->display_count; i++) {
-        const Display *d = &scene->displays[i];
-        const Image *content = content_of(scene, d);
-        print("display      %s: panel %s, level %g %%, ", d->name, d->panel_path,
-              100 * (double)d->level);
-        if (content) print("content of %dx%d pixels\n", content->width, content->height);
-        else print("no content (full white)\n");
-    }
-}
-
-static bool is_same_light(const PunctualLight *a, const PunctualLight *b) {
-    return a->kind == b->kind && !strcmp(a->name, b->name) &&
-           !memcmp(a->intensity, b->intensity, sizeof a->intensity);
 }
 
 /* The world's direction in which a luminaire is brightest. */
@@ -84,16 +62,6 @@ static float share_of(const PunctualLight *light) {
     return light->level * light->tilt_factor * luminance_from_rgb(light->color);
 }
 
-/* "4000 K" of which text, or why D65. */
-static void print_white(const PunctualLight *light) {
-    const char *text = light->cct_text;
-    if (light->cct_k > 0) print("%g K", (double)light->cct_k);
-    else print("D65");
-    if (text && light->cct_k > 0) print(" (\"%.60s\")", text);
-    else if (text && text[0]) print(" (\"%.60s\" tells no colour temperature)", text);
-    else if (text) print(" (the file tells no colour temperature)");
-}
-
 static const char *opening_name(const LuminousOpening *opening) {
     switch (opening->shape) {
     case OPENING_BOX: return opening->is_flat ? "rectangle" : "box";
@@ -104,130 +72,7 @@ static const char *opening_name(const LuminousOpening *opening) {
     return "point";
 }
 
-static void print_luminaire(const PunctualLight *light) {
-    Vec3 d = brightest_of(light);
-    float share = share_of(light);
-    const float *half = light->opening.half;
-    print("light        %s: luminaire %s, ", light->name, light->file);
-    print_white(light);
-    print(", level %g %%, %g lm, at most %g cd towards (%.3f, %.3f, %.3f), ",
-          100 * (double)light->level, (double)(light->web->flux_lm * share),
-          (double)(light->web->largest_cd * share), (double)d.x, (double)d.y, (double)d.z);
-    if (light->opening.shape == OPENING_POINT) print("a point");
-    else
-        print("%s of %g x %g x %g m", opening_name(&light->opening), 2 * (double)half[0],
-              2 * (double)half[1], 2 * (double)half[2]);
-    if (light->has_tilt)
-        print(", tilted by %.3g degrees: x %g", (double)light->tilt_deg,
-              (double)light->tilt_factor);
-    print("\n");
-}
-
-/* A row of street lamps is one line. */
-static void print_light(const Scene *scene, int index) {
-    const PunctualLight *light = &scene->lights[index];
-    int count = 0;
-    for (int i = 0; i < scene->light_count; i++) {
-        bool is_same = is_same_light(light, &scene->lights[i]);
-        if (is_same && i < index) return;
-        count += is_same;
-    }
-    if (light->kind == LIGHT_LUMINAIRE) {
-        print_luminaire(light);
-        return;
-    }
-    print("light        %s: %s, RGB %g %g %g %s", light->name, light_kind(light->kind),
-          (double)light->intensity[0], (double)light->intensity[1], (double)light->intensity[2],
-          light_unit(light->kind));
-    if (count > 1) print(", %d times", count);
-    print("\n");
-}
-
-static void print_lights(const Scene *scene) {
-    for (int i = 0; i < scene->light_count; i++) print_light(scene, i);
-    for (int i = 0; i < scene->material_count; i++) {
-        const Material *m = &scene->materials[i];
-        if (!m->is_emitter || m->display_id != NO_ID || m->unlit) continue;
-        print("light        %s: emissive material, RGB up to %g %g %g cd/m2\n", m->name,
-              (double)m->emissive_cd_m2[0], (double)m->emissive_cd_m2[1],
-              (double)m->emissive_cd_m2[2]);
-    }
-}
-
-static void print_environment(const Environment *e) {
-    print("environment  %s", environment_kind(e->kind));
-    if (e->kind == ENVIRONMENT_CONSTANT) print(", %g cd/m2", (double)e->luminance_cd_m2);
-    if (e->kind == ENVIRONMENT_HDRI)
-        print(" %s, %dx%d pixels", e->hdri_path, e->hdri.width, e->hdri.height);
-    if (e->has_sun)
-        print(", sun at azimuth %.4g deg, elevation %.4g deg, %g lx", degrees(e->sun_azimuth),
-              degrees(e->sun_elevation), (double)e->sun_illuminance_lx);
-    print("%s\n", e->kind == ENVIRONMENT_NONE && !e->has_sun ? ": the outside is black" : "");
-}
-
-static void print_cameras(const Scene *scene) {
-    for (int i = 0; i < scene->camera_count; i++) {
-        const SceneCamera *c = &scene->cameras[i];
-        print("camera %-5d %s: ", i, camera_name(c)[0] ? camera_name(c) : "(no name)");
-        if (c->is_perspective) print("perspective, %.4g deg high\n", degrees(c->yfov));
-        else print("orthographic, %g m high\n", 2 * (double)c->ymag);
-    }
-    if (!scene->camera_count)
-        print("camera       none: %s seen from the front\n",
-              scene->display_count ? "the displays are" : "the scene is framed whole,");
-}
-
-static void print_states(const Scene *scene) {
-    for (int i = 0; i < scene->variant_count; i++) print("variant      %s\n", scene->variants[i]);
-    for (int i = 0; i < scene->animation_count; i++)
-        print("animation    %s: %g s\n", scene->animations[i].name, scene->animations[i].end_s);
-}
-
-static void print_size(const Scene *scene, Arena *arena) {
-    const Vec3 low = scene->bounds_min, high = scene->bounds_max;
-    print("triangles    %u (%u opaque) in %d parts\n", scene->triangle_count, scene->opaque_count,
-          scene->part_count);
-    if (scene->triangle_count)
-        print("size         %.4g x %.4g x %.4g m\n", (double)(high.x - low.x),
-              (double)(high.y - low.y), (double)(high.z - low.z));
-    const double *o = scene->origin;
-    if (o[0] != 0 || o[1] != 0 || o[2] != 0)
-        print("origin       %.10g, %.10g, %.10g m: coordinates are reckoned from there\n", o[0],
-              o[1], o[2]);
-    print("materials    %d, textures %d\n", scene->material_count, scene->texture_count);
-    material_list_print_one_sided(scene, arena);
-    if (scene->ignored_occlusion_count)
-        print("note         %d materials have an occlusion texture: it is ignored, since tracing "
-              "finds what is occluded\n",
-              scene->ignored_occlusion_count);
-}
-
-static void print_problems(const Problems *problems) {
-    for (int i = 0; i < problems->count; i++) {
-        const Problem *p = &problems->list[i];
-        print("%-12s %s: %s%s%s%s\n", p->severity == SEVERITY_ERROR ? "ERROR" : "warning", p->file,
-              p->message, p->path[0] ? " (" : "", p->path, p->path[0] ? ")" : "");
-    }
-}
-
-static void print_report(const Scene *scene, const Problems *problems, Arena *arena) {
-    print_size(scene, arena);
-    print_displays(scene);
-    print_lights(scene);
-    print_environment(&scene->environment);
-    print_cameras(scene);
-    print_states(scene);
-    if (scene->extension_count) print("extensions  ");
-    for (int i = 0; i < scene->extension_count; i++) print(" %s", scene->extensions[i]);
-    if (scene->extension_count) print("\n");
-    print("conformance  see the Khronos glTF Validator: what is wrong here is what a picture "
-          "depends on\n");
-    print_problems(problems);
-    print("%s: %d errors, %d warnings\n", problems->error_count ? "NOT OK" : "ok",
-          problems->error_count, problems->warning_count);
-}
-
-/* ---- for scripts ----------------------------------------------------------------------- */
+/* ---- the answer ------------------------------------------------------------------------ */
 
 static json_t *json_displays(const Scene *scene) {
     json_t *list = json_array();
@@ -342,8 +187,8 @@ static json_t *json_animations(const Scene *scene) {
     return list;
 }
 
-static bool print_json(const Scene *scene, const MissedLight *missed, const Problems *problems,
-                       Arena *arena, Error *err) {
+static json_t *answer_of(const Scene *scene, const MissedLight *missed, const Problems *problems,
+                         Arena *arena) {
     json_t *list = cli_json_problems(problems, SEVERITY_ERROR);
     json_t *warnings = cli_json_problems(problems, SEVERITY_WARNING);
     json_array_extend(list, warnings);
@@ -355,13 +200,105 @@ static bool print_json(const Scene *scene, const MissedLight *missed, const Prob
                                json_cameras(scene), "materials", scene->material_count, "textures",
                                scene->texture_count, "triangles", (json_int_t)scene->triangle_count,
                                "extensions", json_texts(scene->extensions, scene->extension_count));
+    const Vec3 low = scene->bounds_min, high = scene->bounds_max;
     json_object_set_new(answer, "bounds_m", json_bounds(scene));
+    json_object_set_new(answer, "size_m",
+                        scene->triangle_count ? json_vector(vec3_sub(high, low)) : json_null());
     json_object_set_new(answer, "origin_m", json_world_point(scene->origin));
     json_object_set_new(answer, "variants", json_texts(scene->variants, scene->variant_count));
     json_object_set_new(answer, "animations", json_animations(scene));
     json_object_set_new(answer, "missed_light", missed_pairs_json(scene, missed));
     json_object_set_new(answer, "material_list", material_list_json(scene, arena));
-    return cli_print_json(answer, err);
+    json_object_set_new(answer, "one_sided", material_list_one_sided(scene));
+    json_object_set_new(answer, "ignored_occlusion_textures",
+                        json_integer(scene->ignored_occlusion_count));
+    return answer;
+}
+
+/* ---- what people read ------------------------------------------------------------------- */
+
+static const Column DISPLAYS[] = {
+    COLUMN_TEXT("name", "display"),
+    COLUMN_TEXT("panel", "panel"),
+    COLUMN_SHARE("level", "level"),
+    {.key = "content_size", .words = "content, pixels", .none = "none: full white"}};
+static const TableKind DISPLAYS_KIND = TABLE_KIND("displays", NULL, DISPLAYS);
+
+static const Column LIGHTS[] = {
+    COLUMN_TEXT("name", "light"),
+    COLUMN_TEXT("type", "type"),
+    COLUMN_DIGITS("intensity", "RGB", NULL, 0),
+    COLUMN_TEXT("unit", "unit"),
+    COLUMN_SHARE("level", "level"),
+    COLUMN_DIGITS("flux_lm", "flux", "lm", 4),
+    COLUMN_DIGITS("max_cd", "at most", "cd", 4),
+    {.key = "direction", .words = "towards", .is_fixed = true, .places = 3},
+    {.key = "cct_k", .words = "colour", .unit = "K", .none = "D65"},
+    COLUMN_TEXT("cct_text", "the file says"),
+    COLUMN_TEXT("opening.shape", "opening"),
+    COLUMN_DIGITS("opening.size_m", "of", "m", 0),
+    COLUMN_DIGITS("tilt.angle_deg", "tilt", "deg", 3),
+    COLUMN_DIGITS("tilt.factor", "by it times", NULL, 0),
+    COLUMN_TEXT("file", "file")};
+static const TableKind LIGHTS_KIND = TABLE_KIND("lights", NULL, LIGHTS);
+
+static const Column CAMERAS[] = {COLUMN_TEXT("node", "camera, node"), COLUMN_TEXT("name", "name"),
+                                 COLUMN_TEXT("type", "type"),
+                                 COLUMN_DIGITS("yfov_deg", "field of view, high", "deg", 4),
+                                 COLUMN_DIGITS("ymag_m", "half height", "m", 0)};
+static const TableKind CAMERAS_KIND = TABLE_KIND("cameras", NULL, CAMERAS);
+
+static const Column ANIMATIONS[] = {COLUMN_TEXT("name", "animation"),
+                                    COLUMN_DIGITS("end_s", "ends at", "s", 0)};
+static const TableKind ANIMATIONS_KIND = TABLE_KIND("animations", NULL, ANIMATIONS);
+
+static const Column SCENE[] = {
+    COLUMN_TEXT("triangles", "triangles"),
+    COLUMN_DIGITS("size_m", "size", "m", 4),
+    {.key = "origin_m", .words = "coordinates begin at", .unit = "m", .hides_zero = true},
+    COLUMN_TEXT("materials", "materials"),
+    COLUMN_TEXT("textures", "textures"),
+    {.key = "ignored_occlusion_textures",
+     .words = "occlusion textures, ignored",
+     .hides_zero = true},
+    COLUMN_TEXT("environment.type", "environment"),
+    COLUMN_DIGITS("environment.luminance_cd_m2", "its luminance", "cd/m2", 0),
+    COLUMN_TEXT("environment.file", "its file"),
+    COLUMN_DIGITS("environment.sun.azimuth_deg", "sun, azimuth", "deg", 4),
+    COLUMN_DIGITS("environment.sun.elevation_deg", "sun, elevation", "deg", 4),
+    COLUMN_DIGITS("environment.sun.illuminance_lx", "sun", "lx", 0),
+    {.key = "variants", .words = "variants", .parts = ""},
+    {.key = "extensions", .words = "extensions", .parts = ""},
+    {.key = "one_sided", .words = "one-sided, back seen too", .parts = ""},
+    {.key = "displays", .of = &DISPLAYS_KIND},
+    {.key = "lights", .of = &LIGHTS_KIND},
+    {.key = "cameras", .of = &CAMERAS_KIND},
+    {.key = "animations", .of = &ANIMATIONS_KIND},
+};
+static const TableKind SCENE_KIND = TABLE_KIND("scene", NULL, SCENE);
+
+static const Column MATERIALS[] = {COLUMN_TEXT("name", "material"),
+                                   COLUMN_TEXT("looks_like_screen", "screen?"),
+                                   COLUMN_DIGITS("area_m2", "area", "m2", 4),
+                                   COLUMN_TEXT("is_flat", "flat"),
+                                   COLUMN_TEXT("has_uv", "UVs"),
+                                   COLUMN_TEXT("has_emissive_texture", "emissive texture"),
+                                   COLUMN_TEXT("is_display", "display"),
+                                   COLUMN_TEXT("is_one_sided", "one-sided"),
+                                   COLUMN_TEXT("nodes", "nodes"),
+                                   COLUMN_TEXT("meshes", "meshes")};
+static const TableKind MATERIALS_KIND = TABLE_KIND("materials", NULL, MATERIALS);
+static const Column MATERIALS_ONLY[] = {{.key = "material_list", .of = &MATERIALS_KIND}};
+static const TableKind MATERIALS_ONLY_KIND = TABLE_KIND("materials", NULL, MATERIALS_ONLY);
+
+static void print_problems(const Problems *problems) {
+    for (int i = 0; i < problems->count; i++) {
+        const Problem *p = &problems->list[i];
+        print("%-12s %s: %s%s%s%s\n", p->severity == SEVERITY_ERROR ? "ERROR" : "warning", p->file,
+              p->message, p->path[0] ? " (" : "", p->path, p->path[0] ? ")" : "");
+    }
+    print("%s: %d errors, %d warnings; conformance is for the Khronos glTF Validator\n",
+          problems->error_count ? "NOT OK" : "ok", problems->error_count, problems->warning_count);
 }
 
 /* ---- the command ----------------------------------------------------------------------- */
@@ -421,10 +358,9 @@ static Outcome run_check(int argc, char **argv, Arena *arena, Error *err) {
         scene_close(scene);
         return OUTCOME_FAILED;
     }
-    if (cli.json) done = print_json(scene, &missed, &problems, arena, err);
-    else if (materials) material_list_print(scene, arena);
-    else print_report(scene, &problems, arena);
-    if (!cli.json && materials) print_problems(&problems);
+    const TableKind *kind = materials ? &MATERIALS_ONLY_KIND : &SCENE_KIND;
+    done = cli_print_answer(kind, answer_of(scene, &missed, &problems, arena), cli.json, err);
+    if (!cli.json) print_problems(&problems);
     scene_close(scene);
     if (!done || !problems.error_count) return outcome_of(done);
     *err = (Error){.code = ERROR_INPUT}; /* said already, problem by problem */

@@ -100,47 +100,6 @@ static bool is_one_sided(const Scene *scene, int material_id) {
 
 /* ---- answers ---------------------------------------------------------------------------- */
 
-static void print_names(const char *what, const char *const *names, int count) {
-    enum { MOST = 4 };
-    for (int i = 0; i < count && i < MOST; i++) print("%s%s", i ? ", " : what, names[i]);
-    if (count > MOST) print(" and %d more", count - MOST);
-}
-
-void material_list_print_one_sided(const Scene *scene, Arena *arena) {
-    Arena scratch = *arena;
-    const char **names = ARENA_NEW(&scratch, const char *, scene->material_count);
-    int count = 0;
-    for (int i = 0; i < scene->material_count; i++)
-        if (is_one_sided(scene, i)) names[count++] = scene->materials[i].name;
-    print_names("one-sided    ", names, count);
-    if (count)
-        print(": their backs are seen and reflect as their fronts do; glTF's viewers leave "
-              "them out\n");
-}
-
-static void print_material(const Scene *scene, int id, const MaterialUse *use) {
-    const Material *material = &scene->materials[id];
-    bool is_screen = looks_like_screen(scene, id, use);
-    print("%-12s %s: %.4g m2%s%s%s", is_screen ? "screen?" : "material", material->name,
-          use->area_m2, use->is_flat ? ", flat" : "", has_uv(use) ? ", UVs" : "",
-          glows_with_texture(scene, id) ? ", emissive texture" : "");
-    if (material->display_id != NO_ID) print(", is a display");
-    if (is_one_sided(scene, id)) print(", one-sided");
-    if (!use->area_m2) print(", worn by nothing that is shown");
-    print_names("; node ", use->nodes, use->node_count);
-    print_names("; mesh ", use->meshes, use->mesh_count);
-    print("\n");
-}
-
-void material_list_print(const Scene *scene, Arena *arena) {
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < scene->material_count; i++) {
-            Arena scratch = *arena;
-            const MaterialUse use = use_of(scene, i, &scratch);
-            if (looks_like_screen(scene, i, &use) == (pass == 0)) print_material(scene, i, &use);
-        }
-}
-
 json_t *material_list_json(const Scene *scene, Arena *arena) {
     json_t *list = json_array();
     for (int i = 0; i < scene->material_count; i++) {
@@ -157,5 +116,13 @@ json_t *material_list_json(const Scene *scene, Arena *arena) {
                                               "is_display", scene->materials[i].display_id != NO_ID,
                                               "is_one_sided", is_one_sided(scene, i)));
     }
+    return list;
+}
+
+json_t *material_list_one_sided(const Scene *scene) {
+    json_t *list = json_array();
+    for (int i = 0; i < scene->material_count; i++)
+        if (is_one_sided(scene, i))
+            json_array_append_new(list, json_text(scene->materials[i].name));
     return list;
 }

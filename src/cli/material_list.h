@@ -9,13 +9,10 @@
 
 #include "scene/scene.h"
 
-/* A line that names the materials with a side that glTF's viewers leave out (doubleSided is not
- * set) and that is there here; none where there are none. */
-void material_list_print_one_sided(const Scene *scene, Arena *arena);
-
-/* One line a material, screens first. */
-void material_list_print(const Scene *scene, Arena *arena);
-
 /* [{"name", "meshes", "nodes", "area_m2", "looks_like_screen", "has_emissive_texture",
- * "is_flat", "has_uv", "is_display", "is_one_sided"}], in the scene's order. */
+ * "is_flat", "has_uv", "is_display", "is_one_sided"}], in the scene's order. One-sided: a side
+ * that glTF's viewers leave out (doubleSided is not set) and that is there here. */
 json_t *material_list_json(const Scene *scene, Arena *arena);
+
+/* The names of the one-sided ones alone. */
+json_t *material_list_one_sided(const Scene *scene);

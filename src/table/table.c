@@ -11,6 +11,7 @@
 #include "text/json_text.h"
 
 #define NOTHING "–"
+#define LIST_MOST 12 /* names of a list that people read */
 
 /* ---- made by hand ------------------------------------------------------------------------ */
 
@@ -161,6 +162,10 @@ static void add_list(Text *text, const json_t *list, const Column *column, const
     const json_t *item;
     size_t i;
     json_array_foreach(list, i, item) {
+        if (i == LIST_MOST && json_is_string(item)) {
+            text_format(text, " and %d more", (int)(json_array_size(list) - i));
+            return;
+        }
         const Column own = {.is_fixed = column->is_fixed, .places = column->places};
         const Cell cell = cell_of(item);
         size_t length = part ? strcspn(part, "|") : 0;
@@ -319,9 +324,13 @@ TableLine *table_lines(const TableKind *kind, const json_t *document, Arena *are
     return lines;
 }
 
-void table_add_record(const TableKind *kind, const json_t *document, Text *text) {
+void table_add_document(const TableKind *kind, const json_t *document, Text *text) {
     Arena *arena = text->arena;
     int count, width = 0;
+    if (json_is_array(document)) {
+        table_add_text(table_of_list(kind, document, arena), text);
+        return;
+    }
     const TableLine *lines = table_lines(kind, document, arena, &count);
     for (int i = 0; i < count; i++)
         if (characters(lines[i].words) > width) width = characters(lines[i].words);
@@ -333,8 +342,10 @@ void table_add_record(const TableKind *kind, const json_t *document, Text *text)
     }
     for (int c = 0; c < kind->column_count; c++) {
         const json_t *list = value_at(document, kind->columns[c].key);
-        if (kind->columns[c].of && json_array_size(list))
-            table_add_text(table_of_list(kind->columns[c].of, list, arena), text);
+        if (!kind->columns[c].of || !json_array_size(list)) continue;
+        if (count) text_add(text, "\n");
+        table_add_text(table_of_list(kind->columns[c].of, list, arena), text);
+        count++;
     }
 }
 

@@ -27,7 +27,8 @@ typedef struct Column {
     int places;        /* 0 of the latter: 6, without zeros at the end */
     double times;      /* for people: so many times the cell's value (100: percent); 0: once */
     const char *interval; /* path of [low, high], which then decides the digits; NULL: none */
-    const char *parts;    /* of a list: what its items are, "right|up|left|down" */
+    const char *parts;    /* of a list: what its items are, "right|up|left|down"; "": they stand
+                              in one line, also sentences */
     const char *none;     /* for people, where it is null; NULL: a record leaves the line out */
     bool hides_zero;      /* a record leaves the line out that would show 0 */
     const TableKind *of;  /* of lists of objects: rows, shown behind the record */
@@ -113,8 +114,8 @@ typedef struct TableLine {
 
 TableLine *table_lines(const TableKind *kind, const json_t *document, Arena *arena, int *count);
 
-/* The same as text; then the tables of its lists. */
-void table_add_record(const TableKind *kind, const json_t *document, Text *text);
+/* The same as text, then the tables of its lists; a list of objects as rows. */
+void table_add_document(const TableKind *kind, const json_t *document, Text *text);
 
 /* A list of objects; numbers are those that people read. */
 json_t *table_json(const Table *table);

@@ -44,7 +44,7 @@ bool cli_print_answer(const TableKind *kind, json_t *document, bool as_json, Err
     if (as_json) return cli_print_json(document, err);
     Arena arena = arena_reserve(DOCUMENT_BYTES);
     Text text = {.arena = &arena};
-    table_add_record(kind, document, &text);
+    table_add_document(kind, document, &text);
     print_own(stdout, text.data);
     arena_release(&arena);
     json_decref(document);

@@ -32,14 +32,6 @@ static void add_lights(const Panel *panel, json_t *report) {
     if (phis > 1) json_object_set_new(reflection, "incidence_phi_deg", degrees_json(phi, phis));
 }
 
-static bool print_levels(const Panel *panel, const Cli *cli, Arena *arena, Error *err) {
-    json_t *list = panel_level_list(panel, arena);
-    if (cli->json) return cli_print_json(list, err);
-    panel_level_print_list(list);
-    json_decref(list);
-    return true;
-}
-
 static bool print_report(const Panel *panel, const Cli *cli, Error *err) {
     json_t *report = NULL;
     if (!panel_report(panel, &report, err)) return error_in_file(err, cli->arguments[0]);
@@ -68,7 +60,9 @@ static Outcome run_info(int argc, char **argv, Arena *arena, Error *err) {
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;
     if (!panel_open(cli.arguments[0], arena, &panel, err)) return OUTCOME_FAILED;
-    bool ok = wants_levels ? print_levels(panel, &cli, arena, err) : print_report(panel, &cli, err);
+    bool ok = wants_levels ? cli_print_answer(&panel_level_kind, panel_level_list(panel, arena),
+                                              cli.json, err)
+                           : print_report(panel, &cli, err);
     panel_close(panel);
     return outcome_of(ok);
 }

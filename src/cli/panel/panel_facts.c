@@ -346,9 +346,12 @@ bool panel_print_report(json_t *report, bool as_json, Error *err) {
     if (as_json) return cli_print_json(report, err);
     Arena arena = arena_reserve((size_t)1 << 30);
     Text text = {.arena = &arena};
-    table_add_record(&INFO_KIND, report, &text);
+    table_add_document(&INFO_KIND, report, &text);
     const Table *tables = panel_file_table(report, &arena);
-    if (tables) table_add_text(tables, &text);
+    if (tables) {
+        text_add(&text, "\n");
+        table_add_text(tables, &text);
+    }
     print_own(stdout, text.data);
     arena_release(&arena);
     json_decref(report);

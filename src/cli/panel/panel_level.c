@@ -92,24 +92,9 @@ json_t *panel_level_list(const Panel *panel, Arena *arena) {
     return list;
 }
 
-static void print_column(const json_t *row, const char *part, const char *key) {
-    const json_t *value = json_object_get(json_object_get(row, part), key);
-    if (value) print(" %13.3g %%", 100 * json_number_value(value));
-    else print(" %15s", "-");
-}
-
-void panel_level_print_list(const json_t *list) {
-    size_t i;
-    json_t *row;
-    print("each level (--level of eval, export and plot): relative differences to the whole "
-          "panel, at any direction\n%-5s %15s %15s %15s %15s\n",
-          "level", "emission, most", "rms", "reflection, most", "rms");
-    json_array_foreach(list, i, row) {
-        print("%-5zu", i);
-        print_column(row, "emission", "max_error");
-        print_column(row, "emission", "rms_error");
-        print_column(row, "reflection", "max_error");
-        print_column(row, "reflection", "rms_error");
-        print("\n");
-    }
-}
+static const Column LEVELS[] = {COLUMN_TEXT("level", "level"),
+                                COLUMN_SHARE("emission.max_error", "emission, largest error"),
+                                COLUMN_SHARE("emission.rms_error", "emission, rms error"),
+                                COLUMN_SHARE("reflection.max_error", "reflection, largest error"),
+                                COLUMN_SHARE("reflection.rms_error", "reflection, rms error")};
+const TableKind panel_level_kind = TABLE_KIND("levels", NULL, LEVELS);

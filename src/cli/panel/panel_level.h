@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "panel/set/panel_coarse.h"
+#include "table/table.h"
 
 /* A row of Options; the variable is a PanelLevel. */
 #define PANEL_LEVEL_OPTION(level) \
@@ -37,6 +38,6 @@ void panel_level_print(const PanelLevel *level, FILE *to);
 /* Adds the same as "level" to an answer. */
 void panel_level_add(const PanelLevel *level, json_t *answer);
 
-/* All levels of a panel: a new list, and as a table. */
+/* All levels of a panel: a new list, and what people read of it. */
 json_t *panel_level_list(const Panel *panel, Arena *arena);
-void panel_level_print_list(const json_t *list);
+extern const TableKind panel_level_kind;
