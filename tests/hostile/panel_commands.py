@@ -487,6 +487,37 @@ def check_plot_numbers(report, commands, _):
           "spectra")
 
 
+def check_figures_agree(report, commands, panel, facts):
+    """The report has what info has, each rounded as it is written; its CSV the same digits."""
+    folder = commands.file("figures")
+    page = json.loads(commands.text("report", panel, "--csv", folder, "--json", "--quiet"))
+    tables = {table["name"]: table["rows"] for table in page["tables"]}
+    half = [row for row in tables["viewing_angle"] if row["limit"].startswith("Luminance")][0]
+    white, gamma, gamut = tables["white"][0], tables["gamma"][0], tables["gamut"]
+    eight = {row["geometry"]: row["factor_percent"] for row in tables["reflectance_factors"]}
+    pairs = [(facts["half_luminance_deg"][i], half[f"phi_{90 * i}"], 2) for i in range(4)]
+    pairs += [(facts["white_xy"][0], white["x"], 4), (facts["white_xy"][1], white["y"], 4),
+              (100 * facts["srgb_coverage"], gamut[0]["coverage_xy_percent"], 1),
+              (100 * facts["dci_p3_coverage"], gamut[1]["coverage_xy_percent"], 1)]
+    for primary, at in zip(tables["primaries"], facts["primaries_xy"]):
+        pairs += [(at[0], primary["x"], 4), (at[1], primary["y"], 4)]
+    if isinstance(eight["8/de"], float):
+        pairs += [(100 * facts["diffuse_reflectance"], eight["8/de"], 2),
+                  (100 * (facts["diffuse_reflectance"] + facts["mirror_reflectance"]),
+                   eight["8/di"], 2)]
+    for ours, theirs, decimals in pairs:
+        report.claim(abs(ours - theirs) <= 0.5001 * 10 ** -decimals,
+                     f"info has {ours}, report {theirs}")
+    report.claim(len(pairs) >= 14 and gamma["phi_0"] > 1.5, f"{len(pairs)} figures compared")
+    for name, rows in tables.items():
+        if not rows:
+            continue
+        with open(os.path.join(folder, f"{name}.csv"), newline="") as file:
+            for row, cells in zip(rows, csv.DictReader(file), strict=True):
+                report.claim(all(cells[key] == value or float(cells[key]) == value
+                                 for key, value in row.items()), f"{name}: {row}, CSV {cells}")
+
+
 def check_display(report, commands, panel):
     """What a display engineer asks first is what eval says; a reflection alone has no white."""
     facts = json.loads(commands.text("info", panel, "--json"))["display"]
@@ -501,7 +532,8 @@ def check_display(report, commands, panel):
                  f"{white} over {black}")
     for phi, theta in zip((0, 90, 180, 270), facts["half_luminance_deg"]):
         share = seen("255,255,255", theta, phi) / white
-        report.claim(abs(share - 0.5) < 0.01, f"half of white at {theta}, {phi} is {share}")
+        report.claim(abs(share - 0.5) < 1e-5, f"half of white at {theta}, {phi} is {share}")
+    check_figures_agree(report, commands, panel, facts)
     with open(RECIPE) as file:
         gamma = json.load(file)["emission"]["gamma"]
     report.claim(all(abs(found - gamma) < 0.1 for found in facts["gamma"]),

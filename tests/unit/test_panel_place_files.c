@@ -6,6 +6,7 @@
 #include "image/picture.h"
 #include "openexr/exr_file.h"
 #include "panel/query/panel_emission.h"
+#include "panel/figures/panel_figure.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
 #include "panel/set/export.h"
@@ -232,7 +233,7 @@ TEST(a_map_counts_relative_to_where_the_panel_was_measured) {
         for (int j = 0; j < 3; j++)
             assert_close((double)xyz[j], cases[i].share * (double)middle[j], 1e-4);
     }
-    PanelEvenness e = panel_evenness(panel, rgb);
+    PanelEvenness e = panel_figure_evenness(panel, rgb);
     assert_close(e.nine_most / e.nine_least, 4, 1e-3);
     assert_close(panel_non_uniformity(e.least, e.most), 0.75, 1e-3);
     panel_close(panel);
@@ -308,7 +309,7 @@ TEST(what_the_camera_saw_under_an_angle_is_no_mura) {
             "cosine.csv") ", \"uniformity\": {\"file\": \"seen.csv\", \"camera_mm\": 500, "
                           "\"bend_deg\": 57.29577951308232}}",
         "x.panel", &panel, &bytes, &err));
-    PanelEvenness e = panel_evenness(panel, rgb);
+    PanelEvenness e = panel_figure_evenness(panel, rgb);
     assert_true(panel_non_uniformity(e.least, e.most) < 2e-3);
     panel_close(panel);
 }

@@ -200,15 +200,15 @@ TEST(every_failure_says_what_to_do) {
     assert_string_equal(todo_of_case(&c, &arena),
                         "no light or level matters: the content itself has 100 : 1");
     CaseRemedy remedy = {.what = "raise the level from 50 % to 80 %",
-                               .then = {.name = "x",
-                                        .kind = "contrast_ratio",
-                                        .unit = "1",
-                                        .value = 2,
-                                        .found = 2.1,
-                                        .low = 2,
-                                        .high = 2.2,
-                                        .verdict = VERDICT_PASS},
-                               .verdict = VERDICT_PASS};
+                         .then = {.name = "x",
+                                  .kind = "contrast_ratio",
+                                  .unit = "1",
+                                  .value = 2,
+                                  .found = 2.1,
+                                  .low = 2,
+                                  .high = 2.2,
+                                  .verdict = VERDICT_PASS},
+                         .verdict = VERDICT_PASS};
     c.remedies = &remedy;
     c.remedy_count = 1;
     assert_string_equal(todo_of_case(&c, &arena),

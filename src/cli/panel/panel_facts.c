@@ -8,7 +8,7 @@
 #include "base/count.h"
 #include "base/units.h"
 #include "cli/options/answer.h"
-#include "cli/panel/panel_question.h"
+#include "panel/figures/panel_figure.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
@@ -18,16 +18,8 @@
 #include "panel/set/halo_square.h"
 #include "spectrum/gamut.h"
 #include "plot/report/file_report.h"
-#include "spectrum/photometry.h"
 #include "table/table.h"
-
-static const float WHITE[3] = {255, 255, 255}, BLACK[3] = {0, 0, 0};
-
-static double luminance(const Panel *panel, const float rgb[3], double theta, double phi) {
-    float xyz[3];
-    panel_emission_xyz(panel, panel_direction(theta, phi), rgb, xyz);
-    return (double)xyz[1];
-}
+#include "text/json_text.h"
 
 static void put(json_t *out, const char *key, double value) {
     json_object_set_new(out, key, json_real(value));
@@ -36,16 +28,11 @@ static void put(json_t *out, const char *key, double value) {
 /* ---- gamut ------------------------------------------------------------------------------- */
 
 static void add_gamut(const Panel *panel, json_t *out) {
-    GamutTriangle own, srgb = gamut_triangle(GAMUT_SRGB), p3 = gamut_triangle(GAMUT_DCI_P3);
+    GamutTriangle srgb = gamut_triangle(GAMUT_SRGB), p3 = gamut_triangle(GAMUT_DCI_P3);
+    GamutTriangle own = panel_figure_primaries(panel);
     json_t *list = json_array();
-    for (int p = 0; p < 3; p++) {
-        float rgb[3] = {0, 0, 0}, xyz[3], xy[2];
-        rgb[p] = 255;
-        panel_emission_xyz(panel, vec3(0, 0, 1), rgb, xyz);
-        xy_from_xyz(xyz, xy);
-        for (int c = 0; c < 2; c++) own.at[p][c] = (double)xy[c];
+    for (int p = 0; p < 3; p++)
         json_array_append_new(list, json_pack("[f, f]", own.at[p][0], own.at[p][1]));
-    }
     json_object_set_new(out, "primaries_xy", list);
     put(out, "srgb_coverage", gamut_coverage(&own, &srgb));
     put(out, "dci_p3_coverage", gamut_coverage(&own, &p3));
@@ -53,44 +40,18 @@ static void add_gamut(const Panel *panel, json_t *out) {
 
 /* ---- emission ---------------------------------------------------------------------------- */
 
-/* Exponent of the power law through full drive, least squares of the logarithms over the
- * measured levels, black subtracted; null: one level. */
+/* null: one level. */
 static json_t *gamma_of(const Panel *panel, int primary) {
-    double code[PANEL_INFO_LEVELS_MAX], xx = 0, xy = 0, black = luminance(panel, BLACK, 0, 0);
-    float rgb[3] = {0, 0, 0};
-    int count = panel_info_levels(panel, primary, code);
-    rgb[primary] = 255;
-    double full = luminance(panel, rgb, 0, 0) - black;
-    for (int i = 0; i < count; i++) {
-        rgb[primary] = (float)code[i];
-        double light = (luminance(panel, rgb, 0, 0) - black) / full, x = log(code[i] / 255);
-        if (!(light > 0) || x == 0) continue;
-        xx += x * x, xy += x * log(light);
-    }
-    return count > 1 && xx > 0 ? json_real(xy / xx) : json_null();
+    return json_figure(panel_figure_gamma(panel, primary, 0, 0));
 }
 
-typedef struct ConeQuestion {
-    bool is_contrast;
-    double least; /* of white's luminance, or contrast */
-} ConeQuestion;
-
-/* The first theta, in tenths of a degree inside the measured cone, that has less; null: none.
- * */
-static json_t *cone_to(const Panel *panel, ConeQuestion question, double phi) {
-    double normal = luminance(panel, WHITE, 0, 0);
-    double cone = degrees_from_radians(panel_info_emission_cone(panel));
-    for (double theta = 0; theta <= cone + 1e-6; theta += 0.1) {
-        double white = luminance(panel, WHITE, theta, phi);
-        double over = question.is_contrast ? luminance(panel, BLACK, theta, phi) : normal;
-        if (white < question.least * over) return json_real(round(10 * theta) / 10);
-    }
-    return json_null();
-}
-
-static json_t *cones(const Panel *panel, ConeQuestion question) {
+/* To the right, up, left and down, degrees; null: not within the measured cone. */
+static json_t *cones(const Panel *panel, PanelLimit limit) {
     json_t *list = json_array();
-    for (int i = 0; i < 4; i++) json_array_append_new(list, cone_to(panel, question, 90.0 * i));
+    for (int i = 0; i < 4; i++) {
+        double angle = panel_figure_viewing_angle(panel, NULL, limit, i * PI / 2);
+        json_array_append_new(list, json_figure(round(degrees_from_radians(angle) * 1e4) / 1e4));
+    }
     return list;
 }
 
@@ -128,14 +89,12 @@ static void add_zones(const Panel *panel, json_t *out) {
 static void add_emission(const Panel *panel, const json_t *report, json_t *out) {
     const json_t *emission = json_object_get(report, "emission");
     bool is_white_only = json_is_true(json_object_get(emission, "white_only"));
-    double white = luminance(panel, WHITE, 0, 0), black = luminance(panel, BLACK, 0, 0);
-    float xyz[3], xy[2];
-    panel_emission_xyz(panel, vec3(0, 0, 1), WHITE, xyz);
-    xy_from_xyz(xyz, xy);
-    put(out, "white_cd_m2", white);
-    json_object_set_new(out, "white_xy", json_pack("[f, f]", (double)xy[0], (double)xy[1]));
+    double black = panel_figure_luminance(panel, 0, 0, PANEL_BLACK);
+    PanelColour white = panel_figure_colour(panel, 0, 0, PANEL_WHITE);
+    put(out, "white_cd_m2", white.xyz[1]);
+    json_object_set_new(out, "white_xy", json_pack("[f, f]", white.xy[0], white.xy[1]));
     json_object_set_new(out, "black_cd_m2", black > 0 ? json_real(black) : json_null());
-    json_object_set_new(out, "contrast", black > 0 ? json_real(white / black) : json_null());
+    json_object_set_new(out, "contrast", json_figure(panel_figure_contrast(panel, 0, 0)));
     if (!is_white_only) {
         add_gamut(panel, out);
         json_object_set_new(
@@ -144,50 +103,37 @@ static void add_emission(const Panel *panel, const json_t *report, json_t *out) 
     }
     add_polarisation(panel, out);
     add_zones(panel, out);
-    json_object_set_new(out, "half_luminance_deg", cones(panel, (ConeQuestion){false, 0.5}));
+    json_object_set_new(out, "half_luminance_deg",
+                        cones(panel, (PanelLimit){PANEL_LEAST_LUMINANCE, 0.5}));
     if (black > 0)
-        json_object_set_new(out, "contrast_10_deg", cones(panel, (ConeQuestion){true, 10}));
+        json_object_set_new(out, "contrast_10_deg",
+                            cones(panel, (PanelLimit){PANEL_LEAST_CONTRAST, 10}));
 }
 
 /* ---- reflection -------------------------------------------------------------------------- */
 
 #define LIGHT_DEG 8.0 /* from the normal: the usual geometry of reflectance (CIE 15: 8:d) */
 
-static double luminous(Spectrum s, const Wavelengths *w) {
-    return (double)(spectrum_sum(s * w->xyz[1]) / spectrum_sum(w->xyz[1]));
-}
-
-static double haze_at(const Panel *panel, const Wavelengths *w, double theta) {
-    Vec3 wi = panel_direction(LIGHT_DEG, 180);
-    return luminous(panel_brdf(panel, panel_direction(theta, 0), wi, w), w);
-}
-
-/* The width of the BRDF at half of its height in the plane of incidence, above what is left 60
- * degrees away; the mirror part not included. */
-static void add_haze(const Panel *panel, const Wavelengths *w, json_t *out) {
-    double peak = haze_at(panel, w, LIGHT_DEG), floor = haze_at(panel, w, LIGHT_DEG + 60);
-    double up = 0, down = 0, half = floor + 0.5 * (peak - floor);
-    put(out, "haze_peak_sr", peak);
-    if (!(peak > 1.2 * floor)) return; /* no peak: the same all round */
-    while (up < 60 && haze_at(panel, w, LIGHT_DEG + up) > half) up += 0.05;
-    while (down < 60 && haze_at(panel, w, LIGHT_DEG - down) > half) down += 0.05;
-    put(out, "haze_fwhm_deg", up + down);
+/* Absent: no peak, the same all round. */
+static void add_haze(const Panel *panel, json_t *out) {
+    PanelHaze haze = panel_figure_haze(panel, radians_from_degrees(LIGHT_DEG));
+    put(out, "haze_peak_sr", haze.peak_sr);
+    if (isfinite(haze.fwhm))
+        put(out, "haze_fwhm_deg", round(degrees_from_radians(haze.fwhm) * 1e4) / 1e4);
 }
 
 static void add_reflection(const Panel *panel, json_t *out) {
-    Wavelengths w;
-    float cosine = (float)cos(radians_from_degrees(LIGHT_DEG));
-    wavelengths_sample(0.5f, &w);
+    double theta = radians_from_degrees(LIGHT_DEG);
     put(out, "reflectance_incidence_deg", LIGHT_DEG);
-    put(out, "mirror_reflectance", luminous(panel_mirror(panel, cosine, &w), &w));
-    put(out, "diffuse_reflectance", (double)panel_haze_albedo(panel, cosine));
-    add_haze(panel, &w, out);
+    put(out, "mirror_reflectance", panel_figure_mirror(panel, theta, 0));
+    put(out, "diffuse_reflectance", panel_figure_diffuse(panel, theta));
+    add_haze(panel, out);
 }
 
 /* ---- places ------------------------------------------------------------------------------ */
 
 static json_t *evenness_json(const Panel *panel, const float rgb[3]) {
-    PanelEvenness e = panel_evenness(panel, rgb);
+    PanelEvenness e = panel_figure_evenness(panel, rgb);
     json_t *nine = json_array();
     for (int i = 0; i < PANEL_NINE; i++) json_array_append_new(nine, json_real(e.nine[i]));
     return json_pack("{s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "nine_cd_m2", nine,
@@ -206,9 +152,9 @@ static void add_places(const Panel *panel, json_t *out) {
     json_t *places = json_pack("{s:o}", "spots", list);
     if (map[0]) json_object_set_new(places, "map", json_pack("[i, i]", map[0], map[1]));
     if (panel_info_emits(panel)) {
-        json_object_set_new(places, "white", evenness_json(panel, WHITE));
-        if (luminance(panel, BLACK, 0, 0) > 0)
-            json_object_set_new(places, "black", evenness_json(panel, BLACK));
+        json_object_set_new(places, "white", evenness_json(panel, PANEL_WHITE));
+        if (panel_figure_luminance(panel, 0, 0, PANEL_BLACK) > 0)
+            json_object_set_new(places, "black", evenness_json(panel, PANEL_BLACK));
     }
     json_object_set_new(out, "places", places);
 }
@@ -308,14 +254,14 @@ static const Column INFO[] = {
      .words = "half luminance",
      .unit = "degrees",
      .is_fixed = true,
-     .places = 1,
+     .places = 2,
      .parts = PARTS_SIDES,
      .none = BEYOND},
     {.key = "display.contrast_10_deg",
      .words = "contrast 10 : 1",
      .unit = "degrees",
      .is_fixed = true,
-     .places = 1,
+     .places = 2,
      .parts = PARTS_SIDES,
      .none = BEYOND},
     COLUMN_DIGITS("display.reflectance_incidence_deg", "reflectance, light from", "degrees", 0),

@@ -11,7 +11,7 @@
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
 
-Vec3 panel_direction(double theta_deg, double phi_deg) {
+static Vec3 panel_direction(double theta_deg, double phi_deg) {
     double t = radians_from_degrees(theta_deg), p = radians_from_degrees(phi_deg);
     return vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
 }

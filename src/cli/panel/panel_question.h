@@ -30,9 +30,6 @@ typedef struct PanelReflected {
     bool is_measured;
 } PanelReflected;
 
-/* Unit vector of a direction in degrees. */
-Vec3 panel_direction(double theta_deg, double phi_deg);
-
 /* Members that one kind of question takes. */
 bool panel_question_is_of_brdf(const char *name);
 bool panel_question_is_of_emission(const char *name);

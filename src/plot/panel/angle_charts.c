@@ -34,9 +34,7 @@ static double plane_of(const PanelChart *shown) {
 }
 
 static double luminance_at(const PlotData *s, int i, double plane, const float rgb[3]) {
-    double xyz[3];
-    plot_data_xyz(s, radians_from_degrees(angle_deg(i)), plane, rgb, xyz);
-    return xyz[1];
+    return panel_figure_luminance(s->source.panel, radians_from_degrees(angle_deg(i)), plane, rgb);
 }
 
 /* Decades that hold what is within the measured cone; 1e-5 of the largest is the least. */

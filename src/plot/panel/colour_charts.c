@@ -107,7 +107,8 @@ static GamutTriangle standard_uv(int i) {
 
 static bool panel_triangle(const PlotData *s, GamutTriangle *uv) {
     GamutTriangle srgb = standard_uv(GAMUT_SRGB);
-    for (int p = 0; p < 3; p++) plot_data_normal_uv(s, (Pattern)(PATTERN_RED + p), uv->at[p]);
+    GamutTriangle xy = panel_figure_primaries(s->source.panel);
+    *uv = gamut_in_uv(&xy);
     return !s->is_white_only && gamut_area(uv, &srgb) > 1e-4;
 }
 
@@ -117,24 +118,23 @@ static int angle_path(const PlotData *s, Pattern pattern, double phi, double u[]
     int count = 0;
     pattern_codes(pattern, rgb);
     for (int deg = 0; deg <= 80 && radians_from_degrees(deg) <= s->cone + 1e-6; deg++) {
-        double xyz[3], uv[2];
-        plot_data_xyz(s, radians_from_degrees(deg), phi, rgb, xyz);
-        uv_from_xyz(xyz, uv);
-        u[count] = uv[0];
-        v[count++] = uv[1];
+        PanelColour there =
+            panel_figure_colour(s->source.panel, radians_from_degrees(deg), phi, rgb);
+        u[count] = there.uv[0];
+        v[count++] = there.uv[1];
     }
     return count;
 }
 
 static void draw_paths(Chart *chart, const PlotData *s, Pattern pattern, Ink ink) {
-    double u[81], v[81], uv[2];
+    double u[81], v[81];
     for (int k = 0; k < 8; k++) {
         int count = angle_path(s, pattern, k * PI / 4, u, v);
         chart_curve(chart, u, v, count, (Stroke){ink, 1.3, DASH_NONE});
     }
-    plot_data_normal_uv(s, pattern, uv);
-    chart_dot(chart, uv[0], uv[1], 3.6, chart->canvas->theme.paper);
-    chart_dot(chart, uv[0], uv[1], 2.8, ink);
+    PanelColour normal = plot_data_normal(s, pattern);
+    chart_dot(chart, normal.uv[0], normal.uv[1], 3.6, chart->canvas->theme.paper);
+    chart_dot(chart, normal.uv[0], normal.uv[1], 2.8, ink);
 }
 
 /* Axes of equal scale on both, centred. */
@@ -186,9 +186,8 @@ static void draw_chromaticity(Canvas *canvas, Box box, const PanelChart *shown,
 }
 
 static void add_chromaticity(PanelChartList *list, const PlotData *s) {
-    double white[2];
+    PanelColour white = plot_data_normal(s, PATTERN_WHITE);
     GamutTriangle uv, srgb = standard_uv(GAMUT_SRGB), p3 = standard_uv(GAMUT_DCI_P3);
-    plot_data_normal_uv(s, PATTERN_WHITE, white);
     const char *area =
         panel_triangle(s, &uv)
             ? arena_format(s->arena, ", area %.0f %% of sRGB, %.0f %% of DCI-P3 in u′v′",
@@ -198,7 +197,7 @@ static void add_chromaticity(PanelChartList *list, const PlotData *s) {
         list,
         &(PanelChart){
             PLOT_CHROMATICITY, "Chromaticity",
-            arena_format(s->arena, "white u′ %.4f v′ %.4f%s", white[0], white[1], area),
+            arena_format(s->arena, "white u′ %.4f v′ %.4f%s", white.uv[0], white.uv[1], area),
             "Primaries and white in the CIE 1976 u′v′ diagram; the short paths run from the normal "
             "(dot) to θ 80° along eight azimuths.",
             draw_chromaticity, s, 0, SHEET_ALWAYS, false});
@@ -235,9 +234,10 @@ static Ink azimuth_ink(const Canvas *canvas, int k) {
 static void draw_white_point(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
     const PlotData *s = shown->data;
     static const char *const NAMES[] = {"φ 0°", "φ 90°", "φ 180°", "φ 270°"};
-    double u[4][81], v[4][81], at[2], reach = 0.004;
+    double u[4][81], v[4][81], reach = 0.004;
     int count[4];
-    plot_data_normal_uv(s, PATTERN_WHITE, at);
+    PanelColour normal = plot_data_normal(s, PATTERN_WHITE);
+    const double *at = normal.uv;
     for (int k = 0; k < 4; k++) {
         count[k] = angle_path(s, PATTERN_WHITE, k * PI / 2, u[k], v[k]);
         for (int i = 0; i < count[k]; i++)

@@ -20,30 +20,24 @@ static void fill_section(const PlotData *s, Pattern pattern, double phi, bool is
     double unit = is_normalised ? (double)s->normal[pattern][1] : 1;
     pattern_codes(pattern, rgb);
     for (int i = 0; i < SECTION_POINTS; i++) {
-        double xyz[3];
         out->angle_deg[i] = -88 + i * 0.5;
-        plot_data_xyz(s, radians_from_degrees(out->angle_deg[i]), phi, rgb, xyz);
-        out->value[i] = unit > 0 ? xyz[1] / unit : NAN;
+        double light = panel_figure_luminance(s->source.panel,
+                                              radians_from_degrees(out->angle_deg[i]), phi, rgb);
+        out->value[i] = unit > 0 ? light / unit : NAN;
     }
 }
 
-/* Where the luminance of a pattern first falls below half of the normal's, degrees; NaN: not
- * within the measured cone. side: -1 or 1. */
-static double half_angle_deg(const PlotData *s, Pattern pattern, double phi, int side) {
-    float rgb[3];
-    double xyz[3], before = (double)s->normal[pattern][1], half = before / 2;
-    pattern_codes(pattern, rgb);
-    for (double deg = 0.25; radians_from_degrees(deg) <= s->cone + 1e-6; deg += 0.25) {
-        plot_data_xyz(s, radians_from_degrees(side * deg), phi, rgb, xyz);
-        if (xyz[1] < half) return side * (deg - 0.25 * (half - xyz[1]) / (before - xyz[1]));
-        before = xyz[1];
-    }
-    return NAN;
+/* Where white falls below half of the normal's luminance, degrees; side -1: the opposite
+ * azimuth, and below 0. NaN: not within the measured cone. */
+static double half_angle_deg(const PlotData *s, double phi, int side) {
+    return side * degrees_from_radians(panel_figure_viewing_angle(
+                      s->source.panel, NULL, (PanelLimit){PANEL_LEAST_LUMINANCE, 0.5},
+                      side < 0 ? phi + PI : phi));
 }
 
 static const char *half_angles_text(const PlotData *s, double phi) {
-    double low = half_angle_deg(s, PATTERN_WHITE, phi, -1);
-    double high = half_angle_deg(s, PATTERN_WHITE, phi, 1);
+    double low = half_angle_deg(s, phi, -1);
+    double high = half_angle_deg(s, phi, 1);
     double cone = degrees_from_radians(s->cone);
     if (isnan(low) && isnan(high))
         return arena_format(s->arena, "white keeps above half its luminance within ±%.3g°", cone);
@@ -69,7 +63,7 @@ static void mark_half(Chart *chart, const PlotData *s, double phi, bool is_norma
     double half = is_normalised ? 0.5 : 0.5 * (double)s->normal[PATTERN_WHITE][1];
     Ink ink = chart->canvas->theme.accent;
     for (int side = -1; side <= 1; side += 2) {
-        double deg = half_angle_deg(s, PATTERN_WHITE, phi, side);
+        double deg = half_angle_deg(s, phi, side);
         if (isnan(deg)) continue;
         double x = chart_x(chart, deg), y = chart_y(chart, half);
         canvas_line(chart->canvas, x, y, x, chart->plot.y + chart->plot.h,
@@ -173,14 +167,14 @@ typedef struct GreyCurve {
 /* Luminance of grey above black over that of white above black; its slope over the logarithm of
  * the code across a twelfth of a decade. */
 static void fill_grey(const PlotData *s, double theta, double phi, GreyCurve *out) {
-    double black[3], white[3], xyz[3];
-    plot_data_xyz(s, theta, phi, (float[3]){0, 0, 0}, black);
-    plot_data_xyz(s, theta, phi, (float[3]){255, 255, 255}, white);
+    double black = panel_figure_luminance(s->source.panel, theta, phi, PANEL_BLACK);
+    double white = panel_figure_luminance(s->source.panel, theta, phi, PANEL_WHITE);
     for (int i = 0; i < GREY_POINTS; i++) {
         float code = (float)(i + 1);
-        plot_data_xyz(s, theta, phi, (float[3]){code, code, code}, xyz);
+        double light =
+            panel_figure_luminance(s->source.panel, theta, phi, (float[3]){code, code, code});
         out->code[i] = (double)code;
-        out->relative[i] = (xyz[1] - black[1]) / (white[1] - black[1]);
+        out->relative[i] = (light - black) / (white - black);
     }
     for (int i = 0; i < GREY_POINTS; i++) {
         int a = (int)(i * 0.9), b = (int)fmin(GREY_POINTS - 1, i * 1.1 + 2);

@@ -101,7 +101,7 @@ static Field contrast_field(const PlotData *s, int index, Arena *arena) {
 
 static double contrast_on_axis(const PlotData *s, int index) {
     return index ? ambient_contrast(s, 0, 0, &s->source.ambient.light[index - 1])
-                 : (double)(s->normal[PATTERN_WHITE][1] / s->normal[PATTERN_BLACK][1]);
+                 : panel_figure_contrast(s->source.panel, 0, 0);
 }
 
 /* Beyond it black is next to nothing and high ratios are noise: they do not set the colours. */

@@ -39,11 +39,12 @@ static double table_peak(const AngleTable *table) {
 /* Fitted less measured luminance over the measured one, percent; over a fortieth of the
  * table's peak where the light is dimmer than that. NaN on the horizon. */
 static double residual_percent(const PlotData *s, const FitTableRef *ref, int row, double peak) {
-    double xyz[3], theta = (double)ref->table->theta[row];
+    double theta = (double)ref->table->theta[row];
     double measured = (double)ref->table->value[3 * row + 1];
     if (theta > PI / 2 - 1e-4 || !(peak > 0)) return NAN;
-    plot_data_xyz(s, theta, (double)ref->table->phi[row], ref->rgb, xyz);
-    return 100 * (xyz[1] - measured) / fmax(0.025 * peak, measured);
+    double fitted =
+        panel_figure_luminance(s->source.panel, theta, (double)ref->table->phi[row], ref->rgb);
+    return 100 * (fitted - measured) / fmax(0.025 * peak, measured);
 }
 
 /* The largest error of X, Y and Z that the file states of its emission tables, percent. */
@@ -95,10 +96,9 @@ static void draw_fitted_curve(Chart *chart, const PlotData *s, const float rgb[3
                               Ink ink) {
     double deg[353], value[353];
     for (int i = 0; i < 353; i++) {
-        double xyz[3];
         deg[i] = -88 + i * 0.5;
-        plot_data_xyz(s, radians_from_degrees(deg[i]), plane, rgb, xyz);
-        value[i] = xyz[1];
+        value[i] =
+            panel_figure_luminance(s->source.panel, radians_from_degrees(deg[i]), plane, rgb);
     }
     chart_curve(chart, deg, value, 353, (Stroke){ink, 1.2, DASH_NONE});
 }
@@ -124,11 +124,11 @@ static void draw_fit_section(Canvas *canvas, Box box, const PanelChart *shown, P
         float rgb[3] = {0, 0, 0};
         rgb[p] = (float)primary->level[last];
         Ink ink = canvas->theme.primary[p];
-        double xyz[3];
         draw_points(&chart, &primary->table[last], plane, ink);
         draw_fitted_curve(&chart, s, rgb, plane, ink);
-        plot_data_xyz(s, radians_from_degrees(78), plane, rgb, xyz);
-        chart_name(&chart, 78, xyz[1], ink, pattern_name((Pattern)(PATTERN_RED + p)));
+        chart_name(&chart, 78,
+                   panel_figure_luminance(s->source.panel, radians_from_degrees(78), plane, rgb),
+                   ink, pattern_name((Pattern)(PATTERN_RED + p)));
     }
     chart_close(&chart);
     panel_chart_map_axes(out, &chart);
@@ -146,11 +146,9 @@ static void draw_fit_level_curve(Chart *chart, const PlotData *s, int primary, I
     double code[POINTS], value[POINTS];
     for (int i = 0; i < POINTS; i++) {
         float rgb[3] = {0, 0, 0};
-        double xyz[3];
         code[i] = 8 * pow(255.0 / 8, (double)i / (POINTS - 1));
         rgb[primary] = (float)code[i];
-        plot_data_xyz(s, 0, 0, rgb, xyz);
-        value[i] = xyz[1];
+        value[i] = panel_figure_luminance(s->source.panel, 0, 0, rgb);
     }
     chart_curve(chart, code, value, POINTS, (Stroke){ink, 1.2, DASH_NONE});
     chart_name(chart, 255, value[POINTS - 1], ink, pattern_name((Pattern)(PATTERN_RED + primary)));

@@ -22,11 +22,10 @@ static GreyInversion inversion_at(const PlotData *data, const GreyLevels *levels
     double brightest = 0, code = 0; /* of the levels before */
     for (int i = 0; i < levels->count; i++) {
         float c = (float)levels->code[i];
-        double xyz[3];
-        plot_data_xyz(data, theta, phi, (float[3]){c, c, c}, xyz);
-        double share = brightest > 0 ? 1 - xyz[1] / brightest : 0;
+        double light = panel_figure_luminance(data->source.panel, theta, phi, (float[3]){c, c, c});
+        double share = brightest > 0 ? 1 - light / brightest : 0;
         if (share > out.share) out.share = share, out.low = code, out.high = levels->code[i];
-        if (xyz[1] > brightest) brightest = xyz[1], code = levels->code[i];
+        if (light > brightest) brightest = light, code = levels->code[i];
     }
     return out;
 }

@@ -13,33 +13,22 @@
 #define ROWS 108
 #define SCALE_WIDTH 12.0 /* points */
 
-static const float codes[2][3] = {{255, 255, 255}, {0, 0, 0}}; /* by chart's index */
-
 /* ---- what is drawn ----------------------------------------------------------------------- */
 
-/* The theta at which white has half the light of the local normal, between steps of a degree as
- * a straight line; the measured cone where it never has. */
+/* The theta at which white has half the light of the local normal, degrees; the measured cone
+ * where it never has. */
 static double half_angle(const PlotData *s, const float place[2], double phi) {
-    double step = radians_from_degrees(1), before = 1;
-    float normal[3], xyz[3];
-    panel_place_emission_xyz(s->source.panel, place, vec3(0, 0, 1), codes[0], normal);
-    for (double theta = step; theta < s->cone; theta += step) {
-        Vec3 d =
-            vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)), (float)cos(theta));
-        panel_place_emission_xyz(s->source.panel, place, d, codes[0], xyz);
-        double share = (double)(xyz[1] / normal[1]);
-        if (share < 0.5)
-            return degrees_from_radians(theta - step * (0.5 - share) / (before - share));
-        before = share;
-    }
-    return degrees_from_radians(s->cone);
+    double angle = panel_figure_viewing_angle(s->source.panel, place,
+                                              (PanelLimit){PANEL_LEAST_LUMINANCE, 0.5}, phi);
+    return degrees_from_radians(isnan(angle) ? s->cone : angle);
 }
 
 /* Luminance of a pattern; 2: the whole angle over which it has half its light, across. */
 static double value_at(const PlotData *s, int index, const float place[2]) {
     float xyz[3];
     if (index == 2) return half_angle(s, place, 0) + half_angle(s, place, PI);
-    panel_place_emission_xyz(s->source.panel, place, vec3(0, 0, 1), codes[index], xyz);
+    panel_place_emission_xyz(s->source.panel, place, vec3(0, 0, 1),
+                             index ? PANEL_BLACK : PANEL_WHITE, xyz);
     return (double)xyz[1];
 }
 
@@ -157,7 +146,7 @@ static void draw_surface(Canvas *canvas, Box box, const PanelChart *shown, Panel
 
 /* angle: "" or what is to be said of the viewing angle. */
 static void add_surface(PanelChartList *list, const PlotData *s, int index, const char *angle) {
-    PanelEvenness e = panel_evenness(s->source.panel, codes[index]);
+    PanelEvenness e = panel_figure_evenness(s->source.panel, index ? PANEL_BLACK : PANEL_WHITE);
     char text[4][32];
     bool is_even = e.most - e.least <= EVEN_SHARE * e.most;
     const char *subtitle = arena_format(

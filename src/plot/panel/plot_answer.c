@@ -59,8 +59,7 @@ static void add_luminance_contours(json_t *out, const PlotData *s) {
 static void add_contrast_contours(json_t *out, const PlotData *s) {
     if (s->has_black) {
         Field dark = plot_data_contrast(s, s->arena);
-        add_contours(out, s, "contrast", &dark,
-                     (double)(s->normal[PATTERN_WHITE][1] / s->normal[PATTERN_BLACK][1]));
+        add_contours(out, s, "contrast", &dark, panel_figure_contrast(s->source.panel, 0, 0));
     }
     for (int i = 0; i < s->source.ambient.count; i++) {
         const PlotLight *light = &s->source.ambient.light[i];

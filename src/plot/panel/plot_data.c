@@ -102,12 +102,6 @@ const char *plot_kind_name(PlotKind kind) {
 
 #define SIDE 301 /* grid of the maps: 0.6 degrees a step */
 
-static Vec3 direction(double theta, double phi) {
-    double limit = PI / 2 - 1e-4;
-    theta = fmin(fmax(theta, -limit), limit);
-    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)), (float)cos(theta));
-}
-
 const char *pattern_name(Pattern pattern) {
     static const char *const NAMES[] = {"White", "Red", "Green", "Blue", "Black"};
     return NAMES[pattern];
@@ -121,19 +115,6 @@ const char *pattern_word(Pattern pattern) {
 void pattern_codes(Pattern pattern, float rgb[3]) {
     for (int c = 0; c < 3; c++)
         rgb[c] = pattern == PATTERN_WHITE || (int)pattern == 1 + c ? 255.0f : 0.0f;
-}
-
-void plot_data_normal_uv(const PlotData *data, Pattern pattern, double uv[2]) {
-    double xyz[3];
-    for (int c = 0; c < 3; c++) xyz[c] = (double)data->normal[pattern][c];
-    uv_from_xyz(xyz, uv);
-}
-
-void plot_data_xyz(const PlotData *data, double theta, double phi, const float rgb[3],
-                   double xyz[3]) {
-    float found[3];
-    panel_emission_xyz(data->source.panel, direction(theta, phi), rgb, found);
-    for (int c = 0; c < 3; c++) xyz[c] = (double)found[c];
 }
 
 /* ---- sampling, row by row over the threads ---------------------------------------------- */
@@ -174,26 +155,7 @@ static void look_at_reflection(PlotData *s) {
     if (s->incidence_count > 0) s->last_incidence = s->incidence[s->incidence_count - 1];
     s->is_anisotropic = panel_info_azimuths(s->source.panel, azimuths) > 1;
     s->brdf_cone = panel_info_reflection_cone(s->source.panel);
-    s->has_mirror = plot_data_mirror(s, radians_from_degrees(5), 0) > 1e-7;
-}
-
-/* Sixteen wavelengths from 420 to 690 nm, 18 nm apart, or all of them nm. */
-static Wavelengths lanes(double nm) {
-    Wavelengths wavelengths = {0};
-    for (int i = 0; i < SPECTRUM_LANES; i++)
-        wavelengths.nm[i] = nm > 0 ? (float)nm : 420 + 18 * (float)i;
-    return wavelengths;
-}
-
-/* The eye's mean of the lanes. */
-static double luminous_mean(Spectrum value, const Wavelengths *wavelengths) {
-    double sum = 0, weights = 0;
-    for (int i = 0; i < SPECTRUM_LANES; i++) {
-        double weight = (double)spectral_row((double)wavelengths->nm[i]).y;
-        sum += weight * (double)value[i];
-        weights += weight;
-    }
-    return sum / weights;
+    s->has_mirror = panel_figure_mirror(s->source.panel, radians_from_degrees(5), 0) > 1e-7;
 }
 
 /* ---- in even light ---------------------------------------------------------------------- */
@@ -212,18 +174,16 @@ static float mirrored_digits(int number, int base) {
  * own sampling has it, so that narrow lobes are met. Luminous mean as brdf's. */
 static void sample_even_light(void *context, int item, int worker) {
     PlotData *s = context;
-    Wavelengths wavelengths = lanes(0);
     double theta = radians_from_degrees(item), sum = 0;
     (void)worker;
     for (int i = 0; i < EVEN_SAMPLES; i++) {
         float u[3] = {((float)i + 0.5f) / EVEN_SAMPLES, mirrored_digits(i, 2),
                       mirrored_digits(i, 3)},
               pdf;
-        Vec3 wi, wo = direction(
+        Vec3 wi, wo = panel_figure_direction(
                      theta, s->is_anisotropic ? 2 * PI * (i % EVEN_AZIMUTHS) / EVEN_AZIMUTHS : 0);
         if (!panel_sample(s->source.panel, wo, u, &wi, &pdf)) continue;
-        Spectrum f = panel_brdf(s->source.panel, wo, wi, &wavelengths);
-        sum += luminous_mean(f, &wavelengths) * (double)(wi.z / pdf);
+        sum += panel_figure_brdf(s->source.panel, wo, wi, 0) * (double)(wi.z / pdf);
     }
     s->diffuse_reflectance[item] = sum / EVEN_SAMPLES;
 }
@@ -271,25 +231,28 @@ Field plot_data_contrast(const PlotData *s, Arena *arena) {
     return field;
 }
 
+PanelColour plot_data_normal(const PlotData *data, Pattern pattern) {
+    float rgb[3];
+    pattern_codes(pattern, rgb);
+    return panel_figure_colour(data->source.panel, 0, 0, rgb);
+}
+
 Field plot_data_shift(const PlotData *s, Pattern pattern, Arena *arena) {
     Field field = field_new(SIDE, PI / 2, arena);
-    double at_normal[2], uv[2], xyz[3];
-    plot_data_normal_uv(s, pattern, at_normal);
+    double uv[2], xyz[3];
+    PanelColour normal = plot_data_normal(s, pattern);
     for (int i = 0; i < SIDE * SIDE; i++) {
         for (int c = 0; c < 3; c++) xyz[c] = (double)s->xyz[pattern][c].value[i];
         uv_from_xyz(xyz, uv);
-        field.value[i] = (float)hypot(uv[0] - at_normal[0], uv[1] - at_normal[1]);
+        field.value[i] = (float)hypot(uv[0] - normal.uv[0], uv[1] - normal.uv[1]);
     }
     return field;
 }
 
 /* ---- reflection ------------------------------------------------------------------------- */
 
-static double brdf(const PlotData *s, double incidence, Vec3 wo, double nm) {
-    Wavelengths wavelengths = lanes(nm);
-    Vec3 wi = direction(incidence, s->source.incidence_phi);
-    Spectrum f = panel_brdf(s->source.panel, wo, wi, &wavelengths);
-    return nm > 0 ? (double)f[0] : luminous_mean(f, &wavelengths);
+static Vec3 light_from(const PlotData *s, double incidence) {
+    return panel_figure_direction(incidence, s->source.incidence_phi);
 }
 
 /* The azimuth of the panel from one that counts from the mirror direction. */
@@ -298,12 +261,13 @@ static double panel_phi(const PlotData *s, double phi) {
 }
 
 double plot_data_brdf(const PlotData *s, double incidence, double theta, double phi, double nm) {
-    return brdf(s, incidence, direction(theta, panel_phi(s, phi)), nm);
+    return panel_figure_brdf(s->source.panel, panel_figure_direction(theta, panel_phi(s, phi)),
+                             light_from(s, incidence), nm);
 }
 
 bool plot_data_brdf_is_measured(const PlotData *s, double incidence, double theta, double phi) {
-    return panel_brdf_is_measured(s->source.panel, direction(theta, panel_phi(s, phi)),
-                                  direction(incidence, s->source.incidence_phi));
+    return panel_brdf_is_measured(s->source.panel, panel_figure_direction(theta, panel_phi(s, phi)),
+                                  light_from(s, incidence));
 }
 
 const Field *plot_data_brdf_measured(const PlotData *s, double incidence, Arena *arena) {
@@ -330,13 +294,14 @@ typedef struct BrdfWork {
 static void sample_brdf_row(void *context, int row, int worker) {
     const BrdfWork *work = context;
     double turn = panel_phi(work->data, 0);
+    Vec3 light = light_from(work->data, work->incidence);
     (void)worker;
     for (int column = 0; column < work->field.side; column++) {
         Vec3 d = field_direction(&work->field, row, column);
         Vec3 wo = vec3(d.x * (float)cos(turn) - d.y * (float)sin(turn),
                        d.x * (float)sin(turn) + d.y * (float)cos(turn), d.z);
         work->field.value[row * work->field.side + column] =
-            (float)brdf(work->data, work->incidence, wo, 0);
+            (float)panel_figure_brdf(work->data->source.panel, wo, light, 0);
     }
 }
 
@@ -346,33 +311,14 @@ Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena)
     return work.field;
 }
 
-double plot_data_albedo(const PlotData *data, double theta) {
-    return (double)panel_haze_albedo(data->source.panel, (float)cos(theta));
-}
-
-double plot_data_lambertian(const PlotData *data, double theta) {
-    PanelLanes at;
-    Wavelengths wavelengths = lanes(0);
-    Vec3 wi = direction(theta, data->source.incidence_phi);
-    Vec3 wo = direction(theta, data->source.incidence_phi + PI);
-    panel_lanes(data->source.panel, &wavelengths, &at);
-    Spectrum brdf = panel_brdf_at(data->source.panel, wo, wi, &at);
-    return luminous_mean(panel_lambertian_at(data->source.panel, brdf, wi, &at), &wavelengths);
-}
-
-double plot_data_mirror(const PlotData *data, double theta, double nm) {
-    Wavelengths wavelengths = lanes(nm);
-    Spectrum r = panel_mirror(data->source.panel, (float)cos(theta), &wavelengths);
-    return nm > 0 ? (double)r[0] : luminous_mean(r, &wavelengths);
-}
-
 /* ---- contrast under diffuse light -------------------------------------------------------- */
 
 double ambient_reflectance(const PlotData *data, double theta) {
     double at = degrees_from_radians(fmin(fmax(theta, 0), PI / 2 - 1e-4));
     int i = (int)at < PLOT_REFLECTANCES - 2 ? (int)at : PLOT_REFLECTANCES - 2;
     const double *diffuse = data->diffuse_reflectance;
-    return diffuse[i] + (diffuse[i + 1] - diffuse[i]) * (at - i) + plot_data_mirror(data, theta, 0);
+    return diffuse[i] + (diffuse[i + 1] - diffuse[i]) * (at - i) +
+           panel_figure_mirror(data->source.panel, theta, 0);
 }
 
 static double contrast_of(double white, double black, double reflected) {
@@ -381,19 +327,22 @@ static double contrast_of(double white, double black, double reflected) {
 
 /* f of the directed source, sr^-1; 0 without one. */
 static double directed_brdf(const PlotData *data, Vec3 d, const PlotLight *light) {
-    return light->directed_lux > 0 ? brdf(data, light->directed_theta, d, 0) : 0;
+    return light->directed_lux > 0 ? panel_figure_brdf(data->source.panel, d,
+                                                       light_from(data, light->directed_theta), 0)
+                                   : 0;
 }
 
 double ambient_reflected(const PlotData *data, double theta, double phi, const PlotLight *light) {
     double even = ambient_reflectance(data, fabs(theta)) * light->lux / PI;
-    return even + directed_brdf(data, direction(theta, phi), light) * light->directed_lux;
+    return even +
+           directed_brdf(data, panel_figure_direction(theta, phi), light) * light->directed_lux;
 }
 
 double ambient_contrast(const PlotData *data, double theta, double phi, const PlotLight *light) {
-    double white[3], black[3];
-    plot_data_xyz(data, theta, phi, (float[3]){255, 255, 255}, white);
-    plot_data_xyz(data, theta, phi, (float[3]){0, 0, 0}, black);
-    return contrast_of(white[1], black[1], ambient_reflected(data, theta, phi, light));
+    const Panel *panel = data->source.panel;
+    return contrast_of(panel_figure_luminance(panel, theta, phi, PANEL_WHITE),
+                       panel_figure_luminance(panel, theta, phi, PANEL_BLACK),
+                       ambient_reflected(data, theta, phi, light));
 }
 
 const char *ambient_text(const PlotLight *light, Arena *arena) {

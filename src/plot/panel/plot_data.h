@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "panel/set/measurement.h"
-#include "panel/query/panel.h"
+#include "panel/figures/panel_figure.h"
 #include "panel/query/panel_info.h"
 #include "plot/draw/field.h"
 
@@ -145,17 +145,14 @@ void pattern_codes(Pattern pattern, float rgb[3]);
 
 /* ---- emission --------------------------------------------------------------------------- */
 
-/* XYZ at an angle. Negative theta: the opposite azimuth. */
-void plot_data_xyz(const PlotData *data, double theta, double phi, const float rgb[3],
-                   double xyz[3]);
-
 /* Luminance of white over that of black; NaN where black is nothing. */
 Field plot_data_contrast(const PlotData *data, Arena *arena);
 
+/* Of a pattern at the normal. */
+PanelColour plot_data_normal(const PlotData *data, Pattern pattern);
+
 /* Distance in the u'v' plane from the colour at the normal. */
 Field plot_data_shift(const PlotData *data, Pattern pattern, Arena *arena);
-
-void plot_data_normal_uv(const PlotData *data, Pattern pattern, double uv[2]);
 
 /* ---- reflection ------------------------------------------------------------------------- */
 
@@ -171,15 +168,6 @@ const Field *plot_data_brdf_measured(const PlotData *data, double incidence, Are
 
 /* The weighted one over the hemisphere. */
 Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena);
-
-/* Directional-hemispherical reflectance without the mirror part, weighted by the eye. */
-double plot_data_albedo(const PlotData *data, double theta);
-
-/* The lambertian part of the BRDF, sr^-1, weighted by the eye, for light from theta. */
-double plot_data_lambertian(const PlotData *data, double theta);
-
-/* Mirror reflectance, weighted by the eye (nm 0) or at a wavelength. */
-double plot_data_mirror(const PlotData *data, double theta, double nm);
 
 /* ---- contrast in ambient light --------------------------------------------------------------
  *

@@ -233,11 +233,12 @@ static void draw_mirror(Canvas *canvas, Box box, const PanelChart *shown, PanelC
     static const char *const NAMES[] = {"photopic", "450 nm", "550 nm", "650 nm"};
     const PlotData *s = shown->data;
     double deg[MIRROR_POINTS], value[4][MIRROR_POINTS], glass[2][MIRROR_POINTS], low = 1;
-    double normal = plot_data_mirror(s, 0, 0) / fresnel_unpolarised_d(1, 1.5);
+    double normal = panel_figure_mirror(s->source.panel, 0, 0) / fresnel_unpolarised_d(1, 1.5);
     for (int i = 0; i < MIRROR_POINTS; i++) {
         deg[i] = i * 0.5;
         double theta = radians_from_degrees(deg[i]);
-        for (int k = 0; k < 4; k++) value[k][i] = plot_data_mirror(s, theta, NM[k]);
+        for (int k = 0; k < 4; k++)
+            value[k][i] = panel_figure_mirror(s->source.panel, theta, NM[k]);
         glass[0][i] = fresnel_unpolarised_d(cos(theta), 1.5);
         glass[1][i] = normal * glass[0][i];
         if (value[0][i] > 0) low = fmin(low, value[0][i]);

@@ -9,7 +9,6 @@
 #include "panel/query/panel_place.h"
 #include "plot/panel/grey_inversion.h"
 #include "spectrum/gamut.h"
-#include "spectrum/photometry.h"
 #include "table/table.h"
 
 /* ---- azimuths ---------------------------------------------------------------------------- */
@@ -57,66 +56,24 @@ static void report_missing(Report *report, const char *key, const char *words, c
 
 /* ---- crossings --------------------------------------------------------------------------- */
 
-typedef enum ViewingKind { VIEWING_CONTRAST, VIEWING_LUMINANCE, VIEWING_SHIFT } ViewingKind;
-
 static const struct {
-    ViewingKind kind;
-    double limit;
+    PanelLimit limit;
     const char *key, *text;
-} CRITERIA[] = {{VIEWING_CONTRAST, 100, "contrast_100", "Contrast ratio ≥ 100 : 1"},
-                {VIEWING_CONTRAST, 10, "contrast_10", "Contrast ratio ≥ 10 : 1"},
-                {VIEWING_LUMINANCE, 0.5, "half_luminance", "Luminance ≥ half of the normal's"},
-                {VIEWING_SHIFT, 0.01, "shift_0.01", "Δu′v′ of white ≤ 0.01"},
-                {VIEWING_SHIFT, 0.02, "shift_0.02", "Δu′v′ of white ≤ 0.02"}};
-
-static double shift_at(const PlotData *s, Pattern pattern, double theta, double phi) {
-    double uv[2], at_normal[2], xyz[3];
-    float rgb[3];
-    pattern_codes(pattern, rgb);
-    plot_data_xyz(s, theta, phi, rgb, xyz);
-    uv_from_xyz(xyz, uv);
-    plot_data_normal_uv(s, pattern, at_normal);
-    return hypot(uv[0] - at_normal[0], uv[1] - at_normal[1]);
-}
-
-/* Above 0 where the limit is held. */
-static double margin_at(const PlotData *s, int criterion, double theta, double phi) {
-    const PlotLight dark = {0};
-    double xyz[3], limit = CRITERIA[criterion].limit;
-    switch (CRITERIA[criterion].kind) {
-    case VIEWING_CONTRAST: return ambient_contrast(s, theta, phi, &dark) - limit;
-    case VIEWING_SHIFT: return limit - shift_at(s, PATTERN_WHITE, theta, phi);
-    default:
-        plot_data_xyz(s, theta, phi, (float[3]){255, 255, 255}, xyz);
-        return xyz[1] / (double)s->normal[PATTERN_WHITE][1] - limit;
-    }
-}
-
-/* The first theta, degrees, at which the limit is crossed, by quarters and then halved; 0: it
- * is not held at the normal. NaN: it is held as far as was measured. */
-static double crossing_deg(const PlotData *s, int criterion, double phi) {
-    double last = degrees_from_radians(s->cone), low = 0, high = 0;
-    if (margin_at(s, criterion, 0, phi) < 0) return 0;
-    for (;; low = high) {
-        if (low >= last) return NAN;
-        high = fmin(low + 0.25, last);
-        if (margin_at(s, criterion, radians_from_degrees(high), phi) < 0) break;
-    }
-    while (high - low > 1e-4) {
-        double middle = 0.5 * (low + high);
-        if (margin_at(s, criterion, radians_from_degrees(middle), phi) < 0) high = middle;
-        else low = middle;
-    }
-    return 0.5 * (low + high);
-}
+} CRITERIA[] = {
+    {{PANEL_LEAST_CONTRAST, 100}, "contrast_100", "Contrast ratio ≥ 100 : 1"},
+    {{PANEL_LEAST_CONTRAST, 10}, "contrast_10", "Contrast ratio ≥ 10 : 1"},
+    {{PANEL_LEAST_LUMINANCE, 0.5}, "half_luminance", "Luminance ≥ half of the normal's"},
+    {{PANEL_MOST_SHIFT, 0.01}, "shift_0.01", "Δu′v′ of white ≤ 0.01"},
+    {{PANEL_MOST_SHIFT, 0.02}, "shift_0.02", "Δu′v′ of white ≤ 0.02"}};
 
 static void add_crossings(Table *table, const PlotData *s, int criterion) {
     table_row(table);
     table_text(table, CRITERIA[criterion].text);
-    bool is_contrast = CRITERIA[criterion].kind == VIEWING_CONTRAST;
+    bool is_contrast = CRITERIA[criterion].limit.kind == PANEL_LEAST_CONTRAST;
     const char *beyond = arena_format(table->arena, "> %.4g", degrees_from_radians(s->cone));
     for (int i = 0; i < AZIMUTHS; i++) {
-        double deg = crossing_deg(s, criterion, i * PI / 4);
+        double deg = degrees_from_radians(panel_figure_viewing_angle(
+            s->source.panel, NULL, CRITERIA[criterion].limit, i * PI / 4));
         if (!has_azimuth(s, i)) table_text(table, NOT_MEASURED);
         else if (is_contrast && !s->has_black) table_text(table, "no black");
         else if (is_contrast && s->is_white_only && !(deg <= 0))
@@ -166,31 +123,30 @@ static void add_shifts(Report *report, const PlotData *s) {
     for (int p = PATTERN_WHITE; p <= (s->is_white_only ? PATTERN_WHITE : PATTERN_BLUE); p++)
         for (int k = 0; k < COUNT_OF(ANGLES_DEG); k++) {
             table_row(table);
+            float rgb[3];
+            pattern_codes((Pattern)p, rgb);
             table_text(table, pattern_name((Pattern)p));
             table_number(table, ANGLES_DEG[k]);
             for (int i = 0; i < AZIMUTHS; i++)
                 if (is_measured(s, ANGLES_DEG[k], i))
-                    table_number(table, shift_at(s, (Pattern)p, radians_from_degrees(ANGLES_DEG[k]),
-                                                 i * PI / 4));
+                    table_number(table, panel_figure_shift(s->source.panel,
+                                                           radians_from_degrees(ANGLES_DEG[k]),
+                                                           i * PI / 4, rgb));
                 else table_text(table, NOT_MEASURED);
         }
 }
 
 /* The row of one direction; azimuth -1: the normal. */
 static void add_white(Table *table, const PlotData *s, int deg, int azimuth) {
-    double xyz[3], uv[2], sum;
-    plot_data_xyz(s, radians_from_degrees(deg), azimuth * PI / 4, (float[3]){255, 255, 255}, xyz);
-    uv_from_xyz(xyz, uv);
-    sum = xyz[0] + xyz[1] + xyz[2];
-    ColourTemperature white = colour_temperature(uv);
+    PanelColour colour = panel_figure_colour(s->source.panel, radians_from_degrees(deg),
+                                             azimuth * PI / 4, PANEL_WHITE);
+    ColourTemperature white = colour_temperature(colour.uv);
     table_row(table);
     table_number(table, deg);
     table_number(table, 45 * azimuth);
-    table_number(table, xyz[1]);
-    table_number(table, xyz[0] / sum);
-    table_number(table, xyz[1] / sum);
-    table_number(table, uv[0]);
-    table_number(table, uv[1]);
+    table_number(table, colour.xyz[1]);
+    for (int c = 0; c < 2; c++) table_number(table, colour.xy[c]);
+    for (int c = 0; c < 2; c++) table_number(table, colour.uv[c]);
     if (white.is_defined) table_number(table, white.kelvin);
     else table_text(table, "not defined");
     if (white.is_defined) table_number(table, white.duv);
@@ -233,16 +189,6 @@ static void report_viewing(Report *report, const PlotData *data) {
 }
 
 /* Primaries and gamut. */
-
-static GamutTriangle own_triangle(const PlotData *s) {
-    GamutTriangle out;
-    for (int p = 0; p < 3; p++) {
-        const float *xyz = s->normal[PATTERN_RED + p];
-        double sum = (double)xyz[0] + (double)xyz[1] + (double)xyz[2];
-        for (int c = 0; c < 2; c++) out.at[p][c] = (double)xyz[c] / sum;
-    }
-    return out;
-}
 
 static void add_primaries(Report *report, const PlotData *s, const GamutTriangle *xy) {
     GamutTriangle uv = gamut_in_uv(xy);
@@ -294,7 +240,7 @@ static void report_colour(Report *report, const PlotData *data) {
                        "panel's primaries are assumed, and no gamut is stated.");
         return;
     }
-    GamutTriangle xy = own_triangle(data);
+    GamutTriangle xy = panel_figure_primaries(data->source.panel);
     add_primaries(report, data, &xy);
     add_gamut(report, &xy);
 }
@@ -305,24 +251,6 @@ static const int GAMMA_DEG[] = {0, 15, 30, 45, 60};
 
 /* ---- gamma ------------------------------------------------------------------------------- */
 
-/* Exponent of the power law through full drive: least squares of the logarithms over the
- * measured levels of grey, black subtracted. */
-static double gamma_at(const PlotData *s, double theta, double phi) {
-    double code[PANEL_INFO_LEVELS_MAX], black[3], full[3], xyz[3], xx = 0, xy = 0;
-    int count = panel_info_levels(s->source.panel, 1, code);
-    plot_data_xyz(s, theta, phi, (float[3]){0, 0, 0}, black);
-    plot_data_xyz(s, theta, phi, (float[3]){255, 255, 255}, full);
-    for (int i = 0; i < count; i++) {
-        float c = (float)code[i];
-        plot_data_xyz(s, theta, phi, (float[3]){c, c, c}, xyz);
-        double light = (xyz[1] - black[1]) / (full[1] - black[1]), x = log(code[i] / 255);
-        if (!(light > 0) || x == 0) continue;
-        xx += x * x;
-        xy += x * log(light);
-    }
-    return xx > 0 ? xy / xx : NAN;
-}
-
 static void add_gamma_row(Table *table, const PlotData *s, int deg) {
     table_row(table);
     table_number(table, deg);
@@ -330,7 +258,8 @@ static void add_gamma_row(Table *table, const PlotData *s, int deg) {
         double theta = radians_from_degrees(deg);
         bool is_measured =
             theta <= s->cone + 1e-6 && has_azimuth(s, i) && !(s->is_white_only && deg > 0);
-        if (is_measured || deg == 0) table_number(table, gamma_at(s, theta, i * PI / 4));
+        if (is_measured || deg == 0)
+            table_number(table, panel_figure_gamma(s->source.panel, PANEL_GREY, theta, i * PI / 4));
         else table_text(table, NOT_MEASURED);
     }
 }
@@ -421,8 +350,12 @@ static void report_levels(Report *report, const PlotData *data) {
 /* ---- reflectance ------------------------------------------------------------------------- */
 
 static void add_incidence(Table *table, const PlotData *s, double theta) {
-    double mirror = plot_data_mirror(s, theta, 0), all = plot_data_albedo(s, theta);
-    double even = fmin(PI * plot_data_lambertian(s, theta), all);
+    double mirror = panel_figure_mirror(s->source.panel, theta, 0);
+    double all = panel_figure_diffuse(s->source.panel, theta);
+    double phi = s->source.incidence_phi;
+    double floor = panel_figure_lambertian(s->source.panel, panel_figure_direction(theta, phi + PI),
+                                           panel_figure_direction(theta, phi));
+    double even = fmin(PI * floor, all);
     table_row(table);
     table_number(table, degrees_from_radians(theta));
     table_number(table, 100 * mirror);
@@ -471,7 +404,7 @@ static void add_factors(Report *report, const PlotData *s) {
     double at_8 = radians_from_degrees(8), at_45 = radians_from_degrees(45);
     bool has_8 = plot_data_brdf_is_measured(s, at_8, at_8, PI);
     bool has_45 = plot_data_brdf_is_measured(s, at_45, 0, 0);
-    double diffuse = plot_data_albedo(s, at_8);
+    double diffuse = panel_figure_diffuse(s->source.panel, at_8);
     static const Column COLUMNS[] = {COLUMN_TEXT("geometry", "Geometry"),
                                      COLUMN_TEXT("meaning", "Light : view"),
                                      COLUMN_DIGITS("factor_percent", "Factor", "%", 4)};
@@ -489,7 +422,7 @@ static void add_factors(Report *report, const PlotData *s) {
     add_factor(table,
                (const char *const[]){"8/di", "from 8°, into the hemisphere, "
                                              "specular included"},
-               has_8, diffuse + plot_data_mirror(s, at_8, 0));
+               has_8, diffuse + panel_figure_mirror(s->source.panel, at_8, 0));
     add_factor(table,
                (const char *const[]){"8/de", "from 8°, into the hemisphere, "
                                              "specular excluded"},
@@ -587,7 +520,7 @@ static void report_ambient(Report *report, const PlotData *data) {
 static void add_places(Table *table, const PlotData *s, Pattern pattern) {
     float rgb[3];
     pattern_codes(pattern, rgb);
-    PanelEvenness e = panel_evenness(s->source.panel, rgb);
+    PanelEvenness e = panel_figure_evenness(s->source.panel, rgb);
     table_row(table);
     table_text(table, pattern_name(pattern));
     for (int i = 0; i < PANEL_NINE; i++) table_number(table, e.nine[i]);

@@ -53,11 +53,10 @@ static void set_number(json_t *to, const char *name, double value) {
 }
 
 static void set_white(json_t *to, const PlotData *s) {
-    double uv[2];
-    plot_data_normal_uv(s, PATTERN_WHITE, uv);
-    ColourTemperature white = colour_temperature(uv);
-    set_number(to, "white_u", uv[0]);
-    set_number(to, "white_v", uv[1]);
+    PanelColour colour = plot_data_normal(s, PATTERN_WHITE);
+    ColourTemperature white = colour_temperature(colour.uv);
+    set_number(to, "white_u", colour.uv[0]);
+    set_number(to, "white_v", colour.uv[1]);
     set_number(to, "white_k", white.is_defined ? white.kelvin : (double)NAN);
     set_number(to, "white_duv", white.duv);
 }
@@ -81,7 +80,7 @@ static void set_emission(json_t *to, const PlotData *s) {
     set_number(to, "cone_deg", degrees_from_radians(s->cone));
     set_number(to, "white_cd_m2", white);
     set_number(to, "black_cd_m2", black);
-    set_number(to, "contrast", white / black);
+    set_number(to, "contrast", panel_figure_contrast(s->source.panel, 0, 0));
     page_set_flag(to, "has_black", s->has_black);
     page_set_flag(to, "has_rim", s->cone < PI / 2 - 1e-3);
     set_white(to, s);
@@ -91,7 +90,8 @@ static void set_emission(json_t *to, const PlotData *s) {
 static void set_reflection(json_t *to, const PlotData *s) {
     set_number(to, "incidence_deg", degrees_from_radians(s->last_incidence));
     set_number(to, "leaving_deg", degrees_from_radians(s->brdf_cone));
-    set_number(to, "albedo_percent", 100 * plot_data_albedo(s, radians_from_degrees(8)));
+    set_number(to, "albedo_percent",
+               100 * panel_figure_diffuse(s->source.panel, radians_from_degrees(8)));
     page_set_flag(to, "has_hulls", panel_info_has_hulls(s->source.panel));
 }
 
@@ -114,7 +114,8 @@ static bool write_page(json_t *to, const PlotData *s, const Report *report,
     json_object_set(to, "note", json_object_get(s->source.report, "note"));
     page_set_flag(to, "emits", s->emits);
     page_set_flag(to, "reflects", s->reflects);
-    set_number(to, "mirror_percent", s->has_mirror ? 100 * plot_data_mirror(s, 0, 0) : NAN);
+    set_number(to, "mirror_percent",
+               s->has_mirror ? 100 * panel_figure_mirror(s->source.panel, 0, 0) : NAN);
     if (s->emits) set_emission(to, s);
     if (s->reflects) set_reflection(to, s);
     json_t *tables = json_array();
