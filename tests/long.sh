@@ -233,7 +233,7 @@ run 'reviews killed, stopped and starved' review-resume-long \
     python3 tests/hostile/review_resume.py --all --kills 40 $program
 run 'models of others equipped' equip-models python3 tests/hostile/equip.py $program
 of "$review scenes tests/page tests/image"
-run 'what moves in a page' live python3 tests/page/live.py $program
+run 'the page of a review' review_page python3 tests/page/review_page.py $program
 run 'a model equipped by clicks' equip python3 tests/page/equip.py $program
 of "$compare scenes tests/bench tests/image"
 run 'false alarms and power of compare' compare-power \

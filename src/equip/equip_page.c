@@ -275,11 +275,10 @@ bool equip_page_write(const Scene *scene, const char *model, const char *command
     Text three = {.arena = arena};
     text_add(&three, THREE_NOTICE);
     text_add(&three, THREE_SCRIPT);
-    const PageHead head = {.title = arena_format(arena, "%s: equip", path_name(model)),
-                           .command = command};
+    const char *title = arena_format(arena, "%s: equip", path_name(model));
     page_set(values, "three", three.data);
     json_object_set_new(values, "data", script_text(data_json(scene, model, command, arena)));
-    if (page_set_head(values, &head, err) && set_geometry(values, scene, *arena, err))
+    if (page_set_head(values, title, command, err) && set_geometry(values, scene, *arena, err))
         return page_write_values("equip.html", values, NULL, path, err);
     json_decref(values);
     return false;

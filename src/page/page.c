@@ -47,13 +47,12 @@ static bool set_style(json_t *values, const char *path, Error *err) {
     return ok;
 }
 
-bool page_set_head(json_t *values, const PageHead *head, Error *err) {
+bool page_set_head(json_t *values, const char *title, const char *command, Error *err) {
     const char *style = getenv(PAGE_STYLE_VARIABLE);
-    page_set(values, "window", head->title);
-    page_set(values, "command", head->command);
+    page_set(values, "window", title);
+    page_set(values, "command", command);
     page_set(values, "style", NULL);
     page_set(values, "version", PARHELION_VERSION);
-    page_set_flag(values, "is_dark", head->is_dark);
     return !style || !*style || set_style(values, style, err);
 }
 
@@ -103,22 +102,29 @@ json_t *page_picture(const Picture *picture, bool is_jpeg, Arena scratch, Error 
 
 #define LEVEL 9 /* pages are written once and read often */
 
+const char *page_deflated(const void *bytes, size_t size, Arena *arena, Error *err) {
+    Arena scratch = arena_reserve(PAGE_BYTES);
+    uLong room = compressBound((uLong)size);
+    unsigned char *packed = ARENA_NEW(&scratch, unsigned char, room);
+    Text text = {.arena = arena};
+    bool ok = compress2(packed, &room, bytes, (uLong)size, LEVEL) == Z_OK ||
+              error_set(err, ERROR_MEMORY, "memory is out: numbers of the page");
+    if (ok) base64_encode(&text, packed, room);
+    arena_release(&scratch);
+    return ok ? text.data : NULL;
+}
+
 const char *page_packed(const uint32_t *values, size_t count, int bytes, Arena *arena, Error *err) {
     Arena scratch = arena_reserve(PAGE_BYTES);
     size_t size = count * (size_t)bytes;
-    uLong room = compressBound((uLong)size);
     unsigned char *planes = ARENA_NEW(&scratch, unsigned char, size);
-    unsigned char *packed = ARENA_NEW(&scratch, unsigned char, room);
     for (size_t at = 0; at < size; at++) {
         size_t i = at % count;
         unsigned shift = 8 * (unsigned)(at / count);
         uint32_t before = i > 0 ? values[i - 1] >> shift : 0;
         planes[at] = (unsigned char)((values[i] >> shift) - before);
     }
-    Text text = {.arena = arena};
-    bool ok = compress2(packed, &room, planes, (uLong)size, LEVEL) == Z_OK ||
-              error_set(err, ERROR_MEMORY, "memory is out: numbers of the page");
-    if (ok) base64_encode(&text, packed, room);
+    const char *text = page_deflated(planes, size, arena, err);
     arena_release(&scratch);
-    return ok ? text.data : NULL;
+    return text;
 }

@@ -19,17 +19,12 @@
 #include "page/template.h"
 #include "text/text.h"
 
-typedef struct PageHead {
-    const char *title;   /* of the window */
-    const char *command; /* that made the page */
-    bool is_dark;        /* for every reader */
-} PageHead;
-
 /* The file of a firm's own style, behind that of every page: CSS. */
 #define PAGE_STYLE_VARIABLE "PARHELION_STYLE"
 
-/* The values that every page has. Fails for a style that cannot be read. */
-bool page_set_head(json_t *values, const PageHead *head, Error *err);
+/* The values that every page has: the window's title, the command that made it. Fails for a style
+ * that cannot be read. */
+bool page_set_head(json_t *values, const char *title, const char *command, Error *err);
 
 /* Names a text; NULL is null. */
 void page_set(json_t *values, const char *name, const char *text);
@@ -54,11 +49,13 @@ json_t *page_bytes(const char *kind, const void *bytes, size_t size, Arena scrat
 /* The same of a picture, as PNG or JPEG. NULL, *err filled: it cannot be encoded. */
 json_t *page_picture(const Picture *picture, bool is_jpeg, Arena scratch, Error *err);
 
-/* Packed: whole numbers of 1 to 4 bytes, as base64 of a zlib stream (RFC 1950) of their bytes
- * in planes: the lowest byte of all numbers, then the next of all, ...; of each plane the first
- * byte, then every byte less the one before it, modulo 256. What changes little from number to
- * number is short so. A script unpacks it by DecompressionStream('deflate').
+/* For a script, which unpacks it by DecompressionStream('deflate'): base64 of a zlib stream (RFC
+ * 1950). The same bytes give the same text (of one version of zlib). NULL: memory is out. */
+const char *page_deflated(const void *bytes, size_t size, Arena *arena, Error *err);
+
+/* Packed: whole numbers of 1 to 4 bytes, the same of their bytes in planes: the lowest byte of all
+ * numbers, then the next of all, ...; of each plane the first byte, then every byte less the one
+ * before it, modulo 256. What changes little from number to number is short so.
  *
- * values: the lowest `bytes` of each go in. The same numbers give the same text (of one version
- * of zlib). NULL: memory is out. */
+ * values: the lowest `bytes` of each go in. */
 const char *page_packed(const uint32_t *values, size_t count, int bytes, Arena *arena, Error *err);

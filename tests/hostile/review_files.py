@@ -135,7 +135,7 @@ def check_without_list(work):
 
 def check_in_the_way(work):
     """One line that names it, before any work: nothing else is there afterwards."""
-    for name in ("index.html", "review.json", "Index.HTML", "cases.csv", LIST, "live.js",
+    for name in ("index.html", "review.json", "Index.HTML", "cases.csv", LIST,
                  "summary-speed.html", "Summary-SPEED.html", "summary-speed.2.html",
                  "frames/1-grey-eye.png", "frames/12-Grey-eye-contrast.png",
                  "frames/1-grey-eye-variant-1-x.exr", "unfinished/1-grey.condition"):

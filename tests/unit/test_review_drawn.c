@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Drawings of a review's page say what the figures say: bars, maps, calendars. */
 #include <string.h>
+#include <zlib.h>
 
 #include "image/plain/plain_png.h"
 #include "page/page.h"
 #include "review/output/review_map.h"
+#include "review/output/review_words.h"
 #include "text/base64.h"
 #include "review_page_fixture.h"
 
@@ -131,7 +133,7 @@ static const char *html_of(const char *template, json_t *values) {
 
 static const char *map_of(const ReviewMap *map) {
     ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 26);
-    return html_of("map.html", review_map_values(map, scratch, why()));
+    return html_of("map.html", review_map_values(map, true, scratch, why()));
 }
 
 static const char *calendar_of(const ReviewCalendar *calendar) {
@@ -146,15 +148,10 @@ TEST(the_border_encloses_what_fails) {
         int cell;
         const char *path;
     } CASES[] = {{4, "d=\"M1 2H2M1 1H2M1 2V1M2 2V1\""}, {0, "d=\"M0 3H1M0 2H1M0 3V2M1 3V2\""}};
-    static const float contrast[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
     for (int i = 0; i < 2; i++) {
-        unsigned char verdict[9] = {0};
-        verdict[CASES[i].cell] = VERDICT_FAIL;
-        ReviewMap map = {.azimuth_deg = {0, 10, 3},
-                         .elevation_deg = {0, 10, 3},
-                         .contrast = contrast,
-                         .margin = contrast,
-                         .verdict = verdict};
+        ReviewStep cells[9] = {0};
+        cells[CASES[i].cell].verdict = VERDICT_FAIL;
+        ReviewMap map = {.azimuth_deg = {0, 10, 3}, .elevation_deg = {0, 10, 3}, .cells = cells};
         const char *html = map_of(&map);
         if (!strstr(html, CASES[i].path)) fail_msg("%s", strstr(html, "border"));
     }
@@ -189,16 +186,12 @@ static void assert_red_at(const Cells *cells, int column, int row) {
 
 /* Azimuths run to the right and elevations upwards; days to the right and hours upwards. */
 TEST(cells_lie_where_their_axes_say) {
-    float ratio[12], share[12];
-    unsigned char verdict[12] = {0};
-    for (int i = 0; i < 12; i++) ratio[i] = 1, share[i] = 0;
-    verdict[11] = VERDICT_FAIL; /* azimuth 3, elevation 2 of 4 x 3 */
-    share[7] = 1;               /* day 1, step 3 of 3 x 4 */
-    Cells map = cells_of(map_of(&(ReviewMap){.azimuth_deg = {0, 1, 4},
-                                             .elevation_deg = {0, 1, 3},
-                                             .contrast = ratio,
-                                             .margin = ratio,
-                                             .verdict = verdict}));
+    float share[12] = {0};
+    ReviewStep steps[12] = {0};
+    steps[11].verdict = VERDICT_FAIL; /* azimuth 3, elevation 2 of 4 x 3 */
+    share[7] = 1;                     /* day 1, step 3 of 3 x 4 */
+    Cells map = cells_of(
+        map_of(&(ReviewMap){.azimuth_deg = {0, 1, 4}, .elevation_deg = {0, 1, 3}, .cells = steps}));
     Cells calendar = cells_of(calendar_of(&(ReviewCalendar){.year = 2026,
                                                             .days = 3,
                                                             .steps_a_day = 4,
@@ -209,16 +202,6 @@ TEST(cells_lie_where_their_axes_say) {
     assert_int_equal(calendar.png.width * 100 + calendar.png.height, 304);
     assert_red_at(&map, 3, 0);
     assert_red_at(&calendar, 1, 0);
-}
-
-/* The bytes of the first data-values behind `at`: 16 bits a cell, low byte first. */
-static const unsigned char *values_behind(const char *at, size_t cells) {
-    size_t size = 0;
-    const char *text = value_at(strstr(at, "data-values=\"") + 13);
-    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, strlen(text));
-    assert_done(base64_decode(text, strlen(text), bytes, &size, &err));
-    assert_int_equal(size, 2 * cells);
-    return bytes;
 }
 
 /* A year's map says whose answer stands between its steps, and an eye box's whose eye it is;
@@ -235,26 +218,51 @@ TEST(a_map_says_what_its_cells_are) {
     }
 }
 
-/* What the script shows at the pointer is the map's contrast within 0.06 %, and its verdict. */
-TEST(the_pointer_reads_what_the_map_shows) {
+/* What the script gets, unpacked as it does it. */
+static json_t *values_of(const char *html) {
+    enum { ROOM = 1 << 23 };
+    size_t size = 0;
+    uLong room = ROOM;
+    const char *text = value_at(strstr(html, "data-values=\"") + 13);
+    unsigned char *packed = ARENA_NEW(&arena, unsigned char, strlen(text));
+    unsigned char *bytes = ARENA_NEW(&arena, unsigned char, ROOM);
+    assert_done(base64_decode(text, strlen(text), packed, &size, &err));
+    assert_int_equal(uncompress(bytes, &room, packed, (uLong)size), Z_OK);
+    json_t *values = json_loadb((const char *)bytes, room, 0, NULL);
+    assert_non_null(values);
+    return values;
+}
+
+static void assert_cell(const json_t *values, const char *list, int cell, const char *words) {
+    const char *found =
+        json_string_value(json_array_get(json_object_get(values, list), (size_t)cell));
+    if (words) assert_string_equal(found, words);
+    else assert_null(found);
+}
+
+/* The row of each cell's step, in the words of all else; of what was not evaluated none. */
+TEST(the_pointer_reads_what_was_judged) {
     ReviewMap map = fixture_map(&arena, NULL);
-    ReviewCalendar calendar = fixture_calendar(&arena, NULL);
-    int cells = map.azimuth_deg.count * map.elevation_deg.count;
-    const unsigned char *v = values_behind(map_of(&map), (size_t)cells);
-    for (int i = 0; i < cells; i++) {
-        unsigned code = v[2 * i] + 256u * v[2 * i + 1];
-        if (isnan(map.contrast[i])) assert_int_equal(code, 0);
-        else assert_int_equal(code >> 14, map.verdict[i]);
-        if (!isnan(map.contrast[i]))
-            assert_close(pow(1e4, ((code & 16383) - 1) / 16382.0), map.contrast[i], 6e-4);
+    json_auto_t *v = values_of(map_of(&map));
+    for (int i = 0; i < map.azimuth_deg.count * map.elevation_deg.count; i++) {
+        const ReviewStep *s = &map.cells[i];
+        bool is_known = !isnan(s->contrast);
+        assert_cell(v, "verdict", i, is_known ? words_verdict(s->verdict) : NULL);
+        assert_cell(v, "contrast", i,
+                    is_known ? words_within(s->contrast, s->low, s->high, &arena) : NULL);
+        assert_cell(v, "margin", i, is_known ? words_margin(s->margin, &arena) : NULL);
+        assert_cell(v, "lux", i, is_known ? words_figure(s->lux, &arena) : NULL);
+        assert_cell(v, "when", i, NULL);
     }
-    v = values_behind(calendar_of(&calendar), 365 * 24);
+    ReviewCalendar calendar = fixture_calendar(&arena, NULL);
+    json_auto_t *failing = values_of(calendar_of(&calendar));
+    assert_int_equal(json_array_size(failing), 365 * 24);
     for (int day = 0; day < 365; day++)
         for (int step = 0; step < 24; step++) {
-            unsigned code = v[2 * (step * 365 + day)] + 256u * v[2 * (step * 365 + day) + 1];
+            const json_t *found = json_array_get(failing, (size_t)(step * 365 + day));
             float share = calendar.failed_share[day * 24 + step];
-            if (isnan(share)) assert_int_equal(code, 0);
-            else assert_near((code - 1) / 1e4, share, 1e-4);
+            if (isnan(share)) assert_true(json_is_null(found));
+            else assert_near(json_integer_value(found), share * calendar.headings, 0.5001);
         }
 }
 

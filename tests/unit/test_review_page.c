@@ -97,15 +97,12 @@ static const char *full_page(const Review *review) {
     static const ReviewFact FACTS[] = {{WILD_NAME, WILD_NAME}};
     static const char *const COMMANDS[] = {WILD_NAME, "parhelion review x.json -o y"};
     ReviewMap map = fixture_map(&arena, &review->sweeps[0]);
-    SunPath path = fixture_path(&arena, WILD_NAME, 23.4);
     ReviewCalendar calendar = fixture_calendar(&arena, &review->sweeps[0]);
     Review before = fixture_review(&arena);
     ReviewDiff diff = review_diff(&before, review, WILD_NAME, "now", &arena);
     Picture picture = picture_create(3, 2, &arena);
     ReviewPicture shown = {
         .of = &review->cases[0], .title = WILD_NAME, .caption = WILD_NAME, .picture = &picture};
-    map.paths = &path;
-    map.path_count = 1;
     calendar.clock = WILD_NAME;
     return page_of(&(ReviewPage){.review = review,
                                  .pictures = &shown,
@@ -184,7 +181,6 @@ static json_t *all_values(json_t *own) {
     before.gaze_count = 2; /* one is new */
     ReviewDiff diff = review_diff(&before, review, "a", "b", &arena);
     ReviewMap map = fixture_map(&arena, &review->sweeps[0]);
-    SunPath path = fixture_path(&arena, "21 June", 23.4);
     ReviewCalendar calendar = fixture_calendar(&arena, &review->sweeps[0]);
     ReviewCase *worst = (ReviewCase *)(size_t)review_worst(review, arena);
     const char *file = fresh_name(".png"), *change = "x";
@@ -207,8 +203,6 @@ static json_t *all_values(json_t *own) {
                            .is_frame = true};
     ReviewPicture pair[2] = {shown, {.title = "t", .file = file}};
     ReviewFact fact = {"a", "b"};
-    map.paths = &path;
-    map.path_count = 1;
     worst->view = &VIEW;
     worst->rim = RIM;
     worst->rim_count = 3;

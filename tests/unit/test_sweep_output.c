@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "review/folder/sweep_output.h"
+#include "review/run/sun_figures.h"
 
 #define CELL_DEG 5.0
 #define HOUR_DEG 15.0 /* that the sun moves, at most */
@@ -23,9 +24,7 @@ static ReviewCondition year_of(double latitude, double minutes, double *headings
 /* Each sun's contrast names it: 1 + its place in the list; all others fail. */
 static SweepTable table_of(const SweepSuns *suns, Arena *arena) {
     SweepTable out = {.suns = suns};
-    out.figures.contrast = ARENA_NEW(arena, float, suns->count);
-    out.figures.margin = ARENA_NEW(arena, float, suns->count);
-    out.figures.verdict = ARENA_NEW(arena, unsigned char, suns->count);
+    out.figures = sun_figures_start(suns->count, arena);
     for (int i = 0; i < suns->count; i++) {
         out.figures.contrast[i] = (float)(1 + i);
         out.figures.margin[i] = (float)i;
@@ -71,25 +70,27 @@ static void assert_no_holes(const ReviewMap *map, const SweepSuns *fine, Arena *
     bool *is_near = ARENA_NEW(arena, bool, cells);
     for (int i = 0; i < fine->count; i++) {
         const SweepSun *sun = &fine->list[i];
-        bool is_open = isnan(map->contrast[cell_of(map, sun)]);
+        bool is_open = isnan(map->cells[cell_of(map, sun)].contrast);
         if (is_well_inside(map, sun, is_near) && is_open && sun->elevation_deg > HOUR_DEG)
             fail_msg("a hole at %.1f, %.1f", sun->azimuth_deg, sun->elevation_deg);
     }
     for (int i = 0; i < cells; i++)
-        if (!isnan(map->contrast[i]) && !is_near[i]) fail_msg("cell %d is nobody's", i);
+        if (!isnan(map->cells[i].contrast) && !is_near[i]) fail_msg("cell %d is nobody's", i);
 }
 
 /* Every answer is a step's own, with its margin and verdict, and that step's sun is at most
  * half a step away from the cell. */
 static void assert_all_of_steps(const ReviewMap *map, const SweepTable *table) {
     for (int i = 0; i < map->azimuth_deg.count * map->elevation_deg.count; i++) {
-        if (isnan(map->contrast[i])) continue;
-        int sun = (int)map->contrast[i] - 1;
+        const ReviewStep *step = &map->cells[i];
+        if (isnan(step->contrast)) continue;
+        int sun = (int)step->contrast - 1;
         const SweepSun *at = &table->suns->list[sun];
         double azimuth = CELL_DEG * (i % map->azimuth_deg.count);
         double elevation = CELL_DEG * (i / map->azimuth_deg.count + 0.5);
-        assert_true(map->margin[i] == table->figures.margin[sun]);
-        assert_int_equal(map->verdict[i], table->figures.verdict[sun]);
+        assert_true(step->margin == (double)table->figures.margin[sun]);
+        assert_int_equal(step->verdict, table->figures.verdict[sun]);
+        assert_true(step->azimuth_deg == at->azimuth_deg && step->when);
         assert_true(apart_deg(at, azimuth, elevation) < HOUR_DEG / 2 + CELL_DEG * 0.75);
     }
 }
@@ -101,7 +102,7 @@ static void assert_own_first(const ReviewMap *map, const SweepTable *table, Aren
     for (int i = table->suns->count - 1; i >= 0; i--)
         least[cell_of(map, &table->suns->list[i])] = table->figures.contrast[i];
     for (int i = 0; i < cells; i++)
-        if (least[i] > 0) assert_true(map->contrast[i] == least[i]);
+        if (least[i] > 0) assert_true(map->cells[i].contrast == (double)least[i]);
 }
 
 TEST(a_years_map_has_no_holes_and_no_answers_of_its_own) {
@@ -115,7 +116,7 @@ TEST(a_years_map_has_no_holes_and_no_answers_of_its_own) {
         SweepSuns suns = sweep_suns(&hours, 2, &arena);
         SweepSuns fine = sweep_suns(&minutes, 2, &arena);
         SweepTable table = table_of(&suns, &arena);
-        ReviewMap map = sweep_map(&table, NULL, CELL_DEG, &arena);
+        ReviewMap map = sweep_map(&table, NULL, &hours, CELL_DEG, &arena);
         assert_true(map.is_between_steps);
         assert_no_holes(&map, &fine, &arena);
         assert_all_of_steps(&map, &table);

@@ -492,43 +492,27 @@ static inline void fixture_add_levels(Arena *arena, Review *review) {
 /* Fails where the sun stands behind and low: a disc of 25 degrees. */
 static inline ReviewMap fixture_map(Arena *arena, const ReviewSweep *sweep) {
     enum { COLUMNS = 181, ROWS = 41 };
-    float *contrast = ARENA_NEW(arena, float, COLUMNS *ROWS);
-    float *margin = ARENA_NEW(arena, float, COLUMNS *ROWS);
-    unsigned char *verdict = ARENA_NEW(arena, unsigned char, COLUMNS *ROWS);
+    ReviewStep *cells = ARENA_NEW(arena, ReviewStep, COLUMNS * ROWS);
     for (int i = 0; i < COLUMNS * ROWS; i++) {
         double azimuth = i % COLUMNS * 2, elevation = i / COLUMNS * 2;
         double from = hypot(azimuth - 160, 1.5 * (elevation - 14));
         double ratio = 0.65 + 0.35 * from / 25 + 0.15 * sin(azimuth / 9) * sin(elevation / 7);
-        margin[i] = elevation > 76 ? NAN : (float)(ratio - 1);
-        contrast[i] = elevation > 76 ? NAN : (float)(2 * ratio);
-        verdict[i] = ratio < 0.98 ? VERDICT_FAIL : ratio < 1.02 ? VERDICT_TOO_CLOSE : VERDICT_PASS;
+        cells[i] = (ReviewStep){.azimuth_deg = azimuth,
+                                .elevation_deg = elevation,
+                                .contrast = elevation > 76 ? (double)NAN : 2 * ratio,
+                                .low = 1.9 * ratio,
+                                .high = 2.1 * ratio,
+                                .margin = ratio - 1,
+                                .reflected = 100 * ratio,
+                                .mirror = 90 * ratio,
+                                .level = 1,
+                                .lux = 5e4 * ratio,
+                                .verdict = ratio < 0.98   ? VERDICT_FAIL
+                                           : ratio < 1.02 ? VERDICT_TOO_CLOSE
+                                                          : VERDICT_PASS};
     }
-    return (ReviewMap){.of = sweep,
-                       .is_of_vehicle = true,
-                       .azimuth_deg = {0, 2, COLUMNS},
-                       .elevation_deg = {0, 2, ROWS},
-                       .contrast = contrast,
-                       .margin = margin,
-                       .verdict = verdict};
-}
-
-/* Where the sun goes at 48 degrees north with the vehicle towards the north. */
-static inline SunPath fixture_path(Arena *arena, const char *name, double declination_deg) {
-    enum { STEPS = 97 };
-    double *azimuth = ARENA_NEW(arena, double, STEPS), *elevation = ARENA_NEW(arena, double, STEPS);
-    double to_radians = acos(-1) / 180, lat = 48 * to_radians;
-    double dec = declination_deg * to_radians;
-    int count = 0;
-    for (int i = 0; i < STEPS; i++) {
-        double hour = (i - 48) * 3.75 * to_radians;
-        double up = sin(lat) * sin(dec) + cos(lat) * cos(dec) * cos(hour);
-        double west = cos(dec) * sin(hour);
-        double south = sin(lat) * cos(dec) * cos(hour) - cos(lat) * sin(dec);
-        if (up < 0) continue;
-        elevation[count] = asin(up) / to_radians;
-        azimuth[count++] = 180 + atan2(west, south) / to_radians;
-    }
-    return (SunPath){name, azimuth, elevation, count};
+    return (ReviewMap){
+        .of = sweep, .azimuth_deg = {0, 2, COLUMNS}, .elevation_deg = {0, 2, ROWS}, .cells = cells};
 }
 
 static inline ReviewCalendar fixture_calendar(Arena *arena, const ReviewSweep *sweep) {

@@ -252,7 +252,7 @@ static bool set_page(json_t *to, const HtmlReport *report, const json_t *folders
     page_set(to, "signed_ramp", ramps[1].data);
     page_set_flag(to, "is_folder", report->is_folder);
     if (folders) json_object_update_missing(to, (json_t *)(size_t)folders);
-    return page_set_head(to, &(PageHead){.title = title, .command = "compare --report"}, err);
+    return page_set_head(to, title, "compare --report", err);
 }
 
 /* Cuts off what stands before the mark. */

@@ -107,8 +107,7 @@ static bool write_page(json_t *to, const PlotData *s, const Report *report,
                        const PlotOptions *options, const char *path, Error *err) {
     static const PageFormat FORMATS[] = {{"figure", figure_words}, {NULL, NULL}};
     Arena *arena = s->arena;
-    const PageHead head = {
-        .title = s->name, .command = "panel report", .is_dark = options->is_dark};
+    page_set_flag(to, "is_dark", options->is_dark);
     page_set(to, "name", s->name);
     page_set(to, "file_name", s->file_name);
     json_object_set(to, "note", json_object_get(s->source.report, "note"));
@@ -123,7 +122,7 @@ static bool write_page(json_t *to, const PlotData *s, const Report *report,
         json_array_append_new(tables, table_page(report->table[i]));
     json_object_set_new(to, "tables", tables);
     report_of_file(to, s->source.report, arena);
-    if (page_set_head(to, &head, err) &&
+    if (page_set_head(to, s->name, "panel report", err) &&
         report_figures(to, plot_charts(s, PLOT_ALL, arena), options->is_dark, arena, err))
         return page_write_values("panel.html", to, FORMATS, path, err);
     json_decref(to);

@@ -29,12 +29,12 @@
 #define LIST_BYTES ((size_t)1 << 24)
 
 const char *const review_files_fixed[REVIEW_FILES_FIXED] = {
-    "review.json", "index.html", "cases.csv",        "junit.xml", "diff.json",
-    "run.json",    "live.js",    REVIEW_PAGE_BESIDE, LIST};
+    "review.json", "index.html", "cases.csv",        "junit.xml",
+    "diff.json",   "run.json",   REVIEW_PAGE_BESIDE, LIST};
 
 /* That earlier versions wrote besides: they go with the review that stood there. */
 static const char *const of_earlier[] = {"gazes.csv", "dimming.csv", "false_suns.csv",
-                                         "pane_images.csv"};
+                                         "pane_images.csv", "live.js"};
 
 /* Behind a frame's name. */
 static const char *const of_frame[] = {".png", ".exr", "-luminance.png", "-contrast.png"};

@@ -29,7 +29,6 @@
 #define INPUT_BYTES ((size_t)1 << 34) /* address space */
 #define MAP_STEP_DEG 5
 #define MAIN_CARDS 20 /* of the page itself: it stays below 3 MB */
-#define LIVE_FILE "live.js"
 
 /* ---- before the work ------------------------------------------------------------------*/
 
@@ -161,7 +160,7 @@ static void add_charts(const ReviewFolder *folder, const ReviewOutcome *outcome,
         const ReviewSweep *sweep = &outcome->review.sweeps[table->sweep_id];
         const ReviewCondition *condition =
             review_condition_named(folder->request, sweep->condition);
-        maps[page->map_count++] = sweep_map(table, sweep, MAP_STEP_DEG, arena);
+        maps[page->map_count++] = sweep_map(table, sweep, condition, MAP_STEP_DEG, arena);
         if (condition->kind == CONDITION_YEAR_SWEEP)
             calendars[page->calendar_count++] = sweep_calendar(table, sweep, condition, arena);
     }
@@ -312,22 +311,12 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena) {
 }
 
 /* Fills all of the page but the review. */
-static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome, ReviewPage *page,
-                      Arena *arena, Error *err) {
-    ReviewLive *live = ARENA_NEW(arena, ReviewLive, 1);
-    *live = sweep_live(folder->request, outcome, arena);
-    if (!folder->is_self_contained && live->sweep_count) {
-        live->beside = LIVE_FILE;
-        if (!review_live_write(&outcome->review, live,
-                               arena_format(arena, "%s/%s", folder->name, LIVE_FILE), err))
-            return false;
-    }
-    page->live = live;
+static void fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome, ReviewPage *page,
+                      Arena *arena) {
     add_charts(folder, outcome, page, arena);
     add_pictures(folder, &outcome->review, page, arena);
     add_pairs(folder, &outcome->review, page, arena);
     add_facts(&outcome->review, page, arena);
-    return true;
 }
 
 static bool write_diff(const ReviewFolder *folder, const ReviewOutcome *outcome, ReviewPage *page,
@@ -367,8 +356,8 @@ static bool write_page(const ReviewFolder *folder, ReviewOutcome *outcome, Arena
     int all = review->case_count + review->sweep_count;
     review->has_summaries = !folder->is_self_contained && !folder->summary;
     review->main_cards = folder->is_self_contained || all <= MAIN_CARDS ? 0 : MAIN_CARDS;
-    if (!fill_page(folder, outcome, &page, arena, err) ||
-        !write_diff(folder, outcome, &page, arena, err) ||
+    fill_page(folder, outcome, &page, arena);
+    if (!write_diff(folder, outcome, &page, arena, err) ||
         !review_page_write(&page, arena_format(arena, "%s/index.html", folder->name), err))
         return false;
     if ((review->has_summaries || folder->summary) && !write_summaries(folder, &page, arena, err))

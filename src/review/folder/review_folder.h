@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_folder.h -- the folder of a review: page, documents, tables, pictures.
  *
- * index.html (with many cases cases.html beside it), live.js, summary-SYMBOL.html, review.json,
+ * index.html (with many cases cases.html beside it), summary-SYMBOL.html, review.json,
  * cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png;
  * responses/NAME.response; run.json with what may differ from run to run; diff.json beside an
  * earlier review; unfinished/ (review_files.h) until all is there.

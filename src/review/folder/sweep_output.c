@@ -9,45 +9,6 @@
 
 #define MINUTES_A_DAY 1440
 
-/* ---- for the page's reader --------------------------------------------------------------- */
-
-static const LiveSky *make_sky(const SweepSuns *suns, const ReviewCondition *condition,
-                               Arena *arena) {
-    LiveSun *list = ARENA_NEW(arena, LiveSun, suns->count);
-    LiveSky *sky = ARENA_NEW(arena, LiveSky, 1);
-    for (int i = 0; i < suns->count; i++) {
-        const SweepSun *sun = &suns->list[i];
-        list[i] = (LiveSun){sun->azimuth_deg, sun->elevation_deg, sun->step, sun->heading_id};
-    }
-    bool is_year = condition && condition->kind == CONDITION_YEAR_SWEEP;
-    *sky = (LiveSky){.suns = list, .count = suns->count};
-    if (is_year) {
-        sky->year = condition->year;
-        sky->step_minutes = suns->step_minutes;
-        sky->headings_deg = condition->headings_deg;
-        sky->heading_count = condition->heading_count;
-    }
-    return sky;
-}
-
-ReviewLive sweep_live(const ReviewRequest *request, const ReviewOutcome *outcome, Arena *arena) {
-    LiveSweep *sweeps = ARENA_NEW(arena, LiveSweep, outcome->table_count);
-    const SweepSuns *last = NULL;
-    const LiveSky *sky = NULL;
-    for (int i = 0; i < outcome->table_count; i++) {
-        const SweepTable *t = &outcome->tables[i];
-        const char *condition = outcome->review.sweeps[t->sweep_id].condition;
-        if (t->suns != last)
-            sky = make_sky(t->suns, review_condition_named(request, condition), arena);
-        last = t->suns;
-        const SunFigures *f = &t->figures;
-        sweeps[i] =
-            (LiveSweep){t->sweep_id, sky,          f->worst,  f->contrast, f->low, f->high,
-                        f->margin,   f->reflected, f->mirror, f->level,    f->lux, f->verdict};
-    }
-    return (ReviewLive){.sweeps = sweeps, .sweep_count = outcome->table_count};
-}
-
 /* ---- the table --------------------------------------------------------------------------- */
 
 static void add_time(Text *text, const SweepTable *table, const ReviewCondition *c,
@@ -91,33 +52,31 @@ bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition
 
 /* ---- the map ----------------------------------------------------------------------------- */
 
-typedef struct MapCells {
-    float *contrast, *margin;
-    unsigned char *verdict;
-} MapCells;
-
-static ReviewMap empty_map(const ReviewSweep *sweep, ReviewAxis azimuth, ReviewAxis elevation,
-                           MapCells *cells, Arena *arena) {
-    size_t count = (size_t)azimuth.count * (size_t)elevation.count;
-    cells->contrast = ARENA_NEW(arena, float, count);
-    cells->margin = ARENA_NEW(arena, float, count);
-    cells->verdict = ARENA_NEW(arena, unsigned char, count);
-    for (size_t i = 0; i < count; i++) cells->contrast[i] = cells->margin[i] = NAN;
-    return (ReviewMap){.of = sweep,
-                       .is_of_vehicle = true,
-                       .azimuth_deg = azimuth,
-                       .elevation_deg = elevation,
-                       .contrast = cells->contrast,
-                       .margin = cells->margin,
-                       .verdict = cells->verdict};
+/* Whose cell shows the worst of the suns that are put there; -1: none. */
+static void put_worst(const SweepTable *table, int sun, int *cell) {
+    float found = table->figures.contrast[sun];
+    float before = *cell < 0 ? NAN : table->figures.contrast[*cell];
+    if (table->figures.is_private ? found <= before : found >= before) return;
+    *cell = sun;
 }
 
-static void put_worst(const SweepTable *table, int sun, MapCells *cells, size_t at) {
-    float found = table->figures.contrast[sun], before = cells->contrast[at]; /* NaN: none */
-    if (table->figures.is_private ? found <= before : found >= before) return;
-    cells->contrast[at] = table->figures.contrast[sun];
-    cells->margin[at] = table->figures.margin[sun];
-    cells->verdict[at] = table->figures.verdict[sun];
+static ReviewStep step_of(const SweepTable *table, const ReviewCondition *condition, int i,
+                          Arena *arena) {
+    if (i < 0) return (ReviewStep){.contrast = NAN};
+    const SunFigures *f = &table->figures;
+    const SweepSun *sun = &table->suns->list[i];
+    return (ReviewStep){.azimuth_deg = sun->azimuth_deg,
+                        .elevation_deg = sun->elevation_deg,
+                        .when = sweep_suns_when(condition, table->suns, sun, arena),
+                        .contrast = (double)f->contrast[i],
+                        .low = (double)f->low[i],
+                        .high = (double)f->high[i],
+                        .margin = (double)f->margin[i],
+                        .reflected = (double)f->reflected[i],
+                        .mirror = (double)f->mirror[i],
+                        .level = (double)f->level[i],
+                        .lux = (double)f->lux[i],
+                        .verdict = (Verdict)f->verdict[i]};
 }
 
 /* ---- between the steps of a year --------------------------------------------------------- */
@@ -129,7 +88,7 @@ static void put_worst(const SweepTable *table, int sun, MapCells *cells, size_t 
 typedef struct SunWay {
     const SweepTable *table;
     const ReviewMap *map;
-    MapCells *cells;
+    int *cells;   /* [cell] sun */
     float *apart; /* [cell] part of a step's time from its answer's; 0: its own */
 } SunWay;
 
@@ -152,9 +111,9 @@ static void direction_of(const SweepSun *sun, double out[3]) {
 /* The answer of `sun`, `apart` of a step away. */
 static void offer(const SunWay *way, int sun, int at, float apart) {
     if (at < 0 || apart > way->apart[at]) return;
-    if (apart < way->apart[at]) way->cells->contrast[at] = NAN;
+    if (apart < way->apart[at]) way->cells[at] = -1;
     way->apart[at] = apart;
-    put_worst(way->table, sun, way->cells, (size_t)at);
+    put_worst(way->table, sun, &way->cells[at]);
 }
 
 /* From one step to the next, by the straight way, which is within 0.3 degrees of the sun's. */
@@ -191,34 +150,37 @@ static void fill_between(const SunWay *way, Arena scratch) {
     }
 }
 
-static ReviewMap grid_map(const SweepTable *table, const ReviewSweep *sweep, Arena *arena) {
+static void fill_year(const SweepTable *table, ReviewMap *map, int *cells, Arena scratch) {
     const SweepSuns *suns = table->suns;
-    MapCells cells;
-    ReviewAxis azimuth = {suns->list[0].azimuth_deg, suns->azimuth_deg.step,
-                          suns->azimuth_deg.count};
-    ReviewAxis elevation = {suns->elevation_deg.first, suns->elevation_deg.step,
-                            suns->elevation_deg.count};
-    ReviewMap map = empty_map(sweep, azimuth, elevation, &cells, arena);
-    for (int i = 0; i < suns->count; i++) put_worst(table, i, &cells, (size_t)i);
-    return map;
-}
-
-ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep, double step_deg,
-                    Arena *arena) {
-    const SweepSuns *suns = table->suns;
-    MapCells cells;
-    if (!suns->has_time) return grid_map(table, sweep, arena);
-    ReviewAxis azimuth = {0, step_deg, (int)(360 / step_deg)};
-    ReviewAxis elevation = {0.5 * step_deg, step_deg, (int)(90 / step_deg)};
-    ReviewMap map = empty_map(sweep, azimuth, elevation, &cells, arena);
-    SunWay way = {table, &map, &cells, ARENA_NEW(arena, float, azimuth.count *elevation.count)};
-    for (int i = 0; i < azimuth.count * elevation.count; i++) way.apart[i] = 1;
+    int count = map->azimuth_deg.count * map->elevation_deg.count;
+    SunWay way = {table, map, cells, ARENA_NEW(&scratch, float, count)};
+    for (int i = 0; i < count; i++) way.apart[i] = 1;
     for (int i = 0; i < suns->count; i++) {
         const SweepSun *sun = &suns->list[i];
-        offer(&way, i, cell_at(&map, sun->azimuth_deg, sun->elevation_deg), 0);
+        offer(&way, i, cell_at(map, sun->azimuth_deg, sun->elevation_deg), 0);
     }
-    map.is_between_steps = suns->step_minutes > 0;
-    if (map.is_between_steps) fill_between(&way, *arena);
+    map->is_between_steps = suns->step_minutes > 0;
+    if (map->is_between_steps) fill_between(&way, scratch);
+}
+
+ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep,
+                    const ReviewCondition *condition, double step_deg, Arena *arena) {
+    const SweepSuns *suns = table->suns;
+    ReviewAxis across = {0, step_deg, (int)(360 / step_deg)};
+    ReviewAxis up = {0.5 * step_deg, step_deg, (int)(90 / step_deg)};
+    if (!suns->has_time) {
+        across = (ReviewAxis){suns->list[0].azimuth_deg, suns->azimuth_deg.step,
+                              suns->azimuth_deg.count};
+        up = (ReviewAxis){suns->elevation_deg.first, suns->elevation_deg.step,
+                          suns->elevation_deg.count};
+    }
+    int count = across.count * up.count;
+    ReviewStep *steps = ARENA_NEW(arena, ReviewStep, count);
+    int *cells = ARENA_NEW(arena, int, count);
+    ReviewMap map = {.of = sweep, .azimuth_deg = across, .elevation_deg = up, .cells = steps};
+    for (int i = 0; i < count; i++) cells[i] = suns->has_time ? -1 : i;
+    if (suns->has_time) fill_year(table, &map, cells, *arena);
+    for (int i = 0; i < count; i++) steps[i] = step_of(table, condition, cells[i], arena);
     return map;
 }
 

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* sweep_output.h -- what a sweep found of every sun: as a table, as pictures for the page, and
- * as rows for its reader (review/output/review_live.h).
+/* sweep_output.h -- what a sweep found of every sun: as a table, and as pictures for the page.
  *
  * Memory   from the arena. Threads: pure.
  * Fails    when the table cannot be written.
  */
 #pragma once
-#include "review/output/review_live.h"
 #include "review/output/review_page.h"
 #include "review/run/review_run.h"
 
@@ -17,12 +15,9 @@ bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition
 /* Contrast over the sun's place in the vehicle's frame: cells of `step_deg`, each with the
  * worst of its suns; of a sweep over the sun its own grid. A cell that the sun of a year passes
  * between two steps has the answer of the one that is nearer in time. */
-ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep, double step_deg,
-                    Arena *arena);
+ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep,
+                    const ReviewCondition *condition, double step_deg, Arena *arena);
 
 /* For a year sweep. */
 ReviewCalendar sweep_calendar(const SweepTable *table, const ReviewSweep *sweep,
                               const ReviewCondition *condition, Arena *arena);
-
-/* The tables of all sweeps. */
-ReviewLive sweep_live(const ReviewRequest *request, const ReviewOutcome *outcome, Arena *arena);

@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include "base/calendar.h"
+#include "base/count.h"
 #include "base/mathd.h"
 #include "image/picture.h"
 #include "page/page.h"
 #include "review/output/review_words.h"
 #include "review/quantity.h"
-#include "text/base64.h"
 #include "text/json_text.h"
 #include "text/text.h"
 
@@ -47,24 +47,21 @@ static void put(const Picture *picture, int x, int y, Colour colour) {
 
 /* ---- what maps and calendars share ------------------------------------------------------ */
 
-/* What a picture of cells is in both: one pixel each, and the numbers for the pointer
- * (review.js), 16 bits a cell. False: it cannot be encoded. */
-static bool set_cells(json_t *to, const Picture *cells, const unsigned char *codes, Arena scratch,
-                      Error *err) {
-    Text values = {.arena = &scratch};
+/* What a picture of cells is in both: one pixel each, and what the script says of each, which is
+ * taken; NULL: nothing. False: it cannot be encoded. */
+static bool set_cells(json_t *to, const Picture *cells, json_t *said, Arena scratch, Error *err) {
+    Text json = {.arena = &scratch};
     json_t *picture = page_picture(cells, false, scratch, err);
-    if (!picture) return false;
-    base64_encode(&values, codes, 2 * (size_t)cells->width * (size_t)cells->height);
+    const char *values = NULL;
+    if (said && json_dump_text(&json, said, JSON_COMPACT))
+        values = page_deflated(json.data, json.size, &scratch, err);
+    bool ok = picture && (values || !said);
+    json_decref(said);
     json_object_set_new(to, "cells", picture);
-    page_set(to, "values", values.data);
+    page_set(to, "values", values);
     page_set_count(to, "columns", cells->width);
     page_set_count(to, "rows", cells->height);
-    return true;
-}
-
-static void set_code(unsigned char *codes, size_t i, unsigned code) {
-    codes[2 * i] = (unsigned char)(code & 255);
-    codes[2 * i + 1] = (unsigned char)(code >> 8);
+    return ok;
 }
 
 /* share: of the way along the axis, 0..1; from the left, or from the top. */
@@ -110,7 +107,7 @@ static size_t map_index(const ReviewMap *map, int azimuth, int elevation) {
 }
 
 static bool has_answer(const ReviewMap *map, int azimuth, int elevation) {
-    return !isnan(map->contrast[map_index(map, azimuth, elevation)]);
+    return !isnan(map->cells[map_index(map, azimuth, elevation)].contrast);
 }
 
 /* Outside the map nothing fails. */
@@ -118,7 +115,7 @@ static bool fails_at(const ReviewMap *map, int azimuth, int elevation) {
     bool is_inside = azimuth >= 0 && azimuth < map->azimuth_deg.count && elevation >= 0 &&
                      elevation < map->elevation_deg.count;
     return is_inside && has_answer(map, azimuth, elevation) &&
-           map->verdict[map_index(map, azimuth, elevation)] == VERDICT_FAIL;
+           map->cells[map_index(map, azimuth, elevation)].verdict == VERDICT_FAIL;
 }
 
 static Picture map_picture(const ReviewMap *map, Arena *arena) {
@@ -126,10 +123,9 @@ static Picture map_picture(const ReviewMap *map, Arena *arena) {
     Picture out = picture_create(map->azimuth_deg.count, rows, arena);
     for (int e = 0; e < rows; e++)
         for (int a = 0; a < out.width; a++) {
-            size_t i = map_index(map, a, e);
+            const ReviewStep *step = &map->cells[map_index(map, a, e)];
             put(&out, a, rows - 1 - e,
-                has_answer(map, a, e) ? colour_of((Verdict)map->verdict[i], (double)map->margin[i])
-                                      : NONE);
+                has_answer(map, a, e) ? colour_of(step->verdict, step->margin) : NONE);
         }
     return out;
 }
@@ -166,21 +162,6 @@ static double axis_azimuth(const ReviewAxis *axis, double azimuth_deg) {
     return low + 360 * ((azimuth_deg - low) / 360 - floor((azimuth_deg - low) / 360));
 }
 
-/* A path is lifted where it leaves the map on one side and comes back on the other. */
-static const char *path_line(const ReviewMap *map, const SunPath *path, Arena *arena) {
-    Text line = {.arena = arena};
-    double last = NAN;
-    for (int i = 0; i < path->count; i++) {
-        double azimuth = axis_azimuth(&map->azimuth_deg, path->azimuth_deg[i]);
-        double x = axis_place(&map->azimuth_deg, azimuth);
-        double y =
-            map->elevation_deg.count - axis_place(&map->elevation_deg, path->elevation_deg[i]);
-        text_format(&line, "%c%.2f %.2f", fabs(azimuth - last) < 180 ? 'L' : 'M', x, y);
-        last = azimuth;
-    }
-    return line.data ? line.data : "";
-}
-
 /* In per cent of the map, from its lower left. False: it lies outside. */
 static bool set_place(json_t *to, const ReviewMap *map, double azimuth_deg, double elevation_deg) {
     double azimuth = axis_azimuth(&map->azimuth_deg, azimuth_deg);
@@ -192,32 +173,19 @@ static bool set_place(json_t *to, const ReviewMap *map, double azimuth_deg, doub
     return true;
 }
 
-/* Its name stands where the sun is highest, if that is on the map. */
-static void add_path(json_t *list, const ReviewMap *map, const SunPath *path, Arena scratch) {
-    int top = 0;
-    json_t *to = page_add(list);
-    page_set(to, "line", path_line(map, path, &scratch));
-    for (int i = 1; i < path->count; i++)
-        if (path->elevation_deg[i] > path->elevation_deg[top]) top = i;
-    bool is_shown =
-        path->count && set_place(to, map, path->azimuth_deg[top], path->elevation_deg[top]);
-    page_set(to, "name", is_shown ? path->name : NULL);
-}
-
 /* Where it is worst, as it was read again: of the vehicle, as the map. */
 static void set_worst(json_t *to, const ReviewMap *map, Arena *arena) {
     const ReviewCase *c = map->of ? &map->of->worst : NULL;
     json_t *worst = json_object();
-    bool is_shown = c && c->has_sun && map->is_of_vehicle &&
-                    set_place(worst, map, c->sun_azimuth_deg, c->sun_elevation_deg);
+    bool is_shown =
+        c && c->has_sun && set_place(worst, map, c->sun_azimuth_deg, c->sun_elevation_deg);
     if (is_shown) page_set(worst, "sun", words_sun(c, words_directions(true), arena));
     json_object_set_new(to, "worst_sun", is_shown ? worst : json_null());
     if (!is_shown) json_decref(worst);
 }
 
 static json_t *azimuths(const ReviewMap *map) {
-    static const char *const VEHICLE[4] = {"ahead", "right", "behind", "left"};
-    static const char *const WORLD[4] = {"north", "east", "south", "west"};
+    static const char *const NAMES[4] = {"ahead", "right", "behind", "left"};
     const ReviewAxis *axis = &map->azimuth_deg;
     double range = axis->step * axis->count;
     int step = range > 180 ? 90 : range > 60 ? 30 : 10;
@@ -226,9 +194,8 @@ static json_t *azimuths(const ReviewMap *map) {
         double share = axis_place(axis, value) / axis->count;
         if (share < 0 || share > 1) continue;
         json_t *tick = add_tick(list, share);
-        int quarter = (value + 360) / 90 % 4;
         page_set_count(tick, "degrees", value);
-        page_set(tick, "name", value % 90 ? NULL : (map->is_of_vehicle ? VEHICLE : WORLD)[quarter]);
+        page_set(tick, "name", value % 90 ? NULL : NAMES[(value + 360) / 90 % 4]);
     }
     return list;
 }
@@ -251,56 +218,67 @@ static json_t *elevations(const ReviewMap *map) {
 static bool holds(const ReviewMap *map, int wanted) {
     for (int e = 0; e < map->elevation_deg.count; e++)
         for (int a = 0; a < map->azimuth_deg.count; a++) {
-            int here = has_answer(map, a, e) ? map->verdict[map_index(map, a, e)] : GAP;
+            int here = has_answer(map, a, e) ? (int)map->cells[map_index(map, a, e)].verdict : GAP;
             if (here == wanted) return true;
         }
     return false;
 }
 
-/* Contrast of 1 to 10,000 by its logarithm, within 0.06 %. */
-static unsigned code_of(float contrast, unsigned verdict) {
-    double decades = contrast > 1 ? fmin(log10_d((double)contrast), 4) : 0;
-    return isnan(contrast) ? 0 : verdict << 14 | (unsigned)(1.5 + 16382 * decades / 4);
-}
-
-static bool set_map_cells(json_t *to, const ReviewMap *map, Arena scratch, Error *err) {
-    Picture cells = map_picture(map, &scratch);
-    size_t count = (size_t)cells.width * (size_t)cells.height;
-    unsigned char *codes = ARENA_NEW(&scratch, unsigned char, 2 * count);
-    for (size_t i = 0; i < count; i++)
-        set_code(codes, i, code_of(map->contrast[i], map->verdict[i]));
-    return set_cells(to, &cells, codes, scratch, err);
+/* Of each cell the row of its step, a list a column; null where there is none. */
+static json_t *steps_said(const ReviewMap *map, Arena scratch) {
+    static const char *const NAMES[] = {"kind", "verdict",   "contrast", "range", "margin", "sun",
+                                        "lux",  "reflected", "mirror",   "level", "when"};
+    json_t *said = json_object();
+    for (int k = 0; k < COUNT_OF(NAMES); k++) json_object_set_new(said, NAMES[k], json_array());
+    for (int i = 0; i < map->azimuth_deg.count * map->elevation_deg.count; i++) {
+        const ReviewStep *step = &map->cells[i];
+        ReviewCase at = {.has_sun = true,
+                         .sun_azimuth_deg = step->azimuth_deg,
+                         .sun_elevation_deg = step->elevation_deg};
+        Arena own = scratch;
+        const char *const words[COUNT_OF(NAMES)] = {
+            words_class(step->verdict),
+            words_verdict(step->verdict),
+            words_within(step->contrast, step->low, step->high, &own),
+            words_interval(step->low, step->high, &own),
+            words_margin(step->margin, &own),
+            words_sun(&at, words_directions(true), &own),
+            words_figure(step->lux, &own),
+            words_figure(step->reflected, &own),
+            words_figure(step->mirror, &own),
+            words_share(step->level, &own),
+            step->when};
+        for (int k = 0; k < COUNT_OF(NAMES); k++)
+            json_array_append_new(json_object_get(said, NAMES[k]),
+                                  json_text_or_null(isnan(step->contrast) ? NULL : words[k]));
+    }
+    return said;
 }
 
 static void set_axes(json_t *to, const ReviewMap *map) {
     const ReviewAxis *across = &map->azimuth_deg, *up = &map->elevation_deg;
-    json_object_set_new(to, "first", json_real(across->first));
     json_object_set_new(to, "step", json_real(across->step));
     json_object_set_new(to, "low", json_real(up->first));
     json_object_set_new(to, "rise", json_real(up->step));
     json_object_set_new(to, "azimuths", azimuths(map));
     json_object_set_new(to, "elevations", elevations(map));
-    json_object_set_new(to, "directions", json_texts(words_directions(map->is_of_vehicle), 8));
 }
 
-json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err) {
-    json_t *to = values_of(map->of), *paths = json_array();
-    if (!set_map_cells(to, map, scratch, err)) {
+json_t *review_map_values(const ReviewMap *map, bool for_script, Arena scratch, Error *err) {
+    json_t *to = values_of(map->of);
+    Picture cells = map_picture(map, &scratch);
+    if (!set_cells(to, &cells, for_script ? steps_said(map, scratch) : NULL, scratch, err)) {
         json_decref(to);
         return NULL;
     }
     set_axes(to, map);
     set_worst(to, map, &scratch);
     page_set(to, "border", border(map, &scratch));
-    for (int i = 0; i < map->path_count; i++) add_path(paths, map, &map->paths[i], scratch);
-    json_object_set_new(to, "paths", paths);
     json_object_set_new(to, "holds",
                         json_pack("{s:b, s:b, s:b}", "close", holds(map, VERDICT_TOO_CLOSE),
                                   "hidden", holds(map, VERDICT_UNJUDGED), "gap", holds(map, GAP)));
-    page_set_flag(to, "is_of_vehicle", map->is_of_vehicle);
     page_set_flag(to, "hides", map->of && map->of->worst.must_not_be_read);
     page_set_flag(to, "is_between_steps", map->is_between_steps);
-    page_set_flag(to, "has_paths", map->path_count > 0);
     return to;
 }
 
@@ -338,22 +316,23 @@ static json_t *months(const ReviewCalendar *calendar) {
     return list;
 }
 
-static bool set_calendar_cells(json_t *to, const ReviewCalendar *calendar, Arena scratch,
-                               Error *err) {
-    Picture cells = calendar_picture(calendar, &scratch);
-    size_t days = (size_t)calendar->days, steps = (size_t)calendar->steps_a_day;
-    unsigned char *codes = ARENA_NEW(&scratch, unsigned char, 2 * days * steps);
-    for (size_t day = 0; day < days; day++)
-        for (size_t step = 0; step < steps; step++) {
-            float share = share_at(calendar, (int)day, (int)step);
-            set_code(codes, step * days + day, isnan(share) ? 0 : (unsigned)(1.5f + 10000 * share));
+/* Of each cell the headings that fail: null where the sun is down. */
+static json_t *headings_said(const ReviewCalendar *calendar) {
+    json_t *said = json_array();
+    for (int step = 0; step < calendar->steps_a_day; step++)
+        for (int day = 0; day < calendar->days; day++) {
+            float share = share_at(calendar, day, step);
+            json_array_append_new(
+                said, isnan(share) ? json_null()
+                                   : json_integer(lrint((double)share * calendar->headings)));
         }
-    return set_cells(to, &cells, codes, scratch, err);
+    return said;
 }
 
 json_t *review_calendar_values(const ReviewCalendar *calendar, Arena scratch, Error *err) {
     json_t *to = values_of(calendar->of);
-    if (!set_calendar_cells(to, calendar, scratch, err)) {
+    Picture cells = calendar_picture(calendar, &scratch);
+    if (!set_cells(to, &cells, headings_said(calendar), scratch, err)) {
         json_decref(to);
         return NULL;
     }

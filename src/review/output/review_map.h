@@ -22,30 +22,29 @@ typedef struct ReviewAxis {
     int count;          /* at least 1 */
 } ReviewAxis;
 
-/* A line over a map: where the sun goes on one day. */
-typedef struct SunPath {
-    const char *name; /* "21 June" */
-    const double *azimuth_deg, *elevation_deg;
-    int count;
-} SunPath;
+/* A step of a sweep as it was judged: its row of the sweep's table. */
+typedef struct ReviewStep {
+    double azimuth_deg, elevation_deg; /* of the sun; azimuth 0 is ahead, 90 right */
+    const char *when;                  /* NULL: a sweep without times */
+    double contrast, low, high;        /* NaN: not evaluated */
+    double margin;                     /* LimitVerdict's (verdict.h); NaN: no limit */
+    double reflected, mirror, level, lux;
+    Verdict verdict;
+} ReviewStep;
 
-/* The verdict for every place of the sun. Arrays hold the azimuths of the first elevation, then
- * those of the second, ... */
+/* The verdict for every place of the sun: each cell has the answer of a step. Those of the first
+ * elevation's azimuths, then of the second, ... */
 typedef struct ReviewMap {
     const ReviewSweep *of; /* one of the review's sweeps: the pointer */
-    bool is_of_vehicle;    /* azimuth 0 is ahead, 90 right; else north and east */
     ReviewAxis azimuth_deg, elevation_deg;
-    const float *contrast;        /* NaN: not evaluated there */
-    const float *margin;          /* LimitVerdict's (verdict.h); NaN: no limit */
-    const unsigned char *verdict; /* a Verdict each */
-    bool is_between_steps;        /* of a year: what the sun passes between two steps
-                                     has the answer of the nearer one */
-    const SunPath *paths;
-    int path_count;
+    const ReviewStep *cells;
+    bool is_between_steps; /* of a year: what the sun passes between two steps
+                              has the answer of the nearer one */
 } ReviewMap;
 
-/* What the template map.html shows; the caller's. NULL: *err is filled. */
-json_t *review_map_values(const ReviewMap *map, Arena scratch, Error *err);
+/* What the template map.html shows; the caller's. for_script: with the cells' steps, which the
+ * reader may point at (review.js). NULL: *err is filled. */
+json_t *review_map_values(const ReviewMap *map, bool for_script, Arena scratch, Error *err);
 
 /* The share of headings that failed, over the hours of every day. The array holds the steps of
  * the first day from midnight on, then those of the second, ... */

@@ -169,11 +169,7 @@ static bool set_head(const PageValues *v, Error *err) {
     page_set(v->doc, "title", title);
     page_set(elsewhere, "href", review->is_beside ? "index.html" : REVIEW_PAGE_BESIDE);
     page_set(elsewhere, "what", review->is_beside ? "the worst" : "a page of their own");
-    return page_set_head(v->doc,
-                         &(PageHead){.title = symbol ? symbol : title,
-                                     .command = "review",
-                                     .is_dark = v->page->is_dark},
-                         err);
+    return page_set_head(v->doc, symbol ? symbol : title, "review", err);
 }
 
 /* ---- cards ------------------------------------------------------------------------------ */
@@ -216,7 +212,8 @@ static bool set_drawings(const PageValues *v, json_t *to, const ReviewSweep *s, 
     bool ok = true;
     for (int i = 0; i < page->map_count && ok; i++)
         if (page->maps[i].of == s)
-            ok = !json_array_append_new(maps, review_map_values(&page->maps[i], *v->arena, err));
+            ok = !json_array_append_new(
+                maps, review_map_values(&page->maps[i], !v->review->whole, *v->arena, err));
     for (int i = 0; i < page->calendar_count && ok; i++)
         if (page->calendars[i].of == s)
             ok = !json_array_append_new(
@@ -260,15 +257,6 @@ static void set_provenance(const PageValues *v) {
     page_set_count(v->doc, "response_count", v->review->response_count);
 }
 
-static bool set_live(const PageValues *v, Error *err) {
-    Arena own = arena_reserve(WORDS_BYTES);
-    Text html = {.arena = &own};
-    bool ok = !v->page->live || review_live_add(&html, v->review, v->page->live, err);
-    json_object_set_new(v->doc, "live", json_stringn(html.size ? html.data : "", html.size));
-    arena_release(&own);
-    return ok;
-}
-
 /* most: verdicts that are listed; 0: all. */
 static bool set_all(const PageValues *v, int most, Error *err) {
     if (!set_head(v, err) || !values_add_cases(v, err) || !values_add_answer(v, err) ||
@@ -280,7 +268,7 @@ static bool set_all(const PageValues *v, int most, Error *err) {
     values_add_diff(v);
     values_add_gazes(v);
     set_provenance(v);
-    return values_add_variants(v, err) && set_live(v, err);
+    return values_add_variants(v, err);
 }
 
 /* ---- one symbol alone ------------------------------------------------------------------- */
@@ -310,7 +298,7 @@ static const ReviewCase *case_of_part(const Review *part, const ReviewCase *of) 
 }
 
 static ReviewPage page_of_part(const ReviewPage *page, const Review *part, Arena *arena) {
-    ReviewPage out = {.review = part, .is_dark = page->is_dark};
+    ReviewPage out = {.review = part};
     ReviewPicture *pictures = ARENA_NEW(arena, ReviewPicture, page->picture_count);
     ReviewMap *maps = ARENA_NEW(arena, ReviewMap, page->map_count);
     for (int i = 0; i < page->picture_count; i++) {

@@ -6,8 +6,8 @@
  * the sweeps; folded, all verdicts, a card for every case, and where every limit comes from.
  * Where a review has many cases the page keeps the cards of the worst (Review.main_cards), and
  * another, written of the same with is_beside, the others.
- * Nothing is loaded but pictures, and the layers of those that are looked at, of which the page
- * names files beside it (ReviewPicture.beside, ReviewLive.beside); nothing needs script.
+ * Nothing is loaded but pictures, which stand beside it (ReviewPicture.beside); nothing needs
+ * script.
  *
  * Units    angles in degrees, azimuths from ahead over right, or from north over east.
  * Memory   the caller's until the page is written; the page's own text is given back.

@@ -202,15 +202,6 @@ static void set_levels(json_t *to, const ReviewCase *c, Arena *arena) {
     }
 }
 
-/* words_directions for a case's sun; NULL: what its azimuth counts from is not known. */
-static const char *const *values_directions(const PageValues *v, const ReviewCase *c) {
-    if (!review_sweep_of(v->review, c)) return words_directions(false);
-    for (int i = 0; i < v->page->map_count; i++)
-        if (c == &v->page->maps[i].of->worst)
-            return words_directions(v->page->maps[i].is_of_vehicle);
-    return NULL;
-}
-
 /* ---- pictures ---------------------------------------------------------------------------- */
 
 /* The bytes of a picture's file, as they stand, or its size. */
@@ -291,7 +282,8 @@ static bool add_case(const PageValues *v, json_t *to, const ReviewCase *c, Error
     page_set(to, "todo", todo_of_case(c, arena));
     page_set(to, "unjudged", words_unjudged(c, arena));
     page_set(to, "light", words_ambient(c->ambient));
-    page_set(to, "sun_words", words_sun(c, values_directions(v, c), arena));
+    page_set(to, "sun_words",
+             words_sun(c, words_directions(review_sweep_of(v->review, c) != NULL), arena));
     page_set(to, "hiders", words_hiders(c, arena));
     page_set(to, "bars", review_bar_luminances(c, &has_veil, arena));
     page_set_flag(to, "has_veil", has_veil);
@@ -534,7 +526,8 @@ static void set_rests(const PageValues *v) {
 
 static void set_facts(const PageValues *v, const Finding *f) {
     json_t *list = values_list(v->doc, "facts");
-    const char *const *directions = f->c ? values_directions(v, f->c) : NULL;
+    const char *const *directions =
+        f->c ? words_directions(review_sweep_of(v->review, f->c) != NULL) : NULL;
     ReviewFacts facts = review_facts_of(v->review, f, directions, v->arena);
     for (int i = 0; i < facts.count; i++) {
         json_t *fact = page_add(list);

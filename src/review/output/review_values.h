@@ -12,7 +12,6 @@
 #include "image/picture.h"
 #include "review/output/review_diff.h"
 #include "review/output/review_facts.h"
-#include "review/output/review_live.h"
 #include "review/output/review_map.h"
 #include "review/verdict.h"
 
@@ -46,8 +45,6 @@ typedef struct ReviewPage {
     const char *const *commands; /* that make this page again, and look further */
     int command_count;
     const ReviewDiff *diff; /* NULL: none */
-    const ReviewLive *live; /* the interactive parts; NULL: none */
-    bool is_dark;           /* for readers with a light scheme, too */
 } ReviewPage;
 
 typedef struct PageValues {
