@@ -83,6 +83,7 @@ static Cell cell_in(const json_t *object, const Column *column) {
     const json_t *ends = column->interval ? value_at(object, column->interval) : NULL;
     if (json_array_size(ends) != 2) return cell;
     const json_t *high = json_array_get(ends, 1);
+    cell.kind = CELL_NUMBER;
     cell.low = json_number_value(json_array_get(ends, 0));
     cell.high = json_is_number(high) ? json_number_value(high) : INFINITY;
     return cell;

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Rows and their views: what people read is the same text in every view, and closed forms of how
+ * a figure is written. */
+#include "fixture.h"
+#include "json_fixture.h"
+
+#include "table/table.h"
+#include "text/json_text.h"
+
+/* ---- figures ----------------------------------------------------------------------------- */
+
+static const char *shown(Column column, double value, Arena *arena) {
+    TableKind *kind = ARENA_NEW(arena, TableKind, 1);
+    Column *own = ARENA_NEW(arena, Column, 1);
+    *own = column;
+    *kind = (TableKind){.columns = own, .column_count = 1};
+    Table *table = table_new(kind, arena);
+    table_row(table);
+    table_number(table, value);
+    return table_cell_text(table, 0, 0);
+}
+
+ARENA_TEST(a_figure_has_the_digits_of_its_column) {
+    const struct {
+        Column column;
+        double value;
+        const char *text;
+    } cases[] = {{COLUMN_DIGITS("k", "w", NULL, 4), 905.905, "905.9"},
+                 {COLUMN_DIGITS("k", "w", NULL, 4), 112345, "112345"},
+                 {COLUMN_DIGITS("k", "w", NULL, 4), 0.0299994, "0.03000"},
+                 {COLUMN_DIGITS("k", "w", NULL, 4), 0.00001234, "1.234e-05"},
+                 {COLUMN_DIGITS("k", "w", NULL, 4), 0, "0.000"},
+                 {COLUMN_DIGITS("k", "w", NULL, 0), 8, "8"},
+                 {COLUMN_DIGITS("k", "w", NULL, 0), 2.5e6, "2500000"},
+                 {COLUMN_FIXED("k", "w", NULL, 2), -0.001, "0.00"},
+                 {COLUMN_FIXED("k", "w", NULL, 1), -12.34, "-12.3"},
+                 {COLUMN_SHARE("k", "w"), 0.01234, "1.23"},
+                 {COLUMN_DIGITS("k", "w", NULL, 4), INFINITY, "infinite"},
+                 {COLUMN_DIGITS("k", "w", NULL, 4), NAN, "–"},
+                 {{.key = "k", .words = "w", .none = "not measured"}, NAN, "not measured"}};
+    for (int i = 0; i < COUNT_OF(cases); i++)
+        assert_string_equal(shown(cases[i].column, cases[i].value, &arena), cases[i].text);
+}
+
+/* ---- one text in every view -------------------------------------------------------------- */
+
+enum { COLUMNS = 6, ROWS = 40 };
+
+static const Column RANDOM[COLUMNS] = {COLUMN_TEXT("name", "name"),
+                                       COLUMN_DIGITS("digits", "digits", "cd/m2", 4),
+                                       COLUMN_FIXED("fixed", "fixed", "°", 2),
+                                       COLUMN_SHARE("share", "share"),
+                                       COLUMN_DIGITS("plain", "plain", NULL, 0),
+                                       COLUMN_FIXED("whole", "whole", "lx", 0)};
+static const TableKind RANDOM_KIND = TABLE_KIND("random", "Random", RANDOM);
+
+static Table *random_table(unsigned seed, Arena *arena) {
+    static const char *const NAMES[] = {"plain", "with, comma", "μ and “quotes”", "=1+1", ""};
+    Table *table = table_new(&RANDOM_KIND, arena);
+    srand(seed);
+    for (int r = 0; r < ROWS; r++) {
+        table_row(table);
+        table_text(table, NAMES[rand() % COUNT_OF(NAMES)]);
+        for (int c = 1; c < COLUMNS; c++) {
+            double size = pow(10, rand() % 13 - 6), value = size * (rand() % 2001 - 1000) / 100;
+            table_number(table, rand() % 8 ? value : (double)NAN);
+        }
+    }
+    return table;
+}
+
+/* The cells of a line of the console stand in order. */
+static void assert_stands_in(const char *line, const char *words) {
+    const char *end = strchr(line, '\n'), *at = strstr(line, words);
+    assert_true(at && at < end);
+}
+
+ARENA_TEST(text_json_csv_and_page_have_the_same_cells) {
+    for (unsigned seed = 1; seed <= 50; seed++) {
+        Table *table = random_table(seed, &arena);
+        Text text = {.arena = &arena}, csv = {.arena = &arena};
+        json_auto_t *json = table_json(table), *page = table_page(table);
+        table_add_text(table, &text);
+        table_add_csv(table, &csv);
+        const char *line = text.data, *rows = strchr(csv.data, '\n') + 1;
+        for (int skip = 0; skip < 2; skip++) line = strchr(line, '\n') + 1;
+        for (int r = 0; r < ROWS; r++) {
+            const json_t *cells =
+                json_object_get(json_array_get(json_object_get(page, "rows"), (size_t)r), "cells");
+            for (int c = 0; c < COLUMNS; c++) {
+                const char *words = table_cell_text(table, r, c);
+                Text cell = {.arena = &arena};
+                text_add_cell(&cell, words);
+                assert_memory_equal(rows, cell.data, cell.size);
+                rows += cell.size + 1;
+                assert_stands_in(line, words);
+                assert_string_equal(json_text_at(json_array_get(cells, (size_t)c), "text"), words);
+                const json_t *value =
+                    json_object_get(json_array_get(json, (size_t)r), RANDOM[c].key);
+                if (json_is_number(value)) assert_close(json_number_value(value), atof(words), 0);
+                else assert_string_equal(json_string_value(value), words);
+            }
+            line = strchr(line, '\n') + 1;
+        }
+        assert_true(*rows == 0 && *line == 0);
+    }
+}
+
+/* ---- of a document ----------------------------------------------------------------------- */
+
+static const Column ITEMS[] = {COLUMN_TEXT("name", "item"), COLUMN_SHARE("share", "share")};
+static const TableKind ITEMS_KIND = TABLE_KIND("items", NULL, ITEMS);
+static const Column ANSWER[] = {
+    {.key = "light.cd_m2", .words = "luminance", .unit = "cd/m2", .interval = "light.interval"},
+    {.key = "open.value", .words = "contrast", .unit = ": 1", .interval = "open.interval"},
+    {.key = "cone",
+     .words = "half",
+     .unit = "deg",
+     .is_fixed = true,
+     .places = 1,
+     .parts = "right|up",
+     .none = "beyond"},
+    {.key = "xy.1", .words = "y", .is_fixed = true, .places = 3},
+    {.key = "gone.of.it", .words = "gone", .none = "no layer"},
+    {.key = "absent", .words = "absent", .none = "no layer"},
+    {.key = "nothing", .words = "left out", .hides_zero = true},
+    {.key = "notes", .words = "note"},
+    {.key = "names", .words = "names", .parts = ""},
+    {.key = "choices", .words = "choices"},
+    {.key = "is_up", .words = "up"},
+    {.key = "items", .of = &ITEMS_KIND}};
+static const TableKind ANSWER_KIND = TABLE_KIND("answer", NULL, ANSWER);
+
+ARENA_TEST(a_document_is_read_by_its_columns) {
+    json_auto_t *document =
+        json_loads("{\"light\": {\"cd_m2\": 41.234, \"interval\": [41.0, 41.468]},"
+                   "\"open\": {\"value\": 12, \"interval\": [9.5, null]},"
+                   "\"cone\": [60.04, null], \"xy\": [0.31, 0.3289], \"gone\": null,"
+                   "\"nothing\": 0, \"notes\": [\"one\", \"two\"], \"names\": [\"a\", \"b\"],"
+                   "\"choices\": {\"tree_level\": 7, \"basis\": \"haar\", \"of\": {\"x\": 1}},"
+                   "\"is_up\": true, \"items\": [{\"name\": \"sun\", \"share\": 0.5}]}",
+                   0, NULL);
+    Text text = {.arena = &arena};
+    table_add_document(&ANSWER_KIND, document, &text);
+    assert_string_equal(text.data, "luminance  41.23 +- 0.23 cd/m2\n"
+                                   "contrast   at least 9.5 : 1\n"
+                                   "half       right 60.0, up beyond deg\n"
+                                   "y          0.329\n"
+                                   "gone       no layer\n"
+                                   "note       one\n"
+                                   "note       two\n"
+                                   "names      a, b\n"
+                                   "choices    tree level 7; basis haar\n"
+                                   "up         yes\n"
+                                   "\n"
+                                   "item  share, %\n"
+                                   "sun       50.0\n");
+}
+
+/* A control character of a foreign text is no line's end. */
+ARENA_TEST(what_a_terminal_would_obey_is_shown) {
+    json_auto_t *document = json_pack("{s:s}", "absent", "a\nb");
+    Text text = {.arena = &arena};
+    table_add_document(&ANSWER_KIND, document, &text);
+    assert_string_equal(text.data, "absent  a\\u000Ab\n");
+}
+
+TEST_PROGRAM(make_folder, remove_folder)
