@@ -321,7 +321,7 @@ static void find_change(Comparison *out, Arena *arena) {
     double floor = is_frame ? 0 : LEAST_WHITE;
     const Standout *s = &out->standout;
     out->change = change_find(&out->grid, out->structure.shares_field, floor, arena);
-    if (!is_frame && out->change.area.pixels == 0)
+    if (!is_frame && out->change.area.pixels == 0 && !out->change.is_noisy)
         out->change = change_find(&out->grid, true, floor, arena);
     if (is_frame) /* of the same paths: there is no noise between them, whatever theirs is */
         out->standout = change_standout(

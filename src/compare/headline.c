@@ -119,14 +119,15 @@ static const char *local_text(const Comparison *c, Arena *arena) {
     bool has_ids = c->reference.kind == INPUT_FRAME && c->light[0].rgb[0];
     if (has_ids) object = object_of(c, "display", arena);
     if (has_ids && !object) object = object_of(c, "part", arena);
-    /* In noise few cells of an object stand out by themselves: its mean is known better, and how
-     * far it reaches is not known. */
-    for (int i = 0; object && change->is_noisy && i < c->row_count; i++) {
+    /* In noise few cells of an object stand out by themselves, unless they fill a box: its mean is
+     * known better, and how far it reaches is not known. */
+    bool is_vague = change->is_noisy && !change->is_box;
+    for (int i = 0; object && is_vague && i < c->row_count; i++) {
         const CompareRow *row = &c->rows[i];
         if (row->table == TABLE_MEAN && row->is_finding && !strcmp(row->of, object))
             text = amount(c, row->value, row->half_width, arena);
     }
-    if (object && change->is_noisy) return arena_format(arena, "%s, %s", text, object);
+    if (object && is_vague) return arena_format(arena, "%s, %s", text, object);
     if (object) return arena_format(arena, "%s, %s (%s)", text, object, share_text(change, arena));
     return arena_format(arena, "%s in %s%s%s", text, share_text(change, arena),
                         change->place[0] ? ", " : ", scattered", change->place);

@@ -8,12 +8,14 @@
 #include "spectrum/photometry.h"
 
 #define SIDE_MOST 8
-#define CELLS_ALONG 8    /* at least, where pixels suffice and no noise is */
-#define NOISY 0.1        /* share of the pixels: fewer that differ are no noise */
-#define ROUNDING 1e-5    /* as SIGN_FLIP_ROUNDING */
-#define FALSE_CELLS 0.01 /* expected of all, in independent noise */
-#define SURE 3.3         /* standard errors: one false in a thousand */
-#define EVERYWHERE 0.8   /* share of the lit cells */
+#define CELLS_ALONG 8        /* at least, where pixels suffice and no noise is; */
+#define NOISY_CELLS_ALONG 32 /* in noise boxes of cells are told, not cells */
+#define NOISY 0.1            /* share of the pixels: fewer that differ are no noise */
+#define ROUNDING 1e-5        /* as SIGN_FLIP_ROUNDING */
+#define FALSE_CELLS 0.01     /* expected of all, in independent noise */
+#define SURE 3.3             /* standard errors: one false in a thousand */
+#define OUTSIDE 0.5          /* of a box's change: more of it beside the box is no one place */
+#define EVERYWHERE 0.8       /* share of the lit cells */
 #define FAINT 0.25       /* of the cells' root mean square change: less is not where it changed */
 #define SPREAD (2 / 3.0) /* of a picture's side: what spans more has no place along it */
 #define DARK 1e-3        /* of the mean: light that is as good as none */
@@ -23,8 +25,10 @@
 /* ---- sums -------------------------------------------------------------------------------- */
 
 ChangeGrid change_grid(int width, int height, bool is_paired, Arena *arena) {
-    int least = width < height ? width : height, side = least / CELLS_ALONG;
-    side = !is_paired || side > SIDE_MOST ? SIDE_MOST : side < 1 ? 1 : side;
+    int least = width < height ? width : height;
+    int side = is_paired ? least / CELLS_ALONG : least / NOISY_CELLS_ALONG;
+    int fewest = is_paired ? 1 : 2; /* of one pixel no noise is known */
+    side = side > SIDE_MOST ? SIDE_MOST : side < fewest ? fewest : side;
     ChangeGrid grid = {.width = width,
                        .height = height,
                        .side = side,
@@ -192,6 +196,163 @@ static double mark_cells(const ChangeGrid *grid, double floor, LightChange *out)
     return marked / fmax(lit, 1);
 }
 
+/* ---- one box ----------------------------------------------------------------------------- */
+
+#define BOX_ALONG 24 /* cells, or groups of them, of which all boxes are tried */
+#define EXACT 1e-3   /* of a cell's light: no noise makes it surer */
+#define KINDS 3      /* luminance, red, blue */
+
+/* A change f of a box in proportion: its cells send L, are known with the variance V, which is
+ * that of pixels about their own cell's mean, there and in the cells around, in proportion to L^2,
+ * and differ by d = f L. With S = sum(L d / V) and Q = sum(L^2 / V) least squares give f = S / Q,
+ * known to 1 / sqrt(Q), and S^2 / Q is by how much the box explains d better than no change.
+ * However noise differs from place to place, what is even all over is explained best by all. */
+typedef struct BoxSums {
+    double s[KINDS], q[KINDS];
+} BoxSums;
+
+typedef struct ChangeBox {
+    int low[2], high[2]; /* columns, rows: half-open */
+    double explains;     /* S^2 / Q, of the kind that has most */
+} ChangeBox;
+
+/* Of one kind: the light of a cell, mean of both sides, and its difference. */
+static double light_of(const ChangeSum *cell, int kind, double *difference) {
+    double side[2];
+    for (int i = 0; i < 2; i++)
+        side[i] = kind ? cell->light[i][2 * (kind - 1)] : rgb_luminance(cell->light[i]);
+    *difference = side[1] - side[0];
+    return 0.5 * fabs(side[0] + side[1]);
+}
+
+/* V / L^2 of a cell. */
+static double noise_around(const ChangeGrid *grid, int x, int y, int kind) {
+    double sum = 0, cells = 0, d;
+    for (int i = 0; i < 9; i++) {
+        int u = x + i % 3 - 1, v = y + i / 3 - 1;
+        if (u < 0 || v < 0 || u >= grid->columns || v >= grid->rows) continue;
+        const ChangeSum *cell = &grid->cells[v * grid->columns + u];
+        double light = light_of(cell, kind, &d), n = cell->pixels;
+        double squares = kind ? cell->colour[kind - 1] : cell->squares;
+        if (!(n > 1 && light > 0)) continue;
+        sum += (squares - d * d / n) * n / (n - 1) / (light * light);
+        cells++;
+    }
+    return fmax(sum / fmax(cells, 1), EXACT * EXACT);
+}
+
+static BoxSums box_sums_of(const ChangeGrid *grid, int x, int y) {
+    BoxSums out = {{0}, {0}};
+    for (int k = 0; k < KINDS; k++) {
+        double d, light = light_of(&grid->cells[y * grid->columns + x], k, &d);
+        double noise = noise_around(grid, x, y, k);
+        out.s[k] = light > 0 ? d / light / noise : 0;
+        out.q[k] = light > 0 ? 1 / noise : 0;
+    }
+    return out;
+}
+
+static void add_box(BoxSums *to, const BoxSums *from, double sign) {
+    for (int k = 0; k < KINDS; k++) {
+        to->s[k] += sign * from->s[k];
+        to->q[k] += sign * from->q[k];
+    }
+}
+
+/* Of the cells above and to the left of each corner, [(rows + 1) (columns + 1)]. */
+static BoxSums *corner_sums(const ChangeGrid *grid, Arena *arena) {
+    size_t wide = (size_t)grid->columns + 1;
+    BoxSums *at = ARENA_NEW(arena, BoxSums, wide * ((size_t)grid->rows + 1));
+    for (int y = 0; y < grid->rows; y++)
+        for (int x = 0; x < grid->columns; x++) {
+            BoxSums *to = &at[((size_t)y + 1) * wide + (size_t)x + 1];
+            *to = box_sums_of(grid, x, y);
+            add_box(to, to - 1, 1);
+            add_box(to, to - wide, 1);
+            add_box(to, to - wide - 1, -1);
+        }
+    return at;
+}
+
+static void try_box(const ChangeGrid *grid, const BoxSums *corners, ChangeBox box,
+                    ChangeBox *best) {
+    const int most[2] = {grid->columns, grid->rows};
+    for (int k = 0; k < 2; k++) {
+        if (box.high[k] > most[k]) box.high[k] = most[k];
+        if (box.low[k] < 0 || box.low[k] >= box.high[k]) return;
+    }
+    const BoxSums *top = &corners[box.low[1] * (grid->columns + 1)];
+    const BoxSums *bottom = &corners[box.high[1] * (grid->columns + 1)];
+    BoxSums sum = bottom[box.high[0]];
+    add_box(&sum, &bottom[box.low[0]], -1);
+    add_box(&sum, &top[box.high[0]], -1);
+    add_box(&sum, &top[box.low[0]], 1);
+    box.explains = 0;
+    for (int k = 0; k < KINDS; k++)
+        if (sum.q[k] > 0) box.explains = fmax(box.explains, sum.s[k] * sum.s[k] / sum.q[k]);
+    if (box.explains > best->explains) *best = box;
+}
+
+/* The best of all boxes: of groups of cells first, then its edges by less and less. */
+static ChangeBox best_box(const ChangeGrid *grid, const BoxSums *corners, double *tried) {
+    int columns = grid->columns, rows = grid->rows, most = columns > rows ? columns : rows;
+    int step = (most + BOX_ALONG - 1) / BOX_ALONG;
+    ChangeBox best = {.explains = 0};
+    *tried = 0;
+    for (int y0 = 0; y0 < rows; y0 += step)
+        for (int y1 = y0 + step; y1 < rows + step; y1 += step)
+            for (int x0 = 0; x0 < columns; x0 += step)
+                for (int x1 = x0 + step; x1 < columns + step; x1 += step, ++*tried)
+                    try_box(grid, corners, (ChangeBox){{x0, y0}, {x1, y1}, 0}, &best);
+    for (; step > 0; step /= 2)
+        for (double before = -1; best.explains > before;) {
+            before = best.explains;
+            for (int edge = 0; edge < 8; edge++) {
+                ChangeBox box = best;
+                (edge & 1 ? box.high : box.low)[edge >> 1 & 1] += edge & 4 ? step : -step;
+                try_box(grid, corners, box, &best);
+            }
+        }
+    return best;
+}
+
+/* How much light changed, either way. */
+static double weight_of(const ChangeSum *sum) {
+    double weight = 0;
+    for (int c = 0; c < 3; c++) weight += fabs(sum->light[1][c] - sum->light[0][c]);
+    return weight;
+}
+
+/* Takes the best box for what changed in independent noise, where it explains clearly more than
+ * the whole picture does and holds most of what changed. A single cell stands out by chance, too,
+ * and by more than it changed. */
+static bool take_box(const ChangeGrid *grid, double floor, LightChange *out, Arena scratch) {
+    int count = grid->columns * grid->rows;
+    const BoxSums *corners = corner_sums(grid, &scratch);
+    double tried, lit = 0, within = 0, outside = 0;
+    ChangeBox box = best_box(grid, corners, &tried), all = {.explains = 0};
+    try_box(grid, corners, (ChangeBox){{0, 0}, {grid->columns, grid->rows}, 0}, &all);
+    if (!(box.explains > all.explains + 2 * log(tried / FALSE_CELLS))) return false;
+    unsigned char *in_box = ARENA_NEW(&scratch, unsigned char, count);
+    ChangeSum sum = {0}, rest = out->all;
+    for (int i = 0; i < count; i++) {
+        const ChangeSum *cell = &grid->cells[i];
+        int x = i % grid->columns, y = i / grid->columns;
+        bool is_in = x >= box.low[0] && x < box.high[0] && y >= box.low[1] && y < box.high[1];
+        in_box[i] = is_in && cell->differing > 0;
+        lit += is_lit(cell, floor);
+        within += is_in && is_lit(cell, floor);
+        if (is_in) join(&sum, cell, 1);
+        else if (out->cells[i]) outside += weight_of(cell);
+    }
+    join(&rest, &sum, -1);
+    if (surest(&rest) > SURE) outside = fmax(outside, weight_of(&rest));
+    if (within >= EVERYWHERE * lit || outside > OUTSIDE * weight_of(&sum)) return false;
+    memcpy(out->cells, in_box, (size_t)count);
+    out->area = sum;
+    return true;
+}
+
 /* What changes a little in every cell shows in those together that are not sure by themselves,
  * and in half of them by half as much at least. */
 static bool is_everywhere(const ChangeGrid *grid, const LightChange *change, double floor,
@@ -219,7 +380,8 @@ LightChange change_find(const ChangeGrid *grid, bool is_paired, double floor, Ar
     for (int s = 0; s < 2; s++)
         floor = fmax(floor, DARK * rgb_luminance(out.all.light[s]) / fmax(out.all.pixels, 1));
     double marked = mark_cells(grid, floor, &out);
-    out.is_everywhere = is_everywhere(grid, &out, floor, marked);
+    out.is_box = out.is_noisy && take_box(grid, floor, &out, *arena);
+    out.is_everywhere = !out.is_box && is_everywhere(grid, &out, floor, marked);
     if (out.is_everywhere) out.area = out.all;
     else out.place = place_of(grid, &out, floor);
     for (int i = 0; i < count; i++)

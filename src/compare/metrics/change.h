@@ -3,8 +3,9 @@
  *
  * Sums over square cells find it, so that a picture may come in bands of rows. In independent
  * noise a cell counts as changed when its differences add up as no fair signs do (the quotient
- * of statistic/sign_flip.h, of luminance and of the two colours beside it); pictures that share
- * their noise, or have none, have changed wherever they differ.
+ * of statistic/sign_flip.h, of luminance and of the two colours beside it), or as the one box does
+ * that explains the differences best; pictures that share their noise, or have none, have changed
+ * wherever they differ.
  *
  * Units    linear Rec.709; chromaticity as CIE 1976 u', v'.
  * Memory   cells come from the arena. Threads: pure.
@@ -37,7 +38,8 @@ typedef struct ChangeGrid {
 
 typedef struct LightChange {
     bool is_noisy;      /* differences hold independent noise */
-    bool is_everywhere; /* else in `cells`, if there are any */
+    bool is_everywhere; /* else in `cells`, if there are any, */
+    bool is_box;        /* which in noise are one box, as far as it reaches */
     unsigned char *cells;
     ChangeSum all, area; /* area: what changed */
     double share;        /* of the pixels */

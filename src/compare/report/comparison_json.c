@@ -9,59 +9,18 @@
 
 /* ---- metrics ----------------------------------------------------------------------------- */
 
-static json_t *regions_json(const StatisticResult *s) {
-    json_t *list = json_array();
-    for (int i = 0; i < s->region_count; i++) {
-        const StatisticRegion *r = &s->regions[i];
-        json_array_append_new(
-            list, json_pack("{s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:b}", "name", json_text(r->name),
-                            "pixels", (json_int_t)r->pixels, "reference_cd_m2",
-                            json_figure(r->reference), "test_cd_m2", json_figure(r->test), "shift",
-                            json_figure(r->shift), "shift_sigma", json_figure(r->shift_sigma),
-                            "p_value", json_figure(r->p_value), "moved", r->moved));
-    }
-    return list;
-}
-
 static json_t *stat_json(const StatisticResult *s) {
     static const char *const VERDICTS[] = {[STATISTIC_EQUAL] = "equal",
                                            [STATISTIC_SAME] = "same",
                                            [STATISTIC_DIFFERENT] = "different",
                                            [STATISTIC_UNKNOWN] = "unknown"};
-    return json_pack("{s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:b, s:i, s:o, s:o}", "p_value",
+    return json_pack("{s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:b, s:i, s:o}", "p_value",
                      json_figure(s->p_value), "fraction_failed", json_figure(s->fraction_failed),
                      "mean_shift", json_figure(s->mean_shift), "verdict", VERDICTS[s->verdict],
                      "p_blocks", json_figure(s->p_blocks), "p_histogram",
                      json_figure(s->p_histogram), "p_regions", json_figure(s->p_regions),
-                     "shares_noise", s->shares_noise, "block_side", s->block_side, "regions",
-                     regions_json(s), "reason", json_text(s->reason));
-}
-
-static json_t *interval(Measured range) {
-    if (!isfinite(range.low) || !isfinite(range.high)) return json_null();
-    return json_pack("[f,f]", range.low, range.high);
-}
-
-static json_t *pair_of(double a, double b) {
-    return json_pack("[o,o]", json_figure(a), json_figure(b));
-}
-
-static json_t *contrast_json(const Comparison *c) {
-    json_t *object = json_object();
-    for (int i = 0; i < c->contrast_count; i++) {
-        const ContrastChange *d = &c->contrasts[i];
-        const FrameMeasurement *a = &d->reference, *b = &d->test;
-        json_t *name = json_text(d->display);
-        json_t *entry = json_pack(
-            "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "reference", json_figure(a->contrast.value),
-            "test", json_figure(b->contrast.value), "ratio", json_figure(d->ratio.value),
-            "ratio_interval", interval(d->ratio), "white_cd_m2", pair_of(a->white, b->white),
-            "black_cd_m2", pair_of(a->black, b->black), "reflected_cd_m2",
-            pair_of(a->reflected, b->reflected));
-        json_object_set_new(object, json_string_value(name), entry);
-        json_decref(name);
-    }
-    return object;
+                     "shares_noise", s->shares_noise, "block_side", s->block_side, "reason",
+                     json_text(s->reason));
 }
 
 static json_t *metrics_json(const Comparison *c) {
@@ -80,7 +39,6 @@ static json_t *metrics_json(const Comparison *c) {
                                       json_figure(ev_of_stops(c->exposures.start_ev)), "count",
                                       c->exposures.count));
     if (c->has_stat) json_object_set_new(metrics, "stat", stat_json(&c->stat));
-    if (c->contrast_count > 0) json_object_set_new(metrics, "contrast", contrast_json(c));
     return metrics;
 }
 
