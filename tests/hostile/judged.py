@@ -377,7 +377,7 @@ def brightnesses(cases):
     """(case, level, remedy) of each printed brightness that the panel can show."""
     for case in cases:
         for remedy in case["remedies"]:
-            to = re.match(r"(?:raise the level|dim) from [\d.e-]+ % to ([\d.e-]+) %",
+            to = re.match(r"(?:raise the brightness level|dim) from [\d.e-]+ % to ([\d.e-]+) %",
                           remedy["what"])
             if to and float(to.group(1)) <= 100:
                 yield case, float(to.group(1)) / 100, remedy

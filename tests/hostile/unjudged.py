@@ -106,7 +106,7 @@ def check_hidden(report, reviews):
         summary = file.read()
     report.claim("Cannot be judged" in summary and "0.00 : 1" not in summary and
                  "0 : 1" not in re.sub("<svg.*?</svg>", "", summary, flags=re.S) and
-                 "raise the level" not in summary, "hidden: the summary")
+                 "raise the brightness level" not in summary, "hidden: the summary")
 
 
 def check_optional(report, reviews):

@@ -361,7 +361,7 @@ static void check_page(const Findings *ranked, const Review *review) {
             fail_msg("row %d: %.20s in place of %s", i, name, f->subject);
         at = name;
         if (f->why || !f->worst) continue;
-        const char *end = strstr(at, "</tr>"), *margin = words_margin(f->worst->margin, &arena);
+        const char *end = strstr(at, "</tr>"), *margin = words_from_limit(f->worst, &arena);
         const char *there = strstr(at, arena_format(&arena, ">%s</td>", margin));
         const char *limit =
             strstr(at, arena_format(&arena, "= %s</td>", words_required(f->worst, &arena) + 3));

@@ -14,6 +14,21 @@ TEST(figures_are_said_in_words) {
     assert_string_equal(words_margin(-0.18, &arena), "−18 %");
     assert_string_equal(words_margin(0.042, &arena), "+4.2 %");
     assert_string_equal(words_margin(NAN, &arena), "–");
+    static const struct {
+        double found;
+        const char *words;
+    } FROM[] = {{1.59, "20 % below the limit"},
+                {2.1, "5.0 % above the limit"},
+                {2, "on the limit"},
+                {2.001, "less than 0.1 % above the limit"},
+                {206, "103 times the limit"},
+                {INFINITY, "far above the limit"},
+                {0, "100 % below the limit"},
+                {NAN, "–"}};
+    for (int i = 0; i < 8; i++)
+        assert_string_equal(
+            words_from_limit(&(LimitVerdict){.found = FROM[i].found, .value = 2}, &arena),
+            FROM[i].words);
     assert_string_equal(words_share(0.62, &arena), "62 %");
     assert_string_equal(words_share(0.0001, &arena), "less than 0.1 %");
     assert_string_equal(words_share(0, &arena), "0 %");
@@ -193,13 +208,14 @@ TEST(every_failure_says_what_to_do) {
                     .limits = &limit,
                     .limit_count = 1,
                     .verdict = VERDICT_FAIL};
-    assert_string_equal(todo_of_case(&c, &arena),
-                        "no level up to 100 % is enough; reflected light: 97 cd/m² at most (now "
-                        "100): hood, tilt or coating");
+    assert_string_equal(
+        todo_of_case(&c, &arena),
+        "no brightness level up to 100 % is enough; reflected light: 97 cd/m² at most (now "
+        "100): hood, tilt or coating");
     limit.value = 200;
     assert_string_equal(todo_of_case(&c, &arena),
                         "no light or level matters: the content itself has 100 : 1");
-    CaseRemedy remedy = {.what = "raise the level from 50 % to 80 %",
+    CaseRemedy remedy = {.what = "raise the brightness level from 50 % to 80 %",
                          .then = {.name = "x",
                                   .kind = "contrast_ratio",
                                   .unit = "1",
@@ -211,12 +227,14 @@ TEST(every_failure_says_what_to_do) {
                          .verdict = VERDICT_PASS};
     c.remedies = &remedy;
     c.remedy_count = 1;
-    assert_string_equal(todo_of_case(&c, &arena),
-                        "raise the level from 50 % to 80 %: contrast 2.1 : 1 (minimum 2 : 1)");
+    assert_string_equal(
+        todo_of_case(&c, &arena),
+        "raise the brightness level from 50 % to 80 %: contrast 2.1 : 1 (minimum 2 : 1)");
     c.remedy_count = 0;
     c.luminance_cd_m2.reflected = 50; /* enough by the mean at 100 %, not for sure */
     limit.value = 3;
-    assert_non_null(strstr(todo_of_case(&c, &arena), "no level up to 100 % is surely enough"));
+    assert_non_null(
+        strstr(todo_of_case(&c, &arena), "no brightness level up to 100 % is surely enough"));
     limit.is_upper = true;
     assert_string_equal(todo_of_case(&c, &arena), "softer colours of the content");
     limit.is_upper = false;
@@ -241,7 +259,7 @@ TEST(every_failure_says_what_to_do) {
     assert_string_equal(
         todo_of_finding(&(Finding){.pane = &pane, .worst = &pane.limit, .verdict = VERDICT_FAIL},
                         &arena),
-        "dim screen to 40 % of its level");
+        "dim screen to 40 % of its brightness level");
     pane.image = 0.02; /* what is left of it nobody sees */
     assert_string_equal(
         todo_of_finding(&(Finding){.pane = &pane, .worst = &pane.limit, .verdict = VERDICT_FAIL},

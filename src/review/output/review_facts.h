@@ -9,7 +9,8 @@
 #include "base/arena.h"
 #include "review/finding.h"
 
-/* "What to do": "raise the level from 25 % to 38.5 %: contrast 2.05 : 1 (minimum 2 : 1)". */
+/* "What to do": "raise the brightness level from 25 % to 38.5 %: contrast 2.05 : 1 (minimum 2 :
+ * 1)". */
 typedef struct ReviewFact {
     const char *name, *value;
 } ReviewFact;

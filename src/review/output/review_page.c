@@ -117,8 +117,8 @@ static void add_change(json_t *list, const FindingDiff *d, Arena *arena) {
              change_words(diff_figure(d->before, d->line[0], arena),
                           diff_figure(d->after, d->line[1], arena), arena));
     page_set(to, "margin",
-             change_words(d->line[0] ? words_margin(d->line[0]->margin, arena) : "–",
-                          d->line[1] ? words_margin(d->line[1]->margin, arena) : "–", arena));
+             change_words(words_from_limit(d->line[0], arena), words_from_limit(d->line[1], arena),
+                          arena));
 }
 
 /* What is the same is counted. */

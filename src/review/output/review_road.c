@@ -128,7 +128,7 @@ static void set_age(json_t *to, const RoadAge *age, bool has_limit, Arena *arena
     page_set(to, "by_cie_135", words_figure(age->increment_by_spread_pct, arena));
     page_set(to, "class", has_limit ? words_class(age->limit.verdict) : "");
     page_set(to, "mark", has_limit ? words_mark(age->limit.verdict) : "");
-    page_set(to, "margin", has_limit ? words_margin(age->limit.margin, arena) : "");
+    page_set(to, "margin", has_limit ? words_from_limit(&age->limit, arena) : "");
     for (int i = 0; i < age->display_count; i++) {
         const RoadDisplay *d = &age->displays[i];
         json_t *row = page_add(displays);

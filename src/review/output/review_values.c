@@ -69,7 +69,7 @@ static void set_limit(json_t *to, const LimitVerdict *limit, Arena *arena) {
     page_set(to, "found", isnan(limit->found) ? NULL : words_found(limit, arena));
     page_set(to, "range", words_interval(limit->low, limit->high, arena));
     page_set(to, "required", words_required(limit, arena));
-    page_set(to, "margin", words_margin(limit->margin, arena));
+    page_set(to, "margin", words_from_limit(limit, arena));
     page_set_flag(to, "has_margin", !isnan(limit->margin));
     page_set(to, "bar", review_bar_margin(limit, arena));
 }

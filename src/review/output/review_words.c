@@ -77,6 +77,18 @@ const char *words_margin(double margin, Arena *arena) {
     return arena_format(arena, "%s%.*f %%", sign, size < 10 ? 1 : 0, size);
 }
 
+const char *words_from_limit(const LimitVerdict *limit, Arena *arena) {
+    double times = limit ? limit->found / limit->value : (double)NAN;
+    double percent = 100 * fabs(times - 1);
+    if (isnan(times)) return "–";
+    if (isinf(times)) return TERM_FAR_ABOVE;
+    if (times >= 2) return arena_format(arena, TERM_TIMES, words_figure(times, arena));
+    const char *by = percent > 0 && percent < 0.1
+                         ? "less than 0.1"
+                         : arena_format(arena, "%.*f", percent < 10 ? 1 : 0, percent);
+    return percent > 0 ? arena_format(arena, times > 1 ? TERM_ABOVE : TERM_BELOW, by) : TERM_ON;
+}
+
 /* A figure that was written already, with the unit of the limit behind it. */
 static const char *with_unit(const LimitVerdict *limit, const char *figure, Arena *arena) {
     const ReviewQuantity *of = quantity_of(limit);
