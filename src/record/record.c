@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "record/record.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -9,6 +10,7 @@
 #include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
+#include "text/base64.h"
 #include "text/nearest_word.h"
 #include "text/removed.h"
 #include "text/uri.h"
@@ -49,11 +51,22 @@ static bool is_integer(const RecordRow *row) {
     return row->kind == RECORD_INTEGER || row->kind == RECORD_WHOLES;
 }
 
+const char record_infinite[] = "inf", record_infinite_below[] = "-inf";
+
+static bool is_infinite(const RecordRow *row, const char *text, double *out) {
+    bool is_above = text && !strcmp(text, record_infinite);
+    bool is_below = text && !strcmp(text, record_infinite_below);
+    if (is_integer(row) || row->high < HUGE_VAL || !(is_above || is_below)) return false;
+    *out = is_above ? (double)INFINITY : -(double)INFINITY;
+    return true;
+}
+
 /* Is it a number of the row's: in [low, high], whole? */
 static bool check_number(const JsonView *view, const RecordRow *row, const json_t *value,
                          double *out, Error *err) {
     *out = (double)NAN;
     if (json_is_null(value) && row->flags & RECORD_NULL) return true;
+    if (view->is_kept && is_infinite(row, json_string_value(value), out)) return true;
     if (!json_is_number(value))
         return json_view_wrong_kind(view, row->key, value, row->most ? "only numbers" : "a number",
                                     err);
@@ -134,10 +147,43 @@ static bool read_numbers(const JsonView *view, const RecordRow *row, void *item,
     return true;
 }
 
+static bool read_floats(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    const json_t *text = json_object_get(view->object, row->key);
+    size_t size = 0, length = json_string_length(text), each = (size_t)row->most * sizeof(float);
+    float *list = ARENA_NEW(view->arena, float, length / sizeof *list + 1);
+    Error why;
+    bool ok = base64_decode(json_string_value(text), length, (void *)list, &size, &why) &&
+              size % each == 0;
+    for (size_t i = 0; ok && i < size / sizeof *list; i++) ok = isfinite(list[i]);
+    if (!ok || !text)
+        return record_fails(view, row->key, err, "is no list of %d floats each, required: one",
+                            row->most);
+    memcpy(at_offset(item, row->offset), &list, sizeof list);
+    *(int *)at_offset(item, row->count) = (int)(size / each);
+    return true;
+}
+
 /* ---- words ------------------------------------------------------------------------------- */
+
+/* A text that is no UTF-8 (record_write.h). */
+static bool read_bytes(const JsonView *view, const RecordRow *row, const json_t *list,
+                       const char **out, Error *err) {
+    size_t count = json_array_size(list);
+    char *text = ARENA_NEW(view->arena, char, count + 1);
+    for (size_t i = 0; i < count; i++) {
+        json_int_t byte = json_integer_value(json_array_get(list, i));
+        if (byte < 1 || byte > UCHAR_MAX)
+            return record_fails(view, row->key, err, "has the value %lld, required: a byte",
+                                (long long)byte);
+        text[i] = (char)byte;
+    }
+    *out = text;
+    return true;
+}
 
 static bool read_text(const JsonView *view, const RecordRow *row, const char **out, Error *err) {
     const json_t *value = json_object_get(view->object, row->key);
+    if (view->is_kept && json_is_array(value)) return read_bytes(view, row, value, out, err);
     if (!json_is_string(value)) return json_view_wrong_kind(view, row->key, value, "a text", err);
     *out = arena_string(view->arena, json_string_value(value), json_string_length(value));
     return !(row->flags & RECORD_FILLED) || **out ||
@@ -291,7 +337,10 @@ static bool read_items(const JsonView *view, const RecordRow *row, void *item, E
                                             : "an array of objects",
                     &count, err))
         return false;
-    char *items = arena_alloc(view->arena, row->of->size, _Alignof(max_align_t), (size_t)count);
+    char *items = arena_try(view->arena, row->of->size, _Alignof(max_align_t), (size_t)count);
+    if (!items)
+        return record_fails(view, row->key, err, "has %d values, required: so few as memory holds",
+                            count);
     memcpy(at_offset(item, row->offset), &items, sizeof items);
     *(int *)at_offset(item, row->count) = count;
     inside.path = json_view_path(view, row->key);
@@ -385,6 +434,7 @@ bool record_read_kind(const JsonView *view, const RecordRow *row, void *item, Er
     case RECORD_WHOLES:
     case RECORD_NUMBERS:
     case RECORD_FIGURES: return read_numbers(view, row, item, err);
+    case RECORD_FLOATS: return read_floats(view, row, item, err);
     case RECORD_FLAG: return read_flag(view, row, at, err);
     case RECORD_TEXT: return read_text(view, row, at, err);
     case RECORD_NOTE: return read_text(view, row, &word, err);
@@ -440,13 +490,18 @@ static void clear(const RecordRow *row, void *item) {
         if (inside->flags & RECORD_NULL) clear(inside, at);
 }
 
+bool record_is_read(const RecordRow *row, bool is_kept) {
+    if (row->flags & RECORD_KEPT) return is_kept;
+    return !(row->flags & RECORD_WRITTEN) && !(is_kept && row->kind == RECORD_OWN);
+}
+
 bool record_read(const JsonView *outer, const RecordFormat *format, void *item, Error *err) {
     JsonView own = *outer, *view = &own;
     if (!own.whole) own.whole = item;
     if (!format->takes_more && !check_keys(view, format->name, format->rows, err)) return false;
     for (const RecordRow *row = format->rows; row->key; row++) {
         const json_t *value = json_object_get(view->object, row->key);
-        if (row->flags & RECORD_WRITTEN) continue;
+        if (!record_is_read(row, view->is_kept)) continue;
         if (!value && row->flags & RECORD_REQUIRED) return record_misses(view, row->key, err);
         if (row->flags & RECORD_NULL) clear(row, item);
         if (value && !(json_is_null(value) && row->flags & RECORD_NULL) &&

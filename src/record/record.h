@@ -27,6 +27,8 @@ typedef enum RecordKind {
     RECORD_NUMBERS, /* double[most] in place, least to most of them, each in [low, high]; if
                        `count` is given, the int there: how many */
     RECORD_FIGURES, /* const double *, the same; int at `count` */
+    RECORD_FLOATS,  /* const float[most] *, finite, as one text of digits (text/base64.h); int at
+                       `count`: how many items of `most` floats */
     RECORD_WHOLES,  /* int[most] in place */
     RECORD_FLAG,    /* bool */
     RECORD_TEXT,    /* const char * */
@@ -65,7 +67,10 @@ enum RecordFlags {
                               words are 1, 2, ...), of an object that it is not there */
     RECORD_LONG = 2048,    /* of an integer: long, not int */
     RECORD_WRITTEN = 4096, /* it is not read back */
-    RECORD_BRIEF = 8192    /* null, false and an empty list are not written */
+    RECORD_BRIEF = 8192,   /* null, false and an empty list are not written */
+    RECORD_KEPT = 16384 /* only of a document that the program keeps for itself (JsonView.is_kept,
+                           record_write.h); of what is RECORD_WRITTEN: there read back, too.
+                           What is RECORD_OWN and not that has no place there */
 };
 
 /* Named structs of the outermost struct that is read (JsonView.whole). */
@@ -128,6 +133,12 @@ extern const RecordFormat record_files;
 
 /* All members of an object. item: a struct of the format, with its defaults. */
 bool record_read(const JsonView *view, const RecordFormat *format, void *item, Error *err);
+
+/* Does reading look for the row? */
+bool record_is_read(const RecordRow *row, bool is_kept);
+
+/* Of a document that is kept: figures that JSON has not. */
+extern const char record_infinite[], record_infinite_below[];
 
 /* Word i of a row; NULL behind the last one. */
 const char *record_word(const RecordRow *row, int i);

@@ -13,5 +13,9 @@
 json_t *record_write(const RecordFormat *format, const void *item);
 json_t *record_write_list(const RecordFormat *format, const void *items, int count);
 
+/* For the program itself, which gets the same again to the last bit: with the rows that are
+ * RECORD_KEPT, and what is infinite or no UTF-8. */
+json_t *record_keep(const RecordFormat *format, const void *item);
+
 /* One member; item: what the row's offset counts from. NULL: it is left out. */
 json_t *record_write_value(const RecordRow *row, const void *item);

@@ -26,10 +26,11 @@ typedef struct PaneFinding {
     const double *outline_deg;    /* right, up of the corners of its convex outline, in turn */
     int outline_count;            /* numbers: two a corner */
     const Vec3 *corners;          /* the same corners, unit, world: to draw over a frame; NULL:
-                                     of a review that was read from a file */
-    double image;                 /* the display's own light by the pane, its mean */
-    MeanInterval image_range;     /* 95 % */
-    double behind;                /* what comes through the pane there */
+                                     of a review that was read from review.json */
+    int corner_count;
+    double image;             /* the display's own light by the pane, its mean */
+    MeanInterval image_range; /* 95 % */
+    double behind;            /* what comes through the pane there */
     MeanInterval behind_range;
     double against; /* all but the image: that, and what panes mirror besides; at
                        least what the request says */

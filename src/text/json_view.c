@@ -6,7 +6,6 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "base/file.h"
 #include "base/reference.h"
 
 const char *json_view_path(const JsonView *view, const char *key) {
@@ -27,7 +26,11 @@ static const char *kind_of(const json_t *value) {
 
 bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err) {
     FileBytes bytes;
-    if (!file_read(file, JSON_FILE_BYTES_MAX, arena, &bytes, err)) return false;
+    return file_read(file, JSON_FILE_BYTES_MAX, arena, &bytes, err) &&
+           json_view_parse(file, bytes, arena, out, err);
+}
+
+bool json_view_parse(const char *file, FileBytes bytes, Arena *arena, JsonView *out, Error *err) {
     json_error_t fault;
     FileBytes text = file_unmarked(bytes);
     json_t *root = json_loadb((const char *)text.data, text.size, JSON_REJECT_DUPLICATES, &fault);

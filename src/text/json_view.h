@@ -14,6 +14,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/lines.h"
 #include "base/problems.h"
 
@@ -26,6 +27,7 @@ typedef struct JsonView {
     Lines *named;       /* gets the files that it names; NULL: not needed */
     uint64_t hash;      /* XXH3 64 of the bytes that were read of the file; of no file 0 */
     Problems *problems; /* gets warnings; NULL: not needed */
+    bool is_kept;       /* the program wrote it for itself (RECORD_KEPT) */
     void *whole;        /* the outermost struct that is filled from it; NULL: the next one */
 } JsonView;
 
@@ -33,6 +35,8 @@ typedef struct JsonView {
 
 /* Reads a file that holds one JSON object; duplicate keys are refused. The root is NULL. */
 bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err);
+/* The same of bytes that were read. */
+bool json_view_parse(const char *file, FileBytes bytes, Arena *arena, JsonView *out, Error *err);
 void json_view_close(JsonView *root);
 
 /* The object under a key. */

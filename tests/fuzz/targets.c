@@ -28,7 +28,7 @@ const FuzzTarget fuzz_targets[] = {
     {"checkpoint", fuzz_checkpoint, fuzz_mutate_checkpoint, 8192, NULL},
     {"field", fuzz_field, fuzz_mutate_field, 16384, NULL, fuzz_make_field},
     {"response", fuzz_response, fuzz_mutate_response, 16384, NULL, fuzz_make_response},
-    {"condition", fuzz_condition, NULL, 4096, NULL, fuzz_make_condition},
+    {"condition", fuzz_condition, fuzz_mutate_json, 8192, NULL, fuzz_make_condition},
     {"import-any", fuzz_import_any, NULL, 2048, NULL},
     {"import-text", fuzz_import_text, NULL, 2048, NULL},
     FORMAT("eulumdat", 2048),

@@ -154,6 +154,7 @@ TEST(outlines_lie_over_a_frame_where_its_view_has_them) {
     PaneFinding list[] = {fixture_pane_hidden(), fixture_pane("near")};
     Review review = review_of(list, 2);
     list[1].corners = CORNERS;
+    list[1].corner_count = 3;
     assert_null(review_panes_drawn(&review, &review.cases[0], &arena));
     review.cases[0].view = &view;
     const char *drawn = review_panes_drawn(&review, &review.cases[0], &arena);

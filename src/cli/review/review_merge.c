@@ -181,11 +181,9 @@ static bool is_of_request(const MergePart *part, const ReviewRun *run, Arena scr
 /* A task that was run twice has the same answers. */
 static bool are_same(const ReviewRun *run, int id, const char *one, const char *other,
                      Arena scratch, Error *err) {
-    ConditionFound a, b;
-    if (!condition_read(run, id, one, &scratch, &a, err) ||
-        !condition_read(run, id, other, &scratch, &b, err))
-        return false;
-    return (a.answer_bytes == b.answer_bytes && !memcmp(a.answers, b.answers, a.answer_bytes)) ||
+    bool same;
+    if (!condition_same_answers(one, other, scratch, &same, err)) return false;
+    return same ||
            error_at(err, ERROR_INPUT, other, "",
                     "has other answers than %.200s: of condition '%.100s' one of them counts", one,
                     run->request->conditions[id].name);

@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/engine/condition_file.h"
 
-#include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "keep/kept.h"
 #include "render/identity.h"
-#include "review/engine/condition_rows.h"
+#include "review/output/json_rows.h"
+#include "review/output/review_json.h"
 #include "review/review_decide.h"
+#include "text/base64.h"
 
-#define BODY_BYTES ((uint64_t)1 << 34)
 #define FILE_BYTES ((size_t)1 << 34)
+#define DIGITS 17 /* distinguish any two doubles */
 
-static const KeptFormat format = {"PRHLCOND", "a reviewed condition", 2, 0};
+static const KeptFormat format = {"PRHLCOND", "a reviewed condition", 3, 0};
 
 const char *condition_file_name(const ReviewRequest *request, int condition_id, Arena *arena) {
     const char *name = request->conditions[condition_id].name;
@@ -75,183 +78,192 @@ bool condition_read_identity(const char *path, Arena *arena, const char **out, E
     return true;
 }
 
-/* ---- writing ----------------------------------------------------------------------------- */
+/* ---- its rows ---------------------------------------------------------------------------- */
 
-static TableKept table_of(const SweepTable *table, Arena *arena) {
-    const SunFigures *f = &table->figures;
-    StepKept *steps = ARENA_NEW(arena, StepKept, table->suns->count);
-    for (int i = 0; i < table->suns->count; i++)
-        steps[i] = (StepKept){{f->contrast[i], f->low[i], f->high[i], f->margin[i], f->reflected[i],
-                               f->mirror[i], f->level[i], f->lux[i]},
-                              f->verdict[i]};
-    return (TableKept){table->sweep_id,  f->worst, f->is_private,
-                       table->worst_sun, steps,    table->suns->count};
+enum { STEP_FIGURES = 8, STEP_BYTES = STEP_FIGURES * sizeof(float) + 1 };
+
+static float **step_figure(SunFigures *f, int k) {
+    float **lists[STEP_FIGURES] = {&f->contrast,  &f->low,    &f->high,  &f->margin,
+                                   &f->reflected, &f->mirror, &f->level, &f->lux};
+    return lists[k];
 }
 
-static void add_count(Text *to, int count) {
-    text_add_bytes(to, &count, sizeof count);
-}
-
-static void add_sights(Text *to, const Review *review) {
-    for (int i = 0; i < review_case_count(review); i++) {
-        const ReviewCase *c = review_case_at(review, i);
-        const CaseSight sight = {i, c->frame, c->view, c->rim, c->rim_count};
-        if (c->frame) pack_add(to, &condition_sight, &sight);
-    }
-}
-
-bool condition_write(const ConditionFound *found, const char *path, const char *identity,
-                     Arena scratch, Error *err) {
-    const ReviewOutcome *own = &found->own;
-    Arena room = arena_reserve(FILE_BYTES); /* a text grows at an arena's end */
-    Text body = {.arena = &room};
-    text_add_bytes(&body, &(uint64_t){0}, sizeof(uint64_t));
-    pack_add(&body, &condition_review, &own->review);
-    add_count(&body, own->table_count);
-    for (int i = 0; i < own->table_count; i++) {
-        Arena of_table = scratch;
-        TableKept table = table_of(&own->tables[i], &of_table);
-        pack_add(&body, &condition_table, &table);
-    }
-    add_count(&body, found->variant_count);
-    for (int i = 0; i < found->variant_count; i++)
-        pack_add(&body, &condition_review, &found->variants[i]);
-    uint64_t answers = body.size - sizeof answers;
-    memcpy(body.data, &answers, sizeof answers);
-    add_sights(&body, &own->review);
-    const KeptFile file = {&format, path, identity, "", body.size};
-    bool ok = kept_write(&file, body.data, scratch, err);
+/* One text, since a sweep has many: lists of floats, then the verdicts. */
+static json_t *write_steps(const void *item) {
+    const SweepTable *table = item;
+    SunFigures figures = table->figures;
+    Arena room = arena_reserve(FILE_BYTES);
+    size_t count = (size_t)table->suns->count;
+    Text bytes = {.arena = &room};
+    for (int k = 0; k < STEP_FIGURES; k++)
+        text_add_bytes(&bytes, *step_figure(&figures, k), count * sizeof(float));
+    text_add_bytes(&bytes, figures.verdict, count);
+    Text digits = {.arena = &room};
+    base64_encode(&digits, bytes.data, bytes.size);
+    json_t *text = json_stringn(digits.data, digits.size);
     arena_release(&room);
-    return ok;
+    return text;
 }
 
-/* ---- reading ----------------------------------------------------------------------------- */
-
-static bool take_count(PackBytes *from, int *out) {
-    if (from->end - from->at < (ptrdiff_t)sizeof *out) return false;
-    memcpy(out, from->at, sizeof *out);
-    from->at += sizeof *out;
-    return *out >= 0;
-}
-
-static SunFigures figures_of(const TableKept *kept, Arena *arena) {
-    int count = kept->step_count;
-    SunFigures f = {.worst = kept->worst,
-                    .is_private = kept->is_private,
-                    .verdict = ARENA_NEW(arena, unsigned char, count)};
-    float **lists[STEP_FIGURES] = {&f.contrast,  &f.low,    &f.high,  &f.margin,
-                                   &f.reflected, &f.mirror, &f.level, &f.lux};
-    for (int k = 0; k < STEP_FIGURES; k++) {
-        *lists[k] = ARENA_NEW(arena, float, count);
-        for (int i = 0; i < count; i++) (*lists[k])[i] = kept->steps[i].figures[k];
-    }
-    for (int i = 0; i < count; i++) f.verdict[i] = (unsigned char)kept->steps[i].verdict;
-    return f;
+/* Of so many suns as the request's condition has. */
+static bool read_steps(const JsonView *view, const RecordRow *row, void *item, Error *err) {
+    SweepTable *table = item;
+    const ConditionFound *found = view->whole;
+    const json_t *text = json_object_get(view->object, row->key);
+    size_t size = 0, length = json_string_length(text), count = (size_t)found->suns->count;
+    float *lists = ARENA_NEW(view->arena, float, length / sizeof(float) + 1);
+    unsigned char *bytes = (void *)lists;
+    Error why;
+    if (!base64_decode(json_string_value(text), length, bytes, &size, &why) ||
+        size != count * STEP_BYTES)
+        return record_fails(view, row->key, err, "is no list of %zu steps, which are required",
+                            count);
+    table->suns = found->suns;
+    for (int k = 0; k < STEP_FIGURES; k++)
+        *step_figure(&table->figures, k) = lists + (size_t)k * count;
+    table->figures.verdict = bytes + STEP_FIGURES * sizeof(float) * count;
+    for (size_t i = 0; i < count; i++)
+        if (table->figures.verdict[i] > VERDICT_UNJUDGED)
+            return record_fails(view, row->key, err, "has a verdict that there is none");
+    return true;
 }
 
 /* The worst sun lies near one of the steps. */
-static bool is_of_suns(const TableKept *table, const SweepSuns *suns, const Review *review) {
+static bool check_table(const JsonView *view, void *item, Error *err) {
+    const SweepTable *table = item;
+    const ConditionFound *found = view->whole;
+    const SweepSuns *suns = found->suns;
     const SweepSun *worst = &table->worst_sun;
     bool is_near = false;
     for (int i = 0; i < suns->count && !is_near; i++)
         is_near =
             suns->list[i].step == worst->step && suns->list[i].heading_id == worst->heading_id;
-    return is_near && table->step_count == suns->count && table->sweep_id < review->sweep_count;
+    return (is_near && table->figures.worst < suns->count && table->sweep_id >= 0 &&
+            table->sweep_id < found->own.review.sweep_count) ||
+           error_at(err, ERROR_INPUT, view->file, view->path, "is of suns that it has not");
 }
 
-static bool take_tables(PackBytes *from, const ReviewRun *run, int condition_id, Arena *arena,
-                        ReviewOutcome *out) {
-    SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
-    int count;
-    if (!take_count(from, &count) || count > out->review.sweep_count) return false;
-    if (count)
-        *suns = sweep_suns(&run->request->conditions[condition_id], run->means.threads, arena);
-    out->tables = ARENA_NEW(arena, SweepTable, count);
-    for (; out->table_count < count; out->table_count++) {
-        TableKept kept;
-        if (!pack_take(from, &condition_table, &kept, arena) ||
-            !is_of_suns(&kept, suns, &out->review))
-            return false;
-        out->tables[out->table_count] =
-            (SweepTable){kept.sweep_id, kept.worst_sun, suns, figures_of(&kept, arena)};
-    }
-    return true;
+TABLE(sun_rows, SweepSun, OWN(FIGURE, SweepSun, azimuth_deg), OWN(FIGURE, SweepSun, elevation_deg),
+      OWN(FIGURE, SweepSun, compass_deg), OWN(FIGURE, SweepSun, heading_deg),
+      OWN(FIGURE, SweepSun, minutes), OWN(INT, SweepSun, step), OWN(INT, SweepSun, heading_id),
+      OWN(FIGURE, SweepSun, later_minutes), OWN(FIGURE, SweepSun, light));
+
+static const RecordRow table_members[] = {
+    OWN(INT, SweepTable, sweep_id),
+    AS("worst", INT, SweepTable, figures.worst),
+    AS("is_private", FLAG, SweepTable, figures.is_private),
+    PART("worst_sun", MUST, SweepTable, worst_sun, sun_rows),
+    {"steps", RECORD_OWN, MUST | RECORD_KEPT, .read = read_steps, .write = write_steps},
+    {0}};
+static const RecordFormat table_rows = {"table", sizeof(SweepTable), table_members,
+                                        .check = check_table, .takes_more = true};
+
+TABLE(found_rows, ConditionFound, PART("review", MUST, ConditionFound, own.review, review_rows),
+      LIST("tables", MUST, ConditionFound, own.tables, own.table_count, table_rows),
+      LIST("variants", MUST, ConditionFound, variants, variant_count, review_rows));
+
+bool condition_write(const ConditionFound *found, const char *path, const char *identity,
+                     Arena scratch, Error *err) {
+    json_t *document = record_keep(&found_rows, found);
+    char *body = json_dumps(document, JSON_COMPACT | JSON_REAL_PRECISION(DIGITS));
+    json_decref(document);
+    if (!body) return error_set(err, ERROR_MEMORY, "out of memory for %s", path);
+    const KeptFile file = {&format, path, identity, "", strlen(body)};
+    bool ok = kept_write(&file, body, scratch, err);
+    free(body);
+    return ok;
 }
 
-static bool take_sights(PackBytes *from, Review *review, Arena *arena) {
-    while (from->at < from->end) {
-        CaseSight sight;
-        if (!pack_take(from, &condition_sight, &sight, arena) || !sight.frame || !sight.view ||
-            sight.case_id >= review_case_count(review))
-            return false;
-        int sweep = sight.case_id - review->case_count;
-        ReviewCase *c = sweep < 0 ? &review->cases[sight.case_id] : &review->sweeps[sweep].worst;
-        c->frame = sight.frame;
-        c->view = sight.view;
-        c->rim = sight.rim;
-        c->rim_count = sight.rim_count;
-    }
+/* ---- reading ----------------------------------------------------------------------------- */
+
+/* Closed by json_view_close. */
+static bool open_rows(const char *path, Arena *arena, const char **identity, JsonView *out,
+                      Error *err) {
+    KeptReader reader;
+    if (!kept_open(&format, path, NULL, arena, &reader, err)) return false;
+    size_t size = (size_t)reader.left;
+    unsigned char *bytes = arena_try(arena, 1, 1, size);
+    bool ok = bytes ? kept_take(&reader, bytes, size, err)
+                    : kept_damaged(&reader, err, "its body takes more memory than there is");
+    *identity = reader.identity;
+    kept_close(&reader);
+    if (!ok || !json_view_parse(path, (FileBytes){bytes, size}, arena, out, err)) return false;
+    out->is_kept = true;
     return true;
 }
 
 /* Frames are made by these names. */
-static bool names_are_known(const ReviewRequest *request, int condition_id, const Review *review) {
-    const char *condition = request->conditions[condition_id].name;
-    for (int i = 0; i < review_case_count(review); i++) {
-        const ReviewCase *c = review_case_at(review, i);
-        if (strcmp(c->condition, condition) != 0 || !review_eye_named(request, c->eye))
-            return false;
+static bool case_is_sound(const ReviewRequest *request, int condition_id, const ReviewCase *c) {
+    return c->condition && !strcmp(c->condition, request->conditions[condition_id].name) &&
+           c->eye && review_eye_named(request, c->eye) && c->symbol &&
+           c->limit_id < c->limit_count && (c->view || !c->frame);
+}
+
+static bool is_sound(const ReviewRequest *request, int condition_id, const Review *review) {
+    for (int i = 0; i < review_case_count(review); i++)
+        if (!case_is_sound(request, condition_id, review_case_at(review, i))) return false;
+    for (int i = 0; i < review->sweep_count; i++) {
+        const ReviewSweep *sweep = &review->sweeps[i];
+        if (!sweep->condition || !sweep->eye || !sweep->symbol) return false;
     }
+    for (int i = 0; i < review->response_count; i++)
+        if (!review->responses[i].file) return false;
+    for (int i = 0; i < review->input_count; i++)
+        if (!review->inputs[i].path || !review->inputs[i].xxh3) return false;
     return true;
 }
 
-static bool take_answers(PackBytes *from, const ReviewRun *run, int condition_id, Arena *arena,
-                         ConditionFound *out) {
-    const ReviewRequest *request = run->request;
-    Review *review = &out->own.review;
-    if (!pack_take(from, &condition_review, review, arena) ||
-        !names_are_known(request, condition_id, review) ||
-        !take_tables(from, run, condition_id, arena, &out->own) ||
-        !take_count(from, &out->variant_count) || out->variant_count != request->variant_count)
-        return false;
-    out->variants = ARENA_NEW(arena, Review, out->variant_count);
-    for (int i = 0; i < out->variant_count; i++)
-        if (!pack_take(from, &condition_review, &out->variants[i], arena) ||
-            !names_are_known(request, condition_id, &out->variants[i]))
-            return false;
-    out->own.responses_kept = review->response_count;
-    return from->at == from->end;
-}
-
-static bool take_body(KeptReader *reader, const ReviewRun *run, int condition_id, Arena *arena,
-                      ConditionFound *out, Error *err) {
-    uint64_t answers, all = reader->left;
-    unsigned char *bytes = all < BODY_BYTES ? arena_try(arena, 1, 8, (size_t)all) : NULL;
-    if (!bytes) return kept_damaged(reader, err, "its body takes more memory than there is");
-    if (!kept_take(reader, bytes, (size_t)all, err)) return false;
-    bool is_head = all >= sizeof answers;
-    if (is_head) memcpy(&answers, bytes, sizeof answers);
-    if (is_head && answers <= all - sizeof answers) {
-        PackBytes of_answers = {bytes + sizeof answers, bytes + sizeof answers + answers};
-        PackBytes of_sights = {of_answers.end, bytes + all};
-        out->answers = of_answers.at;
-        out->answer_bytes = (size_t)answers;
-        if (take_answers(&of_answers, run, condition_id, arena, out) &&
-            take_sights(&of_sights, &out->own.review, arena))
-            return true;
-    }
-    return kept_damaged(reader, err, "its rows cannot be of condition '%.100s'",
-                        run->request->conditions[condition_id].name);
+static bool are_sound(const ReviewRequest *request, int condition_id, const ConditionFound *found,
+                      Error *err) {
+    bool ok = found->variant_count == request->variant_count &&
+              is_sound(request, condition_id, &found->own.review);
+    for (int i = 0; i < found->variant_count && ok; i++)
+        ok = is_sound(request, condition_id, &found->variants[i]);
+    return ok || error_at(err, ERROR_INPUT, found->path, "",
+                          "is damaged: its rows cannot be of condition '%.100s'",
+                          request->conditions[condition_id].name);
 }
 
 bool condition_read(const ReviewRun *run, int condition_id, const char *path, Arena *arena,
                     ConditionFound *out, Error *err) {
-    KeptReader reader;
+    const ReviewCondition *condition = &run->request->conditions[condition_id];
+    JsonView view;
     *out = (ConditionFound){.path = path};
-    if (!kept_open(&format, path, NULL, arena, &reader, err)) return false;
-    out->identity = reader.identity;
-    bool ok = take_body(&reader, run, condition_id, arena, out, err);
-    kept_close(&reader);
+    SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
+    if (!open_rows(path, arena, &out->identity, &view, err)) return false;
+    if (condition->kind != CONDITION_MOMENT)
+        *suns = sweep_suns(condition, run->means.threads, arena);
+    out->suns = suns;
+    bool ok = record_read(&view, &found_rows, out, err);
+    json_view_close(&view);
+    out->own.responses_kept = out->own.review.response_count;
+    return ok && are_sound(run->request, condition_id, out, err);
+}
+
+/* What a folder names, and the pictures that it has, is another's of the same condition. */
+static void forget_folder(json_t *value) {
+    static const char *const OWN_KEYS[] = {"frame", "view", "rim", "table"};
+    const char *key;
+    json_t *item;
+    size_t i;
+    for (int k = 0; k < COUNT_OF(OWN_KEYS); k++) json_object_del(value, OWN_KEYS[k]);
+    json_object_foreach(value, key, item) forget_folder(item);
+    json_array_foreach(value, i, item) forget_folder(item);
+}
+
+bool condition_same_answers(const char *one, const char *other, Arena scratch, bool *out,
+                            Error *err) {
+    JsonView a, b;
+    const char *identity;
+    if (!open_rows(one, &scratch, &identity, &a, err)) return false;
+    bool ok = open_rows(other, &scratch, &identity, &b, err);
+    if (ok) {
+        forget_folder(a.object);
+        forget_folder(b.object);
+        *out = json_equal(a.object, b.object);
+        json_view_close(&b);
+    }
+    json_view_close(&a);
     return ok;
 }
 

@@ -6,8 +6,8 @@
  * File     keep/kept.h. Its identity is the text of what decides it: the program, the request
  *          and the files that it names, options, and which condition it is. The files of scenes
  *          stand, with their hashes, in the review's own rows (Review.inputs).
- *          Body: bytes of the answers, 8; the answers (condition_rows.h); what frames show.
- *          Answers have the same bytes whoever finds them; frames are those of a folder.
+ *          Body: the rows of review.json (output/review_json.h), of the review and of each
+ *          variant, as record_keep has them; and the steps of its sweeps.
  * Memory   from the arena.
  * Threads  one at a time.
  * Fails    as kept.h. A file may come from anywhere: what cannot be of the request is refused.
@@ -22,8 +22,7 @@ typedef struct ConditionFound {
     int variant_count;
     /* of a file: */
     const char *path, *identity;
-    const void *answers;
-    size_t answer_bytes;
+    const SweepSuns *suns; /* of the condition; a moment has none */
 } ConditionFound;
 
 /* The text of what decides it, then a line for each word of the command ("word"). */
@@ -44,6 +43,10 @@ bool condition_write(const ConditionFound *found, const char *path, const char *
 /* Checks the file against the request's condition, but not its identity. */
 bool condition_read(const ReviewRun *run, int condition_id, const char *path, Arena *arena,
                     ConditionFound *out, Error *err);
+
+/* Are two files of a condition the same but for what is a folder's: frames, names of tables? */
+bool condition_same_answers(const char *one, const char *other, Arena scratch, bool *out,
+                            Error *err);
 
 /* Is it of that identity, whatever the words, and are the files that were read for it what they
  * were? */

@@ -38,9 +38,18 @@ PUBLIC_TABLE(limit_json, LimitVerdict, OWN(TEXT, LimitVerdict, name), OWN(TEXT, 
              {"with_veil", RECORD_FLAG, RECORD_BRIEF, RECORD_AT(LimitVerdict, has_veil)},
              {"beside", RECORD_TEXT, RECORD_NULL | RECORD_BRIEF, RECORD_AT(LimitVerdict, beside)});
 
+TABLE(ray_json, CaseRay, KEPT("points", POINTS, CaseRay, points, count));
+
+#define VECTOR(Type, member) AS_POINT(#member, MUST | RECORD_FLOAT, Type, member)
+TABLE(view_json, CaseView, VECTOR(CaseView, eye), VECTOR(CaseView, right), VECTOR(CaseView, up),
+      VECTOR(CaseView, forward), OWN(FLAG, CaseView, is_perspective),
+      OWN(FIGURE, CaseView, half_width), OWN(FIGURE, CaseView, half_height),
+      OWN(INT, CaseView, width), OWN(INT, CaseView, height));
+
 TABLE(cause_json, CaseCause, {"chain", RECORD_TEXTS, MUST, RECORD_MANY(CaseCause, chain, links)},
       OWN(FIGURE, CaseCause, share), OWN(FIGURE, CaseCause, cd_m2),
-      AS("interval", RANGE, CaseCause, low), OWN(FIGURE, CaseCause, contrast_without));
+      AS("interval", RANGE, CaseCause, low), OWN(FIGURE, CaseCause, contrast_without),
+      KEPT_LIST("rays", CaseCause, rays, ray_count, ray_json));
 
 TABLE(share_json, CaseShare, OWN(TEXT, CaseShare, what), OWN(FIGURE, CaseShare, share),
       OWN(FIGURE, CaseShare, cd_m2));
@@ -86,11 +95,9 @@ TABLE(visibility_json, CaseVisibility, OWN(FIGURE, CaseVisibility, age_years),
 
 TABLE(colour_json, CaseColour, OWN(TEXT, CaseColour, symbol), OWN(RANGE, CaseColour, uv),
       OWN(RANGE, CaseColour, dark_uv), AS("delta_uv", FIGURE, CaseColour, apart),
-      AS("interval", RANGE, CaseColour, low));
+      AS("interval", RANGE, CaseColour, low), KEPT("sampling", FIGURE, CaseColour, sampling));
 
-TABLE(place_json, CasePlace,
-      {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CasePlace, eye_m),
-       RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(3, 3)},
+TABLE(place_json, CasePlace, AS("position_m", POINT, CasePlace, eye_m),
       OWN(VERDICT, CasePlace, verdict), OWN(FIGURE, CasePlace, visible_share),
       OWN(FIGURE, CasePlace, contrast_ratio), AS("interval", RANGE, CasePlace, contrast_low));
 
@@ -106,11 +113,9 @@ static json_t *write_image_s_range(const void *item) {
 
 /* What is infinite, such as a contrast before black, is null. */
 TABLE(image_json, CaseImage, OWN(TEXT, CaseImage, pane), OWN(VERDICT, CaseImage, verdict),
-      {"position_m", RECORD_NUMBERS, MUST, RECORD_AT(CaseImage, eye_m),
-       RECORD_RANGE(-HUGE_VAL, HUGE_VAL), RECORD_COUNT(3, 3)},
-      OWN(FIGURE, CaseImage, shown_share), OWN(FIGURE, CaseImage, height_arcmin),
-      OWN(FIGURE, CaseImage, sent_foreground), OWN(FIGURE, CaseImage, sent_background),
-      OWN(FIGURE, CaseImage, reflectance),
+      AS("position_m", POINT, CaseImage, eye_m), OWN(FIGURE, CaseImage, shown_share),
+      OWN(FIGURE, CaseImage, height_arcmin), OWN(FIGURE, CaseImage, sent_foreground),
+      OWN(FIGURE, CaseImage, sent_background), OWN(FIGURE, CaseImage, reflectance),
       AS("reflectance_interval", RANGE, CaseImage, reflectance_range),
       OWN(FIGURE, CaseImage, foreground), OWN(FIGURE, CaseImage, background),
       OWN(FIGURE, CaseImage, against), AS("against_interval", RANGE, CaseImage, against_range),
@@ -207,14 +212,31 @@ PUBLIC_TABLE(
     {"must_not_be_read", RECORD_OWN, RECORD_BRIEF, .read = read_privacy, .write = write_privacy},
     PART("panel", 0, ReviewCase, panel, panel_json),
     LIST("causes", MUST, ReviewCase, causes, cause_count, cause_json),
-    {"cause_groups", RECORD_OBJECT, RECORD_WRITTEN, .of = &groups_json},
+    {"cause_groups", RECORD_OBJECT, RECORD_WRITTEN | RECORD_KEPT, .of = &groups_json},
     LATER("without_data_share", FIGURE, ReviewCase, without_data_share),
     LATER("guessed_share", FIGURE, ReviewCase, guessed_share),
     LATER("extrapolated_share", FIGURE, ReviewCase, extrapolated_share),
     LATER("empty_seat", TEXT, ReviewCase, empty_seat),
     LATER("empty_seat_share", FIGURE, ReviewCase, empty_seat_share),
     LIST("remedies", MUST, ReviewCase, remedies, remedy_count, remedy_json),
-    OWN(TEXT, ReviewCase, frame), OWN(TEXT, ReviewCase, when));
+    OWN(TEXT, ReviewCase, frame), OWN(TEXT, ReviewCase, when),
+    /* kept, also in the place of what is RECORD_OWN */
+    KEPT("sun_deg", RANGE, ReviewCase, sun_azimuth_deg),
+    KEPT("sampling_share", RANGE, ReviewCase, sampling_share),
+    {"batches", RECORD_FIGURES, RECORD_KEPT | RECORD_NULL | RECORD_BRIEF,
+     RECORD_AT(ReviewCase, batches), RECORD_RANGE(-HUGE_VAL, HUGE_VAL),
+     RECORD_COUNT(CASE_BATCHES, CASE_BATCHES)},
+    KEPT("alike_within", FIGURE, ReviewCase, alike_within), KEPT("eye_m", POINT, ReviewCase, eye_m),
+    KEPT("origin_m", POINT, ReviewCase, origin_m),
+    KEPT("is_private", FLAG, ReviewCase, must_not_be_read),
+    KEPT_LIST("places", ReviewCase, places, place_count, place_json),
+    KEPT_LIST("images", ReviewCase, images, image_count, image_json),
+    KEPT("own_reflected", FIGURE, ReviewCase, own_reflected),
+    KEPT("veil_displays", FIGURE, ReviewCase, veil_displays),
+    KEPT("limit_id", INT, ReviewCase, limit_id),
+    {"view", RECORD_OBJECT, RECORD_KEPT | RECORD_APART | RECORD_BRIEF, RECORD_AT(ReviewCase, view),
+     .of = &view_json},
+    KEPT("rim", POINTS, ReviewCase, rim, rim_count));
 
 FOLLOWS(ReviewCase, contrast_high, contrast_low);
 FOLLOWS(ReviewCase, sun_elevation_deg, sun_azimuth_deg);

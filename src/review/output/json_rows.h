@@ -2,6 +2,7 @@
 /* json_rows.h -- short names for the rows (record/record.h) of review.json; who uses
  * them includes case_json.h. */
 #pragma once
+#include <limits.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -46,6 +47,21 @@
     {key, RECORD_LIST, flag, RECORD_MANY(Type, member, number), .of = &table}
 #define PART(key, flag, Type, member, table) \
     {key, RECORD_OBJECT, flag, RECORD_AT(Type, member), .of = &table}
+/* Of a document that is kept (record_keep). */
+#define KEPT(key, KIND, ...) AS_##KIND(key, RECORD_KEPT | RECORD_NULL, __VA_ARGS__)
+#define KEPT_LIST(key, Type, member, number, table) \
+    LIST(key, RECORD_KEPT | RECORD_BRIEF, Type, member, number, table)
+#define AS_INT(key, flag, Type, member) \
+    {key, RECORD_INTEGER, flag, RECORD_AT(Type, member), RECORD_RANGE(-1, INT_MAX)}
+#define AS_POINT(key, flag, Type, member) \
+    {key, \
+     RECORD_NUMBERS, \
+     flag, \
+     RECORD_AT(Type, member), \
+     RECORD_RANGE(-HUGE_VAL, HUGE_VAL), \
+     RECORD_COUNT(3, 3)}
+#define AS_POINTS(key, flag, Type, member, number) \
+    {key, RECORD_FLOATS, flag, RECORD_MANY(Type, member, number), RECORD_COUNT(3, 3)}
 #define TOLD(key, flag, function) {key, RECORD_OWN, RECORD_WRITTEN | (flag), .write = function}
 
 /* The rows of a struct, and what reads and writes them; PUBLIC_TABLE: of case_json.h. */

@@ -101,14 +101,6 @@ TABLE(false_sun_json, ReviewFalseSun, OWN(TEXT, ReviewFalseSun, condition),
       LIST("limits", RECORD_BRIEF, ReviewFalseSun, limits, limit_count, limit_json),
       LATER("verdict", VERDICT, ReviewFalseSun, verdict));
 
-static json_t *write_outline(const void *item) {
-    const PaneFinding *f = item;
-    json_t *out = json_array();
-    for (int i = 0; i < f->outline_count; i++)
-        json_array_append_new(out, json_figure(f->outline_deg[i]));
-    return out;
-}
-
 TABLE(pane_image_json, PaneFinding, OWN(TEXT, PaneFinding, condition), OWN(TEXT, PaneFinding, eye),
       OWN(TEXT, PaneFinding, display), OWN(TEXT, PaneFinding, pane),
       AS("no_image_because", TEXT, PaneFinding, none), OWN(FIGURE, PaneFinding, shown_share),
@@ -118,7 +110,7 @@ TABLE(pane_image_json, PaneFinding, OWN(TEXT, PaneFinding, condition), OWN(TEXT,
       OWN(FIGURE, PaneFinding, right_deg), OWN(FIGURE, PaneFinding, up_deg),
       OWN(FIGURE, PaneFinding, width_deg), OWN(FIGURE, PaneFinding, height_deg),
       {"outline_deg", RECORD_FIGURES, MUST, RECORD_MANY(PaneFinding, outline_deg, outline_count),
-       RECORD_RANGE(-HUGE_VAL, HUGE_VAL), .write = write_outline},
+       RECORD_RANGE(-HUGE_VAL, HUGE_VAL)},
       AS("image_cd_m2", FIGURE, PaneFinding, image),
       AS("image_interval", RANGE, PaneFinding, image_range),
       AS("behind_cd_m2", FIGURE, PaneFinding, behind),
@@ -130,7 +122,8 @@ TABLE(pane_image_json, PaneFinding, OWN(TEXT, PaneFinding, condition), OWN(TEXT,
       OWN(TEXT, PaneFinding, area), OWN(FIGURE, PaneFinding, off_deg),
       {"limit", RECORD_OBJECT, MUST | RECORD_NULL, RECORD_AT(PaneFinding, limit),
        .count = offsetof(PaneFinding, has_limit), .of = &limit_json},
-      LIST("breaks", RECORD_BRIEF, PaneFinding, breaks, break_count, break_json));
+      LIST("breaks", RECORD_BRIEF, PaneFinding, breaks, break_count, break_json),
+      KEPT("corners", POINTS, PaneFinding, corners, corner_count));
 
 TABLE(rest_json, ReviewRest,
       {"kind", RECORD_CHOICE, MUST, RECORD_AT(ReviewRest, kind), .words = rest_kinds},
@@ -139,7 +132,7 @@ TABLE(rest_json, ReviewRest,
       OWN(COUNT, ReviewRest, of));
 
 TABLE(files_json, ReviewFile, OWN(TEXT, ReviewFile, path),
-      LATER("sha256", TEXT, ReviewFile, sha256));
+      LATER("sha256", TEXT, ReviewFile, sha256), KEPT("xxh3", TEXT, ReviewFile, xxh3));
 
 TABLE(document_json, ReviewDocument, OWN(TEXT, ReviewDocument, number),
       OWN(TEXT, ReviewDocument, revision), OWN(TEXT, ReviewDocument, date),
@@ -318,32 +311,34 @@ static json_t *write_verdict(const void *review) {
     return json_string(verdict_names[review_verdict(review)]);
 }
 
-TABLE(whole_json, Review, OWN(FLAG, Review, pass), TOLD("verdict", 0, write_verdict),
-      TOLD("headline", 0, write_headline), AS("strict", FLAG, Review, is_strict),
-      OWN(TEXT, Review, title), PART("document", 0, Review, document, document_json),
-      OWN(TEXT, Review, profile), LATER("superseded_by", TEXT, Review, superseded_by),
-      TOLD("findings", 0, write_findings),
-      LIST("cases", MUST, Review, cases, case_count, case_json),
-      LIST("sweeps", MUST, Review, sweeps, sweep_count, sweep_json),
-      LIST("gazes", MUST, Review, gazes, gaze_count, gaze_json),
-      LIST("false_suns", MUST, Review, false_suns, false_sun_count, false_sun_json),
-      LIST("pane_images", RECORD_BRIEF, Review, pane_images, pane_image_count, pane_image_json),
-      TOLD("variants", RECORD_BRIEF, write_variants), TOLD("eye_places", 0, write_places),
-      TOLD("panels", 0, write_panels),
-      LIST("responses", MUST, Review, responses, response_count, response_json),
-      AS_TEXT("without_data", RECORD_WRITTEN, Review, without_data),
-      TOLD("without_data_share_most", 0, write_data_share),
-      LIST("rests_on", 0, Review, rests_on, rests_on_count, rest_json),
-      TOLD("rests_on_line", 0, write_rests),
-      LIST("inputs", 0, Review, inputs, input_count, files_json),
-      {"notes", RECORD_TEXTS, MUST, RECORD_MANY(Review, notes, note_count)});
+PUBLIC_TABLE(review_rows, Review, OWN(FLAG, Review, pass), TOLD("verdict", 0, write_verdict),
+             TOLD("headline", 0, write_headline), AS("strict", FLAG, Review, is_strict),
+             OWN(TEXT, Review, title), PART("document", 0, Review, document, document_json),
+             OWN(TEXT, Review, profile), LATER("superseded_by", TEXT, Review, superseded_by),
+             TOLD("findings", 0, write_findings),
+             LIST("cases", MUST, Review, cases, case_count, case_json),
+             LIST("sweeps", MUST, Review, sweeps, sweep_count, sweep_json),
+             LIST("gazes", MUST, Review, gazes, gaze_count, gaze_json),
+             LIST("false_suns", MUST, Review, false_suns, false_sun_count, false_sun_json),
+             LIST("pane_images", RECORD_BRIEF, Review, pane_images, pane_image_count,
+                  pane_image_json),
+             TOLD("variants", RECORD_BRIEF, write_variants), TOLD("eye_places", 0, write_places),
+             TOLD("panels", 0, write_panels),
+             LIST("responses", MUST, Review, responses, response_count, response_json),
+             AS_TEXT("without_data", RECORD_WRITTEN | RECORD_KEPT, Review, without_data),
+             KEPT("without_data_count", INT, Review, without_data_count),
+             TOLD("without_data_share_most", 0, write_data_share),
+             LIST("rests_on", 0, Review, rests_on, rests_on_count, rest_json),
+             TOLD("rests_on_line", 0, write_rests),
+             LIST("inputs", 0, Review, inputs, input_count, files_json),
+             {"notes", RECORD_TEXTS, MUST, RECORD_MANY(Review, notes, note_count)});
 
 json_t *review_case_json(const ReviewCase *c) {
     return record_write(&case_json, c);
 }
 
 json_t *review_json(const Review *review) {
-    return record_write(&whole_json, review);
+    return record_write(&review_rows, review);
 }
 
 bool review_json_write(json_t *document, const char *path, Error *err) {
@@ -362,7 +357,7 @@ bool review_json_read(const char *file, Arena *arena, Review *out, Error *err) {
     JsonView root;
     Review review = {0};
     if (!json_view_open(file, arena, &root, err)) return false;
-    bool ok = record_read(&root, &whole_json, &review, err);
+    bool ok = record_read(&root, &review_rows, &review, err);
     json_view_close(&root);
     if (ok) *out = review;
     return ok;

@@ -16,7 +16,12 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "record/record.h"
 #include "review/verdict.h"
+
+/* Of a Review. Of a document that the program keeps for itself (record_keep) all is read back to
+ * the last bit but what is said of all conditions together: differences, and their findings. */
+extern const RecordFormat review_rows;
 
 /* "findings" has one object a line of a finding (review/finding.h), of one without a line one of
  * its own: {"condition", "eye", "subject", "kind", "when", "finding_verdict", "reason", "counts",

@@ -238,7 +238,7 @@ static bool in_view(const CaseView *view, Vec3 towards, double at[2]) {
 
 /* As a closed path; false: some of it is not before the eye. */
 static bool path_of(const CaseView *view, const PaneFinding *f, Text *out) {
-    for (int i = 0; 2 * i < f->outline_count; i++) {
+    for (int i = 0; i < f->corner_count; i++) {
         double at[2];
         if (!in_view(view, f->corners[i], at)) return false;
         text_format(out, "%c%.1f %.1f", i ? 'L' : 'M', at[0], at[1]);

@@ -54,6 +54,7 @@ static void set_place(const PaneImage *image, const Frame *frame, PaneFinding *o
     out->height_deg = high[1] - low[1];
     out->outline_deg = outline;
     out->outline_count = 2 * image->outline_count;
+    out->corner_count = image->outline_count;
     out->corners = memcpy(ARENA_NEW(arena, Vec3, image->outline_count), image->outline,
                           sizeof *image->outline * (size_t)image->outline_count);
 }
