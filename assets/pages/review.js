@@ -32,7 +32,8 @@ function make(name,kind,text){
 /* ---- what is said of a cell ---- */
 function ofMap(d,v,i){
   return [make('span','chip '+v.kind[i],v.verdict[i]),' ',make('b','',v.contrast[i]+' : 1'),' ('+
-    v.range[i]+'), margin '+v.margin[i]+' · '+v.sun[i]+(v.when[i]?', '+v.when[i]:'')+' · '+
+    v.range[i]+'), margin '+v.margin[i]+' · sun '+v.elevation[i]+'° high, '+
+    v.where[i]+', azimuth '+v.azimuth[i]+'°'+(v.when[i]?', '+v.when[i]:'')+' · '+
     v.lux[i]+' lx on the display · reflected '+v.reflected[i]+
     ' cd/m², of it the sun as in a mirror '+v.mirror[i]+' · level '+v.level[i]];
 }
@@ -47,8 +48,8 @@ function ofCalendar(d,v,i){
 function nearest(d,v,column,row){
   var best=-1,least=Infinity;
   if(d.kind!=='map')return row*d.columns+column;
-  for(var i=0;i<v.sun.length;i++){
-    if(v.sun[i]===null)continue;
+  for(var i=0;i<v.azimuth.length;i++){
+    if(v.azimuth[i]===null)continue;
     var turns=(i%d.columns-column)*d.step/360,up=(Math.floor(i/d.columns)-row)*d.rise;
     var across=360*(turns-Math.round(turns))*
       Math.cos((+d.low+row*d.rise)*Math.PI/180),apart=across*across+up*up;

@@ -226,15 +226,13 @@ static bool holds(const ReviewMap *map, int wanted) {
 
 /* Of each cell the row of its step, a list a column; null where there is none. */
 static json_t *steps_said(const ReviewMap *map, Arena scratch) {
-    static const char *const NAMES[] = {"kind", "verdict",   "contrast", "range", "margin", "sun",
-                                        "lux",  "reflected", "mirror",   "level", "when"};
+    static const char *const NAMES[] = {"kind",      "verdict", "contrast", "range", "margin",
+                                        "elevation", "azimuth", "where",    "when",  "lux",
+                                        "reflected", "mirror",  "level"};
     json_t *said = json_object();
     for (int k = 0; k < COUNT_OF(NAMES); k++) json_object_set_new(said, NAMES[k], json_array());
     for (int i = 0; i < map->azimuth_deg.count * map->elevation_deg.count; i++) {
         const ReviewStep *step = &map->cells[i];
-        ReviewCase at = {.has_sun = true,
-                         .sun_azimuth_deg = step->azimuth_deg,
-                         .sun_elevation_deg = step->elevation_deg};
         Arena own = scratch;
         const char *const words[COUNT_OF(NAMES)] = {
             words_class(step->verdict),
@@ -242,12 +240,14 @@ static json_t *steps_said(const ReviewMap *map, Arena scratch) {
             words_within(step->contrast, step->low, step->high, &own),
             words_interval(step->low, step->high, &own),
             words_margin(step->margin, &own),
-            words_sun(&at, words_directions(true), &own),
+            arena_format(&own, "%.1f", step->elevation_deg),
+            arena_format(&own, "%.1f", step->azimuth_deg),
+            words_directions(true)[words_eighth(step->azimuth_deg)],
+            step->when,
             words_figure(step->lux, &own),
             words_figure(step->reflected, &own),
             words_figure(step->mirror, &own),
-            words_share(step->level, &own),
-            step->when};
+            words_share(step->level, &own)};
         for (int k = 0; k < COUNT_OF(NAMES); k++)
             json_array_append_new(json_object_get(said, NAMES[k]),
                                   json_text_or_null(isnan(step->contrast) ? NULL : words[k]));

@@ -249,8 +249,7 @@ const char *words_ambient(Ambient ambient) {
     return WORDS[ambient];
 }
 
-/* The eighth of the circle that an azimuth lies in. */
-static int eighth_of(double azimuth_deg) {
+int words_eighth(double azimuth_deg) {
     double turns = azimuth_deg / 360;
     return (int)floor((turns - floor(turns)) * 8 + 0.5) % 8;
 }
@@ -267,7 +266,7 @@ const char *const *words_directions(bool is_of_vehicle) {
 const char *words_sun(const ReviewCase *c, const char *const *directions, Arena *arena) {
     if (!c->has_sun) return "no sun above the horizon";
     if (!isfinite(c->sun_azimuth_deg) || !isfinite(c->sun_elevation_deg)) return "sun is up";
-    const char *where = directions ? directions[eighth_of(c->sun_azimuth_deg)] : "";
+    const char *where = directions ? directions[words_eighth(c->sun_azimuth_deg)] : "";
     return arena_format(arena, "sun %.1f° high, %s%sazimuth %.1f°", c->sun_elevation_deg, where,
                         where[0] ? ", " : "", c->sun_azimuth_deg);
 }

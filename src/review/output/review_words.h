@@ -100,6 +100,9 @@ const char *words_ambient(Ambient ambient);
 /* Eight: "in the north", "in the north-east", ...; of the vehicle "ahead", ... */
 const char *const *words_directions(bool is_of_vehicle);
 
+/* The one of them that an azimuth lies in. */
+int words_eighth(double azimuth_deg);
+
 /* "sun 32.0° high, in the south-east, azimuth 135.0°". directions: what azimuths count from;
  * NULL: nobody knows, and no direction is named. */
 const char *words_sun(const ReviewCase *c, const char *const *directions, Arena *arena);
