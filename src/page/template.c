@@ -194,13 +194,14 @@ static bool add_number(Render *r, const json_t *value) {
     return true;
 }
 
-/* The texts of a list, with what stands behind the bar between them. */
-static bool add_joined(Render *r, const json_t *list) {
+/* How many a list has; or its texts, with what stands behind the bar between them. */
+static bool add_list(Render *r, const json_t *list) {
     Arena scratch = *r->scratch;
     Text joined = {.arena = &scratch};
-    for (size_t i = 0; i < json_array_size(list); i++) {
+    if (!r->tag->format) text_format(&joined, "%zu", json_array_size(list));
+    for (size_t i = 0; r->tag->format && i < json_array_size(list); i++) {
         const char *text = json_string_value(json_array_get(list, i));
-        if (i > 0) text_add(&joined, r->tag->format ? r->tag->format : "");
+        if (i > 0) text_add(&joined, r->tag->format);
         text_add(&joined, text ? text : "");
     }
     if (joined.data) add_words(r, joined.data);
@@ -210,7 +211,7 @@ static bool add_joined(Render *r, const json_t *list) {
 static bool add_value(Render *r) {
     const json_t *value = look_up(r);
     if (!value) return fails(r, "has no value for");
-    if (json_is_array(value)) return add_joined(r, value);
+    if (json_is_array(value)) return add_list(r, value);
     if (!json_is_string(value)) return add_number(r, value);
     if (r->tag->kind == TAG_VALUE) add_words(r, json_string_value(value));
     else text_add_bytes(r->to, json_string_value(value), json_string_length(value));

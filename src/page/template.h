@@ -3,7 +3,8 @@
  *
  *   {{name}}          a value, escaped; {{a.b}} a member of a member, {{.}} the item itself
  *   {{a.0}}           the first item of a list; a member of null, and what is behind a list's
- *                     last item, is null
+ *                     last item, is null: so {{#a.0}} stands about a list that may be empty
+ *   {{a}}             of a list how many it has
  *   {{name|format}}   a number in a named format; what is a text already stays as it is
  *   {{name| > }}      the texts of a list, with that between them
  *   {{{name}}}        a value that is markup: a drawing, a picture's bytes

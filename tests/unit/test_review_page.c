@@ -158,7 +158,8 @@ static void add_names(json_t *names, const char *template) {
         if (is_part) add_names(names, arena_format(&arena, "%.*s.html", (int)length, name));
         for (const char *end = name + length; !is_part && name < end; name++) {
             size_t one = strcspn(name, ".|}");
-            if (one) json_object_set_new(names, arena_string(&arena, name, one), json_true());
+            if (one && *name != '0')
+                json_object_set_new(names, arena_string(&arena, name, one), json_true());
             name += one;
         }
     }

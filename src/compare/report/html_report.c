@@ -76,8 +76,6 @@ static void set_rows(json_t *to, const Comparison *c, Arena scratch) {
         json_array_append(lists[r->table], row);
         if (r->is_key) json_array_append(keys, row);
     }
-    page_set_flag(to, "has_contrasts", json_array_size(lists[TABLE_CONTRAST]) > 0);
-    page_set_flag(to, "has_means", json_array_size(lists[TABLE_MEAN]) > 0);
 }
 
 static void set_channels(json_t *to, const ChannelDifferences *channels) {
@@ -108,11 +106,7 @@ static void set_notes(json_t *to, const Comparison *c) {
         page_set(row, "reference", m->reference ? m->reference : "–");
         page_set(row, "test", m->test ? m->test : "–");
     }
-    page_set_flag(to, "has_notes", c->notes.count > 0);
-    page_set_flag(to, "has_differing", json_array_size(json_object_get(to, "metadata")) > 0);
-    page_set_flag(to, "has_alike", json_array_size(alike) > 0);
     json_object_set_new(to, "alike", alike);
-    page_set_flag(to, "has_reasons", c->reasons.count > 0);
 }
 
 /* ---- pictures ---------------------------------------------------------------------------- */

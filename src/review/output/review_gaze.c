@@ -69,7 +69,6 @@ static void add_false_suns(const PageValues *v) {
     json_t *list = json_object_get(v->doc, "false_suns");
     for (int i = 0; i < v->review->false_sun_count; i++)
         values_set_names(json_array_get(list, (size_t)i), NAMES);
-    page_set_count(v->doc, "false_sun_count", v->review->false_sun_count);
 }
 
 void values_add_gazes(const PageValues *v) {
@@ -84,8 +83,6 @@ void values_add_gazes(const PageValues *v) {
     qsort(list, (size_t)review->gaze_count, sizeof *list, by_contrast);
     for (int i = 0; i < review->gaze_count; i++)
         json_array_append(all, json_array_get(gazes, (size_t)(list[i] - review->gazes)));
-    page_set_count(v->doc, "gaze_count", review->gaze_count);
-    if (review->gaze_count) json_object_set(v->doc, "worst_gaze", json_array_get(all, 0));
     add_false_suns(v);
     road_add_values(v->doc, v->review, v->arena);
     values_add_panes(v);

@@ -39,9 +39,6 @@ static void values_add_list(const PageValues *v, int most) {
         values_add_finding(v, lists[f->counts ? f->verdict : VERDICT_PASS], f);
         values_add_finding(v, lists[4], f);
     }
-    for (int i = 0; i < 5; i++)
-        page_set_count(json_object_get(verdicts, NAMES[i]), "count",
-                       (long)json_array_size(lists[i]));
     page_set_count(verdicts, "unlisted", listed < ranked.count ? ranked.count : 0);
 }
 
@@ -81,7 +78,6 @@ static void values_add_limits(const PageValues *v) {
         page_set(to, "to", high[i] > rows[i].value ? words_number(high[i], v->arena) : NULL);
         page_set_flag(to, "is_read", rows[i].read_in_the_standard);
     }
-    page_set_flag(v->doc, "has_limit_rows", count > 0);
 }
 
 /* ---- what changed ------------------------------------------------------------------------ */
@@ -133,7 +129,6 @@ static void values_add_diff(const PageValues *v) {
             page_set_count(to, diff_names[kind], diff->count[kind]);
     for (int i = 0; i < diff->list_count; i++)
         if (diff->list[i].kind != DIFF_SAME) add_change(changes, &diff->list[i], v->arena);
-    page_set_flag(to, "has_changes", json_array_size(changes) > 0);
 }
 
 #define WORDS_BYTES ((size_t)1 << 34) /* address space */
@@ -176,7 +171,7 @@ static bool set_head(const PageValues *v, Error *err) {
 
 /* Cards of moments, or of sweeps, on the page in hand, the worst first, which is open: others that
  * do not pass, and those that do, are folded. */
-static json_t *set_folds(const PageValues *v, const char *name, bool of_sweeps) {
+static void set_folds(const PageValues *v, const char *name, bool of_sweeps) {
     const Review *review = v->review;
     const ReviewCase **ranked = review_rank(review, v->arena);
     json_t *to = values_object(v->doc, name), *open = values_list(to, "open");
@@ -199,9 +194,6 @@ static json_t *set_folds(const PageValues *v, const char *name, bool of_sweeps) 
     }
     page_set_count(to, "all", here + elsewhere);
     page_set_count(to, "elsewhere", elsewhere);
-    page_set_count(to, "more_count", (long)json_array_size(more));
-    page_set_count(to, "passing_count", (long)json_array_size(passing));
-    return json_array_get(open, 0);
 }
 
 /* ---- sweeps ----------------------------------------------------------------------------- */
@@ -236,8 +228,7 @@ static bool set_sweep(const PageValues *v, const ReviewSweep *s, Error *err) {
 static bool set_sweeps(const PageValues *v, Error *err) {
     for (int i = 0; i < v->review->sweep_count; i++)
         if (!set_sweep(v, &v->review->sweeps[i], err)) return false;
-    json_t *worst = set_folds(v, "swept", true);
-    if (worst) json_object_set(v->doc, "worst_sweep", worst);
+    set_folds(v, "swept", true);
     return true;
 }
 
@@ -252,9 +243,6 @@ static void set_provenance(const PageValues *v) {
         page_set(fact, "value", page->facts[i].value);
     }
     json_object_set_new(v->doc, "commands", json_texts(page->commands, page->command_count));
-    page_set_flag(v->doc, "has_commands", page->command_count > 0);
-    page_set_count(v->doc, "note_count", v->review->note_count);
-    page_set_count(v->doc, "response_count", v->review->response_count);
 }
 
 /* most: verdicts that are listed; 0: all. */

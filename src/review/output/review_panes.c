@@ -57,15 +57,10 @@ static void add_view(const PageValues *v, json_t *list, int first) {
         if (f->none) continue;
         set_image(of, f, v->arena);
     }
-    page_set_flag(view, "has_images", json_array_size(images) > 0);
-    page_set_flag(view, "has_hidden", json_array_size(hidden) > 0);
-    page_set_count(view, "hidden_count", (int)json_array_size(hidden));
 }
 
 void values_add_panes(const PageValues *v) {
     const Review *review = v->review;
-    page_set_flag(v->doc, "has_panes", review->pane_image_count > 0);
-    if (!review->pane_image_count) return;
     json_t *views = values_list(v->doc, "pane_views");
     for (int i = 0; i < review->pane_image_count; i++) {
         int k = 0;

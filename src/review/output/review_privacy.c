@@ -148,7 +148,6 @@ static const char *privacy_places_drawn(const ReviewCase *c, Arena *arena) {
 
 void privacy_set_values(json_t *to, const ReviewCase *c, Arena *arena) {
     PrivacyFigures of = privacy_figures(c);
-    page_set_flag(to, "is_private", c->must_not_be_read);
     page_set(to, "places_drawn", privacy_places_drawn(c, arena));
     page_set(to, "security",
              !c->must_not_be_read || isnan(of.v)

@@ -205,7 +205,6 @@ static void add_road(json_t *list, const GazeFinding *gaze, Arena *arena) {
              isnan(road->mesopic_cd_m2) ? NULL : arena_format(arena, "%.4g", road->mesopic_cd_m2));
     page_set_flag(to, "is_evaluated", !road->left_out);
     page_set_flag(to, "has_limit", road_has_limit(road));
-    page_set_count(to, "dimming_count", road->dimming_count);
     if (road->age_count) page_set(to, "limit", words_number(road->ages[0].limit.value, arena));
     for (int i = 0; i < road->age_count; i++)
         set_age(page_add(ages), &road->ages[i], road_has_limit(road), arena);
@@ -216,5 +215,4 @@ void road_add_values(json_t *document, const Review *review, Arena *arena) {
     json_t *roads = new_list(document, "roads");
     for (int i = 0; i < review->gaze_count; i++)
         if (review->gazes[i].road) add_road(roads, &review->gazes[i], arena);
-    page_set_flag(document, "has_roads", json_array_size(roads) > 0);
 }

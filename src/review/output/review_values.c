@@ -48,7 +48,6 @@ void values_set_verdict(json_t *to, Verdict verdict) {
     page_set(to, "class", words_class(verdict));
     page_set(to, "mark", words_mark(verdict));
     page_set(to, "outcome", words_verdict(verdict));
-    page_set_flag(to, "passes", verdict == VERDICT_PASS);
 }
 
 void values_set_names(json_t *to, const char *const *keys) {
@@ -64,14 +63,20 @@ void values_set_names(json_t *to, const char *const *keys) {
 /* ---- limits ------------------------------------------------------------------------------ */
 
 static void set_limit(json_t *to, const LimitVerdict *limit, Arena *arena) {
-    if (!limit) return;
     values_set_verdict(to, limit->verdict);
+    page_set_flag(to, "passes", limit->verdict == VERDICT_PASS);
     page_set(to, "found", isnan(limit->found) ? NULL : words_found(limit, arena));
     page_set(to, "range", words_interval(limit->low, limit->high, arena));
     page_set(to, "required", words_required(limit, arena));
     page_set(to, "margin", words_from_limit(limit, arena));
     page_set_flag(to, "has_margin", !isnan(limit->margin));
     page_set(to, "bar", review_bar_margin(limit, arena));
+}
+
+/* What decides; NULL: nothing is judged. */
+static void set_held(json_t *to, const LimitVerdict *limit, Arena *arena) {
+    if (limit) set_limit(values_object(to, "held"), limit, arena);
+    else page_set(to, "held", NULL);
 }
 
 /* Where more stands of what is no case. */
@@ -99,8 +104,7 @@ static json_t *finding_values(const PageValues *v, const Finding *f) {
     page_set_flag(to, "is_judged", !f->why);
     page_set_flag(to, "is_worst", false);
     page_set(to, "bars", NULL);
-    set_limit(values_object(to, "judged"), f->worst, arena);
-    json_object_set(to, "held", f->why ? json_null() : json_object_get(to, "judged"));
+    set_held(to, f->why ? NULL : f->worst, arena);
     return to;
 }
 
@@ -122,8 +126,7 @@ static void set_limits(json_t *to, const ReviewCase *c, Arena *arena) {
     }
     page_set(to, "missing", missing.data);
     page_set_flag(to, "has_found", missing_count < c->limit_count);
-    set_limit(json_object_get(to, "judged"), case_worst_limit(c), arena);
-    json_object_set(to, "held", c->unjudged ? json_null() : json_object_get(to, "judged"));
+    set_held(to, c->unjudged ? NULL : case_worst_limit(c), arena);
 }
 
 /* ---- causes and remedies ----------------------------------------------------------------- */
@@ -154,8 +157,6 @@ static void set_causes(json_t *to, const ReviewCase *c, Arena *arena) {
         json_array_append(more, json_array_get(causes, (size_t)first));
         json_array_remove(causes, (size_t)first);
     }
-    page_set_flag(to, "has_causes", c->cause_count > 0);
-    page_set_count(to, "more_cause_count", c->cause_count - first);
     json_object_set_new(to, "other_ways", left >= 0.001 ? json_real(left) : json_null());
     page_set(to, "seat", words_empty_seat(c, arena));
     json_t *groups = values_object(to, "groups");
@@ -257,7 +258,6 @@ static bool set_pictures(const PageValues *v, json_t *to, const ReviewCase *c, E
         page_set(picture, "rays", p->view ? drawn_over(v->review, c, card, &scratch) : NULL);
         if (!values_add_picture(picture, p, scratch, err)) return false;
     }
-    page_set_flag(to, "has_pictures", json_array_size(list) > 0);
     return true;
 }
 
@@ -514,7 +514,6 @@ static void set_rests(const PageValues *v) {
     RestWords list[REST_KINDS];
     int count = review_rests(v->review, list, v->arena);
     json_t *rests = values_list(v->doc, "rests");
-    page_set_flag(v->doc, "has_rests", count > 0);
     for (int i = 0; i < count; i++) {
         json_t *rest = page_add(rests);
         page_set(rest, "id", list[i].id);

@@ -65,7 +65,7 @@ void values_add_finding(const PageValues *v, json_t *list, const Finding *f);
 json_t *values_list(json_t *to, const char *name);
 json_t *values_object(json_t *to, const char *name);
 
-/* class, mark, outcome, and whether it passes. */
+/* class, mark and outcome. */
 void values_set_verdict(json_t *to, Verdict verdict);
 
 /* A name that is missing is shown as one that nobody knows: "?". */

@@ -221,7 +221,6 @@ static void add_beside(json_t *to, const Review *review, const Review *variant, 
 
 static bool add_pair(json_t *to, const ReviewPicture pair[2], Arena scratch, Error *err) {
     json_t *list = values_list(to, "pair");
-    page_set_flag(to, "has_pair", pair && pair[1].file);
     for (int i = 0; pair && pair[1].file && i < 2; i++)
         if (!values_add_picture(page_add(list), &pair[i], scratch, err)) return false;
     return true;
@@ -248,7 +247,6 @@ static bool add_variants(const PageValues *v, Error *err) {
     const ReviewVariantFound **ranked = ARENA_NEW(v->arena, const ReviewVariantFound *, count + 1);
     for (int i = 0; i < count; i++) ranked[i] = &v->review->variants[i];
     qsort(ranked, (size_t)count, sizeof *ranked, compare);
-    page_set_flag(v->doc, "has_variants", count > 0);
     if (count) add_base_row(v, list, ranked[0]->worst.before);
     for (int i = 0; i < count; i++)
         if (!add_variant(v, list, ranked[i], err)) return false;
@@ -256,15 +254,14 @@ static bool add_variants(const PageValues *v, Error *err) {
 }
 
 /* Those of what must not be read say so. */
-static bool add_places(const PageValues *v) {
+static void add_places(const PageValues *v) {
     json_t *places = json_object_get(v->doc, "eye_places"), *place;
     size_t i;
     json_array_foreach(places, i, place)
         page_set_flag(place, "is_private", json_object_get(place, "must_not_be_read") != NULL);
-    return json_array_size(places) > 0;
 }
 
 bool values_add_variants(const PageValues *v, Error *err) {
-    page_set_flag(v->doc, "has_places", add_places(v));
+    add_places(v);
     return add_variants(v, err);
 }
