@@ -16,6 +16,14 @@ typedef struct AxisSpec {
     const char *suffix; /* behind every tick's number: "°"; NULL: none */
 } AxisSpec;
 
+static inline AxisSpec axis_even(double low, double high, const char *title) {
+    return (AxisSpec){.low = low, .high = high, .title = title};
+}
+
+static inline AxisSpec axis_log(double low, double high, const char *title) {
+    return (AxisSpec){.low = low, .high = high, .is_log = true, .title = title};
+}
+
 typedef struct CurveName {
     const char *text;
     double x, y; /* where the curve ends, points */

@@ -68,6 +68,7 @@ static void paint_hints(const Chart *chart) {
     cairo_restore(canvas->cr);
 }
 
+/* Under the series. */
 static void draw_locus(const Chart *chart) {
     static const int MARKS[] = {420, 460, 480, 500, 520, 540, 560, 580, 600, 620, 660};
     Canvas *canvas = chart->canvas;
@@ -92,14 +93,6 @@ static void draw_locus(const Chart *chart) {
     }
 }
 
-static void draw_triangle(const Chart *chart, double uv[3][2], Stroke stroke) {
-    cairo_t *cr = chart->canvas->cr;
-    for (int i = 0; i < 3; i++)
-        cairo_line_to(cr, chart_x(chart, uv[i][0]), chart_y(chart, uv[i][1]));
-    cairo_close_path(cr);
-    canvas_stroke(chart->canvas, stroke);
-}
-
 static GamutTriangle standard_uv(int i) {
     GamutTriangle xy = gamut_triangle((GamutStandard)i);
     return gamut_in_uv(&xy);
@@ -112,77 +105,72 @@ static bool panel_triangle(const PlotData *s, GamutTriangle *uv) {
     return !s->is_white_only && gamut_area(uv, &srgb) > 1e-4;
 }
 
-/* From the normal to 80 degrees (or the cone's edge), along one azimuth. */
-static int angle_path(const PlotData *s, Pattern pattern, double phi, double u[], double v[]) {
+#define PATH_POINTS 81
+
+/* From the normal to 80 degrees (or the cone's edge), every degree along one azimuth. */
+static ChartPoints add_path(ChartRows *out, const PlotData *s, Pattern pattern, double phi,
+                            Stroke stroke) {
+    ChartPoints p = chart_rows_points(out, PATH_POINTS);
     float rgb[3];
-    int count = 0;
     pattern_codes(pattern, rgb);
-    for (int deg = 0; deg <= 80 && radians_from_degrees(deg) <= s->cone + 1e-6; deg++) {
+    p.count = 0;
+    for (int deg = 0; deg < PATH_POINTS && radians_from_degrees(deg) <= s->cone + 1e-6; deg++) {
         PanelColour there =
             panel_figure_colour(s->source.panel, radians_from_degrees(deg), phi, rgb);
-        u[count] = there.uv[0];
-        v[count++] = there.uv[1];
+        p.x[p.count] = there.uv[0];
+        p.y[p.count++] = there.uv[1];
     }
-    return count;
+    chart_rows_add(
+        out, SERIES_CURVE,
+        arena_format(out->arena, "%s, φ %.0f°", pattern_name(pattern), degrees_from_radians(phi)),
+        stroke, p);
+    return p;
 }
 
-static void draw_paths(Chart *chart, const PlotData *s, Pattern pattern, Ink ink) {
-    double u[81], v[81];
-    for (int k = 0; k < 8; k++) {
-        int count = angle_path(s, pattern, k * PI / 4, u, v);
-        chart_curve(chart, u, v, count, (Stroke){ink, 1.3, DASH_NONE});
-    }
-    PanelColour normal = plot_data_normal(s, pattern);
-    chart_dot(chart, normal.uv[0], normal.uv[1], 3.6, chart->canvas->theme.paper);
-    chart_dot(chart, normal.uv[0], normal.uv[1], 2.8, ink);
+/* Where the points begin. */
+static void add_start(ChartRows *out, ChartPoints points, double radius, Ink ink) {
+    points.count = 1;
+    chart_rows_add(out, SERIES_DOTS, NULL, (Stroke){ink, radius, DASH_NONE}, points);
 }
 
-/* Axes of equal scale on both, centred. */
-static Chart square_chart(Canvas *canvas, Box box, const double low[2], const double high[2],
-                          const char *const titles[2]) {
-    double w = box.w - 42 - 14, h = box.h - 56;
-    double scale = fmin(w / (high[0] - low[0]), h / (high[1] - low[1]));
-    double span[2] = {w / scale, h / scale}, from[2];
-    for (int i = 0; i < 2; i++) from[i] = (low[i] + high[i] - span[i]) / 2;
-    return chart_open(
-        canvas, box, (AxisSpec){.low = from[0], .high = from[0] + span[0], .title = titles[0]},
-        (AxisSpec){.low = from[1], .high = from[1] + span[1], .title = titles[1]}, 14);
+static void add_paths(ChartRows *out, const PlotData *s, Pattern pattern) {
+    Ink ink = panel_chart_pattern_ink(out->theme, pattern);
+    ChartPoints path = {0};
+    for (int k = 0; k < 8; k++)
+        path = add_path(out, s, pattern, k * PI / 4, (Stroke){ink, 1.3, DASH_NONE});
+    add_start(out, path, 3.6, out->theme->paper);
+    add_start(out, path, 2.8, ink);
 }
 
-static const char *const UV_TITLES[2] = {"u′ (CIE 1976)", "v′"};
+static void add_triangle(ChartRows *out, const GamutTriangle *uv, const char *name, Stroke stroke) {
+    ChartPoints p = chart_rows_points(out, 4);
+    for (int i = 0; i < 4; i++) p.x[i] = uv->at[i % 3][0], p.y[i] = uv->at[i % 3][1];
+    Series *triangle = chart_rows_add(out, SERIES_CURVE, name, stroke, p);
+    triangle->label = name;
+    triangle->is_key = true;
+}
 
-static void draw_chromaticity(Canvas *canvas, Box box, const PanelChart *shown,
-                              PanelChartMap *out) {
+/* Axes of u', v' whose units are as long. */
+static void set_uv_axes(ChartRows *out, const double low[2], const double high[2]) {
+    out->is_square = true;
+    out->x = axis_even(low[0], high[0], "u′ (CIE 1976)");
+    out->y = axis_even(low[1], high[1], "v′");
+    out->right = 14;
+}
+
+static void fill_chromaticity(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
-    GamutTriangle uv;
-    Chart chart =
-        square_chart(canvas, box, (double[2]){-0.02, -0.01}, (double[2]){0.66, 0.62}, UV_TITLES);
-    draw_locus(&chart);
-    for (int i = 0; i < 2; i++) {
-        uv = standard_uv(i);
-        draw_triangle(&chart, uv.at, (Stroke){canvas->theme.soft, 0.9, i ? DASH_SHORT : DASH_DOT});
-    }
+    GamutTriangle srgb = standard_uv(GAMUT_SRGB), p3 = standard_uv(GAMUT_DCI_P3), uv;
+    set_uv_axes(out, (double[2]){-0.02, -0.01}, (double[2]){0.66, 0.62});
+    out->ground = draw_locus;
+    out->key = KEY_LOWER_RIGHT;
+    add_triangle(out, &srgb, "sRGB, BT.709", (Stroke){out->theme->soft, 0.9, DASH_DOT});
+    add_triangle(out, &p3, "DCI-P3", (Stroke){out->theme->soft, 0.9, DASH_SHORT});
     if (panel_triangle(s, &uv)) {
-        draw_triangle(&chart, uv.at, (Stroke){canvas->theme.ink, 1.7, DASH_NONE});
-        for (int p = 1; p < 4; p++) draw_paths(&chart, s, (Pattern)p, canvas->theme.primary[p - 1]);
+        add_triangle(out, &uv, "this panel", (Stroke){out->theme->ink, 1.7, DASH_NONE});
+        for (int p = PATTERN_RED; p <= PATTERN_BLUE; p++) add_paths(out, s, (Pattern)p);
     }
-    draw_paths(&chart, s, PATTERN_WHITE, canvas->theme.ink);
-    static const struct {
-        const char *name;
-        Dash dash;
-        double width;
-    } KEYS[] = {{"this panel", DASH_NONE, 1.7},
-                {"DCI-P3", DASH_SHORT, 0.9},
-                {"sRGB, BT.709", DASH_DOT, 0.9}};
-    double x = chart.plot.x + chart.plot.w - 108, y = chart.plot.y + chart.plot.h - 48;
-    for (int i = s->is_white_only; i < 3; i++, y += 15) {
-        Ink ink = i ? canvas->theme.soft : canvas->theme.ink;
-        canvas_line(canvas, x, y, x + 24, y, (Stroke){ink, KEYS[i].width, KEYS[i].dash});
-        canvas_text(canvas, x + 31, y,
-                    (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink, .down = 0.5},
-                    KEYS[i].name);
-    }
-    panel_chart_map_axes(out, &chart);
+    add_paths(out, s, PATTERN_WHITE);
 }
 
 static void add_chromaticity(PanelChartList *list, const PlotData *s) {
@@ -200,22 +188,31 @@ static void add_chromaticity(PanelChartList *list, const PlotData *s) {
             arena_format(s->arena, "white u′ %.4f v′ %.4f%s", white.uv[0], white.uv[1], area),
             "Primaries and white in the CIE 1976 u′v′ diagram; the short paths run from the normal "
             "(dot) to θ 80° along eight azimuths.",
-            draw_chromaticity, s, 0, SHEET_ALWAYS, false});
+            fill_chromaticity, s, 0, SHEET_ALWAYS, false});
 }
 
 /* ---- the white point over angle --------------------------------------------------------- */
 
-static void draw_steps(Chart *chart, const double at[2], double step) {
+/* Rings of equal distance from the middle, with their Δu′v′. */
+static void draw_steps(const Chart *chart) {
     Canvas *canvas = chart->canvas;
+    Box p = chart->plot;
+    double reach = 0.5 * fmin(chart->x.high - chart->x.low, chart->y.high - chart->y.low);
+    double step = reach > 0.12    ? 0.05
+                  : reach > 0.06  ? 0.02
+                  : reach > 0.025 ? 0.01
+                  : reach > 0.012 ? 0.005
+                                  : 0.002;
+    double x = p.x + 0.5 * p.w, y = p.y + 0.5 * p.h;
     cairo_save(canvas->cr);
-    cairo_rectangle(canvas->cr, chart->plot.x, chart->plot.y, chart->plot.w, chart->plot.h);
+    cairo_rectangle(canvas->cr, p.x, p.y, p.w, p.h);
     cairo_clip(canvas->cr);
     for (int k = 1; k <= 12; k++) {
         char text[32];
-        double r = chart_x(chart, at[0] + k * step) - chart_x(chart, at[0]);
-        canvas_circle(canvas, chart_x(chart, at[0]), chart_y(chart, at[1]), r);
+        double r = k * step * p.w / (chart->x.high - chart->x.low);
+        canvas_circle(canvas, x, y, r);
         canvas_stroke(canvas, (Stroke){canvas->theme.faint, 0.7, DASH_SHORT});
-        canvas_text(canvas, chart_x(chart, at[0]) - 0.7071 * r, chart_y(chart, at[1]) - 0.7071 * r,
+        canvas_text(canvas, x - 0.7071 * r, y - 0.7071 * r,
                     (Letters){.size = 7.5,
                               .ink = canvas->theme.soft,
                               .across = 0.5,
@@ -226,126 +223,103 @@ static void draw_steps(Chart *chart, const double at[2], double step) {
     cairo_restore(canvas->cr);
 }
 
-static Ink azimuth_ink(const Canvas *canvas, int k) {
+static Ink azimuth_ink(const Theme *theme, int k) {
     double t = 0.05 + 0.8 * k / 3.0;
-    return panel_chart_ink(MAP_AMOUNT, canvas->theme.is_dark ? 1 - 0.85 * t : 0.9 * t);
+    return panel_chart_ink(MAP_AMOUNT, theme->is_dark ? 1 - 0.85 * t : 0.9 * t);
 }
 
-static void draw_white_point(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
-    const PlotData *s = shown->data;
+static void fill_white_point(const PanelChart *shown, ChartRows *out) {
     static const char *const NAMES[] = {"φ 0°", "φ 90°", "φ 180°", "φ 270°"};
-    double u[4][81], v[4][81], reach = 0.004;
-    int count[4];
+    const PlotData *s = shown->data;
     PanelColour normal = plot_data_normal(s, PATTERN_WHITE);
-    const double *at = normal.uv;
-    for (int k = 0; k < 4; k++) {
-        count[k] = angle_path(s, PATTERN_WHITE, k * PI / 2, u[k], v[k]);
-        for (int i = 0; i < count[k]; i++)
-            reach = fmax(reach, fmax(fabs(u[k][i] - at[0]), fabs(v[k][i] - at[1])));
-    }
-    reach *= 1.15;
-    Chart chart = square_chart(canvas, box, (double[2]){at[0] - reach, at[1] - reach},
-                               (double[2]){at[0] + reach, at[1] + reach}, UV_TITLES);
-    draw_steps(&chart, at,
-               reach > 0.12    ? 0.05
-               : reach > 0.06  ? 0.02
-               : reach > 0.025 ? 0.01
-               : reach > 0.012 ? 0.005
-                               : 0.002);
+    double reach = 0.004;
+    ChartPoints path = {0};
     for (int k = 3; k >= 0; k--) {
-        Ink ink = azimuth_ink(canvas, k);
-        chart_curve(&chart, u[k], v[k], count[k], (Stroke){ink, 1.6, (Dash)(k % 4)});
-        for (int i = 15; i < count[k]; i += 15) chart_dot(&chart, u[k][i], v[k][i], 2.2, ink);
+        ChartPoints marks = chart_rows_points(out, PATH_POINTS);
+        Ink ink = azimuth_ink(out->theme, k);
+        path = add_path(out, s, PATTERN_WHITE, k * PI / 2, (Stroke){ink, 1.6, (Dash)k});
+        out->series[out->count - 1].label = NAMES[k];
+        out->series[out->count - 1].is_key = true;
+        marks.count = 0;
+        for (int i = 0; i < path.count; i++) {
+            double du = path.x[i] - normal.uv[0], dv = path.y[i] - normal.uv[1];
+            reach = fmax(reach, fmax(fabs(du), fabs(dv)));
+            if (i == 0 || i % 15) continue; /* degrees */
+            marks.x[marks.count] = path.x[i];
+            marks.y[marks.count++] = path.y[i];
+        }
+        chart_rows_add(out, SERIES_DOTS, NULL, (Stroke){ink, 2.2, DASH_NONE}, marks);
     }
-    for (int k = 0; k < 4; k++) { /* a key: the paths often lie on each other */
-        double x = chart.plot.x + 10, y = chart.plot.y + chart.plot.h - 52 + 14 * k;
-        canvas_line(canvas, x, y, x + 22, y, (Stroke){azimuth_ink(canvas, k), 1.6, (Dash)k});
-        canvas_text(canvas, x + 28, y,
-                    (Letters){.size = SIZE_TICK,
-                              .ink = canvas->theme.ink,
-                              .down = 0.5,
-                              .halo = canvas->theme.paper},
-                    NAMES[k]);
-    }
-    chart_dot(&chart, at[0], at[1], 3, canvas->theme.ink);
-    panel_chart_map_axes(out, &chart);
+    add_start(out, path, 3, out->theme->ink);
+    reach *= 1.15;
+    set_uv_axes(out, (double[2]){normal.uv[0] - reach, normal.uv[1] - reach},
+                (double[2]){normal.uv[0] + reach, normal.uv[1] + reach});
+    out->ground = draw_steps;
+    out->key = KEY_LOWER_LEFT;
 }
 
 /* ---- spectra ---------------------------------------------------------------------------- */
 
 #define SPECTRUM_POINTS 401 /* 380 to 780 nm */
 
-typedef struct PrimarySpectrum {
-    double nm[SPECTRUM_POINTS], value[SPECTRUM_POINTS], peak_nm, peak;
-} PrimarySpectrum;
-
-static void fill_spectrum(const PlotData *s, Pattern pattern, PrimarySpectrum *out) {
+static ChartPoints spectrum_of(const ChartRows *out, const PlotData *s, Pattern pattern) {
+    ChartPoints p = chart_rows_points(out, SPECTRUM_POINTS);
     float rgb[3];
     pattern_codes(pattern, rgb);
-    for (int first = 0; first < SPECTRUM_POINTS; first += SPECTRUM_LANES) {
+    for (int first = 0; first < p.count; first += SPECTRUM_LANES) {
         Wavelengths wavelengths = {0};
         for (int i = 0; i < SPECTRUM_LANES; i++)
             wavelengths.nm[i] = (float)fmin(380 + first + i, 780);
         Spectrum value = panel_emission_spectrum(s->source.panel, vec3(0, 0, 1), rgb, &wavelengths);
-        for (int i = 0; i < SPECTRUM_LANES && first + i < SPECTRUM_POINTS; i++) {
-            out->nm[first + i] = 380 + first + i;
-            out->value[first + i] = (double)value[i];
+        for (int i = 0; i < SPECTRUM_LANES && first + i < p.count; i++) {
+            p.x[first + i] = 380 + first + i;
+            p.y[first + i] = (double)value[i];
         }
     }
-    for (int i = 0; i < SPECTRUM_POINTS; i++) {
-        if (out->value[i] <= out->peak) continue;
-        out->peak = out->value[i];
-        out->peak_nm = out->nm[i];
-    }
+    return p;
 }
 
-static void fill_under(const Chart *chart, const PrimarySpectrum *spectrum, Ink ink) {
-    cairo_t *cr = chart->canvas->cr;
-    cairo_move_to(cr, chart_x(chart, 380), chart_y(chart, 0));
-    for (int i = 0; i < SPECTRUM_POINTS; i++)
-        cairo_line_to(cr, chart_x(chart, spectrum->nm[i]), chart_y(chart, spectrum->value[i]));
-    cairo_line_to(cr, chart_x(chart, 780), chart_y(chart, 0));
-    canvas_fill(chart->canvas, ink_alpha(ink, 0.13));
+static int peak_of(ChartPoints p) {
+    int peak = 0;
+    for (int i = 1; i < p.count; i++)
+        if (p.y[i] > p.y[peak]) peak = i;
+    return peak;
 }
 
-static void draw_spectra(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
-    const PlotData *s = shown->data;
-    PrimarySpectrum *spectrum = ARENA_NEW(canvas->arena, PrimarySpectrum, 4);
+static void fill_spectra(const PanelChart *shown, ChartRows *out) {
+    ChartPoints spectrum[4];
     double high = 0;
     for (int p = 0; p < 4; p++) {
-        fill_spectrum(s, (Pattern)p, &spectrum[p]);
-        high = fmax(high, spectrum[p].peak);
+        spectrum[p] = spectrum_of(out, shown->data, (Pattern)p);
+        high = fmax(high, spectrum[p].y[peak_of(spectrum[p])]);
     }
     int shift = (int)floor(log10(high) / 3) * 3; /* milli, micro: no row of zeros */
     double unit = pow(10, shift);
     for (int p = 0; p < 4; p++)
-        for (int i = 0; i < SPECTRUM_POINTS; i++) spectrum[p].value[i] /= unit;
-    Chart chart = chart_open(
-        canvas, box, (AxisSpec){.low = 380, .high = 780, .step = 50, .title = "Wavelength, nm"},
-        (AxisSpec){.high = high / unit * 1.12,
-                   .title = shift == -3   ? "Spectral radiance, mW m⁻² sr⁻¹ nm⁻¹"
-                            : shift == -6 ? "Spectral radiance, µW m⁻² sr⁻¹ nm⁻¹"
-                            : shift == 0  ? "Spectral radiance, W m⁻² sr⁻¹ nm⁻¹"
-                                          : "Spectral radiance"},
-        14);
-    for (int p = 1; p < 4; p++) fill_under(&chart, &spectrum[p], canvas->theme.primary[p - 1]);
-    chart_curve(&chart, spectrum[0].nm, spectrum[0].value, SPECTRUM_POINTS,
-                (Stroke){canvas->theme.ink, 0.9, DASH_DOT});
+        for (int i = 0; i < SPECTRUM_POINTS; i++) spectrum[p].y[i] /= unit;
+    for (int p = 1; p < 4; p++)
+        chart_rows_add(out, SERIES_AREA, NULL,
+                       (Stroke){.ink = ink_alpha(out->theme->primary[p - 1], 0.13)}, spectrum[p]);
+    chart_rows_add(out, SERIES_CURVE, "White", (Stroke){out->theme->ink, 0.9, DASH_DOT},
+                   spectrum[0]);
     for (int p = 1; p < 4; p++) {
-        Ink ink = canvas->theme.primary[p - 1];
-        double peak = spectrum[p].peak / unit;
-        chart_curve(&chart, spectrum[p].nm, spectrum[p].value, SPECTRUM_POINTS,
-                    (Stroke){ink, 1.6, DASH_NONE});
-        canvas_text(canvas, chart_x(&chart, spectrum[p].peak_nm), chart_y(&chart, peak) - 7,
-                    (Letters){.size = SIZE_TICK,
-                              .ink = ink,
-                              .across = 0.5,
-                              .down = 1,
-                              .halo = canvas->theme.paper},
-                    arena_format(canvas->arena, "%s %.0f nm", pattern_name((Pattern)p),
-                                 spectrum[p].peak_nm));
+        Ink ink = out->theme->primary[p - 1];
+        const char *name = pattern_name((Pattern)p);
+        int peak = peak_of(spectrum[p]);
+        double nm = spectrum[p].x[peak];
+        chart_rows_add(out, SERIES_CURVE, name, (Stroke){ink, 1.6, DASH_NONE}, spectrum[p]);
+        Series *word = chart_rows_word(out, nm, spectrum[p].y[peak], ink,
+                                       arena_format(out->arena, "%s %.0f nm", name, nm));
+        word->dy = -7;
+        word->across = 0.5;
     }
-    panel_chart_map_axes(out, &chart);
+    out->x = (AxisSpec){.low = 380, .high = 780, .step = 50, .title = "Wavelength, nm"};
+    out->y = axis_even(0, high / unit * 1.12,
+                       shift == -3   ? "Spectral radiance, mW m⁻² sr⁻¹ nm⁻¹"
+                       : shift == -6 ? "Spectral radiance, µW m⁻² sr⁻¹ nm⁻¹"
+                       : shift == 0  ? "Spectral radiance, W m⁻² sr⁻¹ nm⁻¹"
+                                     : "Spectral radiance");
+    out->right = 14;
 }
 
 static void add_colour(PanelChartList *list, const PlotData *s) {
@@ -356,13 +330,13 @@ static void add_colour(PanelChartList *list, const PlotData *s) {
                   PLOT_CHROMATICITY, "White point over angle",
                   "dots every 15° of θ, rings of Δu′v′ around the normal",
                   "The chromaticity of full white from the normal to θ 80° along four azimuths.",
-                  draw_white_point, s, 0, SHEET_ALWAYS, false});
+                  fill_white_point, s, 0, SHEET_ALWAYS, false});
     panel_chart_add(
         list,
         &(PanelChart){PLOT_SPECTRA, "Spectra at the normal",
                       "each primary at full drive; dotted: white",
                       "Spectral radiance at the normal of each primary at full drive and of white.",
-                      draw_spectra, s, 0, SHEET_ALWAYS, true});
+                      fill_spectra, s, 0, SHEET_ALWAYS, true});
 }
 
 const PanelCharts colour_charts = {PLOT_CHROMATICITY, PLOT_SPECTRA, add_colour};

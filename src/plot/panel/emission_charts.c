@@ -27,12 +27,11 @@ static void choose_levels(PolarMap *map, double low, double high, int most) {
 }
 
 /* The user's lines in place of ours, lettered as they were requested. */
-static bool take_contours(Canvas *canvas, PolarMap *map, const PlotContours *wanted,
-                          double on_axis) {
+static bool take_contours(Arena *arena, PolarMap *map, const PlotContours *wanted, double on_axis) {
     for (int i = 0; i < wanted->count; i++) {
         map->level[i] = plot_contours_level(wanted, i, on_axis);
-        map->level_text[i] = arena_format(canvas->arena, wanted->is_percent[i] ? "%.6g %%" : "%.6g",
-                                          wanted->value[i]);
+        map->level_text[i] =
+            arena_format(arena, wanted->is_percent[i] ? "%.6g %%" : "%.6g", wanted->value[i]);
     }
     map->level_count = wanted->count;
     return wanted->count > 0;
@@ -45,27 +44,25 @@ static bool is_even(FieldRange range) {
     return range.high - range.low < 0.02 * range.high;
 }
 
-static void draw_luminance(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+static void fill_luminance(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
-    const Field *field = &s->xyz[shown->index][1];
-    FieldRange range = field_range(field, s->cone);
+    FieldRange range = field_range(&s->xyz[shown->index][1], s->cone);
     double low = range.low > 0.6 * range.high ? range.low : 0;
     if (is_even(range)) low = 0.9 * range.low;
-    PolarMap map = {.field = field,
-                    .map = MAP_AMOUNT,
+    PolarMap map = {.map = MAP_AMOUNT,
                     .low = low,
                     .high = range.high,
                     .strong = NAN,
                     .theta_measured = s->cone,
                     .unit = "cd/m²"};
     double normal = (double)s->normal[shown->index][1], half = 0.5 * normal;
-    bool is_labelled = take_contours(canvas, &map, &s->source.contours, normal);
+    bool is_labelled = take_contours(out->arena, &map, &s->source.contours, normal);
     if (!is_labelled && shown->index != PATTERN_BLACK && range.low < half && half < range.high) {
         map.strong = half;
         map.strong_text = "½";
     }
     if (!is_labelled && !is_even(range)) choose_levels(&map, fmax(range.low, low), range.high, 8);
-    panel_chart_polar(canvas, box, &map, out);
+    panel_chart_polar(out, s->xyz[shown->index][1], map);
 }
 
 static void add_luminance(PanelChartList *list, const PlotData *s, Pattern pattern) {
@@ -90,7 +87,7 @@ static void add_luminance(PanelChartList *list, const PlotData *s, Pattern patte
             "Luminance in cd/m² over the viewing hemisphere: θ from the normal outwards, "
             "φ counter-clockwise from the viewer's right. The strong ring, where there is one, is "
             "half the luminance of the normal.",
-            draw_luminance, s, pattern, SHEET_ALWAYS, pattern != PATTERN_WHITE});
+            fill_luminance, s, pattern, SHEET_ALWAYS, pattern != PATTERN_WHITE});
 }
 
 /* index 0: in the dark; else under the light before it in the user's list. */
@@ -109,16 +106,14 @@ static double contrast_on_axis(const PlotData *s, int index) {
 
 /* ---- contrast --------------------------------------------------------------------------- */
 
-static void draw_contrast(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+static void fill_contrast(const PanelChart *shown, ChartRows *out) {
     static const double LEVELS[] = {2,    5,    10,   20,    50,    100,   200,   500,
                                     1000, 2000, 5000, 10000, 20000, 50000, 100000};
     const PlotData *s = shown->data;
-    Field *field = ARENA_NEW(canvas->arena, Field, 1);
-    *field = contrast_field(s, shown->index, canvas->arena);
-    FieldRange range = field_range(field, fmin(s->cone, GRAZING));
-    range.low = fmin(range.low, field_range(field, s->cone).low);
-    PolarMap map = {.field = field,
-                    .map = MAP_RATIO,
+    Field field = contrast_field(s, shown->index, out->arena);
+    FieldRange range = field_range(&field, fmin(s->cone, GRAZING));
+    range.low = fmin(range.low, field_range(&field, s->cone).low);
+    PolarMap map = {.map = MAP_RATIO,
                     .is_log = true,
                     .strong = NAN,
                     .low = round_down(fmax(range.low, range.high / 1e5)),
@@ -127,11 +122,11 @@ static void draw_contrast(Canvas *canvas, Box box, const PanelChart *shown, Pane
                     .unit = ": 1"};
     if (map.high < 2 * map.low) map.low = map.high / 2;
     bool is_labelled =
-        take_contours(canvas, &map, &s->source.contours, contrast_on_axis(s, shown->index));
+        take_contours(out->arena, &map, &s->source.contours, contrast_on_axis(s, shown->index));
     for (int i = 0; i < 15 && !is_labelled; i++)
         if (LEVELS[i] > range.low && LEVELS[i] < range.high)
             map.level[map.level_count++] = LEVELS[i];
-    panel_chart_polar(canvas, box, &map, out);
+    panel_chart_polar(out, field, map);
 }
 
 /* What is said behind the contrast at the normal. */
@@ -157,7 +152,7 @@ static void add_ambient(PanelChartList *list, const PlotData *s, int index) {
                                    figure_text(contrast_on_axis(s, index), normal),
                                    least_text(s, range.low)),
                       "Contrast in ambient light, " AMBIENT_FORMULA ". Logarithmic colours.",
-                      draw_contrast, s, index, SHEET_ALWAYS, false});
+                      fill_contrast, s, index, SHEET_ALWAYS, false});
 }
 
 static void add_contrast(PanelChartList *list, const PlotData *s) {
@@ -171,7 +166,7 @@ static void add_contrast(PanelChartList *list, const PlotData *s) {
                                    figure_text(contrast_on_axis(s, 0), normal),
                                    least_text(s, range.low)),
                       "Luminance of white over that of black in a dark room, logarithmic colours.",
-                      draw_contrast, s, 0, SHEET_ALWAYS, true});
+                      fill_contrast, s, 0, SHEET_ALWAYS, true});
 }
 
 /* ---- colour shift ----------------------------------------------------------------------- */
@@ -179,13 +174,11 @@ static void add_contrast(PanelChartList *list, const PlotData *s) {
 static const double SHIFT_LEVELS[] = {0.002, 0.005, 0.01, 0.02, 0.04, 0.06,
                                       0.08,  0.1,   0.15, 0.2,  0.3};
 
-static void draw_shift(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+static void fill_shift(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
-    Field *field = ARENA_NEW(canvas->arena, Field, 1);
-    *field = plot_data_shift(s, (Pattern)shown->index, canvas->arena);
-    FieldRange range = field_range(field, s->cone);
-    PolarMap map = {.field = field,
-                    .map = MAP_DIFFERENCE,
+    Field field = plot_data_shift(s, (Pattern)shown->index, out->arena);
+    FieldRange range = field_range(&field, s->cone);
+    PolarMap map = {.map = MAP_DIFFERENCE,
                     .strong = NAN,
                     .high = fmax(range.high, 0.005),
                     .theta_measured = s->cone,
@@ -193,7 +186,7 @@ static void draw_shift(Canvas *canvas, Box box, const PanelChart *shown, PanelCh
     for (int i = 0; i < 11; i++)
         if (SHIFT_LEVELS[i] < range.high && SHIFT_LEVELS[i] > range.high / 12)
             map.level[map.level_count++] = SHIFT_LEVELS[i];
-    panel_chart_polar(canvas, box, &map, out);
+    panel_chart_polar(out, field, map);
 }
 
 static void add_shift(PanelChartList *list, const PlotData *s, Pattern pattern) {
@@ -210,7 +203,7 @@ static void add_shift(PanelChartList *list, const PlotData *s, Pattern pattern) 
                                        at_angles(s->arena, range.theta, range.phi)),
             "Distance Δu′v′ in the CIE 1976 chromaticity plane between the colour at an angle and "
             "the colour at the normal.",
-            draw_shift, s, pattern, pattern == PATTERN_WHITE ? SHEET_ALWAYS : SHEET_NEVER,
+            fill_shift, s, pattern, pattern == PATTERN_WHITE ? SHEET_ALWAYS : SHEET_NEVER,
             pattern != PATTERN_WHITE});
 }
 

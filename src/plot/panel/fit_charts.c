@@ -71,116 +71,89 @@ static bool in_plane(double theta, double phi, double plane, double *deg) {
     return true;
 }
 
-static void ring(Chart *chart, double x, double y, Ink ink) {
-    double px = chart_x(chart, x), py = chart_y(chart, y);
-    Box p = chart->plot;
-    if (px < p.x - 1 || px > p.x + p.w + 1 || py < p.y - 1 || py > p.y + p.h + 1) return;
-    canvas_circle(chart->canvas, px, py, 1.9);
-    canvas_stroke(chart->canvas, (Stroke){ink, 0.8, DASH_NONE});
-}
-
-/* Points of one table in the plane, no nearer than 2 degrees. */
-static void draw_points(Chart *chart, const AngleTable *table, double plane, Ink ink) {
-    bool taken[181] = {false};
+/* Rings at the points of a table in the plane, no two in one of `slots` parts of 180 degrees. */
+static void add_points(ChartRows *out, const AngleTable *table, int channel, double plane,
+                       int slots, Stroke stroke) {
+    ChartPoints p = chart_rows_points(out, slots + 1);
+    bool *taken = ARENA_NEW(out->arena, bool, slots + 1);
+    p.count = 0;
     for (int i = 0; i < table->rows; i++) {
         double deg;
         if (!in_plane((double)table->theta[i], (double)table->phi[i], plane, &deg)) continue;
-        int slot = (int)floor((deg + 90) / 2);
-        if (slot < 0 || slot > 180 || taken[slot]) continue;
+        int slot = (int)floor((deg + 90) / 180 * slots);
+        if (slot < 0 || slot > slots || taken[slot]) continue;
         taken[slot] = true;
-        ring(chart, deg, (double)table->value[i * table->channels + 1], ink);
+        p.x[p.count] = deg;
+        p.y[p.count++] = (double)table->value[i * table->channels + channel];
     }
+    chart_rows_add(out, SERIES_RINGS, table->name, stroke, p);
 }
 
-static void draw_fitted_curve(Chart *chart, const PlotData *s, const float rgb[3], double plane,
-                              Ink ink) {
-    double deg[353], value[353];
-    for (int i = 0; i < 353; i++) {
-        deg[i] = -88 + i * 0.5;
-        value[i] =
-            panel_figure_luminance(s->source.panel, radians_from_degrees(deg[i]), plane, rgb);
-    }
-    chart_curve(chart, deg, value, 353, (Stroke){ink, 1.2, DASH_NONE});
+static void add_curve(ChartRows *out, const char *name, Ink ink, ChartPoints points,
+                      int label_index) {
+    Series *curve = chart_rows_add(out, SERIES_CURVE, name, (Stroke){ink, 1.2, DASH_NONE}, points);
+    curve->label = label_index ? name : NULL;
+    curve->label_index = label_index;
 }
 
-static void draw_fit_section(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+static void fill_section(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
     const Measurement *set = s->source.measured;
-    double high = 0, plane = shown->index ? PI / 2 : 0;
-    for (int p = 0; p < 3; p++)
-        high = fmax(high, table_peak(&set->primary[p].table[set->primary[p].level_count - 1]));
-    Chart chart = chart_open(
-        canvas, box,
-        (AxisSpec){.low = -90,
-                   .high = 90,
-                   .step = 30,
-                   .suffix = "°",
-                   .title = shown->index ? "θ along φ 270° to 90°" : "θ along φ 180° to 0°"},
-        (AxisSpec){.high = 1.06 * high, .title = "Luminance, cd/m²"}, 48);
-    panel_chart_hatch(&chart, s->cone);
+    double high = 0;
+    panel_chart_section_axis(out, s, shown->index);
     for (int p = 0; p < 3; p++) {
         const MeasuredPrimary *primary = &set->primary[p];
         int last = primary->level_count - 1;
         float rgb[3] = {0, 0, 0};
         rgb[p] = (float)primary->level[last];
-        Ink ink = canvas->theme.primary[p];
-        draw_points(&chart, &primary->table[last], plane, ink);
-        draw_fitted_curve(&chart, s, rgb, plane, ink);
-        chart_name(&chart, 78,
-                   panel_figure_luminance(s->source.panel, radians_from_degrees(78), plane, rgb),
-                   ink, pattern_name((Pattern)(PATTERN_RED + p)));
+        high = fmax(high, table_peak(&primary->table[last]));
+        add_points(out, &primary->table[last], 1, shown->index ? PI / 2 : 0, 90,
+                   (Stroke){out->theme->primary[p], 1.9, DASH_NONE});
+        add_curve(out, pattern_name((Pattern)(PATTERN_RED + p)), out->theme->primary[p],
+                  panel_chart_section(out, s, rgb, shown->index), SECTION_AT(78));
     }
-    chart_close(&chart);
-    panel_chart_map_axes(out, &chart);
+    out->y = axis_even(0, 1.06 * high, "Luminance, cd/m²");
+    out->right = 48;
 }
 
 /* ---- levels at the normal -------------------------------------------------------------- */
 
-/* Measured luminance at the least theta of the table. */
-static double normal_luminance(const AngleTable *table) {
-    return (double)table->value[1];
-}
+#define LEVEL_POINTS 120
 
-static void draw_fit_level_curve(Chart *chart, const PlotData *s, int primary, Ink ink) {
-    enum { POINTS = 120 };
-    double code[POINTS], value[POINTS];
-    for (int i = 0; i < POINTS; i++) {
+static ChartPoints level_curve(const ChartRows *out, const PlotData *s, int primary) {
+    ChartPoints p = chart_rows_points(out, LEVEL_POINTS);
+    for (int i = 0; i < p.count; i++) {
         float rgb[3] = {0, 0, 0};
-        code[i] = 8 * pow(255.0 / 8, (double)i / (POINTS - 1));
-        rgb[primary] = (float)code[i];
-        value[i] = panel_figure_luminance(s->source.panel, 0, 0, rgb);
+        p.x[i] = 8 * pow(255.0 / 8, (double)i / (LEVEL_POINTS - 1));
+        rgb[primary] = (float)p.x[i];
+        p.y[i] = panel_figure_luminance(s->source.panel, 0, 0, rgb);
     }
-    chart_curve(chart, code, value, POINTS, (Stroke){ink, 1.2, DASH_NONE});
-    chart_name(chart, 255, value[POINTS - 1], ink, pattern_name((Pattern)(PATTERN_RED + primary)));
+    return p;
 }
 
-static void draw_fit_levels(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+/* Measured at the least theta of each table. */
+static void fill_levels(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
-    const Measurement *set = s->source.measured;
     double low = INFINITY, high = 0;
-    for (int p = 0; p < 3; p++)
-        for (int i = 0; i < set->primary[p].level_count; i++) {
-            double y = normal_luminance(&set->primary[p].table[i]);
-            if (y > 0) low = fmin(low, y);
-            high = fmax(high, y);
+    for (int c = 0; c < 3; c++) {
+        const MeasuredPrimary *primary = &s->source.measured->primary[c];
+        const char *name = pattern_name((Pattern)(PATTERN_RED + c));
+        ChartPoints p = chart_rows_points(out, primary->level_count);
+        for (int i = 0; i < p.count; i++) {
+            p.x[i] = primary->level[i];
+            p.y[i] = (double)primary->table[i].value[1];
+            if (p.y[i] > 0) low = fmin(low, p.y[i]);
+            high = fmax(high, p.y[i]);
         }
-    low = fmax(low, high / 1e5);
-    Chart chart = chart_open(
-        canvas, box, (AxisSpec){.low = 8, .high = 256, .is_log = true, .title = "code of 255"},
-        (AxisSpec){.low = round_down(0.6 * low),
-                   .high = round_up(1.3 * high),
-                   .is_log = true,
-                   .title = "Luminance at the normal, cd/m², black included"},
-        48);
-    for (int p = 0; p < 3; p++) {
-        const MeasuredPrimary *primary = &set->primary[p];
-        draw_fit_level_curve(&chart, s, p, canvas->theme.primary[p]);
-        for (int i = 0; i < primary->level_count; i++)
-            ring(&chart, primary->level[i], normal_luminance(&primary->table[i]),
-                 canvas->theme.primary[p]);
+        add_curve(out, name, out->theme->primary[c], level_curve(out, s, c), LEVEL_POINTS - 1);
+        chart_rows_add(out, SERIES_RINGS, arena_format(out->arena, "%s, measured", name),
+                       (Stroke){out->theme->primary[c], 1.9, DASH_NONE}, p);
     }
-    chart_close(&chart);
-    panel_chart_map_axes(out, &chart);
+    low = fmax(low, high / 1e5);
+    out->x = axis_log(8, 256, "code of 255");
+    out->y = axis_log(round_down(0.6 * low), round_up(1.3 * high),
+                      "Luminance at the normal, cd/m², black included");
+    out->right = 48;
 }
 
 /* ---- all residuals ---------------------------------------------------------------------- */
@@ -228,36 +201,22 @@ static void measure_residuals(const PlotData *s, Arena *arena, Residuals *out) {
     for (int i = 0; i < BINS; i++) out->highest = fmax(out->highest, out->bin[i]);
 }
 
-static double bin_start(const Residuals *r, int bin) {
-    return LEAST_PERCENT * pow(r->reach / LEAST_PERCENT, (double)bin / BINS);
-}
-
-static void draw_histogram(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+static void fill_histogram(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
-    Residuals *r = ARENA_NEW(canvas->arena, Residuals, 1);
-    double most = stated_error_percent(s);
-    measure_residuals(s, canvas->arena, r);
-    Chart chart = chart_open(canvas, box,
-                             (AxisSpec){.low = LEAST_PERCENT,
-                                        .high = r->reach,
-                                        .is_log = true,
-                                        .suffix = " %",
-                                        .title = "size of fitted less measured luminance"},
-                             (AxisSpec){.low = 0.7,
-                                        .high = round_up(fmax(r->highest, 10) * 1.6),
-                                        .is_log = true,
-                                        .title = "samples"},
-                             14);
-    for (int i = 0; i < BINS; i++) {
-        if (!(r->bin[i] > 0)) continue;
-        double x0 = chart_x(&chart, bin_start(r, i)), x1 = chart_x(&chart, bin_start(r, i + 1));
-        double y = chart_y(&chart, r->bin[i]);
-        cairo_rectangle(canvas->cr, x0 + 0.4, y, x1 - x0 - 0.8, chart.plot.y + chart.plot.h - y);
-        canvas_fill(canvas, ink_mix(canvas->theme.primary[2], canvas->theme.paper, 0.35));
-    }
-    chart_mark_x(&chart, most, (Stroke){canvas->theme.accent, 1.3, DASH_SHORT},
-                 arena_format(canvas->arena, "largest error %.3g %%", most));
-    panel_chart_map_axes(out, &chart);
+    Residuals *r = ARENA_NEW(out->arena, Residuals, 1);
+    double most = stated_error_percent(s), *edge = ARENA_NEW(out->arena, double, BINS + 1);
+    measure_residuals(s, out->arena, r);
+    for (int i = 0; i <= BINS; i++)
+        edge[i] = LEAST_PERCENT * pow(r->reach / LEAST_PERCENT, (double)i / BINS);
+    chart_rows_add(out, SERIES_BARS, "samples from here on",
+                   (Stroke){.ink = ink_mix(out->theme->primary[2], out->theme->paper, 0.35)},
+                   (ChartPoints){BINS, edge, r->bin});
+    chart_rows_line(out, most, (Stroke){out->theme->accent, 1.3, DASH_SHORT},
+                    arena_format(out->arena, "largest error %.3g %%", most));
+    out->x = axis_log(LEAST_PERCENT, r->reach, "size of fitted less measured luminance");
+    out->x.suffix = " %";
+    out->y = axis_log(0.7, round_up(fmax(r->highest, 10) * 1.6), "samples");
+    out->right = 14;
 }
 
 /* The worst table's residuals as a map: every grid point takes its nearest sample's value. */
@@ -293,24 +252,21 @@ static double residual_reach(const Field *field, const PlotData *s, Arena *arena
     return fmax(field_quantile(&size, s->cone, 0.98, *arena), LEAST_PERCENT);
 }
 
-static void draw_residual_map(Canvas *canvas, Box box, const PanelChart *shown,
-                              PanelChartMap *out) {
+static void fill_residual_map(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
-    Residuals *r = ARENA_NEW(canvas->arena, Residuals, 1);
-    Field *field = ARENA_NEW(canvas->arena, Field, 1);
-    measure_residuals(s, canvas->arena, r);
-    *field = residual_field(s, &r->worst, canvas->arena);
-    double reach = residual_reach(field, s, canvas->arena);
-    PolarMap map = {.field = field,
-                    .map = MAP_SIGNED,
-                    .low = -reach,
-                    .high = reach,
-                    .is_cut = reach < 0.99 * r->most,
-                    .strong = NAN,
-                    .theta_measured = s->cone,
-                    .unit = "%",
-                    .is_residual = true};
-    panel_chart_polar(canvas, box, &map, out);
+    Residuals *r = ARENA_NEW(out->arena, Residuals, 1);
+    measure_residuals(s, out->arena, r);
+    Field field = residual_field(s, &r->worst, out->arena);
+    double reach = residual_reach(&field, s, out->arena);
+    panel_chart_polar(out, field,
+                      (PolarMap){.map = MAP_SIGNED,
+                                 .low = -reach,
+                                 .high = reach,
+                                 .is_cut = reach < 0.99 * r->most,
+                                 .strong = NAN,
+                                 .theta_measured = s->cone,
+                                 .unit = "%",
+                                 .is_residual = true});
 }
 
 /* ---- reflection ------------------------------------------------------------------------- */
@@ -323,14 +279,7 @@ static int middle_channel(const Measurement *set) {
     return best;
 }
 
-#define BRDF_POINTS 2048
-#define BRDF_FINE 705 /* -88 to 88 degrees, every quarter */
-
-typedef struct BrdfPoints {
-    int count;
-    double deg[BRDF_POINTS], value[BRDF_POINTS];
-    double fine_deg[BRDF_FINE], fitted[BRDF_FINE];
-} BrdfPoints;
+#define BRDF_POINTS 705 /* -88 to 88 degrees, every quarter */
 
 /* The measured azimuth of the light that is nearest to the one requested. */
 static int nearest_azimuth(const PlotData *s) {
@@ -343,65 +292,49 @@ static int nearest_azimuth(const PlotData *s) {
     return best;
 }
 
-static void fill_brdf_points(const PlotData *s, int incidence, int channel, BrdfPoints *out) {
+/* The file's at the incidence-th one of the set. */
+static ChartPoints fitted_brdf(const ChartRows *out, const PlotData *s, int incidence,
+                               int channel) {
     const Measurement *set = s->source.measured;
-    int azimuth = nearest_azimuth(s);
-    const AngleTable *table = &set->brdf[azimuth * set->incidence_count + incidence];
+    ChartPoints p = chart_rows_points(out, BRDF_POINTS);
     PlotData turned = *s;
-    if (set->azimuth_count > 1) turned.source.incidence_phi = set->azimuth[azimuth];
-    *out = (BrdfPoints){0};
-    for (int i = 0; i < table->rows && out->count < BRDF_POINTS; i++) {
-        double deg;
-        if (!in_plane((double)table->theta[i], (double)table->phi[i], 0, &deg)) continue;
-        out->deg[out->count] = deg;
-        out->value[out->count++] = (double)table->value[i * table->channels + channel];
+    if (set->azimuth_count > 1) turned.source.incidence_phi = set->azimuth[nearest_azimuth(s)];
+    for (int i = 0; i < p.count; i++) {
+        p.x[i] = -88 + 0.25 * i;
+        p.y[i] =
+            plot_data_brdf(&turned, set->incidence[incidence], radians_from_degrees(fabs(p.x[i])),
+                           p.x[i] < 0 ? PI : 0, (double)set->wavelength_nm[channel]);
     }
-    for (int i = 0; i < BRDF_FINE; i++) {
-        double deg = -88 + 0.25 * i;
-        out->fine_deg[i] = deg;
-        out->fitted[i] =
-            plot_data_brdf(&turned, set->incidence[incidence], radians_from_degrees(fabs(deg)),
-                           deg < 0 ? PI : 0, (double)set->wavelength_nm[channel]);
-    }
+    return p;
 }
 
-static void draw_fit_brdf(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+static void fill_brdf(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
     const Measurement *set = s->source.measured;
     int count = set->incidence_count < 6 ? set->incidence_count : 6;
-    BrdfPoints *points = ARENA_NEW(canvas->arena, BrdfPoints, count);
+    int channel = middle_channel(set);
     double low = INFINITY, high = 1e-9;
+    panel_chart_angles(out, "leaving angle in the plane of incidence", s->brdf_cone);
     for (int k = 0; k < count; k++) {
         int which = count > 1 ? k * (set->incidence_count - 1) / (count - 1) : 0;
-        fill_brdf_points(s, which, middle_channel(set), &points[k]);
-        for (int i = 0; i < points[k].count; i++) high = fmax(high, points[k].value[i]);
-        for (int i = 0; i < BRDF_FINE; i++)
-            if (points[k].fitted[i] > 0) low = fmin(low, points[k].fitted[i]);
+        const AngleTable *table = &set->brdf[nearest_azimuth(s) * set->incidence_count + which];
+        Ink ink = panel_chart_series_ink(out->theme, k, count);
+        add_points(out, table, channel, 0, 150, (Stroke){ink_alpha(ink, 0.75), 1.9, DASH_NONE});
+        for (int i = 0; i < table->rows; i++) {
+            double deg;
+            if (in_plane((double)table->theta[i], (double)table->phi[i], 0, &deg))
+                high = fmax(high, (double)table->value[i * table->channels + channel]);
+        }
+        ChartPoints p = fitted_brdf(out, s, which, channel);
+        add_curve(out,
+                  arena_format(out->arena, "%.4g°", degrees_from_radians(set->incidence[which])),
+                  ink, p, 0);
+        for (int i = 0; i < p.count; i++)
+            if (p.y[i] > 0) low = fmin(low, p.y[i]);
     }
     low = round_down(fmax(fmin(low, high / 10), high / 1e6) * 0.8);
-    Chart chart = chart_open(
-        canvas, box,
-        (AxisSpec){.low = -90,
-                   .high = 90,
-                   .step = 30,
-                   .suffix = "°",
-                   .title = "leaving angle in the plane of incidence"},
-        (AxisSpec){.low = low, .high = round_up(high * 1.3), .is_log = true, .title = "BRDF, sr⁻¹"},
-        14);
-    panel_chart_hatch(&chart, s->brdf_cone);
-    for (int k = 0; k < count; k++) {
-        Ink ink = panel_chart_series_ink(canvas, k, count);
-        bool taken[151] = {false}; /* rings no nearer than 1.2 degrees */
-        for (int i = 0; i < points[k].count; i++) {
-            int slot = (int)((points[k].deg[i] + 90) / 1.2);
-            if (slot < 0 || slot > 150 || taken[slot]) continue;
-            taken[slot] = true;
-            ring(&chart, points[k].deg[i], points[k].value[i], ink_alpha(ink, 0.75));
-        }
-        chart_curve(&chart, points[k].fine_deg, points[k].fitted, BRDF_FINE,
-                    (Stroke){ink, 1.2, DASH_NONE});
-    }
-    panel_chart_map_axes(out, &chart);
+    out->y = axis_log(low, round_up(high * 1.3), "BRDF, sr⁻¹");
+    out->right = 14;
 }
 
 static void add_emission_fit(PanelChartList *list, const PlotData *s) {
@@ -415,7 +348,7 @@ static void add_emission_fit(PanelChartList *list, const PlotData *s) {
                 "rings: the source's samples, lines: the panel file",
                 "The source's luminance (rings) over the panel file's (lines), each primary at its "
                 "highest level.",
-                draw_fit_section, s, i, i ? SHEET_SPARE : SHEET_ALWAYS, false});
+                fill_section, s, i, i ? SHEET_SPARE : SHEET_ALWAYS, false});
     if (s->source.measured->primary[0].level_count > 1)
         panel_chart_add(
             list,
@@ -424,7 +357,7 @@ static void add_emission_fit(PanelChartList *list, const PlotData *s) {
                 "rings: the source's samples, lines: the panel file",
                 "The source's luminance at the normal (rings) over the panel file's (lines), for "
                 "every measured level of each primary.",
-                draw_fit_levels, s, 0, SHEET_SPARE, true});
+                fill_levels, s, 0, SHEET_SPARE, true});
     panel_chart_add(
         list,
         &(PanelChart){
@@ -434,7 +367,7 @@ static void add_emission_fit(PanelChartList *list, const PlotData *s) {
             "How often fitted less measured luminance is how large, over every sample of every "
             "emission table, relative to the measured one (to a fortieth of the table's peak where "
             "that is more). The line is the largest error of X, Y and Z that the file states.",
-            draw_histogram, s, 0, SHEET_ALWAYS, false});
+            fill_histogram, s, 0, SHEET_ALWAYS, false});
     if (r->worst.table)
         panel_chart_add(
             list,
@@ -443,7 +376,7 @@ static void add_emission_fit(PanelChartList *list, const PlotData *s) {
                 arena_format(s->arena, "%s, luminance", r->worst.table->name),
                 "Fitted less measured luminance, in percent, of the table in which it is largest; "
                 "the colours hold all but one direction in fifty.",
-                draw_residual_map, s, 0, SHEET_ALWAYS, false});
+                fill_residual_map, s, 0, SHEET_ALWAYS, false});
 }
 
 static const char *azimuth_text(const PlotData *s) {
@@ -470,7 +403,7 @@ static void add_all(PanelChartList *list, const PlotData *s) {
                 "The source's BRDF in the plane of incidence (rings) over the panel file's haze "
                 "and floor (lines). What stands above the line at the mirror direction is the "
                 "instrument's image of the mirror part, which the file keeps apart.",
-                draw_fit_brdf, s, 0, SHEET_ALWAYS, false});
+                fill_brdf, s, 0, SHEET_ALWAYS, false});
 }
 
 const PanelCharts fit_charts = {PLOT_FIT, PLOT_FIT, add_all};

@@ -42,89 +42,54 @@ static double reach_of(const HaloSquare *halo, const PlotData *s) {
     return fmin(half, REACH_STEP_MM * ceil(1.02 * reach / REACH_STEP_MM));
 }
 
-static void draw_curves(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+static void fill_curves(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
-    HaloSquare halo = halo_square_make(s->source.panel, canvas->arena);
+    HaloSquare halo = halo_square_make(s->source.panel, out->arena);
     double reach = reach_of(&halo, s), high = 0;
-    double mm[POINTS], (*value)[POINTS] = arena_alloc(canvas->arena, sizeof *value, 8, THETA_COUNT);
     int count = s->has_black ? THETA_COUNT : 1;
-    for (int t = 0; t < count; t++)
-        for (int i = 0; i < POINTS; i++) {
-            mm[i] = reach * i / (POINTS - 1);
-            value[t][i] = value_at(&halo, s->has_black, mm[i], THETAS[t]);
-            high = fmax(high, value[t][i]);
-        }
-    Chart chart = chart_open(
-        canvas, box, (AxisSpec){.high = reach, .title = "mm from the square's middle"},
-        (AxisSpec){.low = high * DARKEST,
-                   .high = high * 2,
-                   .is_log = true,
-                   .title = s->has_black ? "Luminance of black, cd/m²" : "Backlight over full"},
-        44);
     for (int t = 0; t < count; t++) {
-        Ink ink = panel_chart_series_ink(canvas, t, count);
-        chart_curve(&chart, mm, value[t], POINTS, (Stroke){ink, t ? 1.4 : 1.9, DASH_NONE});
-        chart_name_curve(&chart, mm, value[t], POINTS, ink,
-                         arena_format(canvas->arena, "θ %g°", THETAS[t]));
+        ChartPoints p = chart_rows_points(out, POINTS);
+        for (int i = 0; i < POINTS; i++) {
+            p.x[i] = reach * i / (POINTS - 1);
+            p.y[i] = value_at(&halo, s->has_black, p.x[i], THETAS[t]);
+            high = fmax(high, p.y[i]);
+        }
+        Stroke stroke = {panel_chart_series_ink(out->theme, t, count), t ? 1.4 : 1.9, DASH_NONE};
+        Series *curve = chart_rows_add(out, SERIES_CURVE,
+                                       arena_format(out->arena, "θ %g°", THETAS[t]), stroke, p);
+        curve->label = curve->name;
     }
-    chart_mark_x(&chart, 0.5 * halo.side_mm, (Stroke){canvas->theme.soft, 0.9, DASH_SHORT}, "edge");
-    chart_close(&chart);
-    panel_chart_map_axes(out, &chart);
+    chart_rows_line(out, 0.5 * halo.side_mm, (Stroke){out->theme->soft, 0.9, DASH_SHORT}, "edge");
+    out->x = axis_even(0, reach, "mm from the square's middle");
+    out->y = axis_log(high * DARKEST, high * 2,
+                      s->has_black ? "Luminance of black, cd/m²" : "Backlight over full");
+    out->right = 44;
 }
 
 /* ---- over the display -------------------------------------------------------------------- */
 
-typedef struct HaloMap {
-    const Backlight *backlight;
-    int columns, rows;
-} HaloMap;
-
-static uint32_t pixel_at(const void *context, int x, int y) {
-    const HaloMap *map = context;
-    float place[2] = {((float)x + 0.5f) / (float)map->columns,
-                      ((float)y + 0.5f) / (float)map->rows};
-    double b = (double)backlight_at(map->backlight, place);
-    return colour_map_pixel(MAP_SCATTER, 1 - log10(b) / log10(DARKEST));
-}
-
-static uint32_t scale_at(const void *context, int x, int y) {
-    (void)context, (void)x;
-    return colour_map_pixel(MAP_SCATTER, 1 - y / 63.0);
-}
-
-static void draw_zone_lines(Canvas *canvas, Box area, const DimmingZones *zones) {
-    Stroke line = {ink_alpha(ink_hex(0xffffff), 0.16), 0.4, DASH_NONE};
-    if (zones->count[0] > 100 || zones->count[1] > 100) return; /* they would hide the map */
-    for (int i = 1; i < zones->count[0]; i++) {
-        double x = area.x + area.w * i / zones->count[0];
-        canvas_line(canvas, x, area.y, x, area.y + area.h, line);
-    }
-    for (int i = 1; i < zones->count[1]; i++) {
-        double y = area.y + area.h * i / zones->count[1];
-        canvas_line(canvas, area.x, y, area.x + area.w, y, line);
-    }
-}
-
-static void draw_map(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+static void fill_map(const PanelChart *shown, ChartRows *out) {
     const DimmingZones *zones = panel_zones(shown->data->source.panel);
-    HaloSquare halo = halo_square_make(shown->data->source.panel, canvas->arena);
+    HaloSquare halo = halo_square_make(shown->data->source.panel, out->arena);
     double ratio = zones->size_mm[0] / zones->size_mm[1];
-    Box area = {box.x, box.y + 4, box.w - 74, 0};
-    HaloMap map = {halo.backlight, COLUMNS, (int)fmax(1, COLUMNS / ratio)};
-    area.h = area.w / ratio;
-    if (area.h > box.h - 12) area.h = box.h - 12, area.w = area.h * ratio;
-    *out = (PanelChartMap){.kind = PANEL_CHART_PLAIN};
-    canvas_image(canvas, area,
-                 &(CanvasRaster){map.columns, map.rows, CAIRO_FORMAT_ARGB32, true, pixel_at, &map});
-    draw_zone_lines(canvas, area, zones);
-    Box bar = {area.x + area.w + 12, area.y, 12, area.h};
-    Letters letters = {.size = SIZE_TICK, .ink = canvas->theme.soft};
-    canvas_image(canvas, bar, &(CanvasRaster){1, 64, CAIRO_FORMAT_ARGB32, true, scale_at, NULL});
-    canvas_text(canvas, bar.x + bar.w + 5, bar.y, letters, "full");
-    letters.down = 0.5;
-    canvas_text(canvas, bar.x + bar.w + 5, bar.y + 0.5 * bar.h, letters, "1 %");
-    letters.down = 1;
-    canvas_text(canvas, bar.x + bar.w + 5, bar.y + bar.h, letters, "0.01 %");
+    CellMap map = {.columns = COLUMNS,
+                   .rows = (int)fmax(1, COLUMNS / ratio),
+                   .map = MAP_SCATTER,
+                   .low = DARKEST,
+                   .high = 1,
+                   .is_log = true,
+                   .ratio = ratio,
+                   .scale = {"full", "1 %", "0.01 %"},
+                   .unit = "backlight over full"};
+    map.value = ARENA_NEW(out->arena, float, map.columns *map.rows);
+    for (int i = 0; i < map.columns * map.rows; i++) {
+        float place[2] = {((float)(i % map.columns) + 0.5f) / (float)map.columns,
+                          ((float)(i / map.columns) + 0.5f) / (float)map.rows};
+        map.value[i] = backlight_at(halo.backlight, place);
+    }
+    if (zones->count[0] <= 100 && zones->count[1] <= 100) /* more would hide the map */
+        for (int i = 0; i < 2; i++) map.lines[i] = zones->count[i];
+    out->cells = map;
 }
 
 /* ---- the charts -------------------------------------------------------------------------- */
@@ -146,14 +111,14 @@ static void add_halo(PanelChartList *list, const PlotData *s) {
             "What black shines beside a white square, along azimuth 45° at three angles from the "
             "normal: the black that was measured there, times the backlight that the square's "
             "zones leave at that distance.",
-            draw_curves, s, 0, SHEET_ALWAYS, false});
+            fill_curves, s, 0, SHEET_ALWAYS, false});
     panel_chart_add(
         list,
         &(PanelChart){
             PLOT_HALO, "Backlight around a square", subtitle,
             "The backlight over full for the same picture, as someone facing the display sees it; "
             "thin lines part the zones.",
-            draw_map, s, 0, SHEET_NEVER, false});
+            fill_map, s, 0, SHEET_NEVER, false});
 }
 
 const PanelCharts halo_charts = {PLOT_HALO, PLOT_HALO, add_halo};

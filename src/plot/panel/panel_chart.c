@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "plot/panel/panel_chart.h"
 
+#include <math.h>
+
 #include "base/units.h"
 
 void panel_chart_add(PanelChartList *list, const PanelChart *chart) {
@@ -12,16 +14,25 @@ void panel_chart_add(PanelChartList *list, const PanelChart *chart) {
     out->subtitle = "assumed, not measured: the source is a table of white only";
 }
 
-void panel_chart_draw(Canvas *canvas, Box box, const PanelChart *chart, PanelChartMap *map) {
-    Theme *theme = &canvas->theme;
-    *map = (PanelChartMap){0};
+ChartRows *panel_chart_rows(const PanelChart *chart, const Theme *theme, Arena *arena) {
+    ChartRows *rows = ARENA_NEW(arena, ChartRows, 1);
+    *rows = (ChartRows){.theme = theme, .arena = arena};
+    chart->fill(chart, rows);
+    return rows;
+}
+
+void panel_chart_draw(Canvas *canvas, Box box, const PanelChart *chart) {
+    const Theme *theme = &canvas->theme;
     canvas_text(canvas, box.x, box.y,
                 (Letters){.size = SIZE_TITLE, .ink = theme->ink, .is_bold = true},
                 canvas_fit_text(canvas, SIZE_TITLE, true, box.w, chart->title));
     canvas_text(canvas, box.x, box.y + 17, (Letters){.size = SIZE_TICK, .ink = theme->soft},
                 canvas_fit_text(canvas, SIZE_TICK, false, box.w, chart->subtitle));
-    chart->draw(canvas, (Box){box.x, box.y + 34, box.w, box.h - 34}, chart, map);
+    chart_rows_draw(canvas, (Box){box.x, box.y + 34, box.w, box.h - 34},
+                    panel_chart_rows(chart, theme, canvas->arena));
 }
+
+/* ---- inks -------------------------------------------------------------------------------- */
 
 Ink panel_chart_ink(ColourMap map, double t) {
     double srgb[3];
@@ -29,28 +40,52 @@ Ink panel_chart_ink(ColourMap map, double t) {
     return (Ink){srgb[0], srgb[1], srgb[2], 1};
 }
 
-Ink panel_chart_series_ink(const Canvas *canvas, int i, int count) {
+Ink panel_chart_series_ink(const Theme *theme, int i, int count) {
     double t = count > 1 ? (double)i / (count - 1) : 0;
-    return panel_chart_ink(MAP_SCATTER, canvas->theme.is_dark ? 0.42 + 0.5 * t : 0.12 + 0.6 * t);
+    return panel_chart_ink(MAP_SCATTER, theme->is_dark ? 0.42 + 0.5 * t : 0.12 + 0.6 * t);
 }
 
-void panel_chart_polar(Canvas *canvas, Box box, const PolarMap *polar, PanelChartMap *map) {
-    *map = (PanelChartMap){.kind = PANEL_CHART_POLAR,
-                           .disc = polar_draw(canvas, box, polar),
-                           .field = *polar->field,
-                           .unit = polar->unit};
+Ink panel_chart_pattern_ink(const Theme *theme, Pattern pattern) {
+    if (pattern == PATTERN_WHITE) return theme->ink;
+    return pattern == PATTERN_BLACK ? theme->soft : theme->primary[pattern - PATTERN_RED];
 }
 
-void panel_chart_hatch(Chart *chart, double cone) {
-    chart_hatch(chart, -90, -degrees_from_radians(cone));
-    chart_hatch(chart, degrees_from_radians(cone), 90);
+Dash panel_chart_pattern_dash(Pattern pattern) {
+    static const Dash DASHES[] = {DASH_NONE, DASH_LONG, DASH_NONE, DASH_SHORT, DASH_DOT};
+    return DASHES[pattern];
 }
 
-void panel_chart_map_axes(PanelChartMap *map, const Chart *chart) {
-    *map = (PanelChartMap){.kind = PANEL_CHART_AXES,
-                           .plot = chart->plot,
-                           .low = {chart->x.low, chart->y.low},
-                           .high = {chart->x.high, chart->y.high},
-                           .is_log = {chart->x.is_log, chart->y.is_log},
-                           .axis = {chart->x.title, chart->y.title}};
+/* ---- parts of charts --------------------------------------------------------------------- */
+
+void panel_chart_polar(ChartRows *out, Field field, PolarMap map) {
+    Field *copy = ARENA_NEW(out->arena, Field, 1);
+    *copy = field;
+    out->kind = CHART_POLAR;
+    out->polar = map;
+    out->polar.field = copy;
+}
+
+void panel_chart_angles(ChartRows *out, const char *title, double cone) {
+    double last = degrees_from_radians(cone);
+    out->x = (AxisSpec){.low = -90, .high = 90, .step = 30, .suffix = "°", .title = title};
+    chart_rows_hatch(out, -90, -last);
+    chart_rows_hatch(out, last, 90);
+}
+
+void panel_chart_section_axis(ChartRows *out, const PlotData *data, bool is_vertical) {
+    panel_chart_angles(out,
+                       is_vertical ? "θ along φ 270° (down) to 90° (up)"
+                                   : "θ along φ 180° (left) to 0° (right)",
+                       data->cone);
+}
+
+ChartPoints panel_chart_section(const ChartRows *out, const PlotData *data, const float rgb[3],
+                                bool is_vertical) {
+    ChartPoints p = chart_rows_points(out, SECTION_POINTS);
+    for (int i = 0; i < p.count; i++) {
+        p.x[i] = -88 + i * 0.5;
+        p.y[i] = panel_figure_luminance(data->source.panel, radians_from_degrees(p.x[i]),
+                                        is_vertical ? PI / 2 : 0, rgb);
+    }
+    return p;
 }

@@ -1,28 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* panel_chart.h -- the charts that a panel gives, and how each is drawn into a box.
+/* panel_chart.h -- the charts that a panel gives, and what each shows.
  *
  * Units    points of the page.
  * Memory   the arena's. Threads: one thread a canvas.
  */
 #pragma once
-#include "plot/draw/chart.h"
-#include "plot/draw/polar.h"
+#include "plot/draw/chart_rows.h"
 #include "plot/panel/plot_data.h"
 
 struct PanelChart;
-
-/* Where the values of a drawn chart lie, for a read-out under the pointer: points of the box's
- * page. */
-typedef struct PanelChartMap {
-    enum { PANEL_CHART_PLAIN, PANEL_CHART_POLAR, PANEL_CHART_AXES } kind;
-    PolarPlace disc;
-    Field field; /* polar: the values */
-    const char *unit;
-    Box plot; /* chart: the axes' rectangle */
-    double low[2], high[2];
-    bool is_log[2];
-    const char *axis[2];
-} PanelChartMap;
 
 typedef enum SheetRole {
     SHEET_NEVER,
@@ -30,17 +16,17 @@ typedef enum SheetRole {
     SHEET_ALWAYS /* spare: where a row of the sheet has room left */
 } SheetRole;
 
-typedef void PanelChartDraw(Canvas *canvas, Box box, const struct PanelChart *chart,
-                            PanelChartMap *map);
+/* Sets the kind, the axes and what stands over them; theme and arena are there. */
+typedef void PanelChartFill(const struct PanelChart *chart, ChartRows *out);
 
 typedef struct PanelChart {
     PlotKind kind;
     const char *title;
     const char *subtitle; /* "" or one line of small letters */
     const char *caption;  /* for the report: what one sees, with units */
-    PanelChartDraw *draw;
+    PanelChartFill *fill;
     const PlotData *data;
-    int index; /* which pattern, which section: the drawer's own */
+    int index; /* which pattern, which section: the filler's own */
     SheetRole role;
     bool needs_primaries; /* means nothing without measured primaries and levels */
 } PanelChart;
@@ -69,17 +55,29 @@ void panel_chart_add(PanelChartList *list, const PanelChart *chart);
 /* The ink at t of a map's colours. */
 Ink panel_chart_ink(ColourMap map, double t);
 
-/* The ink of the i-th of so many curves that stand in an order. */
-Ink panel_chart_series_ink(const Canvas *canvas, int i, int count);
+/* The ink of the i-th of so many curves that stand in an order; of a pattern's. */
+Ink panel_chart_series_ink(const Theme *theme, int i, int count);
+Ink panel_chart_pattern_ink(const Theme *theme, Pattern pattern);
+Dash panel_chart_pattern_dash(Pattern pattern); /* they differ without colour too */
+
+/* What the chart shows, in inks of the theme. */
+ChartRows *panel_chart_rows(const PanelChart *chart, const Theme *theme, Arena *arena);
 
 /* Title, subtitle and the chart itself. */
-void panel_chart_draw(Canvas *canvas, Box box, const PanelChart *chart, PanelChartMap *map);
+void panel_chart_draw(Canvas *canvas, Box box, const PanelChart *chart);
 
-/* Draws a polar map, and notes where it lies. */
-void panel_chart_polar(Canvas *canvas, Box box, const PolarMap *polar, PanelChartMap *map);
+/* ---- for those that fill ----------------------------------------------------------------- */
 
-/* Over angles in degrees: beyond the cone (radians) on both sides nothing was measured. */
-void panel_chart_hatch(Chart *chart, double cone);
+/* A polar map of a field that is copied. */
+void panel_chart_polar(ChartRows *out, Field field, PolarMap map);
 
-/* Notes the axes of a finished chart. */
-void panel_chart_map_axes(PanelChartMap *map, const Chart *chart);
+/* An axis of angles from -90 to 90 degrees; beyond the cone (radians) nothing was measured. */
+void panel_chart_angles(ChartRows *out, const char *title, double cone);
+
+/* The same along a section of the hemisphere, through azimuth 0 or (vertical) 90 degrees; and the
+ * luminance of codes along it, from -88 to 88 degrees every half. */
+#define SECTION_POINTS 353
+#define SECTION_AT(deg) (2 * (deg) + 176) /* the point */
+void panel_chart_section_axis(ChartRows *out, const PlotData *data, bool is_vertical);
+ChartPoints panel_chart_section(const ChartRows *out, const PlotData *data, const float rgb[3],
+                                bool is_vertical);

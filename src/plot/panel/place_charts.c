@@ -11,7 +11,6 @@
 
 #define COLUMNS 192
 #define ROWS 108
-#define SCALE_WIDTH 12.0 /* points */
 
 /* ---- what is drawn ----------------------------------------------------------------------- */
 
@@ -32,19 +31,17 @@ static double value_at(const PlotData *s, int index, const float place[2]) {
     return (double)xyz[1];
 }
 
-typedef struct SurfaceMap {
-    int columns, rows;
-    float *value;
-    double low, high; /* of the colours */
-    bool is_even;     /* no more than half a percent between the least and the most */
-} SurfaceMap;
-
 #define EVEN_SHARE 0.005
 #define EVEN_REACH 0.05 /* of an even map's colours about its value: rounding shows none */
 
-static SurfaceMap surface_map(const PlotData *s, int index, Arena *arena) {
+/* Its values, and whether they are no more than half a percent apart. */
+static CellMap surface_map(const PlotData *s, int index, bool *is_even, Arena *arena) {
     int share = index == 2 ? 6 : 1; /* angles change slowly, and cost */
-    SurfaceMap out = {COLUMNS / share, ROWS / share, NULL, INFINITY, 0, false};
+    CellMap out = {.columns = COLUMNS / share,
+                   .rows = ROWS / share,
+                   .map = MAP_AMOUNT,
+                   .low = INFINITY,
+                   .unit = index == 2 ? "degrees" : "cd/m²"};
     out.value = ARENA_NEW(arena, float, out.columns *out.rows);
     for (int i = 0; i < out.columns * out.rows; i++) {
         float place[2] = {((float)(i % out.columns) + 0.5f) / (float)out.columns,
@@ -54,8 +51,8 @@ static SurfaceMap surface_map(const PlotData *s, int index, Arena *arena) {
         out.low = fmin(out.low, value);
         out.high = fmax(out.high, value);
     }
-    out.is_even = out.high - out.low <= EVEN_SHARE * out.high;
-    if (out.is_even) {
+    *is_even = out.high - out.low <= EVEN_SHARE * out.high;
+    if (*is_even) {
         double middle = 0.5 * (out.low + out.high);
         out.low = middle * (1 - EVEN_REACH);
         out.high = middle * (1 + EVEN_REACH);
@@ -65,81 +62,38 @@ static SurfaceMap surface_map(const PlotData *s, int index, Arena *arena) {
 
 /* ---- drawing ----------------------------------------------------------------------------- */
 
-static double position(const SurfaceMap *map, double value) {
-    return map->high > map->low ? (value - map->low) / (map->high - map->low) : 0.5;
-}
-
-static uint32_t pixel_at(const void *context, int x, int y) {
-    const SurfaceMap *map = context;
-    return colour_map_pixel(MAP_AMOUNT, position(map, (double)map->value[y * map->columns + x]));
-}
-
-/* Colours, one a cell, into the box. */
-static void paint(Canvas *canvas, Box box, const SurfaceMap *map) {
-    canvas_image(
-        canvas, box,
-        &(CanvasRaster){map->columns, map->rows, CAIRO_FORMAT_ARGB32, true, pixel_at, map});
-}
-
 /* As wide as the display where its size is known. */
-static Box surface_box(const PlotData *s, Box box) {
+static double ratio_of(const PlotData *s) {
     const json_t *size = json_object_get(s->source.report, "size_mm");
     double w = json_number_value(json_array_get(size, 0));
     double h = json_number_value(json_array_get(size, 1));
-    double ratio = w > 0 && h > 0 ? w / h : 16.0 / 9;
-    Box out = {box.x, box.y + 4, box.w - SCALE_WIDTH - 62, 0};
-    out.h = out.w / ratio;
-    if (out.h > box.h - 12) out.h = box.h - 12, out.w = out.h * ratio;
-    return out;
+    return w > 0 && h > 0 ? w / h : 16.0 / 9;
 }
 
-static void write_point(Canvas *canvas, const Box *box, const SurfaceMap *map, const float place[2],
-                        double value) {
-    char text[32];
-    double x = box->x + (double)place[0] * box->w, y = box->y + (double)place[1] * box->h;
-    Ink ink = colour_map_wants_light_ink(MAP_AMOUNT, position(map, value)) ? ink_hex(0xffffff)
-                                                                           : ink_hex(0x000000);
-    canvas_text(canvas, x, y, (Letters){.size = SIZE_TICK, .ink = ink, .across = 0.5, .down = 0.5},
-                figure_text(value, text));
-}
-
-static void mark_spots(Canvas *canvas, const Box *box, const PlotData *s) {
-    float place[PANEL_EVENNESS_SPOTS][2];
-    int map[2], count = panel_spots(s->source.panel, place, map);
-    for (int i = 0; i < count; i++)
-        canvas_circle(canvas, box->x + (double)place[i][0] * box->w,
-                      box->y + (double)place[i][1] * box->h, 11);
-    canvas_stroke(canvas, (Stroke){ink_alpha(ink_hex(0xffffff), 0.8), 0.9, DASH_NONE});
-}
-
-static void draw_scale(Canvas *canvas, Box box, const SurfaceMap *map, const char *unit) {
-    SurfaceMap bar = {1, 64, ARENA_NEW(canvas->arena, float, 64), map->low, map->high, false};
-    char text[2][32];
-    Letters letters = {.size = SIZE_TICK, .ink = canvas->theme.soft};
-    for (int i = 0; i < 64; i++)
-        bar.value[i] = (float)(map->high - (map->high - map->low) * i / 63.0);
-    paint(canvas, box, &bar);
-    canvas_text(canvas, box.x + box.w + 5, box.y, letters, figure_text(map->high, text[0]));
-    letters.down = 1;
-    canvas_text(canvas, box.x + box.w + 5, box.y + box.h, letters, figure_text(map->low, text[1]));
-    letters.down = 0.5;
-    canvas_text(canvas, box.x + box.w + 5, box.y + 0.5 * box.h, letters, unit);
-}
-
-static void draw_surface(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+/* Colours, the nine points' values and rings where the panel was measured. */
+static void fill_surface(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
-    SurfaceMap map = surface_map(s, shown->index, canvas->arena);
-    Box area = surface_box(s, box);
-    *out = (PanelChartMap){.kind = PANEL_CHART_PLAIN};
-    paint(canvas, area, &map);
-    mark_spots(canvas, &area, s);
+    bool is_even;
+    int map[2];
+    float(*nine)[2] = arena_alloc(out->arena, sizeof *nine, 8, PANEL_NINE);
+    float(*spot)[2] = arena_alloc(out->arena, sizeof *spot, 8, PANEL_EVENNESS_SPOTS);
+    double *value = ARENA_NEW(out->arena, double, PANEL_NINE);
+    char text[2][32];
+    CellMap *cells = &out->cells;
+    *cells = surface_map(s, shown->index, &is_even, out->arena);
     for (int i = 0; i < PANEL_NINE; i++) {
-        float place[2];
-        panel_nine_place(i, place);
-        write_point(canvas, &area, &map, place, value_at(s, shown->index, place));
+        panel_nine_place(i, nine[i]);
+        value[i] = value_at(s, shown->index, nine[i]);
     }
-    draw_scale(canvas, (Box){area.x + area.w + 12, area.y, SCALE_WIDTH, area.h}, &map,
-               shown->index == 2 ? "degrees" : "cd/m²");
+    cells->ratio = ratio_of(s);
+    cells->scale[0] = arena_format(out->arena, "%s", figure_text(cells->high, text[0]));
+    cells->scale[1] = cells->unit;
+    cells->scale[2] = arena_format(out->arena, "%s", figure_text(cells->low, text[1]));
+    cells->figure_count = PANEL_NINE;
+    cells->figure = (const float(*)[2])nine;
+    cells->figure_value = value;
+    cells->ring_count = panel_spots(s->source.panel, spot, map);
+    cells->ring = (const float(*)[2])spot;
 }
 
 /* ---- the charts -------------------------------------------------------------------------- */
@@ -164,18 +118,19 @@ static void add_surface(PanelChartList *list, const PlotData *s, int index, cons
             "Luminance along the local normal over the active area, as someone facing the display "
             "sees it. The numbers are those of the nine points, a tenth, a half and nine tenths of "
             "width and height; rings stand where the panel was measured.",
-            draw_surface, s, index, index ? SHEET_NEVER : SHEET_ALWAYS, false});
+            fill_surface, s, index, index ? SHEET_NEVER : SHEET_ALWAYS, false});
 }
 
 static void add_place(PanelChartList *list, const PlotData *s) {
     if (!s->emits || !panel_varies(s->source.panel)) return;
-    SurfaceMap angle = surface_map(s, 2, s->arena);
+    bool is_even;
+    CellMap angle = surface_map(s, 2, &is_even, s->arena);
     char text[32];
     const char *everywhere = arena_format(s->arena, "; half luminance over %s° at every place",
                                           figure_text((double)angle.value[0], text));
-    add_surface(list, s, 0, angle.is_even ? everywhere : "");
+    add_surface(list, s, 0, is_even ? everywhere : "");
     if (s->has_black) add_surface(list, s, 1, "");
-    if (angle.is_even) return;
+    if (is_even) return;
     panel_chart_add(
         list,
         &(PanelChart){
@@ -183,7 +138,7 @@ static void add_place(PanelChartList *list, const PlotData *s) {
             "degrees, left to right, over which white has half the light of the local normal",
             "The whole horizontal angle, from left to right, inside which white has at least half "
             "the luminance of the local normal; no more than was measured.",
-            draw_surface, s, 2, SHEET_NEVER, false});
+            fill_surface, s, 2, SHEET_NEVER, false});
 }
 
 const PanelCharts place_charts = {PLOT_UNIFORMITY, PLOT_UNIFORMITY, add_place};

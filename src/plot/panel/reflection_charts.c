@@ -34,92 +34,66 @@ static int incidence_near(const PlotData *s, double deg) {
 
 #define PLANE_POINTS 1200
 
-typedef struct PlaneCurve {
-    int count, peak;
-    double deg[PLANE_POINTS], value[PLANE_POINTS];
-    bool is_measured[PLANE_POINTS];
-} PlaneCurve;
-
-/* Leaving angle, degrees; positive on the mirror's side. Finer around the mirror direction. */
-static void fill_plane(const PlotData *s, double incidence_deg, PlaneCurve *out) {
-    *out = (PlaneCurve){0};
-    for (double deg = -88; deg <= 88 && out->count < PLANE_POINTS;) {
-        double theta = radians_from_degrees(fabs(deg));
-        out->deg[out->count] = deg;
-        out->value[out->count] =
-            plot_data_brdf(s, radians_from_degrees(incidence_deg), theta, deg < 0 ? PI : 0, 0);
-        bool is_in = theta <= s->brdf_cone + 1e-6;
-        out->is_measured[out->count] = plot_data_brdf_is_measured(
-            s, radians_from_degrees(incidence_deg), theta, deg < 0 ? PI : 0);
-        if (is_in && out->value[out->count] > out->value[out->peak]) out->peak = out->count;
-        out->count++;
+/* Over the leaving angle, degrees; positive on the mirror's side. Finer around the mirror
+ * direction. *peak: the largest within the cone. */
+static Series *add_plane_curve(ChartRows *out, const PlotData *s, double incidence_deg, int *peak) {
+    ChartPoints p = chart_rows_points(out, PLANE_POINTS);
+    bool *is_pale = ARENA_NEW(out->arena, bool, PLANE_POINTS);
+    double incidence = radians_from_degrees(incidence_deg);
+    p.count = *peak = 0;
+    for (double deg = -88; deg <= 88 && p.count < PLANE_POINTS; p.count++) {
+        double theta = radians_from_degrees(fabs(deg)), phi = deg < 0 ? PI : 0;
+        p.x[p.count] = deg;
+        p.y[p.count] = plot_data_brdf(s, incidence, theta, phi, 0);
+        is_pale[p.count] = !plot_data_brdf_is_measured(s, incidence, theta, phi);
+        if (theta <= s->brdf_cone + 1e-6 && p.y[p.count] > p.y[*peak]) *peak = p.count;
         deg += fabs(deg - incidence_deg) < 6 ? 0.05 : 0.25;
     }
+    const char *name = arena_format(out->arena, "%.3g°", incidence_deg);
+    Series *curve = chart_rows_add(out, SERIES_CURVE, name, (Stroke){.width = 1.5}, p);
+    curve->is_pale = is_pale;
+    return curve;
 }
 
-static void brdf_range(const PlaneCurve *curve, int count, double *low, double *high) {
+/* Of all values above 0. */
+static void find_range(const ChartRows *rows, double *low, double *high) {
     *low = INFINITY;
     *high = 0;
-    for (int k = 0; k < count; k++)
-        for (int i = 0; i < curve[k].count; i++) {
-            if (!(curve[k].value[i] > 0)) continue;
-            *low = fmin(*low, curve[k].value[i]);
-            *high = fmax(*high, curve[k].value[i]);
+    for (int k = 0; k < rows->count; k++) {
+        ChartPoints p = rows->series[k].points;
+        for (int i = 0; i < p.count; i++) {
+            if (!(p.y[i] > 0)) continue;
+            *low = fmin(*low, p.y[i]);
+            *high = fmax(*high, p.y[i]);
         }
+    }
     if (!(*high > 0)) *high = 1;
-    *low = round_down(fmax(fmin(*low, *high / 10), *high / 1e7));
-    *high = round_up(*high * 1.8);
 }
 
-/* Pale where it is extrapolated. */
-static void draw_plane_curve(Chart *chart, const PlaneCurve *curve, Stroke stroke) {
-    Ink ink = stroke.ink;
-    for (int begin = 0, i = 1; i <= curve->count; i++) {
-        bool goes_on = i < curve->count && curve->is_measured[i] == curve->is_measured[begin];
-        if (goes_on) continue;
-        int last = i < curve->count ? i + 1 : i; /* the next piece's first point joins them */
-        stroke.ink = ink_alpha(ink, curve->is_measured[begin] ? 1 : 0.3);
-        chart_curve(chart, curve->deg + begin, curve->value + begin, last - begin, stroke);
-        begin = i;
-    }
-}
-
-static void draw_plane(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+static void fill_plane(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
-    double deg[INCIDENCES_SHOWN];
-    int count = chosen_incidences(s, deg);
-    double low, high, last_x = -INFINITY, last_y = 0;
-    PlaneCurve *curve = ARENA_NEW(canvas->arena, PlaneCurve, count);
-    for (int k = 0; k < count; k++) fill_plane(s, deg[k], &curve[k]);
-    brdf_range(curve, count, &low, &high);
-    Chart chart = chart_open(
-        canvas, box,
-        (AxisSpec){.low = -90,
-                   .high = 90,
-                   .step = 30,
-                   .suffix = "°",
-                   .title = "leaving angle in the plane of incidence, mirror side positive"},
-        (AxisSpec){.low = low, .high = high, .is_log = true, .title = "BRDF, sr⁻¹"}, 14);
-    panel_chart_hatch(&chart, s->brdf_cone);
-    for (int k = count - 1; k >= 0; k--)
-        draw_plane_curve(
-            &chart, &curve[k],
-            (Stroke){panel_chart_series_ink(canvas, k, count), 1.5, k % 2 ? DASH_LONG : DASH_NONE});
-    for (int k = 0; k < count; k++) {
-        double x = chart_x(&chart, curve[k].deg[curve[k].peak]);
-        double y = chart_y(&chart, fmax(curve[k].value[curve[k].peak], low)) - 5;
-        if (x - last_x < 15 && fabs(y - last_y) < 12) continue;
-        canvas_text(canvas, x, y,
-                    (Letters){.size = SIZE_TICK,
-                              .across = 0.5,
-                              .down = 1,
-                              .ink = panel_chart_series_ink(canvas, k, count),
-                              .halo = canvas->theme.paper},
-                    arena_format(canvas->arena, "%.3g°", deg[k]));
-        last_x = x;
-        last_y = y;
+    double deg[INCIDENCES_SHOWN], low, high;
+    int peak[INCIDENCES_SHOWN], count = chosen_incidences(s, deg);
+    panel_chart_angles(out, "leaving angle in the plane of incidence, mirror side positive",
+                       s->brdf_cone);
+    for (int k = count - 1; k >= 0; k--) {
+        Series *curve = add_plane_curve(out, s, deg[k], &peak[k]);
+        curve->stroke.ink = panel_chart_series_ink(out->theme, k, count);
+        curve->stroke.dash = k % 2 ? DASH_LONG : DASH_NONE;
     }
-    panel_chart_map_axes(out, &chart);
+    find_range(out, &low, &high);
+    low = round_down(fmax(fmin(low, high / 10), high / 1e7));
+    out->y = axis_log(low, round_up(high * 1.8), "BRDF, sr⁻¹");
+    out->right = 14;
+    for (int k = 0; k < count; k++) {
+        const Series *curve = &out->series[1 + count - k]; /* behind two hatches */
+        ChartPoints p = curve->points;
+        Series *word = chart_rows_word(out, p.x[peak[k]], fmax(p.y[peak[k]], low),
+                                       curve->stroke.ink, curve->name);
+        word->dy = -5;
+        word->across = 0.5;
+        word->crowd = CROWD_IS_LEFT_OUT;
+    }
 }
 
 /* ---- over wavelength -------------------------------------------------------------------- */
@@ -129,73 +103,51 @@ static void draw_plane(Canvas *canvas, Box box, const PanelChart *shown, PanelCh
 static const double ASPECULAR_DEG[] = {0, 2, 5, 10, 15, 25, 45};
 #define ASPECULAR_COUNT COUNT_OF(ASPECULAR_DEG)
 
-typedef struct WavelengthCurve {
-    double nm[WAVELENGTH_POINTS], value[WAVELENGTH_POINTS];
-} WavelengthCurve;
-
-static void fill_wavelengths(const PlotData *s, double incidence_deg, double aspecular_deg,
-                             WavelengthCurve *out) {
-    double first = (double)s->wavelength_nm[0];
+/* The leaving direction goes towards the normal, then past it. */
+static ChartPoints over_wavelength(const ChartRows *out, const PlotData *s, int incidence_deg,
+                                   double aspecular_deg, bool is_measured) {
+    ChartPoints p = chart_rows_points(out, is_measured ? s->wavelength_count : WAVELENGTH_POINTS);
+    double first = (double)s->wavelength_nm[0], leaving = incidence_deg - aspecular_deg;
     double last = (double)s->wavelength_nm[s->wavelength_count - 1];
-    double leaving = incidence_deg - aspecular_deg; /* towards the normal, then past it */
-    for (int i = 0; i < WAVELENGTH_POINTS; i++) {
-        out->nm[i] = first + (last - first) * i / (WAVELENGTH_POINTS - 1);
-        out->value[i] =
-            plot_data_brdf(s, radians_from_degrees(incidence_deg),
-                           radians_from_degrees(fabs(leaving)), leaving < 0 ? PI : 0, out->nm[i]);
+    for (int i = 0; i < p.count; i++) {
+        p.x[i] = is_measured ? (double)s->wavelength_nm[i]
+                             : first + (last - first) * i / (WAVELENGTH_POINTS - 1);
+        p.y[i] = plot_data_brdf(s, radians_from_degrees(incidence_deg),
+                                radians_from_degrees(fabs(leaving)), leaving < 0 ? PI : 0, p.x[i]);
     }
+    return p;
 }
 
-static void draw_wavelengths(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+static void fill_wavelengths(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
-    WavelengthCurve *curve = ARENA_NEW(canvas->arena, WavelengthCurve, ASPECULAR_COUNT);
-    double low = INFINITY, high = 0;
+    double low, high;
     for (int k = 0; k < ASPECULAR_COUNT; k++) {
-        fill_wavelengths(s, shown->index, ASPECULAR_DEG[k], &curve[k]);
-        for (int i = 0; i < WAVELENGTH_POINTS; i++) {
-            if (curve[k].value[i] > 0) low = fmin(low, curve[k].value[i]);
-            high = fmax(high, curve[k].value[i]);
-        }
+        Ink ink = panel_chart_series_ink(out->theme, k, ASPECULAR_COUNT);
+        Series *curve =
+            chart_rows_add(out, SERIES_CURVE, arena_format(out->arena, "%g°", ASPECULAR_DEG[k]),
+                           (Stroke){ink, 1.4, DASH_NONE},
+                           over_wavelength(out, s, shown->index, ASPECULAR_DEG[k], false));
+        curve->label = curve->name;
+        if (s->wavelength_count <= 40)
+            chart_rows_add(out, SERIES_DOTS, NULL, (Stroke){ink, 1.5, DASH_NONE},
+                           over_wavelength(out, s, shown->index, ASPECULAR_DEG[k], true));
     }
-    if (!(high > 0)) high = 1;
-    low = round_down(fmin(low, high / 2));
-    Chart chart = chart_open(
-        canvas, box,
-        (AxisSpec){.low = curve[0].nm[0],
-                   .high = curve[0].nm[WAVELENGTH_POINTS - 1],
-                   .step = 50,
-                   .title = "Wavelength, nm"},
-        (AxisSpec){
-            .low = low, .high = round_up(high * 1.05), .is_log = true, .title = "BRDF, sr⁻¹"},
-        40);
-    for (int k = 0; k < ASPECULAR_COUNT; k++) {
-        Ink ink = panel_chart_series_ink(canvas, k, ASPECULAR_COUNT);
-        chart_curve(&chart, curve[k].nm, curve[k].value, WAVELENGTH_POINTS,
-                    (Stroke){ink, 1.4, DASH_NONE});
-        for (int w = 0; w < s->wavelength_count && s->wavelength_count <= 40; w++) {
-            double nm = (double)s->wavelength_nm[w], leaving = shown->index - ASPECULAR_DEG[k];
-            chart_dot(&chart, nm,
-                      plot_data_brdf(s, radians_from_degrees(shown->index),
-                                     radians_from_degrees(fabs(leaving)), leaving < 0 ? PI : 0, nm),
-                      1.5, ink);
-        }
-        chart_name_curve(&chart, curve[k].nm, curve[k].value, WAVELENGTH_POINTS, ink,
-                         arena_format(canvas->arena, "%g°", ASPECULAR_DEG[k]));
-    }
-    chart_close(&chart);
-    panel_chart_map_axes(out, &chart);
+    find_range(out, &low, &high);
+    out->x = axis_even((double)s->wavelength_nm[0],
+                       (double)s->wavelength_nm[s->wavelength_count - 1], "Wavelength, nm");
+    out->x.step = 50;
+    out->y = axis_log(round_down(fmin(low, high / 2)), round_up(high * 1.05), "BRDF, sr⁻¹");
+    out->right = 40;
 }
 
 /* ---- over the hemisphere ---------------------------------------------------------------- */
 
-static void draw_map(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+static void fill_map(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
-    Field *field = ARENA_NEW(canvas->arena, Field, 1);
     double incidence = radians_from_degrees(shown->index);
-    *field = plot_data_brdf_field(s, incidence, canvas->arena);
-    FieldRange range = field_range(field, radians_from_degrees(85));
-    PolarMap map = {.field = field,
-                    .map = MAP_SCATTER,
+    Field field = plot_data_brdf_field(s, incidence, out->arena);
+    FieldRange range = field_range(&field, radians_from_degrees(85));
+    PolarMap map = {.map = MAP_SCATTER,
                     .is_log = true,
                     .strong = NAN,
                     .high = fmax(range.high, 1e-12),
@@ -203,10 +155,10 @@ static void draw_map(Canvas *canvas, Box box, const PanelChart *shown, PanelChar
                     .unit = "sr⁻¹",
                     .has_light = true,
                     .theta_light = incidence};
-    map.measured = plot_data_brdf_measured(s, incidence, canvas->arena);
+    map.measured = plot_data_brdf_measured(s, incidence, out->arena);
     map.low = round_down(fmax(range.low, map.high / 1e6));
     if (map.high < 1.5 * map.low) map.low = map.high / 1.5;
-    double peak = map.high, most = field_quantile(field, s->brdf_cone, 0.99, *canvas->arena);
+    double peak = map.high, most = field_quantile(&field, s->brdf_cone, 0.99, *out->arena);
     if (map.high > 20 * most && most > map.low) { /* a narrow peak leaves no colours for haze */
         map.high = round_up(8 * most);
         map.is_cut = true;
@@ -221,49 +173,51 @@ static void draw_map(Canvas *canvas, Box box, const PanelChart *shown, PanelChar
                 map.level_count < POLAR_LEVELS_MAX)
                 map.level[map.level_count++] = level;
         }
-    panel_chart_polar(canvas, box, &map, out);
+    panel_chart_polar(out, field, map);
 }
 
 /* ---- the mirror part -------------------------------------------------------------------- */
 
 #define MIRROR_POINTS 179
 
-static void draw_mirror(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out) {
+/* nm 0: photopic. scale above 0: one surface of index 1.5, times so much. */
+static ChartPoints mirror_points(const ChartRows *out, const PlotData *s, double nm, double scale) {
+    ChartPoints p = chart_rows_points(out, MIRROR_POINTS);
+    for (int i = 0; i < p.count; i++) {
+        p.x[i] = i * 0.5;
+        double theta = radians_from_degrees(p.x[i]);
+        p.y[i] = scale > 0 ? scale * fresnel_unpolarised_d(cos(theta), 1.5)
+                           : panel_figure_mirror(s->source.panel, theta, nm);
+    }
+    return p;
+}
+
+static void add_mirror(ChartRows *out, const char *name, Stroke stroke, ChartPoints points) {
+    Series *curve = chart_rows_add(out, SERIES_CURVE, name, stroke, points);
+    curve->label = stroke.dash == DASH_DOT ? NULL : name;
+    curve->label_index = 164; /* 82 degrees */
+}
+
+static void fill_mirror(const PanelChart *shown, ChartRows *out) {
     static const double NM[] = {0, 450, 550, 650};
     static const char *const NAMES[] = {"photopic", "450 nm", "550 nm", "650 nm"};
     const PlotData *s = shown->data;
-    double deg[MIRROR_POINTS], value[4][MIRROR_POINTS], glass[2][MIRROR_POINTS], low = 1;
-    double normal = panel_figure_mirror(s->source.panel, 0, 0) / fresnel_unpolarised_d(1, 1.5);
-    for (int i = 0; i < MIRROR_POINTS; i++) {
-        deg[i] = i * 0.5;
-        double theta = radians_from_degrees(deg[i]);
-        for (int k = 0; k < 4; k++)
-            value[k][i] = panel_figure_mirror(s->source.panel, theta, NM[k]);
-        glass[0][i] = fresnel_unpolarised_d(cos(theta), 1.5);
-        glass[1][i] = normal * glass[0][i];
-        if (value[0][i] > 0) low = fmin(low, value[0][i]);
-    }
-    Chart chart =
-        chart_open(canvas, box,
-                   (AxisSpec){.high = 90, .step = 15, .suffix = "°", .title = "angle of incidence"},
-                   (AxisSpec){.low = round_down(fmax(low * 0.7, 1e-6)),
-                              .high = 1,
-                              .is_log = true,
-                              .title = "Mirror reflectance"},
-                   62);
-    chart_hatch(&chart, degrees_from_radians(s->last_incidence), 90);
-    for (int i = 0; i < 2; i++)
-        chart_curve(&chart, deg, glass[i], MIRROR_POINTS,
-                    (Stroke){canvas->theme.soft, 1, i ? DASH_DOT : DASH_LONG});
+    const Theme *theme = out->theme;
+    double low = 1, normal = panel_figure_mirror(s->source.panel, 0, 0);
+    chart_rows_hatch(out, degrees_from_radians(s->last_incidence), 90);
+    add_mirror(out, "glass", (Stroke){theme->soft, 1, DASH_LONG}, mirror_points(out, s, 0, 1));
+    add_mirror(out, "glass, scaled", (Stroke){theme->soft, 1, DASH_DOT},
+               mirror_points(out, s, 0, normal / fresnel_unpolarised_d(1, 1.5)));
     for (int k = 3; k >= 0; k--) {
-        Ink ink = k == 0 ? canvas->theme.ink : canvas->theme.primary[3 - k];
-        chart_curve(&chart, deg, value[k], MIRROR_POINTS,
-                    (Stroke){ink, k == 0 ? 1.9 : 1.2, DASH_NONE});
-        chart_name(&chart, 82, value[k][164], ink, NAMES[k]);
+        ChartPoints p = mirror_points(out, s, NM[k], 0);
+        add_mirror(out, NAMES[k],
+                   (Stroke){k ? theme->primary[3 - k] : theme->ink, k ? 1.2 : 1.9, DASH_NONE}, p);
+        for (int i = 0; i < p.count && k == 0; i++)
+            if (p.y[i] > 0) low = fmin(low, p.y[i]);
     }
-    chart_name(&chart, 82, glass[0][164], canvas->theme.soft, "glass");
-    chart_close(&chart);
-    panel_chart_map_axes(out, &chart);
+    out->x = (AxisSpec){.high = 90, .step = 15, .suffix = "°", .title = "angle of incidence"};
+    out->y = axis_log(round_down(fmax(low * 0.7, 1e-6)), 1, "Mirror reflectance");
+    out->right = 62;
 }
 
 static const char *light_text(const PlotData *s) {
@@ -292,7 +246,7 @@ static void add_maps(PanelChartList *list, const PlotData *s) {
                 "BRDF in sr⁻¹ over the leaving directions on a logarithmic scale, without the "
                 "mirror part; φ counts from the mirror direction, the light's own direction is "
                 "marked.",
-                draw_map, s, incidences[i], i ? SHEET_SPARE : SHEET_ALWAYS, false});
+                fill_map, s, incidences[i], i ? SHEET_SPARE : SHEET_ALWAYS, false});
     }
 }
 
@@ -308,7 +262,7 @@ static void add_all(PanelChartList *list, const PlotData *s) {
                                    light_text(s)),
                       "BRDF in sr⁻¹ over the leaving angle in the plane of incidence, one curve an "
                       "incidence. The mirror part is not in it.",
-                      draw_plane, s, 0, SHEET_ALWAYS, false});
+                      fill_plane, s, 0, SHEET_ALWAYS, false});
     if (s->wavelength_count > 1)
         panel_chart_add(
             list,
@@ -318,7 +272,7 @@ static void add_all(PanelChartList *list, const PlotData *s) {
                              light_text(s)),
                 "BRDF in sr⁻¹ over wavelength at several angles from the mirror direction, towards "
                 "the normal; dots at the measured wavelengths.",
-                draw_wavelengths, s, middle, SHEET_ALWAYS, false});
+                fill_wavelengths, s, middle, SHEET_ALWAYS, false});
     add_maps(list, s);
     if (s->has_mirror)
         panel_chart_add(
@@ -329,7 +283,7 @@ static void add_all(PanelChartList *list, const PlotData *s) {
                 "Reflectance of the mirror part over the angle of incidence beside the Fresnel "
                 "reflectance of one surface of refractive index 1.5 (dashed), also scaled to the "
                 "panel's value at the normal (dotted).",
-                draw_mirror, s, 0, SHEET_ALWAYS, false});
+                fill_mirror, s, 0, SHEET_ALWAYS, false});
 }
 
 const PanelCharts reflection_charts = {PLOT_BRDF, PLOT_MIRROR, add_all};

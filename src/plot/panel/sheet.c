@@ -169,11 +169,9 @@ typedef struct Sheet {
 
 static void draw_sheet(Canvas *canvas, const void *context) {
     const Sheet *sheet = context;
-    PanelChartMap unused;
     draw_heading(canvas, sheet->spec, &sheet->layout);
     for (int i = 0; i < sheet->spec->list->count; i++)
-        panel_chart_draw(canvas, chart_box(&sheet->layout, i), &sheet->spec->list->chart[i],
-                         &unused);
+        panel_chart_draw(canvas, chart_box(&sheet->layout, i), &sheet->spec->list->chart[i]);
     draw_legend(canvas, sheet->spec, &sheet->layout);
 }
 
@@ -191,20 +189,20 @@ bool sheet_picture(const SheetSpec *spec, Arena *arena, PlotBytes *out, Error *e
 
 /* One chart, and where its read-out map goes. */
 typedef struct Single {
-    const PanelChart *chart;
+    const ChartRows *rows;
     const SheetChartFrame *frame;
-    PanelChartMap *map;
+    ChartMap *map;
 } Single;
 
 static void draw_single(Canvas *canvas, const void *context) {
     const Single *one = context;
     Box inside = {4, 4, one->frame->width - 8, one->frame->height - 8};
-    one->chart->draw(canvas, inside, one->chart, one->map);
+    *one->map = chart_rows_draw(canvas, inside, one->rows);
 }
 
-bool sheet_chart_svg(const PanelChart *chart, const SheetChartFrame *frame, Arena *arena,
-                     PlotBytes *out, PanelChartMap *map, Error *err) {
-    Single one = {chart, frame, map};
+bool sheet_chart_svg(const ChartRows *rows, const SheetChartFrame *frame, Arena *arena,
+                     PlotBytes *out, ChartMap *map, Error *err) {
+    Single one = {rows, frame, map};
     PictureSpec picture = {.width = frame->width,
                            .height = frame->height,
                            .scale = 1,

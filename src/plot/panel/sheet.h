@@ -28,5 +28,5 @@ typedef struct SheetChartFrame {
 } SheetChartFrame;
 
 /* One chart alone, without its title, to stand inside another document. */
-bool sheet_chart_svg(const PanelChart *chart, const SheetChartFrame *frame, Arena *arena,
-                     PlotBytes *out, PanelChartMap *map, Error *err);
+bool sheet_chart_svg(const ChartRows *rows, const SheetChartFrame *frame, Arena *arena,
+                     PlotBytes *out, ChartMap *map, Error *err);

@@ -17,14 +17,14 @@
 #define READ_ROWS 46    /* every 2 degrees of theta */
 #define READ_COLUMNS 60 /* every 6 degrees of phi */
 
-static void add_polar_values(Text *html, const PanelChartMap *map) {
-    const Field *field = &map->field;
+static void add_polar_values(Text *html, const ChartMap *map, const PolarMap *polar) {
+    const Field *field = polar->field;
     text_format(html,
                 "{\"kind\":\"polar\",\"x\":%.2f,\"y\":%.2f,\"r\":%.2f,\"rim\":%g,"
                 "\"rows\":%d,\"columns\":%d,\"unit\":\"",
                 map->disc.x, map->disc.y, map->disc.radius, degrees_from_radians(field->theta_rim),
                 READ_ROWS, READ_COLUMNS);
-    text_add(html, map->unit);
+    text_add(html, polar->unit);
     text_add(html, "\",\"v\":[");
     for (int i = 0; i < READ_ROWS; i++)
         for (int j = 0; j < READ_COLUMNS; j++) {
@@ -44,15 +44,15 @@ static const char *short_name(Arena *arena, const char *title) {
     return arena_string(arena, title, strcspn(title, ",("));
 }
 
-static void add_chart_values(Text *html, const PanelChartMap *map, Arena *arena) {
+static void add_chart_values(Text *html, const ChartMap *map, const ChartRows *rows, Arena *arena) {
     text_format(html,
                 "{\"kind\":\"chart\",\"x\":%.2f,\"y\":%.2f,\"w\":%.2f,\"h\":%.2f,"
                 "\"low\":[%.9g,%.9g],\"high\":[%.9g,%.9g],\"log\":[%d,%d],\"names\":[\"",
                 map->plot.x, map->plot.y, map->plot.w, map->plot.h, map->low[0], map->low[1],
-                map->high[0], map->high[1], map->is_log[0], map->is_log[1]);
-    text_add(html, short_name(arena, map->axis[0]));
+                map->high[0], map->high[1], rows->x.is_log, rows->y.is_log);
+    text_add(html, short_name(arena, rows->x.title));
     text_add(html, "\",\"");
-    text_add(html, short_name(arena, map->axis[1]));
+    text_add(html, short_name(arena, rows->y.title));
     text_add(html, "\"]}");
 }
 
@@ -60,15 +60,17 @@ static void add_chart_values(Text *html, const PanelChartMap *map, Arena *arena)
 static bool add_chart(json_t *list, const PanelChart *chart, int index, bool is_dark, Arena scratch,
                       Error *err) {
     PlotBytes svg = {0};
-    PanelChartMap map = {0};
+    ChartMap map = {0};
     SheetChartFrame frame = {CHART_WIDTH, CHART_HEIGHT, arena_format(&scratch, "f%d-", index),
                              is_dark};
-    if (!sheet_chart_svg(chart, &frame, &scratch, &svg, &map, err)) return false;
+    const Theme theme = is_dark ? theme_dark() : theme_light();
+    const ChartRows *rows = panel_chart_rows(chart, &theme, &scratch);
+    if (!sheet_chart_svg(rows, &frame, &scratch, &svg, &map, err)) return false;
     Text values = {.arena = &scratch};
     json_t *to = page_add(list);
     bool is_told = index == 0 || strcmp(chart[-1].caption, chart->caption) != 0;
-    if (map.kind == PANEL_CHART_POLAR) add_polar_values(&values, &map);
-    else if (map.kind == PANEL_CHART_AXES) add_chart_values(&values, &map, &scratch);
+    if (map.kind == CHART_POLAR) add_polar_values(&values, &map, &rows->polar);
+    else if (map.kind == CHART_AXES) add_chart_values(&values, &map, rows, &scratch);
     page_set(to, "map", values.data);
     page_set(to, "title", chart->title);
     page_set(to, "subtitle", chart->subtitle);
