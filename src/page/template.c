@@ -90,6 +90,7 @@ typedef struct Render {
     Arena *scratch;
     Error *err;
     const json_t *context[DEPTH_MOST]; /* the innermost last */
+    const json_t *names[DEPTH_MOST]; /* of an item: the members of all items of its list; or NULL */
     int depth;
     bool is_csv, is_indented; /* kinds of files: .csv; all but .html */
     const char *file, *text;  /* the template in hand, */
@@ -148,8 +149,10 @@ static const json_t *look_up(const Render *r) {
     size_t first = strcspn(name, ".");
     const json_t *found = NULL;
     if (!strcmp(name, ".")) return r->context[r->depth - 1];
-    for (int i = r->depth - 1; i >= 0 && !found; i--)
+    for (int i = r->depth - 1; i >= 0 && !found; i--) {
         found = json_object_getn(r->context[i], name, first);
+        if (!found && json_object_getn(r->names[i], name, first)) return NULL;
+    }
     for (name += first; found && *name; name += first) {
         first = strcspn(++name, ".");
         found = member_of(found, name, first);
@@ -231,8 +234,10 @@ static bool find_end(const Render *r, const char *at, const char *end, Tag *clos
 }
 
 /* The part of the template within a section, once for an item. */
-static bool render_item(Render *r, const json_t *item, const char *at, const char *end) {
+static bool render_item(Render *r, const json_t *item, const json_t *names, const char *at,
+                        const char *end) {
     if (r->depth == DEPTH_MOST) return fails(r, "is too deep at");
+    r->names[r->depth] = names;
     r->context[r->depth++] = item;
     bool ok = render(r, at, end);
     r->depth--;
@@ -248,11 +253,16 @@ static bool render_section(Render *r, const char *end, const char **after) {
     if (!find_end(r, open->after, end, &close)) return fails(r, "has no end of");
     *after = close.after;
     if (open->kind == TAG_EMPTY) return !is_empty(value) || render(r, open->after, close.begin);
-    for (size_t i = 0; !is_empty(value) && i < count; i++) {
+    json_t *names = count > 1 ? json_object() : NULL;
+    for (size_t i = 0; names && i < count; i++)
+        json_object_update_missing(names, json_array_get(value, i));
+    bool ok = true;
+    for (size_t i = 0; ok && !is_empty(value) && i < count; i++) {
         const json_t *item = json_is_array(value) ? json_array_get(value, i) : value;
-        if (!render_item(r, item, open->after, close.begin)) return false;
+        ok = render_item(r, item, names, open->after, close.begin);
     }
-    return true;
+    json_decref(names);
+    return ok;
 }
 
 /* One place of the stack goes to each, so that a part of itself comes to an end. */
@@ -262,7 +272,8 @@ static bool render_whole(Render *r, PageFile file) {
     part.text = file.text;
     part.is_csv = strstr(file.name, ".csv") != NULL;
     part.is_indented = !strstr(file.name, ".html");
-    return render_item(&part, r->context[r->depth - 1], file.text, file.text + strlen(file.text));
+    return render_item(&part, r->context[r->depth - 1], r->names[r->depth - 1], file.text,
+                       file.text + strlen(file.text));
 }
 
 static bool render_part(Render *r) {

@@ -16,9 +16,10 @@
  *                     that file as it stands, so that a page needs nothing beside it
  *
  * Escaped is as the file's kind requires: .html and .xml as markup, .csv as a cell (RFC 4180).
- * Names are looked up from the innermost section outwards. Comments, spaces at the start of a
- * line (of HTML), and lines that hold nothing but one of these stay behind: templates are
- * indented, and read well in a browser as they lie there. There is no other logic.
+ * Names are looked up from the innermost section outwards; one that another item of the same list
+ * has, and this one lacks, is absent, whatever lies around has that name. Comments, spaces at the
+ * start of a line (of HTML), and lines that hold nothing but one of these stay behind: templates
+ * are indented, and read well in a browser as they lie there. There is no other logic.
  *
  * Memory   the text's arena, and scratch for the texts of formats.
  * Threads  one at a time per text; templates are constant.

@@ -21,6 +21,7 @@ static const PageFormat FORMATS[] = {{"doubled", doubled}, {NULL, NULL}};
 static const char VALUES[] =
     "{'text': 'a<b', 'empty': '', 'null': null, 'yes': true, 'no': false, 'one': 1, 'zero': 0,"
     " 'real': 0.0, 'pi': 3.14159, 'list': [{'name': 'x'}, {'name': 'y'}], 'none': [],"
+    " 'mixed': [{'text': 't'}, {}],"
     " 'words': ['p', 'q'], 'object': {'inner': {'name': 'deep'}}, 'name': 'outer',"
     " 'raw': '<b>&</b>'}";
 
@@ -55,6 +56,8 @@ TEST(a_template_shows_its_values) {
         {"{{zero}} day{{zero|s}}, {{one}} day{{one|s}}", "0 days, 1 day"},
         {"{{#list}}{{name}};{{/list}}", "x;y;"},
         {"{{#words}}[{{.}}]{{/words}}", "[p][q]"},
+        {"{{#mixed}}{{#text}}{{text}}{{/text}}{{^text}}-{{/text}}{{name}};{{/mixed}}",
+         "touter;-outer;"},
         {"{{#object}}{{inner.name}} {{name}}{{/object}}", "deep outer"},
         {"{{object.inner.name}}{{#object.inner}}-{{name}}{{/object.inner}}", "deep-deep"},
         {"{{#yes}}1{{/yes}}{{#text}}2{{/text}}{{#one}}3{{/one}}{{#real}}4{{/real}}", "1234"},
@@ -98,6 +101,7 @@ TEST(a_fault_of_a_template_is_named) {
                 {"{{{absent}}}", "has no value for 'absent'"},
                 {"{{object.absent}}", "has no value for 'object.absent'"},
                 {"{{#words}}{{name.x}}{{/words}}", "has no value for 'name.x'"},
+                {"{{#mixed}}{{text}}{{/mixed}}", "has no value for 'text'"},
                 {"{{pi|odd}}", "has no such format: 'pi'"},
                 {"{{pi|f10}}", "has no such format: 'pi'"},
                 {"{{#yes}}", "has no end of 'yes'"},
