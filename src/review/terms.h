@@ -34,6 +34,8 @@
 #define TERM_OTHER_PART \
     "judged at another part of the symbol: %.0f to %.0f %% across its content, %.0f to %.0f %% down"
 
+#define TERM_COLOUR_AT_WORST "; colour judged at their worst alone"
+
 /* ---- what to do -------------------------------------------------------------------------- */
 
 #define TERM_RAISE "raise the brightness level from %s to %s"

@@ -420,6 +420,7 @@ typedef struct ReviewSweep {
     double longest_failure_minutes; /* at a stretch; NaN: the sweep has no times */
     double failed_minutes;          /* that share of the time that is swept, under one heading;
                                        NaN likewise */
+    const char *headings;           /* "heading 90°", "mean of 4 headings"; NULL likewise */
     double middle_contrast;         /* of an eye box: ratio at the worst step of its middle, whose
                                        steps these are; NaN: one point, or nothing is seen */
     ReviewCase worst;

@@ -61,8 +61,8 @@ def check_list(report, case, what):
     report.claim(len(case["remedies"]) <= 1, f"{what}: {case['remedies']}")
     for remedy in case["remedies"]:
         words, ratio = remedy["what"], remedy["contrast_ratio"]
-        report.claim(re.match(r"(raise the brightness level|dim) from [\d.e-]+ % to [\d.e-]+ %", words),
-                     f"{what}: {words}")
+        report.claim(re.match(r"(raise the brightness level|dim) from [\d.e-]+ % to [\d.e-]+ %",
+                              words), f"{what}: {words}")
         report.claim(remedy["level"] <= 1, f"{what}: more than the display has: {words}")
         report.claim(ratio > case["contrast_interval"][1], f"{what}: {words} gives {ratio}")
 

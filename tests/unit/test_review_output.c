@@ -392,6 +392,7 @@ static bool is_optional(const char *key, const json_t *object) {
                                         "document",
                                         "superseded_by",
                                         "failed_minutes",
+                                        "headings",
                                         "sha256"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;

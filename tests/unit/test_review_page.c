@@ -379,6 +379,14 @@ TEST(sweeps_that_fail_come_first) {
     review.sweeps[1].failed_minutes = 340;
     assert_string_equal(words_how_often(&review.sweeps[1], &arena),
                         "340 minutes a year, 7 min at a stretch");
+    review.sweeps[1].headings = "heading 90°";
+    assert_string_equal(words_how_often(&review.sweeps[1], &arena),
+                        "340 minutes a year (heading 90°), 7 min at a stretch");
+    assert_string_equal(words_sweep_colour(&review.sweeps[1]), "");
+    review.sweeps[1].worst.colour_count = 1;
+    assert_string_equal(words_sweep_colour(&review.sweeps[1]),
+                        "; colour judged at their worst alone");
+    review.sweeps[1].worst.colour_count = 0;
     review.sweeps[1].failed_minutes = review.sweeps[1].longest_failure_minutes = NAN;
     review.sweeps[1].cases = 175; /* directions alone */
     assert_string_equal(words_how_often(&review.sweeps[1], &arena),

@@ -452,8 +452,8 @@ static inline Review fixture_odd_review(Arena *arena) {
                      .is_strict = true};
     review.cases[0] = wild;
     review.cases[1] = bare;
-    review.sweeps[0] =
-        (ReviewSweep){WILD_NAME, WILD_NAME, WILD_NAME, 0, NAN, NAN, NAN, NAN, wild, WILD_NAME};
+    review.sweeps[0] = (ReviewSweep){WILD_NAME, WILD_NAME, WILD_NAME, 0,    NAN,      NAN,
+                                     NAN,       WILD_NAME, NAN,       wild, WILD_NAME};
     review_decide(&review);
     return review;
 }

@@ -62,7 +62,7 @@ static void print_sweep(const ReviewSweep *s, Arena scratch) {
     print("%-16s %s, %s, %s: %sfails: %s%s", verdict_names[sweep_verdict(s)], s->condition, s->eye,
           s->symbol, sweep_has_box(s) ? "middle eye " : "", words_failing(s, &scratch),
           is_sure ? "" : " by its steps alone, in none that was read again");
-    print("; %ld suns judged", s->cases);
+    print("; %ld suns judged%s", s->cases, words_sweep_colour(s));
     if (sweep_has_box(s) && s->middle_contrast > 0)
         print("; at its own worst %s", words_ratio_as(&s->worst, s->middle_contrast, &scratch));
     if (sweep_has_box(s))

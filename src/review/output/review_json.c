@@ -30,6 +30,7 @@ TABLE(sweep_json, ReviewSweep, OWN(TEXT, ReviewSweep, condition), OWN(TEXT, Revi
       OWN(COUNT, ReviewSweep, cases), OWN(FIGURE, ReviewSweep, failed_share),
       OWN(FIGURE, ReviewSweep, longest_failure_minutes),
       LATER("failed_minutes", FIGURE, ReviewSweep, failed_minutes),
+      LATER("headings", TEXT, ReviewSweep, headings),
       LATER("middle_eye_contrast_ratio", FIGURE, ReviewSweep, middle_contrast),
       PART("worst", MUST, ReviewSweep, worst, case_json), OWN(TEXT, ReviewSweep, table));
 

@@ -221,6 +221,7 @@ static bool set_sweep(const PageValues *v, const ReviewSweep *s, Error *err) {
     values_set_verdict(to, sweep_verdict(s));
     page_set(to, "how_often", words_how_often(s, arena));
     page_set(to, "failing", words_failing(s, arena));
+    page_set(to, "colour", words_sweep_colour(s));
     page_set_flag(to, "is_unsure", sweep_verdict(s) != VERDICT_FAIL && s->failed_share > 0);
     return set_drawings(v, to, s, err);
 }

@@ -198,9 +198,11 @@ bool sweep_has_box(const ReviewSweep *sweep) {
 
 static const char *share_words(const ReviewSweep *sweep, Arena *arena) {
     double minutes = sweep->failed_minutes;
+    const char *of = sweep->headings ? arena_format(arena, " (%s)", sweep->headings) : "";
     if (minutes >= 600)
-        return arena_format(arena, "%s hours a year", words_figure(minutes / 60, arena));
-    if (minutes > 0) return arena_format(arena, "%s minutes a year", words_figure(minutes, arena));
+        return arena_format(arena, "%s hours a year%s", words_figure(minutes / 60, arena), of);
+    if (minutes > 0)
+        return arena_format(arena, "%s minutes a year%s", words_figure(minutes, arena), of);
     if (!isnan(sweep->longest_failure_minutes))
         return arena_format(arena, "%s of the time", words_share(sweep->failed_share, arena));
     return arena_format(arena, "%ld of %ld tested sun positions",
@@ -221,6 +223,10 @@ static const char *words_middle(const ReviewSweep *sweep, Arena *arena) {
     if (!(sweep->middle_contrast > 0)) return arena_format(arena, "middle eye: %s", often);
     return arena_format(arena, "middle eye: %s, at its worst %s", often,
                         words_ratio_as(&sweep->worst, sweep->middle_contrast, arena));
+}
+
+const char *words_sweep_colour(const ReviewSweep *sweep) {
+    return sweep->worst.colour_count ? TERM_COLOUR_AT_WORST : "";
 }
 
 const char *words_how_often(const ReviewSweep *sweep, Arena *arena) {

@@ -79,14 +79,17 @@ const char *words_verdict(Verdict verdict);
  * worst of those at every point. */
 bool sweep_has_box(const ReviewSweep *sweep);
 
-/* How often its steps fail: "340 minutes a year, 48 min at a stretch", "7 of 186 tested sun
- * positions", "never"; of a review that says no more "0.5 % of the time". */
+/* How often its steps fail: "340 minutes a year (heading 90°), 48 min at a stretch", "7 of 186
+ * tested sun positions", "never"; of a review that says no more "0.5 % of the time". */
 const char *words_failing(const ReviewSweep *sweep, Arena *arena);
 
 /* How often a sweep fails, of a box "44 % of eyes at its worst; middle eye: ..."; where none of
  * its steps does "at its worst", and where its worst does not "never", "too close", "cannot be
  * judged". */
 const char *words_how_often(const ReviewSweep *sweep, Arena *arena);
+
+/* "; colour judged at their worst alone" of a symbol whose colour is limited; else "". */
+const char *words_sweep_colour(const ReviewSweep *sweep);
 
 /* Seen without colours too: "✓", "✗", "≈", "∅". */
 const char *words_mark(Verdict verdict);

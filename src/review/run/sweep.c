@@ -212,6 +212,15 @@ static void set_when(const SweepReport *to, const SweepSun *sun, ReviewCase *c) 
                            sweep_weather_text(to->sweep->run->request, condition, sun, to->arena));
 }
 
+/* Under which the minutes of a year are. */
+static const char *headings_of(const SweepReport *to) {
+    const ReviewCondition *c = to->sweep->setup->condition;
+    if (!to->suns->has_time) return NULL;
+    if (c->heading_count > 1)
+        return arena_format(to->arena, "mean of %d headings", c->heading_count);
+    return arena_format(to->arena, "heading %g°", c->headings_deg[0]);
+}
+
 static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight) {
     const char *symbol = sight->symbol->name;
     ReviewSweep sweep = {.condition = to->sweep->setup->condition->name,
@@ -220,6 +229,7 @@ static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight) {
                          .symbol = arena_string(to->arena, symbol, strlen(symbol)),
                          .longest_failure_minutes = to->suns->has_time ? 0 : (double)NAN,
                          .failed_minutes = to->suns->has_time ? 0 : (double)NAN,
+                         .headings = headings_of(to),
                          .middle_contrast = (double)NAN};
     sweep.worst = sun_figures_unread(to->sweep, sight, to->arena);
     sweep.worst.symbol = sweep.symbol;
