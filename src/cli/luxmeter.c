@@ -81,14 +81,6 @@ static json_t *json_of(const FacingPoint *at, const Illuminance *e, long samples
                      at->normal[1], at->normal[2]);
 }
 
-static bool print_json(const Places *places, const Illuminance *found, long samples, Error *err) {
-    if (places->is_single) return cli_print_json(json_of(places->list, found, samples), err);
-    json_t *list = json_array();
-    for (int i = 0; i < places->count; i++)
-        json_array_append_new(list, json_of(&places->list[i], &found[i], samples));
-    return cli_print_json(list, err);
-}
-
 static void print_csv(const Places *places, const Illuminance *found) {
     print("x,y,z,nx,ny,nz,illuminance_lx,low_lx,high_lx,cie_x,cie_y\n");
     for (int i = 0; i < places->count; i++) {
@@ -101,31 +93,27 @@ static void print_csv(const Places *places, const Illuminance *found) {
     }
 }
 
-static void print_text(const Places *places, const Illuminance *found) {
-    float xy[2];
-    xy_of(found, xy);
-    if (places->is_single) {
-        print("illuminance  %.6g lx, 95 %% interval %.6g to %.6g\nx, y         %.4f, %.4f\n",
-              found->xyz_lx[1], found->low_lx, found->high_lx, (double)xy[0], (double)xy[1]);
-        return;
-    }
-    print("%9s %9s %9s  %7s %7s %7s  %12s %12s %12s  %-6s  %s\n", "x", "y", "z", "nx", "ny", "nz",
-          "lx", "low lx", "high lx", "CIE x", "CIE y");
-    for (int i = 0; i < places->count; i++) {
-        const double *p = places->list[i].place, *n = places->list[i].normal;
-        xy_of(&found[i], xy);
-        print("%9.4g %9.4g %9.4g  %7.4f %7.4f %7.4f  %12.6g %12.6g %12.6g  %.4f  %.4f\n", p[0],
-              p[1], p[2], n[0], n[1], n[2], found[i].xyz_lx[1], found[i].low_lx, found[i].high_lx,
-              (double)xy[0], (double)xy[1]);
-    }
-}
+static const Column ILLUMINANCE[] = {{.key = "illuminance_lx",
+                                      .words = "illuminance",
+                                      .unit = "lx",
+                                      .interval = "illuminance_interval"},
+                                     {.key = "xy", .words = "x, y", .is_fixed = true, .places = 4},
+                                     {.key = "place", .words = "at", .unit = "m"},
+                                     COLUMN_DIGITS("normal", "facing", NULL, 4)};
+static const TableKind ILLUMINANCE_KIND = TABLE_KIND("illuminance", NULL, ILLUMINANCE);
 
 static bool print_answer(const Cli *cli, const LuxmeterRequest *request, const Places *places,
                          const Illuminance *found, Error *err) {
-    if (cli->json) return print_json(places, found, request->samples, err);
-    if (request->wants_csv) print_csv(places, found);
-    else print_text(places, found);
-    return true;
+    if (request->wants_csv) {
+        print_csv(places, found);
+        return true;
+    }
+    json_t *list = json_array();
+    for (int i = 0; i < places->count; i++)
+        json_array_append_new(list, json_of(&places->list[i], &found[i], request->samples));
+    json_t *answer = places->is_single ? json_incref(json_array_get(list, 0)) : json_incref(list);
+    json_decref(list);
+    return cli_print_answer(&ILLUMINANCE_KIND, answer, cli->json, err);
 }
 
 /* ---- the measurement --------------------------------------------------------------------- */
