@@ -218,15 +218,24 @@ static const char *cell_text(const Cell *cell, const Column *column, Arena *aren
     return text.data;
 }
 
-const char *table_cell_text(const Table *table, int row, int column) {
-    const Cell *cell = &table->cells[row * table->kind->column_count + column];
-    const char *words = cell_text(cell, &table->kind->columns[column], table->arena);
+static const Cell *cell_of_row(const Table *table, int row, int column) {
+    return &table->cells[row * table->kind->column_count + column];
+}
+
+/* The views' own: what a text grows in may be a copy of the table's arena. */
+static const char *words_of(const Table *table, int row, int column, Arena *arena) {
+    const Cell *cell = cell_of_row(table, row, column);
+    const char *words = cell_text(cell, &table->kind->columns[column], arena);
     return words || cell->kind == CELL_ABSENT ? words : NOTHING;
+}
+
+const char *table_cell_text(const Table *table, int row, int column) {
+    return words_of(table, row, column, table->arena);
 }
 
 static bool has_column(const Table *table, int column) {
     for (int r = 0; r < table->row_count; r++)
-        if (table_cell_text(table, r, column)) return true;
+        if (cell_of_row(table, r, column)->kind != CELL_ABSENT) return true;
     return table->row_count == 0;
 }
 
@@ -263,10 +272,12 @@ static const char *heading(const Column *column, Arena *arena) {
 void table_add_text(const Table *table, Text *text) {
     const TableKind *kind = table->kind;
     int width[TABLE_COLUMNS];
+    bool is_right[TABLE_COLUMNS];
     for (int c = 0; c < kind->column_count; c++) {
-        width[c] = is_read(table, c) ? characters(heading(&kind->columns[c], table->arena)) : -1;
+        is_right[c] = is_number_column(table, c);
+        width[c] = is_read(table, c) ? characters(heading(&kind->columns[c], text->arena)) : -1;
         for (int r = 0; width[c] >= 0 && r < table->row_count; r++) {
-            const char *words = table_cell_text(table, r, c);
+            const char *words = words_of(table, r, c, text->arena);
             if (words && characters(words) > width[c]) width[c] = characters(words);
         }
     }
@@ -275,14 +286,13 @@ void table_add_text(const Table *table, Text *text) {
         int owed = 0; /* blanks, which no line ends with */
         for (int c = 0; c < kind->column_count; c++) {
             if (width[c] < 0) continue;
-            const char *words =
-                r < 0 ? heading(&kind->columns[c], table->arena) : table_cell_text(table, r, c);
+            const char *words = r < 0 ? heading(&kind->columns[c], text->arena)
+                                      : words_of(table, r, c, text->arena);
             if (!words) words = "";
             int rest = width[c] - characters(words);
-            bool is_right = is_number_column(table, c);
-            add_blanks(text, owed + (is_right ? rest : 0));
+            add_blanks(text, owed + (is_right[c] ? rest : 0));
             text_add_printable(text, words, strlen(words));
-            owed = 2 + (is_right ? 0 : rest);
+            owed = 2 + (is_right[c] ? 0 : rest);
         }
         text_add(text, "\n");
     }
@@ -371,11 +381,14 @@ json_t *table_json(const Table *table) {
 }
 
 void table_add_csv(const Table *table, Text *csv) {
+    bool has[TABLE_COLUMNS];
+    for (int c = 0; c < table->kind->column_count; c++) has[c] = has_column(table, c);
     for (int r = -1; r < table->row_count; r++) {
         bool is_first = true;
         for (int c = 0; c < table->kind->column_count; c++) {
-            if (!has_column(table, c)) continue;
-            const char *words = r < 0 ? table->kind->columns[c].key : table_cell_text(table, r, c);
+            if (!has[c]) continue;
+            const char *words =
+                r < 0 ? table->kind->columns[c].key : words_of(table, r, c, csv->arena);
             if (!is_first) text_add(csv, ",");
             text_add_cell(csv, words ? words : "");
             is_first = false;
@@ -386,15 +399,20 @@ void table_add_csv(const Table *table, Text *csv) {
 
 json_t *table_page(const Table *table) {
     json_t *columns = json_array(), *rows = json_array();
+    bool is_shown[TABLE_COLUMNS], is_right[TABLE_COLUMNS];
+    for (int c = 0; c < table->kind->column_count; c++) {
+        is_shown[c] = is_read(table, c);
+        is_right[c] = is_number_column(table, c);
+    }
     for (int r = -1; r < table->row_count; r++) {
         json_t *cells = r < 0 ? columns : json_array();
         for (int c = 0; c < table->kind->column_count; c++) {
-            if (!is_read(table, c)) continue;
+            if (!is_shown[c]) continue;
             const char *words = r < 0 ? heading(&table->kind->columns[c], table->arena)
                                       : table_cell_text(table, r, c);
-            json_array_append_new(cells, json_pack("{s:o, s:b}", r < 0 ? "title" : "text",
-                                                   json_text(words ? words : ""), "n",
-                                                   (int)is_number_column(table, c)));
+            json_array_append_new(cells,
+                                  json_pack("{s:o, s:b}", r < 0 ? "title" : "text",
+                                            json_text(words ? words : ""), "n", (int)is_right[c]));
         }
         if (r >= 0)
             json_array_append_new(rows, json_pack("{s:b, s:o}", "is_total",
