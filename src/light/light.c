@@ -26,12 +26,12 @@ static const float *levels_of(const Scene *scene, Arena *arena) {
     return levels;
 }
 
-/* Is no display more than so many times as bright, or as dark, as when emitters were built? */
-static bool fits_levels(const Lights *lights, float times) {
+/* Is no display much brighter, or darker, than when emitters were built? */
+static bool fits_levels(const Lights *lights) {
     const Scene *scene = lights->scene;
     for (int i = 0; i < scene->display_count; i++) {
         float now = scene->displays[i].level, then = lights->levels[i];
-        if (!(now <= times * then && then <= times * now)) return false;
+        if (!(now <= LEVEL_CHANGE * then && then <= LEVEL_CHANGE * now)) return false;
     }
     return true;
 }
@@ -49,18 +49,8 @@ bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err) {
     return true;
 }
 
-bool lights_under_sky(const Lights *before, Arena *arena, Lights **out, Error *err) {
-    Sky sky;
-    if (!fits_levels(before, 1)) return lights_build(before->scene, arena, out, err);
-    if (!sky_build(&before->scene->environment, arena, &sky, err)) return false;
-    *out = ARENA_NEW(arena, Lights, 1);
-    **out = *before;
-    (*out)->sky = sky;
-    return true;
-}
-
 const Lights *lights_with_levels(const Lights *before, Arena *arena) {
-    if (fits_levels(before, LEVEL_CHANGE)) return before;
+    if (fits_levels(before)) return before;
     Lights *lights = ARENA_NEW(arena, Lights, 1);
     *lights = *before;
     lights->emitters = emitters_build(before->scene, arena);

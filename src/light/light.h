@@ -42,11 +42,6 @@ bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err);
  * times those that emitters were sorted by: then only the noise is a little higher. */
 const Lights *lights_with_levels(const Lights *before, Arena *arena);
 
-/* Lights of the same scene under its environment as it is now. Emitters are shared with
- * `before` where all displays have the levels that they were sorted by, since sorting takes
- * long; the result does not depend on what was lit before. Fails as lights_build. */
-bool lights_under_sky(const Lights *before, Arena *arena, Lights **out, Error *err);
-
 /* Has this set anything that emits? */
 bool lights_has(const Lights *lights, LightSet set);
 

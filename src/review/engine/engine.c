@@ -83,14 +83,16 @@ typedef struct Conditions {
     int count;
 } Conditions;
 
+/* Scenes of the last stay open: its worst case may have a picture. */
 static bool take_all(const ReviewRun *run, Arena *arena, Conditions *out, Error *err) {
-    int count = run->request->condition_count;
+    int count = run->request->condition_count, before = NO_ID;
     *out = (Conditions){ARENA_NEW(arena, ConditionFound, count), ARENA_NEW(arena, int, count), 0};
     for (int i = 0; i < count; i++) {
         if (!review_is_wanted(run, i)) continue;
+        if (before != NO_ID && !review_scene_comes_again(run, before))
+            scenes_kept_close(run->means.scenes, before);
         if (!take_condition(run, i, arena, &out->list[out->count], err)) return false;
-        if (!review_scene_comes_again(run, i)) scenes_kept_close(run->means.scenes, i);
-        out->ids[out->count++] = i;
+        out->ids[out->count++] = before = i;
     }
     return true;
 }

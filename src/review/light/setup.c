@@ -150,13 +150,26 @@ static void set_scene_levels(Setup *setup) {
 
 #define SCENE_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
+/* How a scene is lit: for who lights it so again, or alike but for its levels. */
+typedef struct KeptLight {
+    Arena of_sky, of_levels; /* what is made of it; the second begins behind the first's */
+    const char *sky;         /* all that decides it; NULL: nothing is lit */
+    PathContext by_sky;      /* with levels of any kind */
+    const ReviewChange *change;
+    const ReviewLevel *level;
+    float *levels; /* of the displays, which follow from these, */
+    double sensor_lux;
+    PathContext context; /* with them */
+} KeptLight;
+
 struct KeptScene {
     Setup setup; /* as it was loaded, with that environment: */
     Environment environment;
     const char *key;
     int condition_id; /* that used it last */
     bool is_open;
-    Arena arena; /* of all of it, and of this */
+    Arena arena; /* of all of it, and of this, but: */
+    KeptLight lit;
     KeptScene *next;
 };
 
@@ -195,6 +208,7 @@ static bool keep(const SetupOptions *options, Problems *problems, KeptScene **ou
     kept->environment = kept->setup.scene->environment;
     kept->key = key_of(options, &arena);
     kept->arena = arena;
+    kept->lit.of_sky = arena_reserve(SCENE_BYTES);
     kept->next = options->means.scenes->first;
     options->means.scenes->first = *out = kept;
     return true;
@@ -226,6 +240,7 @@ void scenes_kept_close(ScenesKept *scenes, int condition_id) {
         }
         Arena arena = kept->arena;
         *at = kept->next;
+        arena_release(&kept->lit.of_sky);
         unload(&kept->setup);
         arena_release(&arena);
     }
@@ -233,27 +248,24 @@ void scenes_kept_close(ScenesKept *scenes, int condition_id) {
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-/* What paths need besides them is of the lights before. Lamps are known once for a kept scene: by
- * the one that opened it, before it is lit by several threads. */
-static bool take_lights(Setup *setup, Arena *arena, Error *err) {
+/* by_sky: a context of the scene under the same sky, or NULL. Lamps are known once for a kept
+ * scene. */
+static bool set_light(Setup *setup, const PathContext *by_sky, Arena *arena, Error *err) {
     Lights *lights;
     KeptScene *kept = setup->kept;
-    const Lights *before = setup->context.lights;
-    if (!(before ? lights_under_sky(before, arena, &lights, err)
-                 : lights_build(setup->scene, arena, &lights, err)))
-        return false;
-    setup->context.lights = lights;
-    if (!kept || setup->context.knows_lamps) return true;
-    path_context_know_lamps(&kept->setup.context, lights, &kept->arena);
-    memcpy(setup->context.beams, kept->setup.context.beams, sizeof setup->context.beams);
-    setup->context.knows_lamps = true;
+    if (!lights_build(setup->scene, arena, &lights, err)) return false;
+    if (kept && !setup->context.knows_lamps) {
+        path_context_know_lamps(&kept->setup.context, lights, &kept->arena);
+        memcpy(setup->context.beams, kept->setup.context.beams, sizeof setup->context.beams);
+        setup->context.knows_lamps = true;
+    }
+    setup->context = by_sky ? path_context_relevel(by_sky, lights, arena)
+                            : path_context_relight(&setup->context, lights, arena);
     return true;
 }
 
 bool setup_relight(Setup *setup, Arena *arena, Error *err) {
-    if (!take_lights(setup, arena, err)) return false;
-    setup->context = path_context_relight(&setup->context, setup->context.lights, arena);
-    return true;
+    return set_light(setup, NULL, arena, err);
 }
 
 Reading setup_meter(const Setup *setup, LitPoint head, uint32_t seed, const ReadingGoal *goal,
@@ -296,33 +308,71 @@ static void set_fixed_levels(Setup *setup) {
     if (!is_curve && (level || setup->request->change)) set_levels(setup, level);
 }
 
-bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Error *err) {
+/* Levels of a curve: by what its sensor reads. */
+static void follow_sensor(Setup *setup, Arena *arena) {
     const ReviewLevel *level = level_of(setup);
-    if (environment) setup->scene->environment = *environment;
-    set_fixed_levels(setup);
-    if (!setup_relight(setup, arena, err)) return false;
-    if (!level || !level->is_curve) return true;
+    if (!level || !level->is_curve) return;
     LitPoint sensor = {scene_from_world(setup->scene->origin, level->position_m),
                        vec3_from_doubles(level->normal), false};
     ReadingGoal goal = {.precision = SENSOR_PRECISION, .most = SENSOR_PATHS};
     setup->sensor_lux = setup_meter(setup, sensor, SENSOR_SEED, &goal, *arena).reflected;
-    if (!set_levels(setup, level)) return true;
+    if (!set_levels(setup, level)) return;
     const Lights *lights = lights_with_levels(setup->context.lights, arena);
     setup->context = path_context_relevel(&setup->context, lights, arena);
+}
+
+static void keep_light(const Setup *setup, KeptLight *lit, Arena *arena) {
+    const Scene *scene = setup->scene;
+    lit->change = setup->request->change;
+    lit->level = level_of(setup);
+    lit->sensor_lux = setup->sensor_lux;
+    lit->context = setup->context;
+    lit->levels = ARENA_NEW(arena, float, scene->display_count);
+    for (int i = 0; i < scene->display_count; i++) lit->levels[i] = scene->displays[i].level;
+}
+
+static void take_light(Setup *setup, const KeptLight *lit) {
+    setup->sensor_lux = lit->sensor_lux;
+    setup->context = lit->context;
+    for (int i = 0; i < setup->scene->display_count; i++)
+        setup->scene->displays[i].level = lit->levels[i];
+}
+
+/* What the rays of the sun do takes longest, and hangs on no level. */
+static bool light_kept(Setup *setup, KeptScene *kept, Error *err) {
+    KeptLight *lit = &kept->lit;
+    Arena scratch = kept->arena;
+    Text sky = {.arena = &scratch};
+    identity_add_environment(&sky, setup->scene);
+    bool is_same_sky = lit->sky && !strcmp(lit->sky, sky.data);
+    if (is_same_sky && lit->change == setup->request->change && lit->level == level_of(setup)) {
+        take_light(setup, lit);
+        return true;
+    }
+    if (!is_same_sky) lit->of_levels = lit->of_sky;
+    const char *of =
+        is_same_sky ? lit->sky : arena_string(&lit->of_levels, sky.data, strlen(sky.data));
+    Arena room = lit->of_levels;
+    lit->sky = NULL; /* what lay in the room is gone */
+    if (!set_light(setup, is_same_sky ? &lit->by_sky : NULL, &room, err)) return false;
+    if (!is_same_sky) {
+        lit->by_sky = setup->context;
+        lit->of_levels = room;
+    }
+    follow_sensor(setup, &room);
+    keep_light(setup, lit, &room);
+    lit->sky = of;
     return true;
 }
 
-bool setup_before_light(Setup *setup, Arena *arena, Error *err) {
+bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Error *err) {
+    if (environment) setup->scene->environment = *environment;
     set_scene_levels(setup);
     set_fixed_levels(setup);
-    return take_lights(setup, arena, err);
-}
-
-bool setup_light_again(Setup *setup, const Setup *before, const Environment *environment,
-                       Arena *arena, Error *err) {
-    *setup = *before;
-    set_scene_levels(setup);
-    return setup_light(setup, environment, arena, err);
+    if (setup->kept) return light_kept(setup, setup->kept, err);
+    if (!set_light(setup, NULL, arena, err)) return false;
+    follow_sensor(setup, arena);
+    return true;
 }
 
 /* ---- the sun ----------------------------------------------------------------------------- */

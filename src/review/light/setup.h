@@ -27,8 +27,9 @@ typedef struct MomentGuide {
     GuideScene scene;
 } MomentGuide;
 
-/* Scenes that stay loaded, with all that their surfaces need, for other conditions that have
- * them: what is found in one does not hang on what was lit in it before. */
+/* Scenes that stay loaded, with all that their surfaces need and as they are lit, for other
+ * conditions and pictures that have them: what is found in one does not hang on what was lit in
+ * it before. */
 typedef struct KeptScene KeptScene;
 typedef struct ScenesKept {
     KeptScene *first;
@@ -74,15 +75,10 @@ bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, S
 bool setup_scene(const SetupOptions *options, Arena *arena, Problems *problems, Scene **out,
                  Error *err);
 
-/* Lights it: the environment, then the levels, which may follow the light on a sensor. */
+/* Lights it: the environment, then the levels, which may follow the light on a sensor. A scene
+ * that stays holds its light until it is lit by another sky, in memory of its own: whoever
+ * lights it so again, or with other levels, takes over what is found, to the same bits. */
 bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Error *err);
-
-/* For a setup that is lit by one sky after the other: with the levels that it has before any
- * light is known, its emitters sorted for them. No path may be traced by it. *before: this
- * setup, which must outlive all that are lit from it. */
-bool setup_before_light(Setup *setup, Arena *arena, Error *err);
-bool setup_light_again(Setup *setup, const Setup *before, const Environment *environment,
-                       Arena *arena, Error *err);
 
 /* For the scene as it is now, its environment and levels set otherwise. What was built for its
  * surfaces, and the lights before, stay in their arenas: these must not end before the

@@ -187,8 +187,9 @@ static bool read_worst(SweepReport *to, const Sight *sight, const SweepSun *sun,
     Environment dark = sweep->setup->scene->environment;
     ReviewRequest request = *sweep->run->request;
     request.seed += picks ? PICK_SEED : 0;
-    if (!sweep_light_sun(sweep, sun, &sky, err)) return false;
-    Setup setup = sweep->lit->setup;
+    Setup setup = *sweep->setup;
+    Arena scratch = to->scratch;
+    if (!setup_light(&setup, &sky, &scratch, err)) return false;
     setup.request = &request;
     CaseTools tools = {.setup = &setup,
                        .profile = sweep->run->profile,
@@ -452,18 +453,13 @@ static bool sweep_all(Sweep *sweep, Arena *scratch, Arena *arena, ReviewOutcome 
 
 bool run_sweep(const ReviewRun *run, Setup *setup, Arena *arena, ReviewOutcome *out, Error *err) {
     Arena scratch = arena_reserve(SWEEP_BYTES);
-    SweepLit lit = {
-        .of = setup, .room = arena_reserve(SWEEP_BYTES), .fresh = arena_reserve(SWEEP_BYTES)};
     Sweep sweep = {.run = run,
                    .setup = setup,
-                   .lit = &lit,
                    .figures = arena_reserve(SWEEP_BYTES),
                    .between = arena_reserve(SWEEP_BYTES)};
     bool ok = sweep_all(&sweep, &scratch, arena, out, err);
     arena_release(&sweep.between);
     arena_release(&sweep.figures);
-    arena_release(&lit.fresh);
-    arena_release(&lit.room);
     arena_release(&scratch);
     return ok;
 }

@@ -158,42 +158,6 @@ bool sweep_light_dark(Setup *setup, float level, Arena *arena, Error *err) {
     return setup_relight(setup, arena, err);
 }
 
-static bool is_same_light(const SweepSun *a, const SweepSun *b) {
-    return a->elevation_deg == b->elevation_deg && a->compass_deg == b->compass_deg &&
-           a->heading_deg == b->heading_deg && a->step == b->step;
-}
-
-/* Once a condition. */
-static bool make_ready(SweepLit *lit, Error *err) {
-    Arena arena = lit->room;
-    if (lit->is_ready) return true;
-    lit->ready = *lit->of;
-    lit->is_ready = setup_before_light(&lit->ready, &arena, err);
-    return lit->is_ready;
-}
-
-static bool light_afresh(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err) {
-    SweepLit *lit = sweep->lit;
-    Arena arena = lit->fresh;
-    Scene *scene = sweep->setup->scene;
-    if (!make_ready(lit, err)) return false;
-    lit->sun = *sun;
-    lit->is_lit = setup_light_again(&lit->setup, &lit->ready, sky, &arena, err);
-    if (!lit->is_lit) return false;
-    lit->levels = ARENA_NEW(&arena, float, scene->display_count);
-    for (int i = 0; i < scene->display_count; i++) lit->levels[i] = scene->displays[i].level;
-    return true;
-}
-
-bool sweep_light_sun(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err) {
-    SweepLit *lit = sweep->lit;
-    Scene *scene = sweep->setup->scene;
-    if (!lit->is_lit || !is_same_light(&lit->sun, sun)) return light_afresh(sweep, sun, sky, err);
-    scene->environment = *sky;
-    for (int i = 0; i < scene->display_count; i++) scene->displays[i].level = lit->levels[i];
-    return true;
-}
-
 /* ---- making them ------------------------------------------------------------------------- */
 
 static SweepMeter meter_at(Vec3 position, Vec3 normal) {

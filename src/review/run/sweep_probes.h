@@ -61,18 +61,6 @@ typedef struct Sight {
 /* Is enough of it seen to judge it (case_is_seen)? */
 bool sight_is_seen(const Sight *sight);
 
-/* The setup under the sun for which it was lit last: eyes that share a symbol often share its
- * worst. */
-typedef struct SweepLit {
-    const Setup *of;       /* the review's own */
-    bool is_ready, is_lit; /* of the condition in hand */
-    Setup ready;           /* before any sun shines */
-    SweepSun sun;
-    Setup setup;
-    float *levels;     /* of the displays */
-    Arena room, fresh; /* for all that they are made of */
-} SweepLit;
-
 typedef struct Sweep {
     const ReviewRun *run;
     Setup *setup;
@@ -92,17 +80,12 @@ typedef struct Sweep {
     bool has_hours;           /* of a weather file: probes do not use the table */
     const ReviewLevel *level; /* NULL: the scene's */
     SweepMeter *sensor;       /* of the level; NULL: it is fixed */
-    SweepLit *lit;
-    Arena figures; /* scratch for the figures of a condition */
-    Arena between; /* for what meters read between its suns */
+    Arena figures;            /* scratch for the figures of a condition */
+    Arena between;            /* for what meters read between its suns */
 } Sweep;
 
 /* The scene without sky and sun, its displays at one level. */
 bool sweep_light_dark(Setup *setup, float level, Arena *arena, Error *err);
-
-/* The scene under one of the condition's suns, in its sky, with the levels that follow from it:
- * sweep->lit. The environment stays in the scene. */
-bool sweep_light_sun(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err);
 
 /* Probes of the scene, and those of their responses that are kept. */
 bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err);
