@@ -62,8 +62,11 @@ static void add_fine_ray(const TileJob *job, Ray ray, const Wavelengths *wavelen
     PathContext eye = *job->context;
     SeenLight seen;
     PathStatistics counted = {0};
-    PathStart start = {
-        .context = &eye, .wavelengths = wavelengths, .sampler = sampler, .statistics = &counted};
+    PathStart start = {.context = &eye,
+                       .wavelengths = wavelengths,
+                       .sampler = sampler,
+                       .statistics = &counted,
+                       .manner = {.is_dark = true}};
     SeenRequest request = {.listener = NULL};
     float emitted[3];
     eye.max_bounces = 0;
@@ -201,8 +204,11 @@ static bool ray_shows(const DisplaySearch *search, const PathContext *eye, Sampl
     PathFeatures features;
     Wavelengths wavelengths;
     wavelengths_sample(sampler_1d(sampler), &wavelengths);
-    PathStart start = {
-        .context = eye, .wavelengths = &wavelengths, .sampler = sampler, .statistics = &uncounted};
+    PathStart start = {.context = eye,
+                       .wavelengths = &wavelengths,
+                       .sampler = sampler,
+                       .statistics = &uncounted,
+                       .manner = {.is_dark = true}};
     path_seen(&start, ray, &request, &seen);
     if (!seen.path.hit) return false;
     path_features(eye, &seen.path, &wavelengths, &features);

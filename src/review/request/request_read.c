@@ -86,7 +86,8 @@ static const RecordFormat precision_format = {"precision", sizeof(OWNER), PRECIS
 
 static const RecordRow FRAMES[] = {
     WHOLES("size", 0, width, 2, 1, 16384, "Pixels."),
-    NUMBER("noise", 0, noise, 1e-4, 1, "Relative error; 1: that of 4 samples, as a preview has."),
+    NUMBER("noise", 0, noise, 1e-4, 1,
+           "Relative error; 1: that of 4 samples about what is judged, of 1 elsewhere."),
     WHOLE("worst", 0, worst, 0, 1000, "How many of the worst cases are rendered."),
     FLAG("denoise", 0, is_denoised,
          "Whether they are shown without most of their noise: pictures alone, never figures. "

@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
+#include "base/mathf.h"
 #include "base/parallel.h"
 #include "base/units.h"
 #include "camera/camera.h"
@@ -66,7 +67,7 @@ static RenderOptions options_of(const FrameArgs *args) {
                            .height = all.y1,
                            .crop = all,
                            .end_sample = is_preview ? FRAMES_PREVIEW_SAMPLES : FRAMES_SAMPLES,
-                           .guided_samples = is_preview ? FRAMES_PREVIEW_SAMPLES : 0,
+                           .guided_samples = is_preview ? 1 : 0, /* what most pixels take */
                            .noise = is_preview ? 0 : request->frames.noise,
                            .max_bounces = SETUP_BOUNCES,
                            .noise_area = {all, FILM_ALL_PIXELS},
@@ -209,6 +210,34 @@ static const char *identity_of(const FrameArgs *args, const SceneCamera *camera,
 
 /* ---- making it --------------------------------------------------------------------------- */
 
+/* About the display, through whatever it is seen; all pixels where none of it can be told. */
+static FilmRect pixels_about(const Scene *scene, const ReviewDisplay *display,
+                             const Camera *camera) {
+    const Transform *t = &camera->world_from_camera;
+    float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int i = 0; i < display->part_count; i++) {
+        Vec3 box[2];
+        scene_part_box(scene, &scene->parts[display->part_ids[i]], &box[0], &box[1]);
+        for (int k = 0; k < 8; k++) {
+            Vec3 corner = {box[k & 1].x, box[k >> 1 & 1].y, box[k >> 2].z};
+            Vec3 d = vec3_sub(corner, t->origin);
+            float ahead = camera->is_perspective ? -vec3_dot(d, t->z) : 1;
+            if (camera->fisheye || !(ahead > 0))
+                return (FilmRect){0, 0, camera->width, camera->height};
+            Vec2 at = {vec3_dot(d, t->x) / (ahead * camera->half_width),
+                       -vec3_dot(d, t->y) / (ahead * camera->half_height)};
+            low[0] = min_f(low[0], at.x);
+            low[1] = min_f(low[1], at.y);
+            high[0] = max_f(high[0], at.x);
+            high[1] = max_f(high[1], at.y);
+        }
+    }
+    float x = 0.5f * (float)camera->width, y = 0.5f * (float)camera->height;
+    return (FilmRect){(int)(x * clampf(1 + low[0], 0, 2)), (int)(y * clampf(1 + low[1], 0, 2)),
+                      (int)ceilf(x * clampf(1 + high[0], 0, 2)),
+                      (int)ceilf(y * clampf(1 + high[1], 0, 2))};
+}
+
 static bool render(const FrameArgs *args, FrameKept *kept, const SceneCamera *camera,
                    RenderOptions *options, RenderResult *result, Error *err) {
     const Setup *setup = args->setup;
@@ -220,6 +249,10 @@ static bool render(const FrameArgs *args, FrameKept *kept, const SceneCamera *ca
     Arena *arena = kept->arena;
     if (!frame_kept_begin(kept, options, err)) return false;
     render.camera = camera_from_scene(camera, options->width, options->height);
+    FilmArea judged = {options->crop, FILM_ALL_PIXELS};
+    if (args->symbol)
+        judged.rect = pixels_about(setup->scene, &args->symbol->display, &render.camera);
+    if (options->guided_samples) options->favoured = &judged;
     render.context.guide =
         train_guide(&setup->context, &render.camera, &train, arena, &render.training);
     if (!review_goes_on(err) || !render_prepared(&render, options, arena, result, err))
@@ -296,13 +329,15 @@ static bool is_one_view(const Candidate *a, const Candidate *b) {
            !strcmp(a->of->condition, b->of->condition);
 }
 
-static bool find_middle(const Setup *setup, const char *symbol, Arena scratch, Vec3 *out,
+/* *out: NULL: the setup has none of that name. */
+static bool find_symbol(const Setup *setup, const char *name, Arena *arena, const SetupSymbol **out,
                         Error *err) {
     SetupSymbol *symbols;
     int count;
-    if (!setup_symbols(setup, &scratch, &symbols, &count, err)) return false;
+    *out = NULL;
+    if (!setup_symbols(setup, arena, &symbols, &count, err)) return false;
     for (int i = 0; i < count; i++)
-        if (!strcmp(symbols[i].name, symbol)) *out = symbol_middle(&symbols[i]).position;
+        if (!strcmp(symbols[i].name, name)) *out = &symbols[i];
     return true;
 }
 
@@ -338,24 +373,17 @@ static void add_rim(const SetupSymbol *symbol, ReviewCase *c, Arena *arena) {
 }
 
 /* Where its causes' rays and its symbol lie in the frame. */
-static bool add_sights(const FrameArgs *args, ReviewCase *c, Arena *arena, Error *err) {
-    Arena own = arena_reserve((size_t)1 << 34);
+static bool add_sights(const FrameArgs *args, Arena scratch, ReviewCase *c, Arena *arena,
+                       Error *err) {
+    const ReviewFrames *frames = &args->setup->request->frames;
     SceneCamera camera;
-    SetupSymbol *symbols;
-    int count;
-    bool ok = frame_camera(args, &camera, own, err) &&
-              setup_symbols(args->setup, &own, &symbols, &count, err);
-    if (ok) {
-        const ReviewFrames *frames = &args->setup->request->frames;
-        Camera seen = camera_from_scene(&camera, frames->width, frames->height);
-        CaseView *view = ARENA_NEW(arena, CaseView, 1);
-        *view = view_of(&seen);
-        c->view = view;
-        for (int i = 0; i < count; i++)
-            if (!strcmp(symbols[i].name, c->symbol)) add_rim(&symbols[i], c, arena);
-    }
-    arena_release(&own);
-    return ok;
+    if (!frame_camera(args, &camera, scratch, err)) return false;
+    Camera seen = camera_from_scene(&camera, frames->width, frames->height);
+    CaseView *view = ARENA_NEW(arena, CaseView, 1);
+    *view = view_of(&seen);
+    c->view = view;
+    if (args->symbol) add_rim(args->symbol, c, arena);
+    return true;
 }
 
 /* ---- one frame --------------------------------------------------------------------------- */
@@ -368,14 +396,17 @@ typedef struct FrameWork {
 } FrameWork;
 
 /* A variant keeps the review's view, wherever its symbol is; a mirrored one mirrors it. */
-static bool aim(const FrameWork *work, const Setup *setup, FrameArgs *args, Arena scratch,
+static bool aim(const FrameWork *work, const Setup *setup, FrameArgs *args, Arena *arena,
                 Error *err) {
     const CaseView *view = work->of->of->view;
     double ahead[3];
     Vec3 from;
-    if (!work->exposure)
-        return find_middle(setup, work->of->of->symbol, scratch, &args->look_at, err);
-    if (!setup_eye_middle(setup, args->eye, scratch, &from, err)) return false;
+    if (!find_symbol(setup, work->of->of->symbol, arena, &args->symbol, err)) return false;
+    if (!work->exposure) {
+        if (args->symbol) args->look_at = symbol_middle(args->symbol).position;
+        return true;
+    }
+    if (!setup_eye_middle(setup, args->eye, *arena, &from, err)) return false;
     ahead[0] = (double)view->forward.x;
     ahead[1] = (double)view->forward.y;
     ahead[2] = (double)view->forward.z;
@@ -392,7 +423,7 @@ static bool make_lit(const FrameWork *work, Setup *setup, FrameArgs *args, Arena
     if (of->table) sky = sweep_environment(setup, &of->table->worst_sun);
     else if (c->has_environment) sky = c->environment;
     return setup_light(setup, of->table || c->has_environment ? &sky : NULL, scratch, err) &&
-           aim(work, setup, args, *scratch, err) && frame_make(args, scratch, made, err);
+           aim(work, setup, args, scratch, err) && frame_make(args, scratch, made, err);
 }
 
 /* *made: the picture's name, in the arena. of: gets what the frame shows; NULL: not
@@ -407,13 +438,16 @@ static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, cons
     Setup setup;
     bool ok = setup_open(&options, &scratch, &so_far, &setup, err);
     if (ok) {
-        FrameArgs args = {&setup,          review_eye_named(run->request, work->of->of->eye),
-                          vec3(0, 0, 0),   run->folder,
-                          run->unfinished, work->name,
-                          work->exposure,  run->progress};
+        FrameArgs args = {.setup = &setup,
+                          .eye = review_eye_named(run->request, work->of->of->eye),
+                          .folder = run->folder,
+                          .unfinished = run->unfinished,
+                          .name = work->name,
+                          .exposure = work->exposure,
+                          .progress = run->progress};
         ok = make_lit(work, &setup, &args, &scratch, made, err);
         if (ok) *made = arena_string(arena, *made, strlen(*made));
-        ok = ok && (!of || add_sights(&args, of, arena, err));
+        ok = ok && (!of || add_sights(&args, scratch, of, arena, err));
         setup_close(&setup);
     }
     arena_release(&scratch);

@@ -4,7 +4,8 @@
  * Frames go to FOLDER/frames: NAME.exr in cd m^-2 with the layers of displays, NAME.png
  * developed, and in false colours NAME-luminance.png and NAME-contrast.png: what contrast full
  * white would have with full black at each pixel of a display. A frame ends at the request's
- * noise or at FRAMES_SAMPLES; where that noise is 1, at the samples of a preview. Where the
+ * noise or at FRAMES_SAMPLES; where that noise is 1, at the samples of a preview, which pixels
+ * about the display that is judged take, others one. Where the
  * request says so NAME.png, and it alone, is of filtered light (denoise/denoise.h), exposed as
  * without, and NAME.exr has the layers for that. What was
  * done before a kill is not done again: a frame that is whole is kept as it is, one that was
@@ -19,12 +20,13 @@
 #pragma once
 #include "review/light/setup.h"
 #include "review/run/review_run.h"
+#include "review/run/symbols.h"
 #include "review/verdict.h"
 
 #define FRAMES_SAMPLES 256
-#define FRAMES_PREVIEW_SAMPLES 4 /* as render --preview */
-#define FRAMES_PAIR 2            /* a variant's is so many times smaller each way */
-#define FRAMES_CONTRAST 100      /* : 1, where the scale of contrasts ends */
+#define FRAMES_PREVIEW_SAMPLES 4
+#define FRAMES_PAIR 2       /* a variant's is so many times smaller each way */
+#define FRAMES_CONTRAST 100 /* : 1, where the scale of contrasts ends */
 
 typedef enum FrameView { FRAME_PICTURE, FRAME_LUMINANCE, FRAME_CONTRAST, FRAME_VIEWS } FrameView;
 
@@ -34,7 +36,8 @@ const char *frame_view(const char *frame, FrameView view, Arena *arena);
 typedef struct FrameArgs {
     const Setup *setup;
     const ReviewEye *eye;
-    Vec3 look_at; /* m, scene: of an eye that is no camera */
+    Vec3 look_at;              /* m, scene: of an eye that is no camera */
+    const SetupSymbol *symbol; /* that is judged; NULL: it is not there */
     const char *folder;
     const char *unfinished; /* folder of its checkpoint */
     const char *name;       /* without an ending */
