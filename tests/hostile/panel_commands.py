@@ -493,6 +493,29 @@ def check_plot_numbers(report, commands, _):
           "spectra")
 
 
+def check_chart_values(report, commands, panel, folder):
+    """Beside the tables lie the values of every chart: those that eval has there."""
+    names = sorted(name for name in os.listdir(folder) if name.startswith("chart_"))
+    compared = 0
+    for name in names:
+        with open(os.path.join(folder, name), newline="") as file:
+            header, *rows = csv.reader(file)
+        report.claim(len(rows) > 20 and all(len(row) == 3 for row in rows), f"{name}: {header}")
+        if name.endswith("_luminance__white.csv"):
+            rows = [row for row in rows if row[:2] == ["40", "90"]]
+        elif name.endswith("_vertical_section.csv") and "cd/m²" in header[2]:
+            rows = [["40", "90", value] for of, at, value in rows if (of, at) == ("White", "40")]
+        else:
+            continue
+        for theta, phi, value in rows:
+            light = json.loads(commands.text("eval", panel, "--rgb", "255,255,255", "--theta",
+                                             theta, "--phi", phi, "--json"))["luminance_cd_m2"]
+            # the map's grid is bilinear
+            report.claim(abs(float(value) / light - 1) < 2e-3, f"{name} has {value}, eval {light}")
+            compared += 1
+    report.claim(len(names) > 15 and compared >= 3, f"{compared} of {names} compared")
+
+
 def check_figures_agree(report, commands, panel, facts):
     """The report has what info has, each rounded as it is written; its CSV the same digits."""
     folder = commands.file("figures")
@@ -515,6 +538,7 @@ def check_figures_agree(report, commands, panel, facts):
         report.claim(abs(ours - theirs) <= 0.5001 * 10 ** -decimals,
                      f"info has {ours}, report {theirs}")
     report.claim(len(pairs) >= 14 and gamma["phi_0"] > 1.5, f"{len(pairs)} figures compared")
+    check_chart_values(report, commands, panel, folder)
     for name, rows in tables.items():
         if not rows:
             continue

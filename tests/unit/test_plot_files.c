@@ -227,7 +227,7 @@ TEST(the_report_stands_alone) {
     assert_non_null(strstr(html, "test &lt;OLED&gt; &amp; co"));
     assert_null(strstr(html, "<OLED>"));
     assert_non_null(strstr(html, "red 255"));
-    assert_non_null(strstr(html, "max. error"));
+    assert_non_null(strstr(html, "largest error, %"));
     assert_non_null(strstr(html, "extrapolated"));
     assert_null(strstr(html, "Reflection</h2>"));
     assert_non_null(strstr(html, "Measured against fitted"));

@@ -66,7 +66,8 @@ static Outcome run_report(int argc, char **argv, Arena *arena, Error *err) {
     const Option options[] = {
         {"-o", OPTION_TEXT, "X.html", "the page, which prints on A4", &request.output.page,
          .file = OPTION_OUTPUT},
-        {"--csv", OPTION_TEXT, "DIR", "a folder for every table as CSV, and report.json",
+        {"--csv", OPTION_TEXT, "DIR",
+         "a folder for every table and the values of every chart as CSV, and report.json",
          &request.output.tables, .file = OPTION_OUTPUT},
         {"--measured", OPTION_TEXT, "MANIFEST.json",
          "the set that the panel was fitted from: its points over the curves", &request.measured},

@@ -34,6 +34,7 @@ typedef struct PanelChart {
 #define PANEL_CHARTS_MAX 48
 
 typedef struct PanelChartList {
+    const PlotData *data;
     int count;
     PanelChart chart[PANEL_CHARTS_MAX];
 } PanelChartList;

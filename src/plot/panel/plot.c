@@ -18,6 +18,7 @@ PanelChartList *plot_charts(const PlotData *data, PlotKind kind, Arena *arena) {
                                              &colour_charts,   &reflection_charts, &fit_charts,
                                              &place_charts,    &halo_charts};
     PanelChartList *list = ARENA_NEW(arena, PanelChartList, 1);
+    list->data = data;
     for (int i = 0; i < COUNT_OF(all); i++)
         if (is_among(kind, all[i]->first, all[i]->last)) all[i]->add(list, data);
     return list;

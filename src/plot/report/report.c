@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "plot/report/report.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -103,8 +104,9 @@ static const char *figure_words(double value, Arena *arena) {
 }
 
 /* Takes the facts. */
-static bool write_page(json_t *to, const PlotData *s, const Report *report,
+static bool write_page(json_t *to, const PanelChartList *charts, const Report *report,
                        const PlotOptions *options, const char *path, Error *err) {
+    const PlotData *s = charts->data;
     static const PageFormat FORMATS[] = {{"figure", figure_words}, {NULL, NULL}};
     Arena *arena = s->arena;
     page_set_flag(to, "is_dark", options->is_dark);
@@ -123,7 +125,7 @@ static bool write_page(json_t *to, const PlotData *s, const Report *report,
     json_object_set_new(to, "tables", tables);
     report_of_file(to, s->source.report, arena);
     if (page_set_head(to, s->name, "panel report", err) &&
-        report_figures(to, plot_charts(s, PLOT_ALL, arena), options->is_dark, arena, err))
+        report_figures(to, charts, options->is_dark, arena, err))
         return page_write_values("panel.html", to, FORMATS, path, err);
     json_decref(to);
     return false;
@@ -143,10 +145,29 @@ static json_t *tables_json(const Report *report) {
     return tables;
 }
 
-/* KEY.csv of every table that is there, and report.json with `answer`, into a folder: all or
- * none. input: a file that none of them may replace. */
-static bool write_csv(const Report *report, const json_t *answer, const char *folder,
-                      const char *input, Error *err) {
+/* "chart_07_local_gamma.csv" */
+static const char *chart_file(const PanelChart *chart, int index, Arena *arena) {
+    char *name = arena_format(arena, "chart_%02d_%s.csv", index + 1, chart->title);
+    for (char *c = name; c[4]; c++)
+        *c = isalnum((unsigned char)*c) ? (char)tolower((unsigned char)*c) : '_';
+    return name;
+}
+
+static bool add_csv(SetWriter *writer, const char *name, const Table *table) {
+    Text csv = {.arena = table->arena};
+    table_add_csv(table, &csv);
+    return set_writer_add(writer, name, &csv);
+}
+
+static bool add_chart_csv(SetWriter *writer, const char *name, const PanelChart *chart,
+                          Arena scratch) {
+    return add_csv(writer, name, report_chart_table(chart, &scratch));
+}
+
+/* KEY.csv of every table that is there, the values of every chart, and report.json with `answer`,
+ * into a folder: all or none. input: a file that none of them may replace. */
+static bool write_csv(const Report *report, const PanelChartList *charts, const json_t *answer,
+                      const char *folder, const char *input, Error *err) {
     SetWriter writer;
     Arena *arena = report->arena;
     Lines inputs = {.arena = arena};
@@ -156,11 +177,13 @@ static bool write_csv(const Report *report, const json_t *answer, const char *fo
     bool ok = true;
     for (int i = 0; i < report->count && ok; i++) {
         const Table *table = report->table[i];
-        if (table->missing) continue;
-        Text csv = {.arena = arena};
-        table_add_csv(table, &csv);
-        ok = set_writer_add(&writer, arena_format(arena, "%s.csv", table->kind->key), &csv);
+        if (!table->missing)
+            ok = add_csv(&writer, arena_format(arena, "%s.csv", table->kind->key), table);
     }
+    for (int i = 0; i < charts->count && ok; i++)
+        if (report_has_chart(&charts->chart[i]))
+            ok = add_chart_csv(&writer, chart_file(&charts->chart[i], i, arena), &charts->chart[i],
+                               *arena);
     ok = ok && set_writer_add_manifest(&writer, answer, 17);
     return set_writer_close(&writer, ok);
 }
@@ -174,11 +197,13 @@ bool panel_report_write(const PlotInput *input, const PlotOptions *options,
     PlotData *data = plot_query(input, &all, arena, &source, err);
     if (!data) return false;
     const Report *report = panel_tables(data, arena);
+    const PanelChartList *charts = plot_charts(data, PLOT_ALL, arena);
     json_t *document = facts_json(data);
     json_object_set_new(document, "tables", tables_json(report));
     bool ok =
-        (!output->tables || write_csv(report, document, output->tables, input->file, err)) &&
-        (!output->page || write_page(facts_json(data), data, report, options, output->page, err));
+        (!output->tables ||
+         write_csv(report, charts, document, output->tables, input->file, err)) &&
+        (!output->page || write_page(facts_json(data), charts, report, options, output->page, err));
     if (ok) *answer = document;
     else json_decref(document);
     json_decref(source);

@@ -17,6 +17,13 @@
 #define READ_ROWS 46    /* every 2 degrees of theta */
 #define READ_COLUMNS 60 /* every 6 degrees of phi */
 
+static double read_field(const Field *field, int i, int j) {
+    double column, row;
+    field_place(field, field->theta_rim * i / (READ_ROWS - 1), 2 * PI * j / READ_COLUMNS, &column,
+                &row);
+    return field_at(field, column, row);
+}
+
 static void add_polar_values(Text *html, const ChartMap *map, const PolarMap *polar) {
     const Field *field = polar->field;
     text_format(html,
@@ -28,10 +35,7 @@ static void add_polar_values(Text *html, const ChartMap *map, const PolarMap *po
     text_add(html, "\",\"v\":[");
     for (int i = 0; i < READ_ROWS; i++)
         for (int j = 0; j < READ_COLUMNS; j++) {
-            double column, row;
-            field_place(field, field->theta_rim * i / (READ_ROWS - 1), 2 * PI * j / READ_COLUMNS,
-                        &column, &row);
-            double v = field_at(field, column, row);
+            double v = read_field(field, i, j);
             if (i + j > 0) text_add(html, ",");
             if (isfinite(v)) text_format(html, "%.4g", v);
             else text_add(html, "null");
@@ -79,6 +83,52 @@ static bool add_chart(json_t *list, const PanelChart *chart, int index, bool is_
     return true;
 }
 
+/* ---- as a table -------------------------------------------------------------------------- */
+
+static void add_numbers(Table *table, double a, double b, double value) {
+    table_row(table);
+    table_number(table, a);
+    table_number(table, b);
+    table_number(table, value);
+}
+
+static void add_series(Table *table, const Series *series) {
+    for (int i = 0; series->name && i < series->points.count; i++) {
+        table_row(table);
+        table_text(table, series->name);
+        table_number(table, series->points.x[i]);
+        table_number(table, series->points.y[i]);
+    }
+}
+
+Table *report_chart_table(const PanelChart *chart, Arena *arena) {
+    static const char *const KEYS[][2] = {[CHART_PLAIN] = {"u", "v"},
+                                          [CHART_POLAR] = {"theta_deg", "phi_deg"},
+                                          [CHART_AXES] = {"of"}};
+    const Theme theme = theme_light();
+    const ChartRows *rows = panel_chart_rows(chart, &theme, arena);
+    const Field *field = rows->polar.field;
+    const CellMap *map = &rows->cells;
+    Column *column = ARENA_NEW(arena, Column, 3);
+    TableKind *kind = ARENA_NEW(arena, TableKind, 1);
+    *kind = (TableKind){"chart", chart->title, column, 3};
+    for (int c = 0; c < 2; c++) column[c].key = KEYS[rows->kind][c];
+    column[2].key = arena_format(arena, "%s, %s", chart->title,
+                                 rows->kind == CHART_POLAR ? rows->polar.unit : map->unit);
+    if (rows->kind == CHART_AXES) column[1].key = rows->x.title, column[2].key = rows->y.title;
+    Table *table = table_new(kind, arena);
+    for (int k = 0; k < rows->count; k++) add_series(table, &rows->series[k]);
+    for (int i = 0; rows->kind == CHART_POLAR && i < READ_ROWS * READ_COLUMNS; i++)
+        add_numbers(table,
+                    degrees_from_radians(field->theta_rim) * (i / READ_COLUMNS) / (READ_ROWS - 1),
+                    360.0 / READ_COLUMNS * (i % READ_COLUMNS),
+                    read_field(field, i / READ_COLUMNS, i % READ_COLUMNS));
+    for (int i = 0; rows->kind == CHART_PLAIN && i < map->columns * map->rows; i++)
+        add_numbers(table, (i % map->columns + 0.5) / map->columns,
+                    (i / map->columns + 0.5) / map->rows, (double)map->value[i]);
+    return table;
+}
+
 /* ---- the figures under their headings --------------------------------------------------- */
 
 static const struct {
@@ -94,10 +144,13 @@ static const struct {
     {PLOT_HALO, PLOT_HALO, "Local dimming"},
     {PLOT_FIT, PLOT_FIT, "Measured against fitted"}};
 
-/* Charts of what was assumed and not measured are for panel plot. */
+bool report_has_chart(const PanelChart *chart) {
+    return !chart->needs_primaries || !chart->data->is_white_only;
+}
+
 static bool is_in_chapter(const PanelChart *chart, int chapter) {
-    if (chart->needs_primaries && chart->data->is_white_only) return false;
-    return chart->kind >= CHAPTERS[chapter].first && chart->kind <= CHAPTERS[chapter].last;
+    return report_has_chart(chart) && chart->kind >= CHAPTERS[chapter].first &&
+           chart->kind <= CHAPTERS[chapter].last;
 }
 
 bool report_figures(json_t *values, const PanelChartList *list, bool is_dark, Arena *arena,
