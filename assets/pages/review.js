@@ -35,12 +35,12 @@ function ofMap(d,v,i){
     v.range[i]+'), margin '+v.margin[i]+' · sun '+v.elevation[i]+'° high, '+
     v.where[i]+', azimuth '+v.azimuth[i]+'°'+(v.when[i]?', '+v.when[i]:'')+' · '+
     v.lux[i]+' lx on the display · reflected '+v.reflected[i]+
-    ' cd/m², of it the sun as in a mirror '+v.mirror[i]+' · level '+v.level[i]];
+    ' cd/m², of it the sun as in a mirror '+v.mirror[i]+' · brightness level '+v.level[i]];
 }
 function ofCalendar(d,v,i){
   var day=new Date(Date.UTC(+d.year,0,1+i%d.columns)),minutes=Math.floor(i/d.columns)*1440/d.rows;
   return [day.toLocaleDateString('en-GB',{day:'numeric',month:'long',timeZone:'UTC'})+', '+
-    Math.floor(minutes/60)+':'+('0'+Math.round(minutes%60)).slice(-2)+' '+d.clock+': '+
+    Math.floor(minutes/60)+':'+('0'+Math.round(minutes%60)).slice(-2)+' UTC: '+
     (v[i]===null?'sun below the horizon, or no answer':
       v[i]?'fails for '+v[i]+' of '+d.headings+' heading'+(+d.headings===1?'':'s'):'passes')];
 }

@@ -186,18 +186,14 @@ static void assert_red_at(const Cells *cells, int column, int row) {
 
 /* Azimuths run to the right and elevations upwards; days to the right and hours upwards. */
 TEST(cells_lie_where_their_axes_say) {
-    float share[12] = {0};
+    int failing[12] = {0};
     ReviewStep steps[12] = {0};
     steps[11].verdict = VERDICT_FAIL; /* azimuth 3, elevation 2 of 4 x 3 */
-    share[7] = 1;                     /* day 1, step 3 of 3 x 4 */
+    failing[7] = 1;                   /* day 1, step 3 of 3 x 4 */
     Cells map = cells_of(
         map_of(&(ReviewMap){.azimuth_deg = {0, 1, 4}, .elevation_deg = {0, 1, 3}, .cells = steps}));
-    Cells calendar = cells_of(calendar_of(&(ReviewCalendar){.year = 2026,
-                                                            .days = 3,
-                                                            .steps_a_day = 4,
-                                                            .clock = "UTC",
-                                                            .headings = 1,
-                                                            .failed_share = share}));
+    Cells calendar = cells_of(calendar_of(&(ReviewCalendar){
+        .year = 2026, .days = 3, .steps_a_day = 4, .headings = 1, .failing = failing}));
     assert_int_equal(map.png.width * 100 + map.png.height, 403);
     assert_int_equal(calendar.png.width * 100 + calendar.png.height, 304);
     assert_red_at(&map, 3, 0);
@@ -255,14 +251,14 @@ TEST(the_pointer_reads_what_was_judged) {
         assert_cell(v, "when", i, NULL);
     }
     ReviewCalendar calendar = fixture_calendar(&arena, NULL);
-    json_auto_t *failing = values_of(calendar_of(&calendar));
-    assert_int_equal(json_array_size(failing), 365 * 24);
+    json_auto_t *said = values_of(calendar_of(&calendar));
+    assert_int_equal(json_array_size(said), 365 * 24);
     for (int day = 0; day < 365; day++)
         for (int step = 0; step < 24; step++) {
-            const json_t *found = json_array_get(failing, (size_t)(step * 365 + day));
-            float share = calendar.failed_share[day * 24 + step];
-            if (isnan(share)) assert_true(json_is_null(found));
-            else assert_near(json_integer_value(found), share * calendar.headings, 0.5001);
+            const json_t *found = json_array_get(said, (size_t)(step * 365 + day));
+            int failing = calendar.failing[day * 24 + step];
+            if (failing < 0) assert_true(json_is_null(found));
+            else assert_int_equal(json_integer_value(found), failing);
         }
 }
 

@@ -94,16 +94,15 @@ static void assert_self_contained(const char *page) {
 /* ---- pages ------------------------------------------------------------------------------ */
 
 static const char *full_page(const Review *review) {
-    static const ReviewFact FACTS[] = {{WILD_NAME, WILD_NAME}};
-    static const char *const COMMANDS[] = {WILD_NAME, "parhelion review x.json -o y"};
     ReviewMap map = fixture_map(&arena, &review->sweeps[0]);
     ReviewCalendar calendar = fixture_calendar(&arena, &review->sweeps[0]);
     Review before = fixture_review(&arena);
     ReviewDiff diff = review_diff(&before, review, WILD_NAME, "now", &arena);
+    const char *file = in_folder("full.png");
     Picture picture = picture_create(3, 2, &arena);
     ReviewPicture shown = {
-        .of = &review->cases[0], .title = WILD_NAME, .caption = WILD_NAME, .picture = &picture};
-    calendar.clock = WILD_NAME;
+        .of = &review->cases[0], .title = WILD_NAME, .caption = WILD_NAME, .file = file};
+    assert_done(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
     return page_of(&(ReviewPage){.review = review,
                                  .pictures = &shown,
                                  .picture_count = 1,
@@ -111,10 +110,8 @@ static const char *full_page(const Review *review) {
                                  .map_count = 1,
                                  .calendars = &calendar,
                                  .calendar_count = 1,
-                                 .facts = FACTS,
-                                 .fact_count = 1,
-                                 .commands = COMMANDS,
-                                 .command_count = 2,
+                                 .sources = WILD_NAME,
+                                 .command = WILD_NAME,
                                  .diff = &diff});
 }
 
@@ -203,7 +200,6 @@ static json_t *all_values(json_t *own) {
                            .view = &VIEW,
                            .is_frame = true};
     ReviewPicture pair[2] = {shown, {.title = "t", .file = file}};
-    ReviewFact fact = {"a", "b"};
     worst->view = &VIEW;
     worst->rim = RIM;
     worst->rim_count = 3;
@@ -224,10 +220,8 @@ static json_t *all_values(json_t *own) {
                                                       .map_count = 1,
                                                       .calendars = &calendar,
                                                       .calendar_count = 1,
-                                                      .facts = &fact,
-                                                      .fact_count = 1,
-                                                      .commands = &change,
-                                                      .command_count = 1,
+                                                      .sources = change,
+                                                      .command = change,
                                                       .diff = &diff},
                                         0, &arena, why());
     json_t *record = review_json(review);

@@ -517,18 +517,17 @@ static inline ReviewMap fixture_map(Arena *arena, const ReviewSweep *sweep) {
 
 static inline ReviewCalendar fixture_calendar(Arena *arena, const ReviewSweep *sweep) {
     enum { DAYS = 365, STEPS = 24 };
-    float *share = ARENA_NEW(arena, float, DAYS *STEPS);
+    int *failing = ARENA_NEW(arena, int, DAYS *STEPS);
     for (int i = 0; i < DAYS * STEPS; i++) {
         double day = i / STEPS, hour = i % STEPS;
         double half = 6 - 2.2 * cos((day + 10) / 365 * 2 * acos(-1));
         double low = fabs(hour - 12) / half;
-        share[i] = low > 1 ? NAN : low > 0.72 ? (float)((low - 0.72) * 2.2) : 0;
+        failing[i] = low > 1 ? -1 : low > 0.72 ? (int)(8 * (low - 0.72) * 2.2) : 0;
     }
     return (ReviewCalendar){.of = sweep,
                             .year = 2026,
                             .days = DAYS,
                             .steps_a_day = STEPS,
-                            .clock = "UTC",
                             .headings = 8,
-                            .failed_share = share};
+                            .failing = failing};
 }

@@ -127,11 +127,6 @@ static bool review_files_has(const Lines *files, const char *name) {
     return is_among(files->list, files->count, name);
 }
 
-/* Adds a name, once. */
-static void review_files_add(Lines *files, const char *name) {
-    if (!review_files_has(files, name)) lines_put(files, name);
-}
-
 /* A folder without a list: what its review.json names. */
 static void adopt(Lines *files, const char *dir) {
     Arena *arena = files->arena;
@@ -513,7 +508,8 @@ bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena 
         if (!review_files_has(&made, files.list[i]) && file_exists(to))
             return review_files_refuse(to, err);
     }
-    for (int i = 0; i < files.count; i++) review_files_add(&made, files.list[i]);
+    for (int i = 0; i < files.count; i++)
+        if (!review_files_has(&made, files.list[i])) lines_put(&made, files.list[i]);
     if (!review_files_write(draft->target, &made, scratch, err)) return false;
     for (int i = 0; i < files.count - 1; i++)
         if (!move(draft, files.list[i], scratch, err)) return false;

@@ -276,19 +276,6 @@ static void add_pairs(const ReviewFolder *folder, const Review *review, ReviewPa
     page->pairs = pairs;
 }
 
-static void add_facts(const Review *review, ReviewPage *page, Arena *arena) {
-    ReviewFact *facts = ARENA_NEW(arena, ReviewFact, review->input_count + 1);
-    facts[page->fact_count++] =
-        (ReviewFact){"program", arena_format(arena, "parhelion %s, sources %s", PARHELION_VERSION,
-                                             SOURCES_HASH)};
-    for (int i = 0; i < review->input_count; i++)
-        facts[page->fact_count++] = (ReviewFact){
-            review->inputs[i].path,
-            arena_format(arena, "SHA-256 %s",
-                         review->inputs[i].sha256 ? review->inputs[i].sha256 : "not known")};
-    page->facts = facts;
-}
-
 const char *review_folder_command(const ReviewFolder *folder, Arena *arena) {
     const char *profile =
         folder->profile ? arena_format(arena, " --profile %s", folder->profile) : "";
@@ -308,15 +295,6 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena) {
         only.data ? only.data : "", folder->is_alone ? " --no-variants" : "",
         folder->is_without_frames ? " --no-frames" : "", folder->is_strict ? " --strict" : "",
         folder->is_self_contained ? " --self-contained" : "");
-}
-
-/* Fills all of the page but the review. */
-static void fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome, ReviewPage *page,
-                      Arena *arena) {
-    add_charts(folder, outcome, page, arena);
-    add_pictures(folder, &outcome->review, page, arena);
-    add_pairs(folder, &outcome->review, page, arena);
-    add_facts(&outcome->review, page, arena);
 }
 
 static bool write_diff(const ReviewFolder *folder, const ReviewOutcome *outcome, ReviewPage *page,
@@ -351,12 +329,14 @@ static bool write_summaries(const ReviewFolder *folder, const ReviewPage *page, 
 static bool write_page(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                        Error *err) {
     Review *review = &outcome->review;
-    const char *command = review_folder_command(folder, arena);
-    ReviewPage page = {.review = review, .commands = &command, .command_count = 1};
+    ReviewPage page = {
+        .review = review, .sources = SOURCES_HASH, .command = review_folder_command(folder, arena)};
     int all = review->case_count + review->sweep_count;
     review->has_summaries = !folder->is_self_contained && !folder->summary;
     review->main_cards = folder->is_self_contained || all <= MAIN_CARDS ? 0 : MAIN_CARDS;
-    fill_page(folder, outcome, &page, arena);
+    add_charts(folder, outcome, &page, arena);
+    add_pictures(folder, review, &page, arena);
+    add_pairs(folder, review, &page, arena);
     if (!write_diff(folder, outcome, &page, arena, err) ||
         !review_page_write(&page, arena_format(arena, "%s/index.html", folder->name), err))
         return false;

@@ -192,14 +192,13 @@ ReviewCalendar sweep_calendar(const SweepTable *table, const ReviewSweep *sweep,
     int steps = (int)floor(MINUTES_A_DAY / suns->step_minutes + 0.5);
     int year = condition->year;
     int days = 365 + calendar_is_leap(year);
-    float *share = ARENA_NEW(arena, float, (size_t)days *(size_t)steps);
-    int *asked = ARENA_NEW(arena, int, (size_t)days *(size_t)steps);
+    int *failing = ARENA_NEW(arena, int, (size_t)days *(size_t)steps);
+    for (int i = 0; i < days * steps; i++) failing[i] = -1;
     for (int i = 0; i < suns->count; i++) {
         int at = suns->list[i].step;
         if (at >= days * steps) continue;
-        asked[at]++;
-        share[at] += table->figures.verdict[i] == VERDICT_FAIL;
+        failing[at] =
+            (failing[at] < 0 ? 0 : failing[at]) + (table->figures.verdict[i] == VERDICT_FAIL);
     }
-    for (int i = 0; i < days * steps; i++) share[i] = asked[i] ? share[i] / (float)asked[i] : NAN;
-    return (ReviewCalendar){sweep, year, days, steps, "UTC", condition->heading_count, share};
+    return (ReviewCalendar){sweep, year, days, steps, condition->heading_count, failing};
 }

@@ -284,8 +284,8 @@ json_t *review_map_values(const ReviewMap *map, bool for_script, Arena scratch, 
 
 /* ---- the calendar ----------------------------------------------------------------------- */
 
-static float share_at(const ReviewCalendar *calendar, int day, int step) {
-    return calendar->failed_share[(size_t)day * (size_t)calendar->steps_a_day + (size_t)step];
+static int failing_at(const ReviewCalendar *calendar, int day, int step) {
+    return calendar->failing[(size_t)day * (size_t)calendar->steps_a_day + (size_t)step];
 }
 
 static Picture calendar_picture(const ReviewCalendar *calendar, Arena *arena) {
@@ -293,10 +293,10 @@ static Picture calendar_picture(const ReviewCalendar *calendar, Arena *arena) {
     Picture out = picture_create(calendar->days, rows, arena);
     for (int day = 0; day < calendar->days; day++)
         for (int step = 0; step < rows; step++) {
-            float share = share_at(calendar, day, step);
-            Colour colour = isnan(share) ? NIGHT
-                            : share > 0  ? mix(FAILING, WORST, (double)share)
-                                         : PASSING;
+            int failing = failing_at(calendar, day, step);
+            Colour colour = failing < 0 ? NIGHT
+                            : failing   ? mix(FAILING, WORST, (double)failing / calendar->headings)
+                                        : PASSING;
             put(&out, day, rows - 1 - step, colour);
         }
     return out;
@@ -321,10 +321,8 @@ static json_t *headings_said(const ReviewCalendar *calendar) {
     json_t *said = json_array();
     for (int step = 0; step < calendar->steps_a_day; step++)
         for (int day = 0; day < calendar->days; day++) {
-            float share = share_at(calendar, day, step);
-            json_array_append_new(
-                said, isnan(share) ? json_null()
-                                   : json_integer(lrint((double)share * calendar->headings)));
+            int failing = failing_at(calendar, day, step);
+            json_array_append_new(said, failing < 0 ? json_null() : json_integer(failing));
         }
     return said;
 }
@@ -340,7 +338,6 @@ json_t *review_calendar_values(const ReviewCalendar *calendar, Arena scratch, Er
     page_set_count(to, "year", calendar->year);
     page_set_count(to, "headings", calendar->headings);
     page_set_flag(to, "has_headings", calendar->headings > 1);
-    page_set(to, "clock", calendar->clock);
     return to;
 }
 

@@ -46,14 +46,13 @@ typedef struct ReviewMap {
  * reader may point at (review.js). NULL: *err is filled. */
 json_t *review_map_values(const ReviewMap *map, bool for_script, Arena scratch, Error *err);
 
-/* The share of headings that failed, over the hours of every day. The array holds the steps of
- * the first day from midnight on, then those of the second, ... */
+/* How many headings failed, over the hours of every day, UTC. The array holds the steps of the
+ * first day from midnight on, then those of the second, ... */
 typedef struct ReviewCalendar {
     const ReviewSweep *of;
     int year, days, steps_a_day; /* days from 1 January on */
-    const char *clock;           /* time zone of the hours: "UTC", "UTC+02:00" */
     int headings;
-    const float *failed_share; /* 0..1; NaN: the sun is down, or no answer */
+    const int *failing; /* -1: the sun is down, or no answer */
 } ReviewCalendar;
 
 /* The same of calendar.html. */

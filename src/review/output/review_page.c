@@ -233,18 +233,7 @@ static bool set_sweeps(const PageValues *v, Error *err) {
     return true;
 }
 
-/* ---- what stands behind it -------------------------------------------------------------- */
-
-static void set_provenance(const PageValues *v) {
-    const ReviewPage *page = v->page;
-    json_t *facts = values_list(v->doc, "made_of");
-    for (int i = 0; i < page->fact_count; i++) {
-        json_t *fact = page_add(facts);
-        page_set(fact, "name", page->facts[i].name);
-        page_set(fact, "value", page->facts[i].value);
-    }
-    json_object_set_new(v->doc, "commands", json_texts(page->commands, page->command_count));
-}
+/* ---- all of it -------------------------------------------------------------------------- */
 
 /* most: verdicts that are listed; 0: all. */
 static bool set_all(const PageValues *v, int most, Error *err) {
@@ -256,7 +245,8 @@ static bool set_all(const PageValues *v, int most, Error *err) {
     values_add_limits(v);
     values_add_diff(v);
     values_add_gazes(v);
-    set_provenance(v);
+    page_set(v->doc, "sources", v->page->sources);
+    page_set(v->doc, "made_by", v->page->command);
     return values_add_variants(v, err);
 }
 

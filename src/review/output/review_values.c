@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/file.h"
 #include "image/plain/plain_png.h"
@@ -205,37 +204,24 @@ static void set_levels(json_t *to, const ReviewCase *c, Arena *arena) {
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
-/* The bytes of a picture's file, as they stand, or its size. */
-static bool set_file(json_t *to, const ReviewPicture *p, Arena scratch, Error *err) {
+/* The bytes of its file, as they stand, or its size. */
+bool values_add_picture(json_t *to, const ReviewPicture *p, Arena scratch, Error *err) {
     FileBytes bytes;
     PlainPng png;
-    const char *ending = path_ending(p->file);
-    bool is_png = !strcasecmp(ending, ".png");
-    if (!is_png && strcasecmp(ending, ".jpg") != 0 && strcasecmp(ending, ".jpeg") != 0)
-        return error_at(err, ERROR_INPUT, p->file, "",
-                        "required: a picture ending in .png or .jpg");
+    page_set(to, "title", p->title ? p->title : "");
+    page_set(to, "caption", p->caption);
+    page_set(to, "label", p->label);
+    page_set(to, "beside", p->beside);
+    page_set(to, "data", NULL);
     if (!file_read(p->file, PICTURE_BYTES_MAX, &scratch, &bytes, err)) return false;
-    bool is_plain = is_png && plain_png_open(bytes.data, bytes.size, &png);
+    bool is_plain = plain_png_open(bytes.data, bytes.size, &png);
     bool is_shared = p->id && is_plain && !p->beside;
     page_set_count(to, "width", is_plain ? png.width : 0);
     page_set_count(to, "height", is_plain ? png.height : 0);
     page_set(to, "id", is_shared ? p->id : NULL);
     if (!p->beside && !(is_shared && p->is_again))
-        json_object_set_new(to, "data",
-                            page_bytes(is_png ? "png" : "jpeg", bytes.data, bytes.size, scratch));
+        json_object_set_new(to, "data", page_bytes("png", bytes.data, bytes.size, scratch));
     return true;
-}
-
-bool values_add_picture(json_t *to, const ReviewPicture *p, Arena scratch, Error *err) {
-    page_set(to, "title", p->title ? p->title : "");
-    page_set(to, "caption", p->caption);
-    page_set(to, "label", p->label);
-    page_set(to, "beside", p->picture ? NULL : p->beside);
-    page_set(to, "id", NULL);
-    page_set(to, "data", NULL);
-    if (!p->picture) return set_file(to, p, scratch, err);
-    json_t *data = page_picture(p->picture, false, scratch, err);
-    return data && !json_object_set_new(to, "data", data);
 }
 
 /* The causes' rays, and displays in glass. */

@@ -19,15 +19,14 @@
 typedef struct ReviewPicture {
     const ReviewCase *of; /* one of the review's cases, or a sweep's worst: the pointer */
     const char *title, *caption;
-    const char *label;      /* what it is not for, behind the caption; NULL: no picture of
-                               filtered light */
-    const CaseView *view;   /* rays are drawn over it; NULL: none */
-    const Picture *picture; /* NULL: the file */
-    const char *file;       /* PNG or JPEG by its ending; goes into the page as it stands */
-    const char *beside;     /* its name from the page on goes there instead; or NULL */
-    bool is_frame;          /* the frame itself */
-    const char *id;         /* a file's that several cards show: it stands in the first */
-    bool is_again;          /* of them, and this is another; NULL: one card shows it */
+    const char *label;    /* what it is not for, behind the caption; NULL: no picture of
+                             filtered light */
+    const CaseView *view; /* rays are drawn over it; NULL: none */
+    const char *file;     /* PNG, which goes into the page as it stands */
+    const char *beside;   /* its name from the page on goes there instead; or NULL */
+    bool is_frame;        /* the frame itself */
+    const char *id;       /* a file's that several cards show: it stands in the first */
+    bool is_again;        /* of them, and this is another; NULL: one card shows it */
 } ReviewPicture;
 
 typedef struct ReviewPage {
@@ -40,11 +39,8 @@ typedef struct ReviewPage {
     int map_count;
     const ReviewCalendar *calendars;
     int calendar_count;
-    const ReviewFact *facts; /* scene, panels, sky, program: with versions and hashes */
-    int fact_count;
-    const char *const *commands; /* that make this page again, and look further */
-    int command_count;
-    const ReviewDiff *diff; /* NULL: none */
+    const char *sources, *command; /* of the program, a hash; that makes this page again */
+    const ReviewDiff *diff;        /* NULL: none */
 } ReviewPage;
 
 typedef struct PageValues {
