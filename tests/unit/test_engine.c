@@ -84,6 +84,61 @@ ARENA_TEST(a_listener_ends_it) {
     assert_int_equal(heard.scenes, 1);
 }
 
+/* ---- scenes that stay -------------------------------------------------------------------- */
+
+static const char levels_text[] =
+    "{'scene':['a.gltf'],'forward':[0,0,-1],'eyes':{'driver':{'camera':'eye'}},"
+    "'symbols':{'speed':{'display':'cluster','content':'c.png','uv':[0.167,0.408,0.27,0.609]}},"
+    "'profile':'iso-15008','levels':{'auto':{'sensor':{'position_m':[0,0.2,0.2],'normal':[0,3,4]},"
+    "'table_lx':[[0,0.02],[100000,1]]},'low':{'*':0.1}},"
+    "'variants':{'brighter':{'brightness':{'*':2}}},"
+    "'conditions':[{'name':'grey','level':'auto'},{'name':'set','level':'low'}]}";
+
+/* What a meter before the display reads. */
+static double lit_lux(const SetupOptions *options, const Environment *sky, Arena arena) {
+    Setup setup;
+    Problems problems = problems_start(&arena);
+    const LitPoint head = {{0, 0, 0.2f}, {0, 0.6f, -0.8f}, false};
+    const ReadingGoal goal = {.precision = 0.01, .most = 4096};
+    assert_done(setup_open(options, &arena, &problems, &setup, &err) &&
+                setup_light(&setup, sky, &arena, &err));
+    double lux = setup_meter(&setup, head, 1, &goal, arena).reflected;
+    setup_close(&setup);
+    return lux;
+}
+
+/* One that stays, whatever it was lit by before, is lit as one that is loaded for it. */
+ARENA_TEST(a_scene_is_lit_as_if_it_were_new) {
+    ReviewRequest request;
+    ScenesKept scenes = {NULL};
+    Problems problems = problems_start(&arena);
+    Environment skies[2] = {{.kind = ENVIRONMENT_CONSTANT,
+                             .luminance_cd_m2 = 100,
+                             .color = {1, 1, 1},
+                             .has_sun = true,
+                             .sun_elevation = 0.5f,
+                             .sun_illuminance_lx = 20000,
+                             .sun_angular_radius = 0.005f,
+                             .forward = {0, 0, -1}}};
+    double before = 0;
+    wall_write_files(levels_text, arena);
+    assert_done(review_request_read(in_folder("r.json"), NULL, &arena, &problems, &request, &err));
+    ReviewRequest brighter = review_request_variant(&request, &request.variants[0], &arena);
+    skies[1] = skies[0];
+    skies[1].sun_azimuth = 1;
+    for (int i = 0; i < 16; i++) {
+        const SetupMeans means = {.threads = 2};
+        SetupOptions own = {i & 1 ? &brighter : &request, &request.conditions[i >> 1 & 1], means};
+        double wanted = lit_lux(&own, &skies[i >> 2 & 1], arena);
+        own.means.scenes = &scenes;
+        for (int again = 0; again < 2; again++)
+            assert_true(lit_lux(&own, &skies[i >> 2 & 1], arena) == wanted);
+        assert_true(wanted != before);
+        before = wanted;
+    }
+    scenes_kept_close(&scenes, NO_ID);
+}
+
 /* ---- what was kept ----------------------------------------------------------------------- */
 
 /* Of two conditions, each with a variant: scenes that were opened. */
