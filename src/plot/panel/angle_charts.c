@@ -59,7 +59,7 @@ static void fill_contrasts(const PanelChart *shown, ChartRows *out) {
     double plane = shown->index & 1 ? PI / 2 : 0;
     panel_chart_section_axis(out, s, shown->index & 1);
     for (int k = ambient->count; k >= (s->has_black ? 0 : 1); k--) {
-        PlotLight dark = {0}, light = k ? ambient->light[k - 1] : dark;
+        PlotLight light = ambient_light(s, k);
         ChartPoints p = panel_chart_section(out, s, PANEL_WHITE, shown->index & 1);
         for (int i = 0; i < p.count; i++)
             p.y[i] = ambient_contrast(s, radians_from_degrees(p.x[i]), plane, &light);

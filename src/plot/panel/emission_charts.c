@@ -90,17 +90,6 @@ static void add_luminance(PanelChartList *list, const PlotData *s, Pattern patte
             fill_luminance, s, pattern, SHEET_ALWAYS, pattern != PATTERN_WHITE});
 }
 
-/* index 0: in the dark; else under the light before it in the user's list. */
-static Field contrast_field(const PlotData *s, int index, Arena *arena) {
-    return index ? ambient_contrast_field(s, &s->source.ambient.light[index - 1], arena)
-                 : plot_data_contrast(s, arena);
-}
-
-static double contrast_on_axis(const PlotData *s, int index) {
-    return index ? ambient_contrast(s, 0, 0, &s->source.ambient.light[index - 1])
-                 : panel_figure_contrast(s->source.panel, 0, 0);
-}
-
 /* Beyond it black is next to nothing and high ratios are noise: they do not set the colours. */
 #define GRAZING (80 * PI / 180)
 
@@ -110,7 +99,8 @@ static void fill_contrast(const PanelChart *shown, ChartRows *out) {
     static const double LEVELS[] = {2,    5,    10,   20,    50,    100,   200,   500,
                                     1000, 2000, 5000, 10000, 20000, 50000, 100000};
     const PlotData *s = shown->data;
-    Field field = contrast_field(s, shown->index, out->arena);
+    PlotLight light = ambient_light(s, shown->index);
+    Field field = ambient_contrast_field(s, &light, out->arena);
     FieldRange range = field_range(&field, fmin(s->cone, GRAZING));
     range.low = fmin(range.low, field_range(&field, s->cone).low);
     PolarMap map = {.map = MAP_RATIO,
@@ -122,51 +112,37 @@ static void fill_contrast(const PanelChart *shown, ChartRows *out) {
                     .unit = ": 1"};
     if (map.high < 2 * map.low) map.low = map.high / 2;
     bool is_labelled =
-        take_contours(out->arena, &map, &s->source.contours, contrast_on_axis(s, shown->index));
+        take_contours(out->arena, &map, &s->source.contours, ambient_contrast(s, 0, 0, &light));
     for (int i = 0; i < 15 && !is_labelled; i++)
         if (LEVELS[i] > range.low && LEVELS[i] < range.high)
             map.level[map.level_count++] = LEVELS[i];
     panel_chart_polar(out, field, map);
 }
 
-/* What is said behind the contrast at the normal. */
-static const char *least_text(const PlotData *s, double low) {
-    char text[32];
-    return s->azimuths ? arena_format(s->arena, "; %s", s->azimuths)
-                       : arena_format(s->arena, ", at least %s", figure_text(low, text));
-}
-
-static void add_ambient(PanelChartList *list, const PlotData *s, int index) {
-    const PlotLight *light = &s->source.ambient.light[index - 1];
-    Field field = contrast_field(s, index, s->arena);
-    FieldRange range = field_range(&field, s->cone);
-    char normal[32];
+/* index: of ambient_light. */
+static void add_contrast(PanelChartList *list, const PlotData *s, int index) {
+    PlotLight light = ambient_light(s, index);
+    Field field = ambient_contrast_field(s, &light, s->arena);
+    char text[2][32];
+    const char *where = !index                    ? "white over black"
+                        : light.directed_lux <= 0 ? "in even diffuse light"
+                        : light.lux <= 0          ? "in directed light"
+                                                  : "in even and directed light";
+    const char *least = s->azimuths
+                            ? arena_format(s->arena, "; %s", s->azimuths)
+                            : arena_format(s->arena, ", at least %s",
+                                           figure_text(field_range(&field, s->cone).low, text[0]));
     panel_chart_add(
         list,
-        &(PanelChart){PLOT_CONTRAST,
-                      arena_format(s->arena, "Contrast ratio, %s", ambient_text(light, s->arena)),
-                      arena_format(s->arena, "in %s light: %s at the normal%s",
-                                   light->directed_lux <= 0 ? "even diffuse"
-                                   : light->lux <= 0        ? "directed"
-                                                            : "even and directed",
-                                   figure_text(contrast_on_axis(s, index), normal),
-                                   least_text(s, range.low)),
-                      "Contrast in ambient light, " AMBIENT_FORMULA ". Logarithmic colours.",
-                      fill_contrast, s, index, SHEET_ALWAYS, false});
-}
-
-static void add_contrast(PanelChartList *list, const PlotData *s) {
-    Field field = plot_data_contrast(s, s->arena);
-    FieldRange range = field_range(&field, s->cone);
-    char normal[32];
-    panel_chart_add(
-        list,
-        &(PanelChart){PLOT_CONTRAST, "Contrast ratio",
-                      arena_format(s->arena, "white over black: %s at the normal%s",
-                                   figure_text(contrast_on_axis(s, 0), normal),
-                                   least_text(s, range.low)),
-                      "Luminance of white over that of black in a dark room, logarithmic colours.",
-                      fill_contrast, s, 0, SHEET_ALWAYS, true});
+        &(PanelChart){
+            PLOT_CONTRAST,
+            index ? arena_format(s->arena, "Contrast ratio, %s", ambient_text(&light, s->arena))
+                  : "Contrast ratio",
+            arena_format(s->arena, "%s: %s at the normal%s", where,
+                         figure_text(ambient_contrast(s, 0, 0, &light), text[1]), least),
+            index ? "Contrast in ambient light, " AMBIENT_FORMULA ". Logarithmic colours."
+                  : "Luminance of white over that of black in a dark room, logarithmic colours.",
+            fill_contrast, s, index, SHEET_ALWAYS, !index});
 }
 
 /* ---- colour shift ----------------------------------------------------------------------- */
@@ -211,8 +187,7 @@ static void add_emission(PanelChartList *list, const PlotData *s) {
     if (!s->emits) return;
     add_luminance(list, s, PATTERN_WHITE);
     for (int p = PATTERN_RED; p <= PATTERN_BLACK; p++) add_luminance(list, s, (Pattern)p);
-    if (s->has_black) add_contrast(list, s);
-    for (int i = 1; i <= s->source.ambient.count; i++) add_ambient(list, s, i);
+    for (int i = s->has_black ? 0 : 1; i <= s->source.ambient.count; i++) add_contrast(list, s, i);
     add_shift(list, s, PATTERN_WHITE);
     for (int p = PATTERN_RED; p <= PATTERN_BLUE; p++) add_shift(list, s, (Pattern)p);
 }

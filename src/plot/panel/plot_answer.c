@@ -57,15 +57,12 @@ static void add_luminance_contours(json_t *out, const PlotData *s) {
 }
 
 static void add_contrast_contours(json_t *out, const PlotData *s) {
-    if (s->has_black) {
-        Field dark = plot_data_contrast(s, s->arena);
-        add_contours(out, s, "contrast", &dark, panel_figure_contrast(s->source.panel, 0, 0));
-    }
-    for (int i = 0; i < s->source.ambient.count; i++) {
-        const PlotLight *light = &s->source.ambient.light[i];
-        Field lit = ambient_contrast_field(s, light, s->arena);
-        const char *name = arena_format(s->arena, "contrast %s", ambient_text(light, s->arena));
-        add_contours(out, s, name, &lit, ambient_contrast(s, 0, 0, light));
+    for (int i = s->has_black ? 0 : 1; i <= s->source.ambient.count; i++) {
+        PlotLight light = ambient_light(s, i);
+        Field field = ambient_contrast_field(s, &light, s->arena);
+        const char *in = i ? arena_format(s->arena, " %s", ambient_text(&light, s->arena)) : "";
+        add_contours(out, s, arena_format(s->arena, "contrast%s", in), &field,
+                     ambient_contrast(s, 0, 0, &light));
     }
 }
 

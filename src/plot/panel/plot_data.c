@@ -221,16 +221,6 @@ PlotData *plot_data_new(const PlotSource *source, Arena *arena) {
     return s;
 }
 
-Field plot_data_contrast(const PlotData *s, Arena *arena) {
-    Field field = field_new(SIDE, PI / 2, arena);
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        float white = s->xyz[PATTERN_WHITE][1].value[i];
-        float black = s->xyz[PATTERN_BLACK][1].value[i];
-        if (black > 0) field.value[i] = white / black;
-    }
-    return field;
-}
-
 PanelColour plot_data_normal(const PlotData *data, Pattern pattern) {
     float rgb[3];
     pattern_codes(pattern, rgb);
@@ -312,6 +302,10 @@ Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena)
 }
 
 /* ---- contrast under diffuse light -------------------------------------------------------- */
+
+PlotLight ambient_light(const PlotData *data, int index) {
+    return index ? data->source.ambient.light[index - 1] : (PlotLight){0};
+}
 
 double ambient_reflectance(const PlotData *data, double theta) {
     double at = degrees_from_radians(fmin(fmax(theta, 0), PI / 2 - 1e-4));

@@ -145,9 +145,6 @@ void pattern_codes(Pattern pattern, float rgb[3]);
 
 /* ---- emission --------------------------------------------------------------------------- */
 
-/* Luminance of white over that of black; NaN where black is nothing. */
-Field plot_data_contrast(const PlotData *data, Arena *arena);
-
 /* Of a pattern at the normal. */
 PanelColour plot_data_normal(const PlotData *data, Pattern pattern);
 
@@ -196,13 +193,17 @@ Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena)
     "reflectance into that angle, mirror included, Es the illuminance of a directed source " \
     "on the panel, f the BRDF from it into that angle (Kelley, Lindfors, Penczek 2006)"
 
+/* The lights in which contrast is shown: 0 is the dark, where black is measured, then those of
+ * the source. */
+PlotLight ambient_light(const PlotData *data, int index);
+
 /* R above, at theta. */
 double ambient_reflectance(const PlotData *data, double theta);
 
 /* L_r above at an angle, cd m^-2. */
 double ambient_reflected(const PlotData *data, double theta, double phi, const PlotLight *light);
 
-/* C above at an angle. */
+/* C above at an angle; NaN: black and what is reflected are nothing. */
 double ambient_contrast(const PlotData *data, double theta, double phi, const PlotLight *light);
 
 /* The same over the hemisphere. */
