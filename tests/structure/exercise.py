@@ -82,6 +82,36 @@ EXERCISES = {
           "    Q(GREY_STEPS, grey_steps)" + " " * 50 + "\\\n")],
         ["test_findings", "test_profile", "test_judge"],
         ["test_findings", "test_profile", "test_judge"]),
+    # White's luminance over the hemisphere.
+    "white_mean": Exercise(
+        "A derived figure of a panel", 4, {},
+        [("src/panel/figures/panel_figure.h", "/* White's luminance over that of black",
+          "/* White's, the mean over the hemisphere with the cosine. */\n"
+          "double panel_figure_white_mean(const Panel *panel);\n\n"),
+         ("src/panel/figures/panel_figure.c", "static double contrast_at(",
+          "double panel_figure_white_mean(const Panel *panel) {\n"
+          "    return (double)panel_mean_luminance(panel, PANEL_WHITE);\n}\n\n"),
+         ("src/cli/panel/panel_facts.c", '    put(out, "white_cd_m2", white.xyz[1]);',
+          '    put(out, "white_mean_cd_m2", panel_figure_white_mean(panel));\n'),
+         ("src/cli/panel/panel_facts.c", '    {.key = "display.white_xy",',
+          '    COLUMN_DIGITS("display.white_mean_cd_m2", "white, mean", "cd/m2", 4),\n'),
+         ("assets/schemas/json_answers.md", "`white_cd_m2`, `white_xy`,",
+          "`white_mean_cd_m2` (over the hemisphere), ")],
+        ["test_panel_report"], ["test_panel_report"]),
+    # White alone, over a logarithmic axis.
+    "white_alone": Exercise(
+        "A chart of a panel", 1, {},
+        [("src/plot/panel/angle_charts.c", "static void fill_inversion(",
+          "static void fill_white(const PanelChart *shown, ChartRows *out) {\n"
+          "    panel_chart_section_axis(out, shown->data, false);\n"
+          "    add_curve(out, panel_chart_section(out, shown->data, PANEL_WHITE, false), \"White\","
+          "\n              (Stroke){out->theme->ink, 1.9, DASH_NONE});\n"
+          "    set_range(out, shown->data, \"Luminance, cd/m²\");\n}\n\n"),
+         ("src/plot/panel/angle_charts.c", "    if ((s->has_black && !s->is_white_only) ||",
+          "    panel_chart_add(list, &(PanelChart){PLOT_SECTIONS, \"White alone\", \"logarithmic\","
+          "\n                                        \"White's luminance.\", fill_white, s, 0,\n"
+          "                                        SHEET_NEVER, false});\n")],
+        ["test_plot_files"], ["test_plot_files"]),
     # The width of a symbol's strokes.
     "stroke_arcmin": Exercise(
         "A figure of a case", 7, {},
