@@ -86,7 +86,6 @@ static json_t *pointer_json(const RecordRow *row, const char *pointer, int count
 static json_t *kind_json(const RecordRow *row, const void *item, bool is_kept) {
     const char *at = (const char *)item + row->offset;
     const void *count = (const char *)item + row->count, *value = at;
-    bool is_absent = row->flags & RECORD_NULL && row->count && !*(const bool *)count;
     switch (row->kind) {
     case RECORD_NUMBER: return figure(*(const double *)value, is_kept);
     case RECORD_INTEGER:
@@ -96,7 +95,8 @@ static json_t *kind_json(const RecordRow *row, const void *item, bool is_kept) {
     case RECORD_CHOICE: return word(row, *(const int *)value);
     case RECORD_OBJECT:
         if (row->flags & RECORD_APART) break;
-        return is_absent ? json_null() : object_json(row->of, at, is_kept);
+        if (row->flags & RECORD_NULL && row->count && !*(const bool *)count) return json_null();
+        return object_json(row->of, at, is_kept);
     default: break;
     }
     return pointer_json(row, pointer_at(at), row->count ? *(const int *)count : row->most, is_kept);
