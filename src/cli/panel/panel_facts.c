@@ -18,6 +18,7 @@
 #include "panel/set/halo_square.h"
 #include "spectrum/gamut.h"
 #include "plot/report/file_report.h"
+#include "plot/report/panel_tables.h"
 #include "table/table.h"
 #include "text/json_text.h"
 
@@ -45,11 +46,13 @@ static json_t *gamma_of(const Panel *panel, int primary) {
     return json_figure(panel_figure_gamma(panel, primary, 0, 0));
 }
 
-/* To the right, up, left and down, degrees; null: not within the measured cone. */
-static json_t *cones(const Panel *panel, PanelLimit limit) {
+/* To the right, up, left and down, degrees; null: not within what was measured. */
+static json_t *cones(const Panel *panel, const json_t *report, PanelLimit limit) {
     json_t *list = json_array();
     for (int i = 0; i < 4; i++) {
-        double angle = panel_figure_viewing_angle(panel, NULL, limit, i * PI / 2);
+        double angle = report_has_azimuth(report, 2 * i)
+                           ? panel_figure_viewing_angle(panel, NULL, limit, i * PI / 2)
+                           : NAN;
         json_array_append_new(list, json_figure(round(degrees_from_radians(angle) * 1e4) / 1e4));
     }
     return list;
@@ -104,10 +107,10 @@ static void add_emission(const Panel *panel, const json_t *report, json_t *out) 
     add_polarisation(panel, out);
     add_zones(panel, out);
     json_object_set_new(out, "half_luminance_deg",
-                        cones(panel, (PanelLimit){PANEL_LEAST_LUMINANCE, 0.5}));
-    if (black > 0)
+                        cones(panel, report, (PanelLimit){PANEL_LEAST_LUMINANCE, 0.5}));
+    if (black > 0 && !is_white_only) /* of which black is measured on the axis alone */
         json_object_set_new(out, "contrast_10_deg",
-                            cones(panel, (PanelLimit){PANEL_LEAST_CONTRAST, 10}));
+                            cones(panel, report, (PanelLimit){PANEL_LEAST_CONTRAST, 10}));
 }
 
 /* ---- reflection -------------------------------------------------------------------------- */

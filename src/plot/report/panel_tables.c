@@ -28,15 +28,17 @@
         COLUMN_FIXED("phi_270", "φ 270° down", NULL, places), \
         COLUMN_FIXED("phi_315", "φ 315°", NULL, places)
 
-/* emission.azimuths_deg of the file: those measured, where they stand 45 degrees apart or
- * more; without it every azimuth has a measured one near. */
-static bool has_azimuth(const PlotData *data, int index) {
-    const json_t *emission = json_object_get(data->source.report, "emission");
+bool report_has_azimuth(const json_t *report, int index) {
+    const json_t *emission = json_object_get(report, "emission");
     const json_t *list = json_object_get(emission, "azimuths_deg"), *one;
     size_t i;
     json_array_foreach(list, i, one) if (fabs(remainder(json_number_value(one) - 45 * index, 360)) <
                                          22.5 + 1e-6) return true;
     return json_array_size(list) == 0;
+}
+
+static bool has_azimuth(const PlotData *data, int index) {
+    return report_has_azimuth(data->source.report, index);
 }
 
 /* ---- the list of tables ------------------------------------------------------------------ */

@@ -18,4 +18,9 @@ typedef struct Report {
     Table *table[REPORT_TABLES_MAX];
 } Report;
 
+/* Was azimuth 45 index degrees measured? By emission.azimuths_deg of a panel file's report: those
+ * measured, where they stand 45 degrees apart or more; without it every one has a measured one
+ * near. */
+bool report_has_azimuth(const json_t *report, int index);
+
 Report *panel_tables(const PlotData *data, Arena *arena);
