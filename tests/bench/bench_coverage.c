@@ -228,7 +228,7 @@ static void cover_moment(ReviewRequest *request, const ReviewCondition *c, const
     Error err = {0};
     request->seed = 0;
     if (!setup_open(&options, &arena, problems, &setup, &err) ||
-        !setup_light(&setup, c->has_environment ? &c->environment : NULL, &arena, &err) ||
+        !setup_light(&setup, NULL, &arena, &err) ||
         !setup_symbols(&setup, &arena, &symbols, &count, &err) ||
         !setup_learn(&setup, symbols, count, &arena, &err) ||
         !setup_eye_middle(&setup, &request->eyes[0], arena, &eye, &err))

@@ -96,7 +96,7 @@ static void try_moment(ReviewRequest *request, const ReviewCondition *c, int tri
         exit(1);
     }
     if (!setup_open(&options, &arena, problems, &setup, &err) ||
-        !setup_light(&setup, c->has_environment ? &c->environment : NULL, &arena, &err) ||
+        !setup_light(&setup, NULL, &arena, &err) ||
         !setup_eye_middle(&setup, &request->eyes[0], arena, &r.eye, &err))
         trials_stop(&err);
     try_road(&r, trials, arena);

@@ -130,7 +130,7 @@ static void try_moment(ReviewRequest *request, const ReviewCondition *c, int tri
     Error err = {0};
     request->seed = 0;
     if (!setup_open(&options, &arena, problems, &setup, &err) ||
-        !setup_light(&setup, c->has_environment ? &c->environment : NULL, &arena, &err) ||
+        !setup_light(&setup, NULL, &arena, &err) ||
         !setup_symbols(&setup, &arena, &symbols, &count, &err) ||
         !setup_learn(&setup, symbols, count, &arena, &err))
         trials_stop(&err);

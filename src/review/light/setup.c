@@ -366,6 +366,8 @@ static bool light_kept(Setup *setup, KeptScene *kept, Error *err) {
 }
 
 bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Error *err) {
+    const ReviewCondition *own = setup->condition;
+    if (!environment && own && own->has_environment) environment = &own->environment;
     if (environment) setup->scene->environment = *environment;
     set_scene_levels(setup);
     set_fixed_levels(setup);
@@ -406,7 +408,7 @@ bool setup_sun_xyz(const Setup *setup, const Curve *colour, Vec3 *towards,
 bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS]) {
     float xyz[3][LIGHT_BANDS];
     bool is_up = setup_sun_xyz(setup, NULL, towards, xyz);
-    memcpy(bands, xyz[1], sizeof xyz[1]);
+    if (bands) memcpy(bands, xyz[1], sizeof xyz[1]);
     return is_up;
 }
 

@@ -75,9 +75,10 @@ bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, S
 bool setup_scene(const SetupOptions *options, Arena *arena, Problems *problems, Scene **out,
                  Error *err);
 
-/* Lights it: the environment, then the levels, which may follow the light on a sensor. A scene
- * that stays holds its light until it is lit by another sky, in memory of its own: whoever
- * lights it so again, or with other levels, takes over what is found, to the same bits. */
+/* Lights it: the environment (NULL: the condition's, or else the scene's), then the levels, which
+ * may follow the light on a sensor. A scene that stays holds its light until it is lit by another
+ * sky, in memory of its own: whoever lights it so again, or with other levels, takes over what is
+ * found, to the same bits. */
 bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Error *err);
 
 /* For the scene as it is now, its environment and levels set otherwise. What was built for its
@@ -95,7 +96,7 @@ void setup_close(Setup *setup);
 void scenes_kept_close(ScenesKept *scenes, int condition_id);
 
 /* Where the sun stands, unit, world, and what its bands give, lx on a plane that faces it.
- * False: the scene has none, or the moon in its place. */
+ * False: the scene has none, or the moon in its place. bands NULL: nobody asks. */
 bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS]);
 
 /* As glasses of that colour weigh it (NULL: none); bands[1] of X, Y and Z are those. */

@@ -154,11 +154,14 @@ bool review_has_private(const ReviewRequest *request) {
     return false;
 }
 
+bool review_is_look(const ReviewGaze *gaze, int eye_id) {
+    return !gaze->at_symbols && gaze->for_eye[eye_id];
+}
+
 int review_look_count(const ReviewRequest *request) {
     int count = 0;
     for (int g = 0; g < request->gaze_count; g++)
-        for (int e = 0; e < request->eye_count; e++)
-            count += !request->gazes[g].at_symbols && request->gazes[g].for_eye[e];
+        for (int e = 0; e < request->eye_count; e++) count += review_is_look(&request->gazes[g], e);
     return count;
 }
 

@@ -405,5 +405,6 @@ bool review_has_private(const ReviewRequest *request);
 const ReviewCondition *review_condition_named(const ReviewRequest *request, const char *name);
 const ReviewEye *review_eye_named(const ReviewRequest *request, const char *name);
 
-/* How many pairs there are of a gaze that does not go to symbols and an eye that looks so. */
+/* Does that eye look so, elsewhere than at symbols? And how many such pairs are there? */
+bool review_is_look(const ReviewGaze *gaze, int eye_id);
 int review_look_count(const ReviewRequest *request);

@@ -277,7 +277,7 @@ static void doubt_forward(const RequestDoubt *doubt, int eye, const EyeStand *st
         if (doubt->has_frame[i])
             look_along(&looking, vec3_normalize(vec3_sub(doubt->frames[i].centre, stand->at)));
     for (int i = 0; i < request->gaze_count; i++)
-        if (!request->gazes[i].at_symbols && request->gazes[i].for_eye[eye])
+        if (review_is_look(&request->gazes[i], eye))
             look_along(&looking, vec3_from_doubles(request->gazes[i].direction));
     if (!(looking.least_deg > FORWARD_MOST_DEG) || !(looking.least_deg <= 180)) return;
     warn(doubt, "/forward",

@@ -388,7 +388,6 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
                              const SetupSymbol *symbol) {
     const Setup *setup = tools->setup;
     Vec3 towards;
-    float bands[LIGHT_BANDS];
     ReviewCase c = review_case_unknown();
     c.condition = setup->condition->name;
     c.eye = eye->name;
@@ -396,7 +395,7 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
     c.is_optional = review_is_optional(setup->request, symbol->symbol_id, eye);
     c.must_not_be_read = review_is_private(setup->request, symbol->symbol_id, eye);
     memcpy(c.origin_m, setup->scene->origin, sizeof c.origin_m);
-    if (setup_sun(setup, &towards, bands)) {
+    if (setup_sun(setup, &towards, NULL)) {
         SunAngles angles = setup_angles(setup, towards);
         c.has_sun = true;
         c.sun_azimuth_deg = angles.azimuth_deg;

@@ -63,10 +63,7 @@ static bool find_condition(const ReviewRequest *request, const ExplainOptions *o
 /* ---- a symbol of a review ---------------------------------------------------------------- */
 
 static bool light_setup(Setup *setup, const ExplainOptions *options, Arena *scratch, Error *err) {
-    const ReviewCondition *condition = setup->condition;
-    if (condition->kind == CONDITION_MOMENT)
-        return setup_light(setup, condition->has_environment ? &condition->environment : NULL,
-                           scratch, err);
+    if (setup->condition->kind == CONDITION_MOMENT) return setup_light(setup, NULL, scratch, err);
     SweepSun sun = {.azimuth_deg = options->sun_deg[0],
                     .compass_deg = options->sun_deg[0],
                     .elevation_deg = options->sun_deg[1],

@@ -40,7 +40,7 @@ static Gazes gazes_of(const Sweep *sweep, int eye_id, Arena *arena) {
     add_symbols(sweep, eye_id, &gazes);
     for (int i = 0; i < request->gaze_count; i++) {
         const ReviewGaze *gaze = &request->gazes[i];
-        if (!gaze->at_symbols && gaze->for_eye[eye_id])
+        if (review_is_look(gaze, eye_id))
             gazes.list[gazes.count++] = (Gaze){gaze->name, vec3_from_doubles(gaze->direction)};
     }
     return gazes;

@@ -418,11 +418,9 @@ static bool aim(const FrameWork *work, const Setup *setup, FrameArgs *args, Aren
 static bool make_lit(const FrameWork *work, Setup *setup, FrameArgs *args, Arena *scratch,
                      const char **made, Error *err) {
     const Candidate *of = work->of;
-    const ReviewCondition *c = setup->condition;
     Environment sky;
     if (of->table) sky = sweep_environment(setup, &of->table->worst_sun);
-    else if (c->has_environment) sky = c->environment;
-    return setup_light(setup, of->table || c->has_environment ? &sky : NULL, scratch, err) &&
+    return setup_light(setup, of->table ? &sky : NULL, scratch, err) &&
            aim(work, setup, args, scratch, err) && frame_make(args, scratch, made, err);
 }
 

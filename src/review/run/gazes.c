@@ -55,48 +55,37 @@ static void name_mirrored(const Setup *setup, const GazeMirrored *most, GazeFind
                              : chain_part_words(setup->scene, most->part_id, arena);
 }
 
-/* Light over the thing that is looked at, and its own. */
-typedef struct Veiled {
-    double own, over;
-} Veiled;
-
-static double contrast_left(double own, double over) {
-    return own + over > 0 ? own / (own + over) : (double)NAN;
+/* Of its own light, and of what lies over that. */
+static double contrast_left(const double *at, const void *user) {
+    (void)user;
+    return at[0] + at[1] > 0 ? at[0] / (at[0] + at[1]) : (double)NAN;
 }
 
-/* Of a contrast that falls as one grows and rises as the other: what moving each to an end of
- * its interval moves it by, together as if by chance (Zou and Donner, Stat. Med. 27 (2008)
- * 1693-1702, for any function that is monotone). */
-static MeanInterval contrast_range(Veiled at, MeanInterval own, MeanInterval over) {
-    double c = contrast_left(at.own, at.over);
-    double low = hypot(c - contrast_left(own.low, at.over), c - contrast_left(at.own, over.high));
-    double high = hypot(contrast_left(own.high, at.over) - c, contrast_left(at.own, over.low) - c);
-    return (MeanInterval){fmax(c - low, 0), fmin(c + high, 1)};
-}
-
-/* Of a sum of two that are read independently, likewise; from 0 on. */
+/* Of a sum of two that are read independently; from 0 on. */
 static MeanInterval sum_range(double a, MeanInterval of_a, double b, MeanInterval of_b) {
     return (MeanInterval){fmax(a + b - hypot(a - of_a.low, b - of_b.low), 0),
                           a + b + hypot(of_a.high - a, of_b.high - b)};
 }
 
 static void set_contrasts(const GazeReading *along, GazeFinding *out) {
-    double seen = along->through.mean + along->mirrored.mean, near = out->veil_parts.near;
+    double own = along->through.mean, mirrored = along->mirrored.mean, near = out->veil_parts.near;
     double veil = out->veil - near;
-    Veiled at = {along->through.mean, along->mirrored.mean + veil};
+    MeanInterval of_own = along->through.interval;
     MeanInterval of_veil = {out->veil_range.low - near, out->veil_range.high - near};
-    MeanInterval over = sum_range(along->mirrored.mean, along->mirrored.interval, veil, of_veil);
-    out->contrast_behind_glass = seen > 0 ? along->through.mean / seen : (double)NAN;
-    out->contrast_left = contrast_left(at.own, at.over);
+    MeanInterval over = sum_range(mirrored, along->mirrored.interval, veil, of_veil);
+    const IntervalInput in[2] = {{own, of_own.low, of_own.high},
+                                 {mirrored + veil, over.high, over.low}};
+    FigureInterval range = interval_of(contrast_left, NULL, in, 2);
+    out->contrast_behind_glass = contrast_left((double[2]){own, mirrored}, NULL);
+    out->contrast_left = contrast_left((double[2]){own, mirrored + veil}, NULL);
     out->contrast_range = (MeanInterval){(double)NAN, (double)NAN};
-    if (at.own + at.over > 0)
-        out->contrast_range = contrast_range(at, along->through.interval, over);
+    if (!isnan(out->contrast_left))
+        out->contrast_range = (MeanInterval){fmax(range.low, 0), fmin(range.high, 1)};
 }
 
 static double sun_from_gaze(const Setup *setup, Vec3 gaze) {
     Vec3 towards;
-    float bands[LIGHT_BANDS];
-    if (!setup_sun(setup, &towards, bands)) return (double)NAN;
+    if (!setup_sun(setup, &towards, NULL)) return (double)NAN;
     double cosine = (double)vec3_dot(towards, vec3_normalize(gaze));
     return degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
 }
@@ -168,13 +157,10 @@ static bool is_in_sweep(const ReviewGaze *gaze, const ReviewCondition *condition
            review_road_is_in(gaze->road, condition->name);
 }
 
-int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *condition) {
-    int count = 0;
+bool sweep_has_roads(const ReviewRequest *request, const ReviewCondition *condition) {
     for (int g = 0; g < request->gaze_count; g++)
-        for (int e = 0; e < request->eye_count; e++)
-            count += !request->gazes[g].at_symbols && request->gazes[g].for_eye[e] &&
-                     is_in_sweep(&request->gazes[g], condition);
-    return count;
+        if (is_in_sweep(&request->gazes[g], condition)) return true;
+    return false;
 }
 
 static bool is_wanted(const Setup *setup, const ReviewGaze *gaze) {
@@ -182,40 +168,32 @@ static bool is_wanted(const Setup *setup, const ReviewGaze *gaze) {
     return gaze->road && !road_left_out(setup, gaze->road);
 }
 
-int roads_of_moment(const Setup *setup) {
-    const ReviewRequest *request = setup->request;
-    int count = 0;
-    for (int g = 0; g < request->gaze_count; g++)
-        for (int e = 0; e < request->eye_count; e++)
-            count += !request->gazes[g].at_symbols && request->gazes[g].for_eye[e] &&
-                     is_wanted(setup, &request->gazes[g]);
-    return count;
+static bool add_gaze(const GazesArgs *gazes, int gaze_id, int eye_id, Arena *arena, Review *review,
+                     Error *err) {
+    const Setup *setup = gazes->setup;
+    const ReviewGaze *gaze = &setup->request->gazes[gaze_id];
+    const ReviewEye *eye = &setup->request->eyes[eye_id];
+    int count;
+    Vec3 *points = setup_eye_points(setup, eye, &count, arena, err);
+    if (!points) return false;
+    GazeGoal goal = goal_of(worst_point(setup, gaze, points, count, *arena), gaze, PATHS_MOST);
+    GazeFinding *out = &review->gazes[review->gaze_count++];
+    *out = (GazeFinding){.condition = setup->condition->name, .eye = eye->name, .gaze = gaze->name};
+    GazeArgs args = {setup, gazes->searches, gaze, gazes->profile};
+    read_gaze(&args, &goal, arena, out);
+    judge_gaze(out, gazes->profile, arena);
+    if (gaze->road)
+        road_dim(gaze->road, gazes->profile, gazes->cases, gazes->case_count, out, arena);
+    return true;
 }
 
-bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *err) {
-    const Setup *setup = gazes->setup;
-    const ReviewRequest *request = setup->request;
-    int at = -1;
-    for (int g = 0; g < request->gaze_count; g++)
-        for (int e = 0; e < request->eye_count; e++) {
-            const ReviewGaze *gaze = &request->gazes[g];
-            const ReviewEye *eye = &request->eyes[e];
-            int count;
-            if (gaze->at_symbols || !gaze->for_eye[e]) continue;
-            if (gazes->roads_only && !is_wanted(setup, gaze)) continue;
-            at++;
-            Vec3 *points = setup_eye_points(setup, eye, &count, arena, err);
-            if (!points) return false;
-            GazeGoal goal =
-                goal_of(worst_point(setup, gaze, points, count, *arena), gaze, PATHS_MOST);
-            out[at] = (GazeFinding){
-                .condition = setup->condition->name, .eye = eye->name, .gaze = gaze->name};
-            GazeArgs args = {setup, gazes->searches, gaze, gazes->profile};
-            read_gaze(&args, &goal, arena, &out[at]);
-            judge_gaze(&out[at], gazes->profile, arena);
-            if (gaze->road)
-                road_dim(gaze->road, gazes->profile, gazes->cases, gazes->case_count, &out[at],
-                         arena);
-        }
+bool setup_gazes(const GazesArgs *gazes, Arena *arena, Review *review, Error *err) {
+    const ReviewRequest *request = gazes->setup->request;
+    for (int g = 0; g < request->gaze_count; g++) {
+        if (gazes->roads_only && !is_wanted(gazes->setup, &request->gazes[g])) continue;
+        for (int e = 0; e < request->eye_count; e++)
+            if (review_is_look(&request->gazes[g], e) && !add_gaze(gazes, g, e, arena, review, err))
+                return false;
+    }
     return true;
 }

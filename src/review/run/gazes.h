@@ -19,16 +19,12 @@ typedef struct GazesArgs {
     const Profile *profile;  /* limits of roads */
     const ReviewCase *cases; /* of this moment, which are made before */
     int case_count;
-    bool roads_only; /* of others nothing is set, and they are left out */
+    bool roads_only; /* those that are evaluated in the condition */
 } GazesArgs;
 
-/* Fills review_look_count(request) findings, eyes fastest; with
- * roads_only those of roads that are evaluated in the condition, one behind the other.
+/* Adds findings, eyes fastest, to the review's, which have room for review_look_count(request).
  * Fails where an eye's camera is missing. */
-bool setup_gazes(const GazesArgs *gazes, Arena *arena, GazeFinding *out, Error *err);
+bool setup_gazes(const GazesArgs *gazes, Arena *arena, Review *review, Error *err);
 
-/* How many roads the request has evaluated in that sweep: gazes times eyes. */
-int roads_of_sweep(const ReviewRequest *request, const ReviewCondition *condition);
-
-/* Of a moment that is lit, likewise. */
-int roads_of_moment(const Setup *setup);
+/* Are any roads evaluated in that sweep? */
+bool sweep_has_roads(const ReviewRequest *request, const ReviewCondition *condition);

@@ -72,6 +72,15 @@ static double degrees_off(const PaneImage *image, const double direction[3]) {
 
 /* ---- what is to be kept free ------------------------------------------------------------- */
 
+/* About a direction, as the request has it for all. */
+static ReviewPaneArea area_towards(const ReviewPaneImages *panes, const char *name,
+                                   const double direction[3]) {
+    ReviewPaneArea area = {
+        .name = name, .within_deg = panes->within_deg, .contrast_most = panes->contrast_most};
+    memcpy(area.direction, direction, sizeof area.direction);
+    return area;
+}
+
 /* Those of an eye: its gazes and the areas; straight ahead where there is neither. */
 static ReviewPaneArea *areas_of(const ReviewRequest *request, int eye, int *count, Arena *arena) {
     const ReviewPaneImages *panes = request->pane_images;
@@ -80,20 +89,11 @@ static ReviewPaneArea *areas_of(const ReviewRequest *request, int eye, int *coun
     *count = 0;
     for (int i = 0; i < request->gaze_count; i++) {
         const ReviewGaze *gaze = &request->gazes[i];
-        if (gaze->at_symbols || !gaze->for_eye[eye]) continue;
-        list[(*count)++] =
-            (ReviewPaneArea){gaze->name,
-                             {gaze->direction[0], gaze->direction[1], gaze->direction[2]},
-                             panes->within_deg,
-                             panes->contrast_most};
+        if (review_is_look(gaze, eye))
+            list[(*count)++] = area_towards(panes, gaze->name, gaze->direction);
     }
     for (int i = 0; i < panes->area_count; i++) list[(*count)++] = panes->areas[i];
-    if (!*count)
-        list[(*count)++] =
-            (ReviewPaneArea){"ahead",
-                             {request->forward[0], request->forward[1], request->forward[2]},
-                             panes->within_deg,
-                             panes->contrast_most};
+    if (!*count) list[(*count)++] = area_towards(panes, "ahead", request->forward);
     return list;
 }
 
@@ -231,8 +231,7 @@ bool setup_pane_images(const Setup *setup, const Profile *profile, Arena *arena,
                        Error *err) {
     const ReviewRequest *request = setup->request;
     Vec3 towards;
-    float bands[LIGHT_BANDS];
-    Ambient ambient = setup_sun(setup, &towards, bands) ? AMBIENT_DAY : AMBIENT_NIGHT;
+    Ambient ambient = setup_sun(setup, &towards, NULL) ? AMBIENT_DAY : AMBIENT_NIGHT;
     for (int i = 0; i < request->eye_count; i++) {
         PaneEye eye = {
             .setup = setup, .name = request->eyes[i].name, .profile = profile, .ambient = ambient};

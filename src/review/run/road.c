@@ -19,9 +19,8 @@ static const double ROAD_DIMMING[] = {0.1, 0.2, 0.3, 0.5, 1, 2};
 
 RoadLeftOut road_left_out(const Setup *setup, const ReviewRoad *road) {
     Vec3 towards;
-    float bands[LIGHT_BANDS];
     if (!review_road_is_in(road, setup->condition->name)) return ROAD_OTHER_TIME;
-    return setup_sun(setup, &towards, bands) ? ROAD_BY_DAY : ROAD_EVALUATED;
+    return setup_sun(setup, &towards, NULL) ? ROAD_BY_DAY : ROAD_EVALUATED;
 }
 
 RoadAges road_ages(const ReviewRequest *request, const ReviewRoad *road, Arena *arena) {

@@ -39,22 +39,13 @@ static void keep_names(ReviewCase *cases, int count, Arena *arena) {
         cases[i].symbol = arena_string(arena, cases[i].symbol, strlen(cases[i].symbol));
 }
 
-/* Of a variant's gazes only the roads' increments: nothing else of them has a limit. */
-static bool add_roads(const GazesArgs *looks, Arena *arena, Review *review, Error *err) {
-    if (!setup_gazes(looks, arena, review->gazes + review->gaze_count, err)) return false;
-    review->gaze_count += roads_of_moment(looks->setup);
-    return true;
-}
-
 static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena *arena,
                        ReviewOutcome *out, Error *err) {
-    const ReviewCondition *condition = setup->condition;
     Review *review = &out->review;
     CaseTools tools = {
         .setup = setup, .profile = run->profile, .progress = run->progress, .base = run->base};
     SetupSymbol *symbols;
-    const Environment *sky = condition->has_environment ? &condition->environment : NULL;
-    if (!setup_light(setup, sky, scratch, err) ||
+    if (!setup_light(setup, NULL, scratch, err) ||
         !setup_symbols(setup, scratch, &symbols, &tools.symbol_count, err))
         return false;
     tools.symbols = symbols;
@@ -67,14 +58,12 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
     if (!setup_cases(&tools, arena, cases, err)) return false;
     keep_names(cases, count, arena);
     review->case_count += count;
-    GazesArgs roads = {setup, run->sun_searches, run->profile, cases, count, true};
-    if (run->base) return add_roads(&roads, arena, review, err);
-    GazeFinding *gazes = review->gazes + review->gaze_count;
-    GazesArgs looks = {setup, run->sun_searches, run->profile, cases, count, false};
-    if (!setup_gazes(&looks, arena, gazes, err)) return false;
+    /* of a variant only the roads' increments: nothing else of its gazes has a limit */
+    GazesArgs looks = {setup, run->sun_searches, run->profile, cases, count, run->base != NULL};
+    if (!setup_gazes(&looks, arena, review, err)) return false;
     progress_update(run->progress, count + look_count);
-    review->gaze_count += look_count;
-    return !run->request->pane_images || setup_pane_images(setup, run->profile, arena, review, err);
+    return run->base || !run->request->pane_images ||
+           setup_pane_images(setup, run->profile, arena, review, err);
 }
 
 /* The roads of a sweep, as it is after dark: with its lamps, displays and levels, but
@@ -83,22 +72,21 @@ static bool run_after_dark(const ReviewRun *run, const ReviewCondition *conditio
                            ReviewOutcome *out, Error *err) {
     SetupOptions options = {run->request, condition, run->means};
     Review *review = &out->review;
-    int count = roads_of_sweep(run->request, condition);
-    if (!count || run->base) return true;
+    int first = review->gaze_count;
+    if (run->base || !sweep_has_roads(run->request, condition)) return true;
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
-    GazeFinding *found = review->gazes + review->gaze_count;
     bool ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         Environment dark = setup.scene->environment;
         GazesArgs looks = {&setup, run->sun_searches, run->profile, NULL, 0, true};
         dark.kind = ENVIRONMENT_NONE;
         dark.has_sun = false;
-        ok = setup_light(&setup, &dark, &scratch, err) && setup_gazes(&looks, arena, found, err);
-        for (int i = 0; ok && i < count; i++) found[i].road->is_after_dark = true;
+        ok = setup_light(&setup, &dark, &scratch, err) && setup_gazes(&looks, arena, review, err);
+        for (int i = first; i < review->gaze_count; i++)
+            review->gazes[i].road->is_after_dark = true;
         setup_close(&setup);
     }
-    if (ok) review->gaze_count += count;
     arena_release(&scratch);
     return ok;
 }

@@ -77,18 +77,12 @@ Environment sweep_environment(const Setup *setup, const SweepSun *sun) {
     return environment;
 }
 
-/* A sight's figures under every sun, which hold for its twin, too. */
-typedef struct SightFigures {
-    SunFigures figures;
-    double failed_share, longest_failure_minutes, failed_minutes;
-} SightFigures;
-
 /* The state of reporting a sweep's sights. */
 typedef struct SweepReport {
     Sweep *sweep;
     const DistantTools *tools;
     const SweepSuns *suns; /* kept */
-    SightFigures *sights;  /* of those that have twins */
+    SunFigures *figures;   /* of each sight under every sun; they hold for its twin, too */
     SweepTable *tables;    /* one a sight; those without suns are none */
     int first;             /* sweep of the review: that of the first sight */
     ReviewOutcome *out;
@@ -291,21 +285,18 @@ static void add_table(const SweepReport *to, const Sight *sight, const SunFigure
  * sight with its suns. */
 static SunFigures figures_of(SweepReport *to, const Sight *sight, const Sight *asked,
                              ReviewSweep *out) {
-    int id = (int)(sight - to->sweep->sights);
-    SightFigures *kept = &to->sights[sight->twin != NO_ID ? sight->twin : id];
-    if (sight->twin == NO_ID) {
-        kept->figures =
-            sun_figures_start(to->suns->count, to->sweep->run->base ? &to->scratch : to->arena);
-        sun_figures_judge(to->sweep, asked, to->tools, &kept->figures, to->scratch);
-        set_failures(to, asked, &kept->figures, out);
-        kept->failed_share = out->failed_share;
-        kept->longest_failure_minutes = out->longest_failure_minutes;
-        kept->failed_minutes = out->failed_minutes;
+    SunFigures *own = &to->figures[sight - to->sweep->sights];
+    if (sight->twin != NO_ID) {
+        const ReviewSweep *twin = &to->out->review.sweeps[to->first + sight->twin];
+        out->failed_minutes = twin->failed_minutes;
+        out->failed_share = twin->failed_share;
+        out->longest_failure_minutes = twin->longest_failure_minutes;
+        return to->figures[sight->twin];
     }
-    out->failed_minutes = kept->failed_minutes;
-    out->failed_share = kept->failed_share;
-    out->longest_failure_minutes = kept->longest_failure_minutes;
-    return kept->figures;
+    *own = sun_figures_start(to->suns->count, to->sweep->run->base ? &to->scratch : to->arena);
+    sun_figures_judge(to->sweep, asked, to->tools, own, to->scratch);
+    set_failures(to, asked, own, out);
+    return *own;
 }
 
 static bool report_sight(SweepReport *to, const Sight *sight, const Sight *asked, Error *err) {
@@ -433,7 +424,7 @@ static bool sweep_suns_of(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutco
                       .arena = arena,
                       .first = out->review.sweep_count,
                       .scratch = sweep->figures,
-                      .sights = ARENA_NEW(&scratch, SightFigures, sweep->sight_count),
+                      .figures = ARENA_NEW(&scratch, SunFigures, sweep->sight_count),
                       .tables = ARENA_NEW(&scratch, SweepTable, sweep->sight_count)};
     if (!sweep->run->base) false_sun_times(sweep, scratch, arena, &out->review);
     if (!report_sights(&to, scratch, err)) return false;

@@ -359,11 +359,10 @@ static int part_by_sun(const Setup *setup, const LightParts *parts, Arena scratc
 /* NaN: there is no sun. */
 static double lit_share(const Setup *setup, const PartArgs *args, Arena scratch) {
     Vec3 towards;
-    float bands[LIGHT_BANDS];
     SymbolSurface surface;
     Error ignored;
     bool *is_visible = ARENA_NEW(&scratch, bool, LIT_POINTS);
-    if (!setup_sun(setup, &towards, bands) ||
+    if (!setup_sun(setup, &towards, NULL) ||
         !symbol_surface_within(&args->symbol->surface, args->symbol->split.box, LIT_POINTS,
                                &scratch, &surface, &ignored))
         return (double)NAN;
