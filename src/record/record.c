@@ -338,9 +338,11 @@ static bool read_items(const JsonView *view, const RecordRow *row, void *item, E
                     &count, err))
         return false;
     char *items = arena_try(view->arena, row->of->size, _Alignof(max_align_t), (size_t)count);
-    if (!items)
-        return record_fails(view, row->key, err, "has %d values, required: so few as memory holds",
-                            count);
+    if (!items) {
+        record_fails(view, row->key, err, "has %d values, required: so few as memory holds", count);
+        err->code = ERROR_MEMORY;
+        return false;
+    }
     memcpy(at_offset(item, row->offset), &items, sizeof items);
     *(int *)at_offset(item, row->count) = count;
     inside.path = json_view_path(view, row->key);

@@ -250,9 +250,12 @@ def channels(bench):
     found = [float(line.split()[1]) for line in text.split("\n") if line[:2] in ("x ", "y ")]
     bench.report.claim(max(abs(f - s / sum(sums)) for f, s in zip(found, sums)) < 1e-3,
                        f"X, Y, Z: {found} for {sums}")
-    skies = [bench.says("X, Y, Z", 0, "lx", "sky", "--environment", f"hdri:{name}.exr")
-             for name in ("xyz", "709")]
-    bench.report.claim(skies[0].replace("xyz", "709") == skies[1], f"X, Y, Z: {skies}")
+    skies = [[float(line.split()[-2]) for line in
+              bench.says("X, Y, Z", 0, "lx", "sky", "--environment", f"hdri:{name}.exr").split("\n")
+              if line.endswith((" lx", " cd/m²"))] for name in ("xyz", "709")]
+    bench.report.claim(len(skies[0]) > 2 and
+                       all(abs(a / b - 1) < 2e-3 for a, b in zip(*skies, strict=True)),
+                       f"X, Y, Z: {skies}")
     pictures.write_exr(os.path.join(bench.folder, "b.exr"), W, H,
                        {**xyz, "Z": [3 * v for v in xyz["Z"]]})
     bench.says("Z three times", 1, "deltae_max ", "compare", "xyz.exr", "b.exr", "--max",
@@ -420,7 +423,7 @@ def instances(bench):
         scene = square(extensionsUsed=["EXT_mesh_gpu_instancing"])
         scene["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": {name: 3}}}
         bench.write({"s.gltf": scene})
-        bench.says("instances without a place", 0, "triangles    2 (", "check", "s.gltf")
+        bench.says("instances without a place", 0, "\"triangles\": 2,", "check", "s.gltf", "--json")
 
 
 def points(bench):

@@ -134,12 +134,18 @@ static const char *least_where(const ReviewDifference *d, Arena *arena) {
     return arena_format(arena, "before %s; now %s", words_case(b, arena), words_case(a, arena));
 }
 
+static const char *from_limit(const ReviewCase *c, Arena *arena) {
+    const LimitVerdict *limit = limit_of(c);
+    return limit ? words_from_limit(limit, arena)
+                 : arena_format(arena, "margin %s", words_margin(c->margin, arena));
+}
+
 static const char *margins_words(const ReviewDifference *d, Arena *arena) {
-    const char *after = words_margin(d->after->margin, arena);
-    if (!d->before) return arena_format(arena, "margin %s", after);
-    return arena_format(arena, "margin %s → %s, difference %s%s%s",
-                        words_margin(d->before->margin, arena), after, difference_words(d, arena),
-                        d->is_other_part ? ", " : "", other_part(d, arena));
+    const char *after = from_limit(d->after, arena);
+    if (!d->before) return after;
+    return arena_format(arena, "%s → %s, margin difference %s%s%s", from_limit(d->before, arena),
+                        after, difference_words(d, arena), d->is_other_part ? ", " : "",
+                        other_part(d, arena));
 }
 
 const char *review_variants_words(const ReviewVariantFound *v, Arena *arena) {
