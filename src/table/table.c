@@ -269,6 +269,17 @@ static const char *heading(const Column *column, Arena *arena) {
                         : column->words;
 }
 
+/* How many rows from this one on read the same. */
+static int alike_from(const Table *table, int row, Arena *arena) {
+    int next = row + 1;
+    for (; next < table->row_count; next++)
+        for (int c = 0; c < table->kind->column_count; c++) {
+            const char *a = words_of(table, row, c, arena), *b = words_of(table, next, c, arena);
+            if (!a != !b || (a && strcmp(a, b))) return next - row;
+        }
+    return next - row;
+}
+
 void table_add_text(const Table *table, Text *text) {
     const TableKind *kind = table->kind;
     int width[TABLE_COLUMNS];
@@ -294,7 +305,10 @@ void table_add_text(const Table *table, Text *text) {
             text_add_printable(text, words, strlen(words));
             owed = 2 + (is_right[c] ? 0 : rest);
         }
+        int alike = r < 0 ? 1 : alike_from(table, r, text->arena);
+        if (alike > 1) text_format(text, "  %d times", alike);
         text_add(text, "\n");
+        r += alike - 1;
     }
 }
 

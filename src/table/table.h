@@ -102,8 +102,8 @@ void table_add_object(Table *table, const json_t *object);
 /* The cell as people read it, without its unit; NULL: nothing is shown. */
 const char *table_cell_text(const Table *table, int row, int column);
 
-/* Columns under their headings. In all views of rows a figure that there is not is a dash, and
- * a column that no row has is left out. */
+/* Columns under their headings; rows that read alike stand once, "13 times". In all views of rows a
+ * figure that there is not is a dash, and a column that no row has is left out. */
 void table_add_text(const Table *table, Text *text);
 
 /* The document as people read it: for each column of the kind its words, and the figure with its
