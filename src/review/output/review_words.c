@@ -77,18 +77,6 @@ const char *words_margin(double margin, Arena *arena) {
     return arena_format(arena, "%s%.*f %%", sign, size < 10 ? 1 : 0, size);
 }
 
-const char *words_from_limit(const LimitVerdict *limit, Arena *arena) {
-    double times = limit ? limit->found / limit->value : (double)NAN;
-    double percent = 100 * fabs(times - 1);
-    if (isnan(times)) return "–";
-    if (isinf(times)) return TERM_FAR_ABOVE;
-    if (times >= 2) return arena_format(arena, TERM_TIMES, words_figure(times, arena));
-    const char *by = percent > 0 && percent < 0.1
-                         ? "less than 0.1"
-                         : arena_format(arena, "%.*f", percent < 10 ? 1 : 0, percent);
-    return percent > 0 ? arena_format(arena, times > 1 ? TERM_ABOVE : TERM_BELOW, by) : TERM_ON;
-}
-
 /* A figure that was written already, with the unit of the limit behind it. */
 static const char *with_unit(const LimitVerdict *limit, const char *figure, Arena *arena) {
     const ReviewQuantity *of = quantity_of(limit);
@@ -114,12 +102,32 @@ static const char *with_age(const LimitVerdict *limit, const char *figure, Arena
     return arena_format(arena, "%s at %g years", figure, limit->age_years);
 }
 
-const char *words_found(const LimitVerdict *limit, Arena *arena) {
-    if (isnan(limit->found)) return "–";
+/* The figure as people read it, without its unit. */
+static const char *shown_figure(const LimitVerdict *limit, Arena *arena) {
     const char *figure = words_within(limit->found, limit->low, limit->high, arena);
     for (int digits = 4; digits <= 9 && is_belied(limit, figure); digits++)
         figure = arena_format(arena, "%.*g", digits, limit->found);
-    return with_age(limit, with_unit(limit, figure, arena), arena);
+    return figure;
+}
+
+const char *words_found(const LimitVerdict *limit, Arena *arena) {
+    if (isnan(limit->found)) return "–";
+    return with_age(limit, with_unit(limit, shown_figure(limit, arena), arena), arena);
+}
+
+/* Of the figure as it is shown: whoever divides the two gets this. */
+const char *words_from_limit(const LimitVerdict *limit, Arena *arena) {
+    double found = limit ? limit->found : (double)NAN;
+    if (isfinite(found)) number_read(shown_figure(limit, arena), &found);
+    double times = limit ? found / limit->value : (double)NAN;
+    double percent = 100 * fabs(times - 1);
+    if (isnan(times)) return "–";
+    if (isinf(times)) return TERM_FAR_ABOVE;
+    if (times >= 2) return arena_format(arena, TERM_TIMES, words_figure(times, arena));
+    const char *by = percent > 0 && percent < 0.1
+                         ? "less than 0.1"
+                         : arena_format(arena, "%.*f", percent < 10 ? 1 : 0, percent);
+    return percent > 0 ? arena_format(arena, times > 1 ? TERM_ABOVE : TERM_BELOW, by) : TERM_ON;
 }
 
 const char *words_kind(const LimitVerdict *limit) {
