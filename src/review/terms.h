@@ -10,11 +10,11 @@
 
 #define TERM_MINIMUM "minimum %s"
 #define TERM_MAXIMUM "maximum %s"
-#define TERM_BELOW "%s %% below the limit"
-#define TERM_ABOVE "%s %% above the limit"
-#define TERM_TIMES "%s times the limit"
-#define TERM_FAR_ABOVE "far above the limit"
-#define TERM_ON "on the limit"
+#define TERM_BELOW "%s %% below the %s" /* minimum, maximum */
+#define TERM_ABOVE "%s %% above the %s"
+#define TERM_TIMES "%s times the %s"
+#define TERM_FAR_ABOVE "far above the %s"
+#define TERM_ON "on the %s"
 #define TERM_FOUND "%s %s%s%s (%s)" /* contrast 1.59 : 1 in direct sun (minimum 2 : 1) */
 #define TERM_OPEN "%s %s%s%s, 95 %% interval %s to %s (%s)"
 #define TERM_NO_LIMIT "no limit %s in this profile"
@@ -41,8 +41,8 @@
 #define TERM_RAISE "raise the brightness level from %s to %s"
 #define TERM_DIM "dim from %s to %s"
 #define TERM_DIM_DISPLAY "dim %s from %s to %s"
-#define TERM_DIM_ALL "dim all displays to %s of their brightness levels"
-#define TERM_DIM_IMAGE "dim %s to %s of its brightness level"
+#define TERM_DIM_ALL "dim all displays to %s of their present brightness levels"
+#define TERM_DIM_IMAGE "dim %s to %s of its present brightness level"
 #define TERM_TOWARDS " towards this eye"
 #define TERM_THEN "; then %s (%s) %s: %s %s (%s)%s" /* what the level breaks */
 #define TERM_REFLECT_LESS \

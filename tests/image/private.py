@@ -80,8 +80,8 @@ def check_breaks(report, program, folder):
     pane = next(p for p in answer["pane_images"] if p["eye"] == "eye")
     then = pane["breaks"][0]
     share = pane["limit"]["value"] / pane["limit"]["interval"][1]
-    words = (f"{math.floor(1e5 * share) / 1e3:.3g} % of its brightness level; then bar (reader) "
-             "fails: contrast")
+    words = (f"{math.floor(1e5 * share) / 1e3:.3g} % of its present brightness level; then bar "
+             "(reader) fails: contrast")
     report.claim(words in done.stdout and words in text_of(out, "index.html"), words)
     more["variants"] = {"dim": {"brightness": {"*": share}}}
     _, out = review(program, folder, "dimmed", more)

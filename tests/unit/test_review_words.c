@@ -17,13 +17,13 @@ TEST(figures_are_said_in_words) {
     static const struct {
         double found;
         const char *words;
-    } FROM[] = {{1.59, "20 % below the limit"},
-                {2.1, "5.0 % above the limit"},
-                {2, "on the limit"},
-                {2.001, "less than 0.1 % above the limit"},
-                {206, "103 times the limit"},
-                {INFINITY, "far above the limit"},
-                {0, "100 % below the limit"},
+    } FROM[] = {{1.59, "20 % below the minimum"},
+                {2.1, "5.0 % above the minimum"},
+                {2, "on the minimum"},
+                {2.001, "less than 0.1 % above the minimum"},
+                {206, "103 times the minimum"},
+                {INFINITY, "far above the minimum"},
+                {0, "100 % below the minimum"},
                 {NAN, "–"}};
     for (int i = 0; i < 8; i++)
         assert_string_equal(
@@ -259,7 +259,7 @@ TEST(every_failure_says_what_to_do) {
     assert_string_equal(
         todo_of_finding(&(Finding){.pane = &pane, .worst = &pane.limit, .verdict = VERDICT_FAIL},
                         &arena),
-        "dim screen to 40 % of its brightness level");
+        "dim screen to 40 % of its present brightness level");
     pane.image = 0.02; /* what is left of it nobody sees */
     assert_string_equal(
         todo_of_finding(&(Finding){.pane = &pane, .worst = &pane.limit, .verdict = VERDICT_FAIL},

@@ -49,6 +49,13 @@ static const char *glasses_words(const ReviewCase *c, Arena *arena) {
                         words_ratio_as(c, contrast_without_loss(c), arena));
 }
 
+/* Most of the light came straight to the display: its last surface is itself. */
+static bool is_of_light_alone(const ReviewCase *c, int group) {
+    const CaseGroup *light = &c->groups[GROUP_LIGHT];
+    return group != GROUP_LIGHT && light->count &&
+           words_same(c->groups[group].list[0].what, light->list[0].what);
+}
+
 static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *c, Arena *arena) {
     static const char *const NAMES[CAUSE_GROUPS] = {"Source", "Path", "Last surface"};
     const char *whole = words_whole(c, arena);
@@ -61,7 +68,7 @@ static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *
                 ? arena_format(arena, "the display itself, mirrored by %s", limit->by_pane)
                 : "the display itself, seen straight");
     for (int g = 0; g < CAUSE_GROUPS && !is_read; g++)
-        if (c->groups[g].count)
+        if (c->groups[g].count && !is_of_light_alone(c, g))
             add(facts, NAMES[g], words_group(&c->groups[g], SHARES_LISTED, arena));
     if (!c->groups[GROUP_LIGHT].count && c->cause_count && !is_read)
         add(facts, "Source",

@@ -143,9 +143,12 @@ static const char *from_limit(const ReviewCase *c, Arena *arena) {
 static const char *margins_words(const ReviewDifference *d, Arena *arena) {
     const char *after = from_limit(d->after, arena);
     if (!d->before) return after;
-    return arena_format(arena, "%s → %s, margin difference %s%s%s", from_limit(d->before, arena),
-                        after, difference_words(d, arena), d->is_other_part ? ", " : "",
-                        other_part(d, arena));
+    const char *moved = effect_is_none(d->margin, d->margin_range, SHOWN_SHARE) ? "no difference"
+                        : d->margin_range.low > 0                               ? "better"
+                        : d->margin_range.high < 0                              ? "worse"
+                                                   : "not surely different";
+    return arena_format(arena, "%s → %s, %s%s%s", from_limit(d->before, arena), after, moved,
+                        d->is_other_part ? ", " : "", other_part(d, arena));
 }
 
 const char *review_variants_words(const ReviewVariantFound *v, Arena *arena) {

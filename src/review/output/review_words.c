@@ -122,12 +122,13 @@ const char *words_from_limit(const LimitVerdict *limit, Arena *arena) {
     double times = limit ? found / limit->value : (double)NAN;
     double percent = 100 * fabs(times - 1);
     if (isnan(times)) return "–";
-    if (isinf(times)) return TERM_FAR_ABOVE;
-    if (times >= 2) return arena_format(arena, TERM_TIMES, words_figure(times, arena));
-    const char *by = percent > 0 && percent < 0.1
-                         ? "less than 0.1"
-                         : arena_format(arena, "%.*f", percent < 10 ? 1 : 0, percent);
-    return percent > 0 ? arena_format(arena, times > 1 ? TERM_ABOVE : TERM_BELOW, by) : TERM_ON;
+    const char *bound = limit->is_upper ? "maximum" : "minimum";
+    if (isinf(times)) return arena_format(arena, TERM_FAR_ABOVE, bound);
+    if (times >= 2) return arena_format(arena, TERM_TIMES, words_figure(times, arena), bound);
+    if (!(percent > 0)) return arena_format(arena, TERM_ON, bound);
+    const char *by = percent < 0.1 ? "less than 0.1"
+                                   : arena_format(arena, "%.*f", percent < 10 ? 1 : 0, percent);
+    return arena_format(arena, times > 1 ? TERM_ABOVE : TERM_BELOW, by, bound);
 }
 
 const char *words_kind(const LimitVerdict *limit) {

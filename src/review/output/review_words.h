@@ -43,8 +43,8 @@ const char *words_share(double share, Arena *arena);
 /* "+12 %", "−18 %"; "–" where there is no limit. */
 const char *words_margin(double margin, Arena *arena);
 
-/* "20 % below the limit", of 1.6 where 2 is required, in the limit's own unit; "3.2 times the
- * limit"; "–" where nothing was found. */
+/* "20 % below the minimum", of 1.6 where 2 is required, in the limit's own unit; "3.2 times the
+ * maximum"; "–" where nothing was found. */
 const char *words_from_limit(const LimitVerdict *limit, Arena *arena);
 
 /* As somebody would write it who chose it: "2", "0.65". */
