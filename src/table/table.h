@@ -15,7 +15,7 @@
 #include "base/count.h"
 #include "text/text.h"
 
-#define TABLE_COLUMNS 48 /* at most */
+#define TABLE_COLUMNS 128 /* at most; of a document with more the first */
 
 typedef struct TableKind TableKind;
 
