@@ -102,35 +102,38 @@ static const char *look_command(const EquipResult *r, Arena *arena) {
                         escape_shell(r->scene, arena), escape_shell(r->first_eye, arena));
 }
 
+static const Column RESULT[] = {
+    COLUMN_TEXT("scene", "scene"),
+    COLUMN_TEXT("displays", "displays"),
+    COLUMN_TEXT("eyes", "eyes"),
+    COLUMN_TEXT("materials", "materials"),
+    COLUMN_DIGITS("forward", "ahead", NULL, 0),
+    COLUMN_TEXT("forward_is_proposed", "ahead by where the first eye looks"),
+    COLUMN_TEXT("bin", "bytes"),
+    {.key = "occupant", .words = "occupant", .none = "none: nobody sits in the driver's seat"},
+    COLUMN_TEXT("copies", "copy"),
+    {.key = "review",
+     .words = "review",
+     .none = "none: no display shows content that could be read"},
+    {.key = "without_data", .words = "without data (parhelion check)", .hides_zero = true},
+    COLUMN_TEXT("next", "next"),
+    COLUMN_TEXT("look", "look")};
+static const TableKind RESULT_KIND = TABLE_KIND("equip", NULL, RESULT);
+
 static bool print_result(const EquipWords *words, const EquipResult *r, Arena *arena, Error *err) {
-    if (words->cli.json)
-        return cli_print_json(
-            json_pack("{s:o, s:o, s:o, s:o, s:i, s:i, s:i, s:i, s:[f,f,f], s:b, s:o}", "scene",
-                      json_text(r->scene), "bin", json_text_or_null(r->bin), "review",
-                      json_text_or_null(r->review), "copies", json_texts(r->copies, r->copy_count),
-                      "displays", r->display_count, "eyes", r->eye_count, "materials",
-                      r->material_count, "without_data", r->without_data, "forward", r->forward[0],
-                      r->forward[1], r->forward[2], "forward_is_proposed", r->forward_is_proposed,
-                      "occupant", json_text_or_null(r->occupant)),
-            err);
-    print("scene        %s: displays %d, eyes %d, materials %d\n", r->scene, r->display_count,
-          r->eye_count, r->material_count);
-    print("ahead        (%g, %g, %g)%s\n", r->forward[0] + 0.0, r->forward[1] + 0.0,
-          r->forward[2] + 0.0,
-          r->forward_is_proposed ? ": proposed from where the first eye looks" : "");
-    if (r->bin) print("bytes        %s\n", r->bin);
-    if (r->occupant) print("occupant     %s\n", r->occupant);
-    else print("occupant     none: nobody sits in the driver's seat\n");
-    for (int i = 0; i < r->copy_count; i++) print("copy         %s\n", r->copies[i]);
-    if (r->review) print("review       %s\n", r->review);
-    else print("review       none: no display shows content that could be read\n");
-    if (r->without_data)
-        print("without data %d material%s: parhelion check %s tells which\n", r->without_data,
-              r->without_data == 1 ? "" : "s", escape_shell(r->scene, arena));
-    if (r->review)
-        print("next         parhelion review %s --dry-run\n", escape_shell(r->review, arena));
-    print("look         %s\n", look_command(r, arena));
-    return true;
+    const char *next = r->review ? arena_format(arena, "parhelion review %s --dry-run",
+                                                escape_shell(r->review, arena))
+                                 : NULL;
+    json_t *answer = json_pack(
+        "{s:o, s:o, s:o, s:o, s:i, s:i, s:i, s:i, s:[f,f,f], s:b, s:o}", "scene",
+        json_text(r->scene), "bin", json_text_or_null(r->bin), "review",
+        json_text_or_null(r->review), "copies", json_texts(r->copies, r->copy_count), "displays",
+        r->display_count, "eyes", r->eye_count, "materials", r->material_count, "without_data",
+        r->without_data, "forward", r->forward[0], r->forward[1], r->forward[2],
+        "forward_is_proposed", r->forward_is_proposed, "occupant", json_text_or_null(r->occupant));
+    json_object_set_new(answer, "next", json_text_or_null(next));
+    json_object_set_new(answer, "look", json_text(look_command(r, arena)));
+    return cli_print_answer(&RESULT_KIND, answer, words->cli.json, err);
 }
 
 static bool apply(const EquipWords *words, Arena *arena, Error *err) {
