@@ -109,9 +109,6 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
 
 /* ---- what people read -------------------------------------------------------------------- */
 
-#define MEASURED(key_, words_, unit_, interval_) \
-    {.key = key_, .words = words_, .unit = unit_, .interval = interval_}
-
 static const Column LIGHTS[] = {COLUMN_TEXT("name", "light"),
                                 COLUMN_DIGITS("cd_m2", "luminance", "cd/m2", 6),
                                 COLUMN_SHARE("share", "share")};
@@ -135,9 +132,9 @@ static const Column FIGURES[] = {
      .words = "x",
      .interval = "xy_interval.0",
      .none = "undefined: there is no light"},
-    MEASURED("xy.1", "y", NULL, "xy_interval.1"),
-    MEASURED("uv.0", "u'", NULL, "uv_interval.0"),
-    MEASURED("uv.1", "v'", NULL, "uv_interval.1"),
+    COLUMN_MEASURED("xy.1", "y", NULL, "xy_interval.1"),
+    COLUMN_MEASURED("uv.0", "u'", NULL, "uv_interval.0"),
+    COLUMN_MEASURED("uv.1", "v'", NULL, "uv_interval.1"),
     {.key = "contrast.value",
      .words = "contrast",
      .unit = ": 1",
@@ -163,11 +160,12 @@ static const Column FIGURES[] = {
      .times = 100,
      .hides_zero = true},
     COLUMN_TEXT("content.missing", "no contrast of content"),
-    MEASURED("content.ratio", "content, contrast", ": 1", "content.ratio_interval"),
-    MEASURED("content.characters_cd_m2", "characters", "cd/m2", "content.characters_interval"),
-    MEASURED("content.ground_cd_m2", "ground", "cd/m2", "content.ground_interval"),
-    MEASURED("content.michelson", "Michelson", NULL, "content.michelson_interval"),
-    MEASURED("content.weber", "Weber", NULL, "content.weber_interval"),
+    COLUMN_MEASURED("content.ratio", "content, contrast", ": 1", "content.ratio_interval"),
+    COLUMN_MEASURED("content.characters_cd_m2", "characters", "cd/m2",
+                    "content.characters_interval"),
+    COLUMN_MEASURED("content.ground_cd_m2", "ground", "cd/m2", "content.ground_interval"),
+    COLUMN_MEASURED("content.michelson", "Michelson", NULL, "content.michelson_interval"),
+    COLUMN_MEASURED("content.weber", "Weber", NULL, "content.weber_interval"),
     COLUMN_TEXT("content.edges_left_out", "edges of strokes left out"),
     COLUMN_TEXT("may_miss", "may miss light"),
     {.key = "rare_error",

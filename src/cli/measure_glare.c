@@ -43,18 +43,15 @@ static const Column SOURCES[] = {COLUMN_DIGITS("luminance_cd_m2", "luminance", "
                                  {.key = "pixel", .words = "about pixel", .is_fixed = true}};
 static const TableKind SOURCES_KIND = TABLE_KIND("sources", "Sources", SOURCES);
 
-#define MEASURED(key_, words_, unit_, interval_) \
-    {.key = key_, .words = words_, .unit = unit_, .interval = interval_}
-
 static const Column FIGURES[] = {
-    MEASURED("vertical_illuminance_lx", "at the eye", "lx", "vertical_illuminance_interval"),
+    COLUMN_MEASURED("vertical_illuminance_lx", "at the eye", "lx", "vertical_illuminance_interval"),
     COLUMN_TEXT("vertical_illuminance_given", "of these lx, as given"),
-    MEASURED("background_cd_m2", "background", "cd/m2", "background_interval"),
+    COLUMN_MEASURED("background_cd_m2", "background", "cd/m2", "background_interval"),
     COLUMN_TEXT("missing", "no UGR"),
-    MEASURED("ugr", "UGR", NULL, "ugr_interval"),
-    MEASURED("dgp", "DGP", NULL, "dgp_interval"),
+    COLUMN_MEASURED("ugr", "UGR", NULL, "ugr_interval"),
+    COLUMN_MEASURED("dgp", "DGP", NULL, "dgp_interval"),
     COLUMN_TEXT("settings.low_light", "DGP's factor for less than 1000 lx"),
-    MEASURED("dgi", "DGI", NULL, "dgi_interval"),
+    COLUMN_MEASURED("dgi", "DGI", NULL, "dgi_interval"),
     COLUMN_DIGITS("settings.threshold_cd_m2", "sources brighter than", "cd/m2", 0),
     COLUMN_TEXT("source_count", "sources"),
     {.key = "sources_without_core",

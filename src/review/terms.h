@@ -14,6 +14,7 @@
 #define TERM_ABOVE "%s %% above the %s"
 #define TERM_TIMES "%s times the %s"
 #define TERM_FAR_ABOVE "far above the %s"
+#define TERM_FAR_BELOW "far below the %s"
 #define TERM_ON "on the %s"
 #define TERM_FOUND "%s %s%s%s (%s)" /* contrast 1.59 : 1 in direct sun (minimum 2 : 1) */
 #define TERM_OPEN "%s %s%s%s, 95 %% interval %s to %s (%s)"

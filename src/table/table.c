@@ -299,7 +299,10 @@ void table_add_text(const Table *table, Text *text) {
             if (width[c] < 0) continue;
             const char *words = r < 0 ? heading(&kind->columns[c], text->arena)
                                       : words_of(table, r, c, text->arena);
-            if (!words) words = "";
+            if (!words || !*words) {
+                owed += width[c] + 2;
+                continue;
+            }
             int rest = width[c] - characters(words);
             add_blanks(text, owed + (is_right[c] ? rest : 0));
             text_add_printable(text, words, strlen(words));

@@ -54,6 +54,10 @@ struct TableKind {
 #define COLUMN_SHARE(key_, words_) \
     {.key = key_, .words = words_, .unit = "%", .places = 3, .times = 100}
 
+/* With an interval, which decides the digits. */
+#define COLUMN_MEASURED(key_, words_, unit_, interval_) \
+    {.key = key_, .words = words_, .unit = unit_, .interval = interval_}
+
 typedef enum CellKind {
     CELL_ABSENT,
     CELL_NUMBER, /* NaN: there is none */

@@ -119,6 +119,9 @@ TEST_WITH(all_problems_are_told_and_the_status_is_3, maker_reset, NULL) {
     assert_non_null(strstr(plain.text, "is 5, but there are 0 in meshes (/nodes/0/mesh)"));
     assert_non_null(strstr(plain.text, "(/nodes/1/camera)"));
     assert_non_null(strstr(plain.text, "NOT OK: 2 errors, 1 warnings"));
+    Checked materials = run(path, "--materials"); /* of which there are none */
+    assert_false(materials.is_ok);
+    assert_non_null(strstr(materials.text, "NOT OK: 2 errors, 1 warnings"));
     Checked outcome = run(path, "--json");
     json_auto_t *document = json_loads(outcome.text, 0, NULL);
     json_t *first = json_array_get(json_object_get(document, "problems"), 0);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A review's figures as people read them. */
+#include "base/count.h"
 #include "review/output/review_facts.h"
 #include "review/output/review_todo.h"
 #include "review/output/review_words.h"
@@ -24,8 +25,9 @@ TEST(figures_are_said_in_words) {
                 {206, "103 times the minimum"},
                 {INFINITY, "far above the minimum"},
                 {0, "100 % below the minimum"},
+                {-0.5, "far below the minimum"},
                 {NAN, "–"}};
-    for (int i = 0; i < 8; i++)
+    for (int i = 0; i < COUNT_OF(FROM); i++)
         assert_string_equal(
             words_from_limit(&(LimitVerdict){.found = FROM[i].found, .value = 2}, &arena),
             FROM[i].words);

@@ -157,6 +157,17 @@ ARENA_TEST(a_document_is_read_by_its_columns) {
                                    "sun       50.0\n");
 }
 
+ARENA_TEST(what_has_nothing_to_say_says_nothing) {
+    json_auto_t *empty = json_object(), *none = json_loads("{\"items\": []}", 0, NULL);
+    Text text = {.arena = &arena};
+    table_add_document(&ANSWER_KIND, empty, &text);
+    table_add_document(&ANSWER_KIND, none, &text);
+    assert_int_equal(text.size, 0);
+    json_auto_t *list = json_loads("[7, {\"name\": 3}, null]", 0, NULL); /* of another's making */
+    table_add_document(&ITEMS_KIND, list, &text);
+    assert_string_equal(text.data, "item\n\n   3\n\n");
+}
+
 /* A control character of a foreign text is no line's end. */
 ARENA_TEST(what_a_terminal_would_obey_is_shown) {
     json_auto_t *document = json_pack("{s:s}", "absent", "a\nb");

@@ -27,17 +27,22 @@ bool cli_write_json(const json_t *document, const char *path, Error *err) {
     return done;
 }
 
+/* False: stdout is full. */
+static bool say(const Text *text, Error *err) {
+    if (text->size) print_own(stdout, text->data);
+    return (!ferror(stdout) && !fflush(stdout)) ||
+           error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s", strerror(errno));
+}
+
 bool cli_print_json(json_t *document, Error *err) {
     Arena arena = arena_reserve(DOCUMENT_BYTES);
     Text text = {.arena = &arena};
-    bool is_whole = write_document(&text, document);
-    if (is_whole) print_own(stdout, text.data);
-    bool done = is_whole && !fflush(stdout) && !ferror(stdout);
-    int reason = errno;
+    bool done = write_document(&text, document)
+                    ? say(&text, err)
+                    : error_at(err, ERROR_OUTPUT, "stdout", NULL, "no document could be made");
     arena_release(&arena);
     json_decref(document);
-    return done ||
-           error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s", strerror(reason));
+    return done;
 }
 
 bool cli_print_answer(const TableKind *kind, json_t *document, bool as_json, Error *err) {
@@ -45,10 +50,10 @@ bool cli_print_answer(const TableKind *kind, json_t *document, bool as_json, Err
     Arena arena = arena_reserve(DOCUMENT_BYTES);
     Text text = {.arena = &arena};
     table_add_document(kind, document, &text);
-    print_own(stdout, text.data);
+    bool done = say(&text, err);
     arena_release(&arena);
     json_decref(document);
-    return true;
+    return done;
 }
 
 void cli_error_line(const Error *error, char *buffer, int size) {

@@ -124,6 +124,7 @@ const char *words_from_limit(const LimitVerdict *limit, Arena *arena) {
     if (isnan(times)) return "–";
     const char *bound = limit->is_upper ? "maximum" : "minimum";
     if (isinf(times)) return arena_format(arena, TERM_FAR_ABOVE, bound);
+    if (times < 0) return arena_format(arena, TERM_FAR_BELOW, bound); /* of a logarithm */
     if (times >= 2) return arena_format(arena, TERM_TIMES, words_figure(times, arena), bound);
     if (!(percent > 0)) return arena_format(arena, TERM_ON, bound);
     const char *by = percent < 0.1 ? "less than 0.1"
