@@ -118,12 +118,14 @@ Table *table_of_objects(const Column *known, int known_count, const json_t *list
     Column *columns = ARENA_NEW(arena, Column, json_object_size(first));
     TableKind *kind = ARENA_NEW(arena, TableKind, 1);
     *kind = (TableKind){.columns = columns};
+    for (int k = 0; k < known_count; k++)
+        if (json_object_get(first, known[k].key)) columns[kind->column_count++] = known[k];
+    int known_here = kind->column_count;
     json_object_foreach(first, key, value) {
-        if (kind->column_count == TABLE_COLUMNS) break;
-        Column *column = &columns[kind->column_count++];
-        *column = (Column){.key = key, .words = readable(key, arena)};
-        for (int k = 0; k < known_count; k++)
-            if (!strcmp(known[k].key, key)) *column = known[k];
+        bool is_known = false;
+        for (int c = 0; c < known_here; c++) is_known |= !strcmp(columns[c].key, key);
+        if (!is_known && kind->column_count < TABLE_COLUMNS)
+            columns[kind->column_count++] = (Column){.key = key, .words = readable(key, arena)};
     }
     return table_of_list(kind, list, arena);
 }

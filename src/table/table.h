@@ -95,8 +95,8 @@ void table_text(Table *table, const char *text);
 
 /* ---- of a document ----------------------------------------------------------------------- */
 
-/* A row for each object of the list, with a column for each member of the first one: as the known
- * column of that key, else under its own name. NULL: there is no object. */
+/* A row for each object of the list. Its columns are the members of the first one: the known of
+ * them in their order, then the others under their own names. NULL: there is no object. */
 Table *table_of_objects(const Column *known, int known_count, const json_t *list, Arena *arena);
 
 void table_add_object(Table *table, const json_t *object);

@@ -11,6 +11,7 @@
  * Sources  IDMS: SID, Information Display Measurements Standard, by its chapters: 5 contrast and
  *          gamut, 6 grey scale, 8 uniformity, 9 viewing angle, 11 reflection. CIE 15,
  *          Colorimetry: chromaticity, reflectances and their geometries.
+ *          Named by subject; the standards' own texts were not read for this.
  */
 #pragma once
 #include "base/vec.h"

@@ -49,13 +49,6 @@ static const char *glasses_words(const ReviewCase *c, Arena *arena) {
                         words_ratio_as(c, contrast_without_loss(c), arena));
 }
 
-/* Most of the light came straight to the display: its last surface is itself. */
-static bool is_of_light_alone(const ReviewCase *c, int group) {
-    const CaseGroup *light = &c->groups[GROUP_LIGHT];
-    return group != GROUP_LIGHT && light->count &&
-           words_same(c->groups[group].list[0].what, light->list[0].what);
-}
-
 static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *c, Arena *arena) {
     static const char *const NAMES[CAUSE_GROUPS] = {"Source", "Path", "Last surface"};
     const char *whole = words_whole(c, arena);
@@ -67,9 +60,12 @@ static void add_why(ReviewFacts *facts, const Review *review, const ReviewCase *
             limit && limit->by_pane
                 ? arena_format(arena, "the display itself, mirrored by %s", limit->by_pane)
                 : "the display itself, seen straight");
-    for (int g = 0; g < CAUSE_GROUPS && !is_read; g++)
-        if (c->groups[g].count && !is_of_light_alone(c, g))
-            add(facts, NAMES[g], words_group(&c->groups[g], SHARES_LISTED, arena));
+    const char *source = words_group(&c->groups[GROUP_LIGHT], SHARES_LISTED, arena);
+    for (int g = 0; g < CAUSE_GROUPS && !is_read; g++) {
+        const char *group = words_group(&c->groups[g], SHARES_LISTED, arena);
+        bool is_told = g != GROUP_LIGHT && !strcmp(group, source); /* it comes straight */
+        if (!is_told) add(facts, NAMES[g], group);
+    }
     if (!c->groups[GROUP_LIGHT].count && c->cause_count && !is_read)
         add(facts, "Source",
             arena_format(arena, "%s of the reflected light by %s",
