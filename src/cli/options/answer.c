@@ -2,7 +2,6 @@
 #include "cli/options/answer.h"
 
 #include <math.h>
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -27,22 +26,14 @@ bool cli_write_json(const json_t *document, const char *path, Error *err) {
     return done;
 }
 
-/* False: stdout is full. */
-static bool say(const Text *text, Error *err) {
-    if (text->size) print_own(stdout, text->data);
-    return (!ferror(stdout) && !fflush(stdout)) ||
-           error_at(err, ERROR_OUTPUT, "stdout", NULL, "cannot be written: %s", strerror(errno));
-}
-
 bool cli_print_json(json_t *document, Error *err) {
     Arena arena = arena_reserve(DOCUMENT_BYTES);
     Text text = {.arena = &arena};
-    bool done = write_document(&text, document)
-                    ? say(&text, err)
-                    : error_at(err, ERROR_OUTPUT, "stdout", NULL, "no document could be made");
+    bool is_whole = write_document(&text, document);
+    if (is_whole) print_own(stdout, text.data);
     arena_release(&arena);
     json_decref(document);
-    return done;
+    return is_whole || error_at(err, ERROR_OUTPUT, "stdout", NULL, "no document could be made");
 }
 
 bool cli_print_answer(const TableKind *kind, json_t *document, bool as_json, Error *err) {
@@ -50,10 +41,10 @@ bool cli_print_answer(const TableKind *kind, json_t *document, bool as_json, Err
     Arena arena = arena_reserve(DOCUMENT_BYTES);
     Text text = {.arena = &arena};
     table_add_document(kind, document, &text);
-    bool done = say(&text, err);
+    if (text.size) print_own(stdout, text.data);
     arena_release(&arena);
     json_decref(document);
-    return done;
+    return true;
 }
 
 void cli_error_line(const Error *error, char *buffer, int size) {

@@ -3,7 +3,8 @@
  * everything else to stderr.
  *
  * Threads  one at a time.
- * Fails    where stdout cannot be written, with the system's reason.
+ * Fails    where a document cannot be made. That stdout was not written is found once, at the
+ *          end of the program (main.c).
  */
 #pragma once
 #include <jansson.h>
@@ -14,7 +15,7 @@
 #include "base/problems.h"
 #include "table/table.h"
 
-/* Prints the document to stdout with a newline, and releases it. False: stdout is full. */
+/* Prints the document to stdout with a newline, and releases it. */
 bool cli_print_json(json_t *document, Error *err);
 
 /* The document, or what people read of it: the columns of the kind. */

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* panel eval: what a panel emits or reflects in one direction. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -257,15 +256,6 @@ static json_t *emission_grid_json(const Panel *panel, const PanelQuestion *q,
                      "extrapolated", far.theta, "extrapolated_at", far.at);
 }
 
-static bool print_grid_text(const Panel *panel, const EvalRequest *request, const PanelGrid *grid,
-                            Error *err) {
-    if (request->layout) print_matrix(panel, &request->question, grid, (Quantity)request->quantity);
-    else print_list(panel, &request->question, grid);
-    if (fflush(stdout) || ferror(stdout))
-        return error_set(err, ERROR_OUTPUT, "stdout cannot be written: %s", strerror(errno));
-    return true;
-}
-
 static json_t *answer_json(const Panel *panel, const PanelQuestion *q, const PanelLevel *level) {
     json_t *one = panel_answer_json(panel, q);
     panel_level_add(level, one);
@@ -353,7 +343,12 @@ static bool answer_grid(const Panel *panel, const EvalRequest *request, const Cl
     PanelGrid grid;
     const PanelQuestion *q = &request->question;
     if (!panel_grid_parse(request->grid, &grid, err)) return false;
-    if (!cli->json) return print_grid_text(panel, request, &grid, err);
+    if (!cli->json) {
+        if (request->layout)
+            print_matrix(panel, &request->question, &grid, (Quantity)request->quantity);
+        else print_list(panel, &request->question, &grid);
+        return true;
+    }
     json_t *tables =
         q->is_brdf ? reflection_grid_json(panel, q, &grid) : emission_grid_json(panel, q, &grid);
     panel_level_add(&request->level, tables);
