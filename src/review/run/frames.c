@@ -26,9 +26,340 @@
 #include "review/run/symbols.h"
 #include "scene/load/material_data.h"
 
+/* Read on from review_frames, which is the first function. The worst cases are rendered in the
+ * order of the page, one frame for all that are seen in one view (candidates, make_worst); of the
+ * first one each variant's frame stands beside it (make_pairs). A frame is made by make_frame:
+ * the condition's setup is opened and lit, the eye aimed (aim), the frame rendered or found whole
+ * (frame_make), and the case told where its symbol and rays lie in it (add_sights). A merge takes
+ * the frames that its parts have made (take_frame).
+ */
+
 #define YFOV_DEG 35                   /* of an eye that is no camera */
 #define WORDS 16                      /* of a frame's metadata, at most */
 #define FILES_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
+#define RIM_STEPS 8                   /* points along a side of a symbol's rectangle */
+#define SETUP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
+
+/* A case that may be rendered: of a moment, or the worst of a sweep. */
+typedef struct Candidate {
+    ReviewCase *of;
+    const SweepTable *table; /* NULL: a moment */
+    ReviewCase made;         /* of a merge: with the frame that its part has */
+} Candidate;
+
+/* A frame to make: its eye and its light. */
+typedef struct FrameWork {
+    const ReviewRun *run; /* of the review, or of a variant of it */
+    const Candidate *of;
+    const char *name, *exposure; /* FrameArgs's */
+} FrameWork;
+
+static Candidate *candidates(ReviewOutcome *outcome, int *count, Arena *arena);
+static bool is_one_view(const Candidate *a, const Candidate *b);
+static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review, Arena *arena,
+                       Error *err);
+static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, const char **made,
+                       Error *err);
+static bool make_worst(const ReviewRun *run, const Candidate *of, int number, Arena *arena,
+                       Error *err);
+static bool exposure_of(const FrameImage *frame, const char *exr, Arena *arena, const char **out,
+                        Error *err);
+static bool find_symbol(const Setup *setup, const char *name, Arena *arena, const SetupSymbol **out,
+                        Error *err);
+static bool frame_make(const FrameArgs *args, Arena *arena, const char **out, Error *err);
+static bool frame_camera(const FrameArgs *args, SceneCamera *out, Arena scratch, Error *err);
+
+/* ---- all of them ------------------------------------------------------------------------- */
+
+bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err) {
+    int count, made = 0;
+    Candidate *list = candidates(outcome, &count, arena);
+    for (int i = 0; i < count; i++) {
+        ReviewCase *c = list[i].of;
+        c->frame = NULL;
+        c->view = NULL;
+        c->rim = NULL;
+        c->rim_count = 0;
+    }
+    for (int i = 0; i < count; i++) {
+        int same = 0;
+        while (same < i && !(list[same].of->frame && is_one_view(&list[same], &list[i]))) same++;
+        if (same < i) {
+            list[i].of->frame = list[same].of->frame;
+            list[i].of->view = list[same].of->view;
+        } else if (made < run->request->frames.worst &&
+                   (!review_goes_on(err) || !make_worst(run, &list[i], ++made, arena, err)))
+            return false;
+    }
+    return !made || make_pairs(run, &list[0], &outcome->review, arena, err);
+}
+
+/* ---- which ------------------------------------------------------------------------------- */
+
+/* `of`: null where nothing is seen. */
+static Candidate candidate_of(ReviewOutcome *outcome, const ReviewCase *c) {
+    Review *review = &outcome->review;
+    for (int i = 0; i < review->case_count; i++)
+        if (c == &review->cases[i])
+            return (Candidate){case_is_seen(c) ? &review->cases[i] : NULL, NULL, *c};
+    for (int i = 0; i < outcome->table_count; i++) {
+        const SweepTable *table = &outcome->tables[i];
+        ReviewCase *worst = &review->sweeps[table->sweep_id].worst;
+        if (c == worst && table->figures.worst >= 0) return (Candidate){worst, table, *c};
+    }
+    return (Candidate){.of = NULL};
+}
+
+/* In the order of the page, so that its first screen has a picture. */
+static Candidate *candidates(ReviewOutcome *outcome, int *count, Arena *arena) {
+    int all = review_case_count(&outcome->review);
+    const ReviewCase **ranked = review_rank(&outcome->review, arena);
+    Candidate *list = ARENA_NEW(arena, Candidate, all);
+    *count = 0;
+    for (int i = 0; i < all; i++) {
+        Candidate found = candidate_of(outcome, ranked[i]);
+        if (found.of) list[(*count)++] = found;
+    }
+    return list;
+}
+
+/* Are they seen in one frame: the same eye under the same light? */
+static bool is_one_view(const Candidate *a, const Candidate *b) {
+    return a->table == b->table && !strcmp(a->of->eye, b->of->eye) &&
+           !strcmp(a->of->condition, b->of->condition);
+}
+
+/* ---- the worst cases, rendered or of a merge ----------------------------------------------- */
+
+/* The folder of the review that has a condition: DIR of DIR/conditions/NAME. */
+static const char *part_of(const ReviewRun *run, const char *condition, Arena *arena) {
+    const ReviewRequest *request = run->request;
+    int id = (int)(review_condition_named(request, condition) - request->conditions);
+    const char *path = run->merged[id];
+    const char *folder = arena_string(arena, path, (size_t)(path_name(path) - path));
+    return arena_format(arena, "%s..", folder);
+}
+
+static bool copy_file(const char *from, const char *to, Arena scratch, Error *err) {
+    FileBytes bytes;
+    return file_read(from, SIZE_MAX, &scratch, &bytes, err) &&
+           file_write(to, bytes.data, bytes.size, err);
+}
+
+/* A frame's file and its views, under another name. */
+typedef struct FrameCopy {
+    const char *part;      /* folder of the review that has it */
+    const char *from, *to; /* pictures, within the folders */
+    int views;
+} FrameCopy;
+
+static bool take_frame(const ReviewRun *run, FrameCopy copy, Arena scratch, Error *err) {
+    const char *from = arena_format(&scratch, "%s/%s", copy.part, copy.from);
+    const char *to = arena_format(&scratch, "%s/%s", run->folder, copy.to);
+    int from_stem = (int)(path_ending(from) - from);
+    int to_stem = (int)(path_ending(to) - to);
+    if (!copy_file(arena_format(&scratch, "%.*s.exr", from_stem, from),
+                   arena_format(&scratch, "%.*s.exr", to_stem, to), scratch, err))
+        return false;
+    for (FrameView view = FRAME_PICTURE; (int)view < copy.views; view++)
+        if (!copy_file(frame_view(from, view, &scratch), frame_view(to, view, &scratch), scratch,
+                       err))
+            return false;
+    return true;
+}
+
+static bool take_worst(const ReviewRun *run, const Candidate *of, const char *name, Arena *arena,
+                       Error *err) {
+    ReviewCase *c = of->of;
+    const ReviewCase *made = &of->made;
+    const char *part = part_of(run, c->condition, arena);
+    if (!made->frame)
+        return error_at(err, ERROR_INPUT, part, "", "has no frame of %.200s, seen by %.100s",
+                        c->symbol, c->eye);
+    c->frame = arena_format(arena, "frames/%s.png", name);
+    c->view = made->view;
+    c->rim = made->rim;
+    c->rim_count = made->rim_count;
+    return take_frame(run, (FrameCopy){part, made->frame, c->frame, FRAME_VIEWS}, *arena, err);
+}
+
+static bool make_worst(const ReviewRun *run, const Candidate *of, int number, Arena *arena,
+                       Error *err) {
+    FrameWork work = {run, of, NULL, NULL};
+    work.name = words_file_name(
+        arena_format(arena, "%d-%s-%s", number, of->of->condition, of->of->eye), arena);
+    return run->merged ? take_worst(run, of, work.name, arena, err)
+                       : make_frame(&work, of->of, arena, &of->of->frame, err);
+}
+
+/* ---- of variants ------------------------------------------------------------------------- */
+
+/* "1-noon-driver" of "frames/1-noon-driver.png". */
+static const char *name_of(const char *frame, Arena *arena) {
+    const char *name = path_name(frame);
+    return arena_string(arena, name, (size_t)(path_ending(name) - name));
+}
+
+/* The same view with the change made, beside that of the review. */
+static bool make_pair(const FrameWork *before, int number, ReviewVariantFound *variant,
+                      Arena *arena, Error *err) {
+    const char *name = before->name;
+    ReviewRequest request = review_request_variant(before->run->request,
+                                                   &before->run->request->variants[number], arena);
+    ReviewRun own = *before->run;
+    FrameWork work = *before;
+    own.request = &request;
+    work.run = &own;
+    work.name = arena_format(arena, "%s-variant-%d-%s", name, number + 1,
+                             words_file_name(variant->name, arena));
+    if (own.merged) {
+        FrameCopy copy = {part_of(&own, work.of->of->condition, arena),
+                          arena_format(arena, "frames/%s%s.png",
+                                       name_of(work.of->made.frame, arena),
+                                       work.name + strlen(name)),
+                          arena_format(arena, "frames/%s.png", work.name), 1};
+        variant->frame = copy.to;
+        if (!take_frame(&own, copy, *arena, err)) return false;
+    } else if (!make_frame(&work, NULL, arena, &variant->frame, err))
+        return !err->code ? false : error_prefix(err, "variant '%.100s'", variant->name);
+    variant->frame_before = work.of->of->frame;
+    variant->seen = work.of->of;
+    return true;
+}
+
+static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review, Arena *arena,
+                       Error *err) {
+    FrameWork work = {run, of, name_of(of->of->frame, arena), NULL};
+    if (!run->request->frames.has_variants) return true;
+    Arena scratch = arena_reserve(SETUP_BYTES);
+    const char *exr = arena_format(&scratch, "%s/frames/%s.exr", run->folder, work.name);
+    FrameImage frame;
+    bool ok = !review->variant_count || run->merged ||
+              (frame_read(exr, &scratch, &frame, err) &&
+               exposure_of(&frame, exr, &scratch, &work.exposure, err));
+    for (int i = 0; i < review->variant_count && ok; i++)
+        ok = review_goes_on(err) && make_pair(&work, i, &review->variants[i], arena, err);
+    arena_release(&scratch);
+    return ok;
+}
+
+/* ---- what is drawn beside it ------------------------------------------------------------- */
+
+static CaseView view_of(const Camera *camera) {
+    const Transform *t = &camera->world_from_camera;
+    return (CaseView){t->origin,
+                      t->x,
+                      t->y,
+                      vec3_neg(t->z),
+                      camera->is_perspective,
+                      (double)camera->half_width,
+                      (double)camera->half_height,
+                      camera->width,
+                      camera->height};
+}
+
+/* From corner to corner; a curved display bends between them. */
+static void add_rim(const SetupSymbol *symbol, ReviewCase *c, Arena *arena) {
+    const double *uv = symbol->uv;
+    const double corner[5][2] = {
+        {uv[0], uv[1]}, {uv[2], uv[1]}, {uv[2], uv[3]}, {uv[0], uv[3]}, {uv[0], uv[1]}};
+    Vec3 *rim = ARENA_NEW(arena, Vec3, 4 * RIM_STEPS);
+    for (int i = 0; i < 4 * RIM_STEPS; i++) {
+        const double *a = corner[i / RIM_STEPS], *b = corner[i / RIM_STEPS + 1];
+        double t = (double)(i % RIM_STEPS) / RIM_STEPS;
+        double at[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
+        SymbolPoint point;
+        if (symbol_surface_at(&symbol->surface, at, &point)) rim[c->rim_count++] = point.position;
+    }
+    c->rim = rim;
+}
+
+/* Where its causes' rays and its symbol lie in the frame. */
+static bool add_sights(const FrameArgs *args, Arena scratch, ReviewCase *c, Arena *arena,
+                       Error *err) {
+    const ReviewFrames *frames = &args->setup->request->frames;
+    SceneCamera camera;
+    if (!frame_camera(args, &camera, scratch, err)) return false;
+    Camera seen = camera_from_scene(&camera, frames->width, frames->height);
+    CaseView *view = ARENA_NEW(arena, CaseView, 1);
+    *view = view_of(&seen);
+    c->view = view;
+    if (args->symbol) add_rim(args->symbol, c, arena);
+    return true;
+}
+
+/* ---- one frame --------------------------------------------------------------------------- */
+
+/* A variant keeps the review's view, wherever its symbol is; a mirrored one mirrors it. */
+static bool aim(const FrameWork *work, const Setup *setup, FrameArgs *args, Arena *arena,
+                Error *err) {
+    const CaseView *view = work->of->of->view;
+    double ahead[3];
+    Vec3 from;
+    if (!find_symbol(setup, work->of->of->symbol, arena, &args->symbol, err)) return false;
+    if (!work->exposure) {
+        if (args->symbol) args->look_at = symbol_middle(args->symbol).position;
+        return true;
+    }
+    if (!setup_eye_middle(setup, args->eye, *arena, &from, err)) return false;
+    ahead[0] = (double)view->forward.x;
+    ahead[1] = (double)view->forward.y;
+    ahead[2] = (double)view->forward.z;
+    review_mirror_direction(args->eye->mirror, ahead);
+    args->look_at = vec3_add(from, vec3_from_doubles(ahead));
+    return true;
+}
+
+static bool make_lit(const FrameWork *work, Setup *setup, FrameArgs *args, Arena *scratch,
+                     const char **made, Error *err) {
+    const Candidate *of = work->of;
+    Environment sky;
+    if (of->table) sky = sweep_environment(setup, &of->table->worst_sun);
+    return setup_light(setup, of->table ? &sky : NULL, scratch, err) &&
+           aim(work, setup, args, scratch, err) && frame_make(args, scratch, made, err);
+}
+
+/* *made: the picture's name, in the arena. of: gets what the frame shows; NULL: not
+ * requested. */
+static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, const char **made,
+                       Error *err) {
+    const ReviewRun *run = work->run;
+    const ReviewCondition *c = review_condition_named(run->request, work->of->of->condition);
+    SetupOptions options = {run->request, c, run->means};
+    Problems so_far = problems_start(arena);
+    Arena scratch = arena_reserve(SETUP_BYTES);
+    Setup setup;
+    bool ok = setup_open(&options, &scratch, &so_far, &setup, err);
+    if (ok) {
+        FrameArgs args = {.setup = &setup,
+                          .eye = review_eye_named(run->request, work->of->of->eye),
+                          .folder = run->folder,
+                          .unfinished = run->unfinished,
+                          .name = work->name,
+                          .exposure = work->exposure,
+                          .progress = run->progress};
+        ok = make_lit(work, &setup, &args, &scratch, made, err);
+        if (ok) *made = arena_string(arena, *made, strlen(*made));
+        ok = ok && (!of || add_sights(&args, scratch, of, arena, err));
+        setup_close(&setup);
+    }
+    arena_release(&scratch);
+    return ok;
+}
+
+/* *out: NULL: the setup has none of that name. */
+static bool find_symbol(const Setup *setup, const char *name, Arena *arena, const SetupSymbol **out,
+                        Error *err) {
+    SetupSymbol *symbols;
+    int count;
+    *out = NULL;
+    if (!setup_symbols(setup, arena, &symbols, &count, err)) return false;
+    for (int i = 0; i < count; i++)
+        if (!strcmp(symbols[i].name, name)) *out = &symbols[i];
+    return true;
+}
+
+/* ---- making it --------------------------------------------------------------------------- */
 
 /* From where the frame is seen. */
 static bool frame_camera(const FrameArgs *args, SceneCamera *out, Arena scratch, Error *err) {
@@ -208,8 +539,6 @@ static const char *identity_of(const FrameArgs *args, const SceneCamera *camera,
     return text.data;
 }
 
-/* ---- making it --------------------------------------------------------------------------- */
-
 /* About the display, through whatever it is seen; all pixels where none of it can be told. */
 static FilmRect pixels_about(const Scene *scene, const ReviewDisplay *display,
                              const Camera *camera) {
@@ -282,311 +611,4 @@ static bool frame_make(const FrameArgs *args, Arena *arena, const char **out, Er
         return false;
     *out = name;
     return true;
-}
-
-#define RIM_STEPS 8                   /* points along a side of a symbol's rectangle */
-#define SETUP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
-
-/* ---- which ------------------------------------------------------------------------------- */
-
-/* A case that may be rendered: of a moment, or the worst of a sweep. */
-typedef struct Candidate {
-    ReviewCase *of;
-    const SweepTable *table; /* NULL: a moment */
-    ReviewCase made;         /* of a merge: with the frame that its part has */
-} Candidate;
-
-/* `of`: null where nothing is seen. */
-static Candidate candidate_of(ReviewOutcome *outcome, const ReviewCase *c) {
-    Review *review = &outcome->review;
-    for (int i = 0; i < review->case_count; i++)
-        if (c == &review->cases[i])
-            return (Candidate){case_is_seen(c) ? &review->cases[i] : NULL, NULL, *c};
-    for (int i = 0; i < outcome->table_count; i++) {
-        const SweepTable *table = &outcome->tables[i];
-        ReviewCase *worst = &review->sweeps[table->sweep_id].worst;
-        if (c == worst && table->figures.worst >= 0) return (Candidate){worst, table, *c};
-    }
-    return (Candidate){.of = NULL};
-}
-
-/* In the order of the page, so that its first screen has a picture. */
-static Candidate *candidates(ReviewOutcome *outcome, int *count, Arena *arena) {
-    int all = review_case_count(&outcome->review);
-    const ReviewCase **ranked = review_rank(&outcome->review, arena);
-    Candidate *list = ARENA_NEW(arena, Candidate, all);
-    *count = 0;
-    for (int i = 0; i < all; i++) {
-        Candidate found = candidate_of(outcome, ranked[i]);
-        if (found.of) list[(*count)++] = found;
-    }
-    return list;
-}
-
-/* Are they seen in one frame: the same eye under the same light? */
-static bool is_one_view(const Candidate *a, const Candidate *b) {
-    return a->table == b->table && !strcmp(a->of->eye, b->of->eye) &&
-           !strcmp(a->of->condition, b->of->condition);
-}
-
-/* *out: NULL: the setup has none of that name. */
-static bool find_symbol(const Setup *setup, const char *name, Arena *arena, const SetupSymbol **out,
-                        Error *err) {
-    SetupSymbol *symbols;
-    int count;
-    *out = NULL;
-    if (!setup_symbols(setup, arena, &symbols, &count, err)) return false;
-    for (int i = 0; i < count; i++)
-        if (!strcmp(symbols[i].name, name)) *out = &symbols[i];
-    return true;
-}
-
-/* ---- what is drawn beside it ------------------------------------------------------------- */
-
-static CaseView view_of(const Camera *camera) {
-    const Transform *t = &camera->world_from_camera;
-    return (CaseView){t->origin,
-                      t->x,
-                      t->y,
-                      vec3_neg(t->z),
-                      camera->is_perspective,
-                      (double)camera->half_width,
-                      (double)camera->half_height,
-                      camera->width,
-                      camera->height};
-}
-
-/* From corner to corner; a curved display bends between them. */
-static void add_rim(const SetupSymbol *symbol, ReviewCase *c, Arena *arena) {
-    const double *uv = symbol->uv;
-    const double corner[5][2] = {
-        {uv[0], uv[1]}, {uv[2], uv[1]}, {uv[2], uv[3]}, {uv[0], uv[3]}, {uv[0], uv[1]}};
-    Vec3 *rim = ARENA_NEW(arena, Vec3, 4 * RIM_STEPS);
-    for (int i = 0; i < 4 * RIM_STEPS; i++) {
-        const double *a = corner[i / RIM_STEPS], *b = corner[i / RIM_STEPS + 1];
-        double t = (double)(i % RIM_STEPS) / RIM_STEPS;
-        double at[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
-        SymbolPoint point;
-        if (symbol_surface_at(&symbol->surface, at, &point)) rim[c->rim_count++] = point.position;
-    }
-    c->rim = rim;
-}
-
-/* Where its causes' rays and its symbol lie in the frame. */
-static bool add_sights(const FrameArgs *args, Arena scratch, ReviewCase *c, Arena *arena,
-                       Error *err) {
-    const ReviewFrames *frames = &args->setup->request->frames;
-    SceneCamera camera;
-    if (!frame_camera(args, &camera, scratch, err)) return false;
-    Camera seen = camera_from_scene(&camera, frames->width, frames->height);
-    CaseView *view = ARENA_NEW(arena, CaseView, 1);
-    *view = view_of(&seen);
-    c->view = view;
-    if (args->symbol) add_rim(args->symbol, c, arena);
-    return true;
-}
-
-/* ---- one frame --------------------------------------------------------------------------- */
-
-/* A frame to make: its eye and its light. */
-typedef struct FrameWork {
-    const ReviewRun *run; /* of the review, or of a variant of it */
-    const Candidate *of;
-    const char *name, *exposure; /* FrameArgs's */
-} FrameWork;
-
-/* A variant keeps the review's view, wherever its symbol is; a mirrored one mirrors it. */
-static bool aim(const FrameWork *work, const Setup *setup, FrameArgs *args, Arena *arena,
-                Error *err) {
-    const CaseView *view = work->of->of->view;
-    double ahead[3];
-    Vec3 from;
-    if (!find_symbol(setup, work->of->of->symbol, arena, &args->symbol, err)) return false;
-    if (!work->exposure) {
-        if (args->symbol) args->look_at = symbol_middle(args->symbol).position;
-        return true;
-    }
-    if (!setup_eye_middle(setup, args->eye, *arena, &from, err)) return false;
-    ahead[0] = (double)view->forward.x;
-    ahead[1] = (double)view->forward.y;
-    ahead[2] = (double)view->forward.z;
-    review_mirror_direction(args->eye->mirror, ahead);
-    args->look_at = vec3_add(from, vec3_from_doubles(ahead));
-    return true;
-}
-
-static bool make_lit(const FrameWork *work, Setup *setup, FrameArgs *args, Arena *scratch,
-                     const char **made, Error *err) {
-    const Candidate *of = work->of;
-    Environment sky;
-    if (of->table) sky = sweep_environment(setup, &of->table->worst_sun);
-    return setup_light(setup, of->table ? &sky : NULL, scratch, err) &&
-           aim(work, setup, args, scratch, err) && frame_make(args, scratch, made, err);
-}
-
-/* *made: the picture's name, in the arena. of: gets what the frame shows; NULL: not
- * requested. */
-static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, const char **made,
-                       Error *err) {
-    const ReviewRun *run = work->run;
-    const ReviewCondition *c = review_condition_named(run->request, work->of->of->condition);
-    SetupOptions options = {run->request, c, run->means};
-    Problems so_far = problems_start(arena);
-    Arena scratch = arena_reserve(SETUP_BYTES);
-    Setup setup;
-    bool ok = setup_open(&options, &scratch, &so_far, &setup, err);
-    if (ok) {
-        FrameArgs args = {.setup = &setup,
-                          .eye = review_eye_named(run->request, work->of->of->eye),
-                          .folder = run->folder,
-                          .unfinished = run->unfinished,
-                          .name = work->name,
-                          .exposure = work->exposure,
-                          .progress = run->progress};
-        ok = make_lit(work, &setup, &args, &scratch, made, err);
-        if (ok) *made = arena_string(arena, *made, strlen(*made));
-        ok = ok && (!of || add_sights(&args, scratch, of, arena, err));
-        setup_close(&setup);
-    }
-    arena_release(&scratch);
-    return ok;
-}
-
-/* ---- of a merge -------------------------------------------------------------------------- */
-
-/* The folder of the review that has a condition: DIR of DIR/conditions/NAME. */
-static const char *part_of(const ReviewRun *run, const char *condition, Arena *arena) {
-    const ReviewRequest *request = run->request;
-    int id = (int)(review_condition_named(request, condition) - request->conditions);
-    const char *path = run->merged[id];
-    const char *folder = arena_string(arena, path, (size_t)(path_name(path) - path));
-    return arena_format(arena, "%s..", folder);
-}
-
-static bool copy_file(const char *from, const char *to, Arena scratch, Error *err) {
-    FileBytes bytes;
-    return file_read(from, SIZE_MAX, &scratch, &bytes, err) &&
-           file_write(to, bytes.data, bytes.size, err);
-}
-
-/* A frame's file and its views, under another name. */
-typedef struct FrameCopy {
-    const char *part;      /* folder of the review that has it */
-    const char *from, *to; /* pictures, within the folders */
-    int views;
-} FrameCopy;
-
-static bool take_frame(const ReviewRun *run, FrameCopy copy, Arena scratch, Error *err) {
-    const char *from = arena_format(&scratch, "%s/%s", copy.part, copy.from);
-    const char *to = arena_format(&scratch, "%s/%s", run->folder, copy.to);
-    int from_stem = (int)(path_ending(from) - from);
-    int to_stem = (int)(path_ending(to) - to);
-    if (!copy_file(arena_format(&scratch, "%.*s.exr", from_stem, from),
-                   arena_format(&scratch, "%.*s.exr", to_stem, to), scratch, err))
-        return false;
-    for (FrameView view = FRAME_PICTURE; (int)view < copy.views; view++)
-        if (!copy_file(frame_view(from, view, &scratch), frame_view(to, view, &scratch), scratch,
-                       err))
-            return false;
-    return true;
-}
-
-static bool take_worst(const ReviewRun *run, const Candidate *of, const char *name, Arena *arena,
-                       Error *err) {
-    ReviewCase *c = of->of;
-    const ReviewCase *made = &of->made;
-    const char *part = part_of(run, c->condition, arena);
-    if (!made->frame)
-        return error_at(err, ERROR_INPUT, part, "", "has no frame of %.200s, seen by %.100s",
-                        c->symbol, c->eye);
-    c->frame = arena_format(arena, "frames/%s.png", name);
-    c->view = made->view;
-    c->rim = made->rim;
-    c->rim_count = made->rim_count;
-    return take_frame(run, (FrameCopy){part, made->frame, c->frame, FRAME_VIEWS}, *arena, err);
-}
-
-static bool make_worst(const ReviewRun *run, const Candidate *of, int number, Arena *arena,
-                       Error *err) {
-    FrameWork work = {run, of, NULL, NULL};
-    work.name = words_file_name(
-        arena_format(arena, "%d-%s-%s", number, of->of->condition, of->of->eye), arena);
-    return run->merged ? take_worst(run, of, work.name, arena, err)
-                       : make_frame(&work, of->of, arena, &of->of->frame, err);
-}
-
-/* ---- of variants ------------------------------------------------------------------------- */
-
-/* "1-noon-driver" of "frames/1-noon-driver.png". */
-static const char *name_of(const char *frame, Arena *arena) {
-    const char *name = path_name(frame);
-    return arena_string(arena, name, (size_t)(path_ending(name) - name));
-}
-
-/* The same view with the change made, beside that of the review. */
-static bool make_pair(const FrameWork *before, int number, ReviewVariantFound *variant,
-                      Arena *arena, Error *err) {
-    const char *name = before->name;
-    ReviewRequest request = review_request_variant(before->run->request,
-                                                   &before->run->request->variants[number], arena);
-    ReviewRun own = *before->run;
-    FrameWork work = *before;
-    own.request = &request;
-    work.run = &own;
-    work.name = arena_format(arena, "%s-variant-%d-%s", name, number + 1,
-                             words_file_name(variant->name, arena));
-    if (own.merged) {
-        FrameCopy copy = {part_of(&own, work.of->of->condition, arena),
-                          arena_format(arena, "frames/%s%s.png",
-                                       name_of(work.of->made.frame, arena),
-                                       work.name + strlen(name)),
-                          arena_format(arena, "frames/%s.png", work.name), 1};
-        variant->frame = copy.to;
-        if (!take_frame(&own, copy, *arena, err)) return false;
-    } else if (!make_frame(&work, NULL, arena, &variant->frame, err))
-        return !err->code ? false : error_prefix(err, "variant '%.100s'", variant->name);
-    variant->frame_before = work.of->of->frame;
-    variant->seen = work.of->of;
-    return true;
-}
-
-static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review, Arena *arena,
-                       Error *err) {
-    FrameWork work = {run, of, name_of(of->of->frame, arena), NULL};
-    if (!run->request->frames.has_variants) return true;
-    Arena scratch = arena_reserve(SETUP_BYTES);
-    const char *exr = arena_format(&scratch, "%s/frames/%s.exr", run->folder, work.name);
-    FrameImage frame;
-    bool ok = !review->variant_count || run->merged ||
-              (frame_read(exr, &scratch, &frame, err) &&
-               exposure_of(&frame, exr, &scratch, &work.exposure, err));
-    for (int i = 0; i < review->variant_count && ok; i++)
-        ok = review_goes_on(err) && make_pair(&work, i, &review->variants[i], arena, err);
-    arena_release(&scratch);
-    return ok;
-}
-
-/* ---- all of them ------------------------------------------------------------------------- */
-
-bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err) {
-    int count, made = 0;
-    Candidate *list = candidates(outcome, &count, arena);
-    for (int i = 0; i < count; i++) {
-        ReviewCase *c = list[i].of;
-        c->frame = NULL;
-        c->view = NULL;
-        c->rim = NULL;
-        c->rim_count = 0;
-    }
-    for (int i = 0; i < count; i++) {
-        int same = 0;
-        while (same < i && !(list[same].of->frame && is_one_view(&list[same], &list[i]))) same++;
-        if (same < i) {
-            list[i].of->frame = list[same].of->frame;
-            list[i].of->view = list[same].of->view;
-        } else if (made < run->request->frames.worst &&
-                   (!review_goes_on(err) || !make_worst(run, &list[i], ++made, arena, err)))
-            return false;
-    }
-    return !made || make_pairs(run, &list[0], &outcome->review, arena, err);
 }
