@@ -28,20 +28,25 @@ static const char *kept_text(const json_t *text, Arena *arena) {
                : NULL;
 }
 
-/* Tables of the reflection are named "brdf ...". */
-static double error_of(const json_t *tables, bool of_reflection) {
+PanelPartError panel_part_error(const json_t *report, bool of_reflection) {
+    PanelPartError out = {.worst = ""};
     double squares = 0;
-    int count = 0;
     size_t i;
     const json_t *table;
-    json_array_foreach(tables, i, table) {
+    json_array_foreach(json_object_get(report, "tables"), i, table) {
         const char *name = json_string_value(json_object_get(table, "name"));
-        double error = json_number_value(json_object_get(table, "rms_error"));
-        if (!name || !(error >= 0) || !strncmp(name, "brdf", 4) != of_reflection) continue;
-        squares += error * error;
-        count++;
+        if (!name || !strncmp(name, "brdf", 4) != of_reflection) continue;
+        double largest = json_number_value(json_object_get(table, "max_error"));
+        double rms = json_number_value(json_object_get(table, "rms_error"));
+        if (largest >= out.largest) out.largest = largest, out.worst = name;
+        squares += rms * rms;
+        out.outliers += json_number_value(json_object_get(table, "outliers"));
+        out.outlier_largest = fmax(out.outlier_largest,
+                                   json_number_value(json_object_get(table, "outliers_max_error")));
+        out.tables++;
     }
-    return count ? sqrt(squares / count) : 0;
+    if (out.tables) out.rms = sqrt(squares / out.tables);
+    return out;
 }
 
 PanelStated panel_stated(const Panel *panel, Arena *arena) {
@@ -49,13 +54,12 @@ PanelStated panel_stated(const Panel *panel, Arena *arena) {
     Error ignored;
     json_t *report;
     if (!panel_report(panel, &report, &ignored)) return out;
-    const json_t *tables = json_object_get(report, "tables");
     out.verdict = kept_text(json_object_get(report, "verdict"), arena);
     out.reason = kept_text(json_array_get(json_object_get(report, "reasons"), 0), arena);
     out.is_coarse = json_is_true(json_object_get(report, "coarse"));
     out.is_unusable = out.verdict && !strcmp(out.verdict, "not usable");
-    out.emission_error = error_of(tables, false);
-    out.reflection_error = error_of(tables, true);
+    out.emission_error = panel_part_error(report, false).rms;
+    out.reflection_error = panel_part_error(report, true).rms;
     out.name = kept_text(json_object_get(report, "panel"), arena);
     out.instrument = kept_text(json_object_get(report, "instrument"), arena);
     out.assumed =

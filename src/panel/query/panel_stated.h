@@ -11,10 +11,23 @@
  * Fails    a report that cannot be read states nothing.
  */
 #pragma once
+#include <jansson.h>
 #include <stdbool.h>
 
 #include "base/arena.h"
 #include "panel/query/panel.h"
+
+/* How far the file's emission, or its reflection, is from what was measured; shares. */
+typedef struct PanelPartError {
+    int tables;        /* of that part; 0: all else is 0 */
+    double rms;        /* the root of the mean square over the tables of each table's own */
+    double largest;    /* of all tables */
+    const char *worst; /* the table of the largest: a text of the report; "": none */
+    double outliers, outlier_largest; /* left out of both: how many, the largest */
+} PanelPartError;
+
+/* report: what `panel_report` gives. Tables of the reflection are named "brdf ...". */
+PanelPartError panel_part_error(const json_t *report, bool of_reflection);
 
 typedef struct PanelStated {
     const char *verdict; /* "good", "usable with care", "not usable"; NULL: an older file */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "panel/query/panel_stated.h"
 #include "plot/draw/ticks.h"
 #include "plot/panel/panel_chart.h"
 
@@ -45,19 +46,6 @@ static double residual_percent(const PlotData *s, const FitTableRef *ref, int ro
     double fitted =
         panel_figure_luminance(s->source.panel, theta, (double)ref->table->phi[row], ref->rgb);
     return 100 * (fitted - measured) / fmax(0.025 * peak, measured);
-}
-
-/* The largest error of X, Y and Z that the file states of its emission tables, percent. */
-static double stated_error_percent(const PlotData *s) {
-    size_t i;
-    json_t *table;
-    double most = 0;
-    json_array_foreach(json_object_get(s->source.report, "tables"), i, table) {
-        const char *name = json_string_value(json_object_get(table, "name"));
-        if (name && !strncmp(name, "brdf", 4)) continue;
-        most = fmax(most, json_number_value(json_object_get(table, "max_error")));
-    }
-    return 100 * most;
 }
 
 /* ---- sections with points --------------------------------------------------------------- */
@@ -196,7 +184,7 @@ static void measure_residuals(const PlotData *s, Arena *arena, Residuals *out) {
     FitTableRef *ref = ARENA_NEW(arena, FitTableRef, FIT_TABLES_MAX);
     int tables = emission_tables(s->source.measured, ref);
     for (int t = 0; t < tables; t++) pass_over(s, &ref[t], false, out);
-    out->reach = round_up(1.3 * fmax(fmax(out->most, stated_error_percent(s)), 0.01));
+    out->reach = round_up(1.3 * fmax(fmax(out->most, 100 * panel_part_error(s->source.report, false).largest), 0.01));
     for (int t = 0; t < tables; t++) pass_over(s, &ref[t], true, out);
     for (int i = 0; i < BINS; i++) out->highest = fmax(out->highest, out->bin[i]);
 }
@@ -204,7 +192,8 @@ static void measure_residuals(const PlotData *s, Arena *arena, Residuals *out) {
 static void fill_histogram(const PanelChart *shown, ChartRows *out) {
     const PlotData *s = shown->data;
     Residuals *r = ARENA_NEW(out->arena, Residuals, 1);
-    double most = stated_error_percent(s), *edge = ARENA_NEW(out->arena, double, BINS + 1);
+    double most = 100 * panel_part_error(s->source.report, false).largest;
+    double *edge = ARENA_NEW(out->arena, double, BINS + 1);
     measure_residuals(s, out->arena, r);
     for (int i = 0; i <= BINS; i++)
         edge[i] = LEAST_PERCENT * pow(r->reach / LEAST_PERCENT, (double)i / BINS);

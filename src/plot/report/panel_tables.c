@@ -7,6 +7,7 @@
 #include "base/count.h"
 #include "base/units.h"
 #include "panel/query/panel_place.h"
+#include "panel/query/panel_stated.h"
 #include "plot/panel/grey_inversion.h"
 #include "spectrum/gamut.h"
 #include "table/table.h"
@@ -565,43 +566,17 @@ static void report_places(Report *report, const PlotData *data) {
 
 /* How far the panel file is from what was measured: one figure, explained. */
 
-typedef struct PartError {
-    double most, squares, outliers, outlier_most;
-    int tables;
-    const char *worst;
-} PartError;
-
-/* Tables of the reflection are named "brdf ...". */
-static PartError error_of(const json_t *tables, bool of_reflection) {
-    PartError out = {.worst = ""};
-    size_t i;
-    const json_t *table;
-    json_array_foreach(tables, i, table) {
-        const char *name = json_string_value(json_object_get(table, "name"));
-        if (!name || !strncmp(name, "brdf", 4) != of_reflection) continue;
-        double most = json_number_value(json_object_get(table, "max_error"));
-        double rms = json_number_value(json_object_get(table, "rms_error"));
-        if (most >= out.most) out.most = most, out.worst = name;
-        out.squares += rms * rms;
-        out.outliers += json_number_value(json_object_get(table, "outliers"));
-        out.outlier_most =
-            fmax(out.outlier_most, json_number_value(json_object_get(table, "outliers_max_error")));
-        out.tables++;
-    }
-    return out;
-}
-
 static void add_part(Table *table, const PlotData *s, bool of_reflection) {
-    PartError e = error_of(json_object_get(s->source.report, "tables"), of_reflection);
+    PanelPartError e = panel_part_error(s->source.report, of_reflection);
     if (!e.tables) return;
     table_row(table);
     table_text(table, of_reflection ? "reflection" : "emission");
     table_number(table, e.tables);
-    table_number(table, 100 * e.most);
+    table_number(table, 100 * e.largest);
     table_text(table, arena_printable(table->arena, e.worst));
-    table_number(table, 100 * sqrt(e.squares / e.tables));
+    table_number(table, 100 * e.rms);
     table_number(table, e.outliers);
-    table_number(table, 100 * e.outlier_most);
+    table_number(table, 100 * e.outlier_largest);
 }
 
 static void report_errors(Report *report, const PlotData *data) {

@@ -54,6 +54,20 @@ typedef struct FrameWork {
     const char *name, *exposure; /* FrameArgs's */
 } FrameWork;
 
+/* What is rendered, of a setup that is lit. */
+typedef struct FrameArgs {
+    const Setup *setup;
+    const ReviewEye *eye;
+    Vec3 look_at;              /* m, scene: of an eye that is no camera */
+    const SetupSymbol *symbol; /* that is judged; NULL: it is not there */
+    const char *folder;
+    const char *unfinished; /* folder of its checkpoint */
+    const char *name;       /* without an ending */
+    const char *exposure;   /* of a frame to stand beside (exposure_of): this one is
+                               smaller, and its picture alone is made; NULL: by itself */
+    Progress *progress;     /* of which the frame is a step */
+} FrameArgs;
+
 static Candidate *candidates(ReviewOutcome *outcome, int *count, Arena *arena);
 static bool is_one_view(const Candidate *a, const Candidate *b);
 static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review, Arena *arena,

@@ -18,9 +18,7 @@
  *          stops it, after a checkpoint.
  */
 #pragma once
-#include "review/light/setup.h"
 #include "review/run/review_run.h"
-#include "review/run/symbols.h"
 #include "review/verdict.h"
 
 #define FRAMES_SAMPLES 256
@@ -32,19 +30,6 @@ typedef enum FrameView { FRAME_PICTURE, FRAME_LUMINANCE, FRAME_CONTRAST, FRAME_V
 
 /* The picture's name, from that of any other of the frame's files. */
 const char *frame_view(const char *frame, FrameView view, Arena *arena);
-
-typedef struct FrameArgs {
-    const Setup *setup;
-    const ReviewEye *eye;
-    Vec3 look_at;              /* m, scene: of an eye that is no camera */
-    const SetupSymbol *symbol; /* that is judged; NULL: it is not there */
-    const char *folder;
-    const char *unfinished; /* folder of its checkpoint */
-    const char *name;       /* without an ending */
-    const char *exposure;   /* of a frame to stand beside (frame_exposure): this one is
-                               smaller, and its picture alone is made; NULL: by itself */
-    Progress *progress;     /* of which the frame is a step */
-} FrameArgs;
 
 /* Pictures of a review that is made: of its worst cases, and of the very
  * worst with each variant's change.
