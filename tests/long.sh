@@ -108,6 +108,8 @@ of "$render scenes tests/image tests/hostile"
 start 'a hundred kills' resume-long python3 tests/hostile/resume.py --kills 100 $program
 start 'parts of every kind' merge-long python3 tests/image/merge.py --all $program
 of "$all scenes tests/hostile tests/image"
+start 'a figure of a panel is one string everywhere' panel-strings \
+    python3 tests/hostile/panel_commands.py --all $program
 start 'every fault' faults-long python3 tests/hostile/faults.py --all $program
 start 'every neighbour of what is read whole' read-whole-long \
     python3 tests/hostile/read_whole.py --all $program

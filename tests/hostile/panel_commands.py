@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""panel_commands.py [--against OTHER] PARHELION -- the panel commands as scripts use them:
+"""panel_commands.py [--all] [--against OTHER] PARHELION -- the panel commands as scripts use them:
 grids, tables written back, synthetic sets, errors of one line. --against: a panel that one
 build wrote says the same, to the last printed figure, when the other build reads it.
 """
 import argparse
 import csv
+import html
 import json
 import math
 import os
 import pty
+import re
 import subprocess
 import sys
 import tempfile
@@ -18,6 +20,7 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 from report import Report  # noqa: E402
 
 RECIPE = os.path.join(ROOT, "assets", "panels", "ips_cluster.recipe.json")
+PANELS = ("ips_cluster", "zoned_centre", "oled_centre", "hud_pgu", "hud_pgu_p")
 GRID = "0:80:20,0:270:90"
 ASKED = (["--rgb", "255,127,31", "--grid", "0:90:3,0:350:10"],
          ["--rgb", "1,0,200", "--grid", "0:88:4,5:355:50"],
@@ -579,6 +582,64 @@ def check_display(report, commands, panel):
                  and "white" not in text and "like a mirror" in text, f"a grey panel is {facts}")
 
 
+def page_tables(path):
+    """Of a page: every table as rows of the texts of their cells, by its heading's columns."""
+    text = open(path, encoding="utf-8").read()
+    tables = []
+    for table in re.findall(r"<table.*?</table>", text, re.DOTALL):
+        rows = [[html.unescape(re.sub(r"<[^>]*>", "", cell)).strip()
+                 for cell in re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row, re.DOTALL)]
+                for row in re.findall(r"<tr.*?</tr>", table, re.DOTALL)]
+        tables.append(rows)
+    return tables
+
+
+def is_same_cell(value, text):
+    """A cell of JSON and one of CSV."""
+    if value is None or isinstance(value, str):
+        return (value or "") == text
+    return float(text) == value
+
+
+def check_one_string(report, commands, name):
+    """A figure is the same string in info, on the page and in the CSV, and that number in JSON."""
+    panel = os.path.join(ROOT, "assets", "panels", name + ".panel")
+    page, folder = commands.file(name + ".html"), commands.file(name)
+    commands.text("report", panel, "-o", page, "--csv", folder, "--quiet")
+    on_page = page_tables(page)
+    cells = {}
+    with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
+        tables = json.load(file)["tables"]
+    for table in tables:
+        if table["missing"]:
+            report.claim(not table["rows"], f"{name}: {table['name']} is missing and has rows")
+            continue
+        with open(os.path.join(folder, table["name"] + ".csv"), encoding="utf-8", newline="") as f:
+            rows = list(csv.reader(f))
+        keys = rows[0]
+        cells[table["name"]] = [dict(zip(keys, row)) for row in rows[1:]]
+        same = len(rows) - 1 == len(table["rows"]) and all(
+            list(one) == keys and all(is_same_cell(one[k], text) for k, text in zip(keys, row))
+            for one, row in zip(table["rows"], rows[1:]))
+        report.claim(same, f"{name}: {table['name']}: JSON and CSV differ")
+        report.claim(rows[1:] in [shown[1:] for shown in on_page],
+                     f"{name}: {table['name']}: no table of the page has the cells of the CSV")
+    text = squeezed(commands.text("info", panel))
+    half = cells["viewing_angle"][2]
+    primary = {row["primary"].lower(): row for row in cells["primaries"]}
+    factor = {row["geometry"]: row["factor_percent"] for row in cells["reflectance_factors"]}
+    gamut = {row["standard"]: row["coverage_xy_percent"] for row in cells["gamut"]}
+    white = cells["white"][0]
+    for words in (f"white {white['luminance_cd_m2']} cd/m2", f"white, xy {white['x']}, {white['y']}",
+                  "primaries, xy " + ", ".join(f"{one} {primary[one]['x']} {primary[one]['y']}"
+                                               for one in ("red", "green", "blue")),
+                  f"covers of sRGB {gamut['sRGB']} %", f"covers of DCI-P3 {gamut['DCI-P3']} %",
+                  f"half luminance right {half['phi_0']}, up {half['phi_90']}, "
+                  f"left {half['phi_180']}, down {half['phi_270']} degrees",
+                  f"diffusely (haze and floor) {factor['8/de']} %"):
+        report.claim(words in text, f"{name}: info does not say '{words}', as the report does")
+
+
 def check_other_build(report, first, second):
     """Both ways: what one wrote, the other reads."""
     for writer, reader in ((first, second), (second, first)):
@@ -594,6 +655,7 @@ def check_other_build(report, first, second):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--against")
+    parser.add_argument("--all", action="store_true", help="all shipped panels, not two")
     parser.add_argument("program")
     options = parser.parse_args()
     report = Report()
@@ -610,6 +672,8 @@ def main():
                 check(report, commands, panel)
             except (ValueError, KeyError, IndexError) as error:
                 report.claim(False, f"{check.__name__}: {type(error).__name__}: {error}")
+        for name in PANELS if options.all else PANELS[:2]:
+            check_one_string(report, commands, name)
         check_simulation(report, commands)
     report.finish()
 
