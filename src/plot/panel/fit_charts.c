@@ -184,7 +184,8 @@ static void measure_residuals(const PlotData *s, Arena *arena, Residuals *out) {
     FitTableRef *ref = ARENA_NEW(arena, FitTableRef, FIT_TABLES_MAX);
     int tables = emission_tables(s->source.measured, ref);
     for (int t = 0; t < tables; t++) pass_over(s, &ref[t], false, out);
-    out->reach = round_up(1.3 * fmax(fmax(out->most, 100 * panel_part_error(s->source.report, false).largest), 0.01));
+    out->reach = round_up(
+        1.3 * fmax(fmax(out->most, 100 * panel_part_error(s->source.report, false).largest), 0.01));
     for (int t = 0; t < tables; t++) pass_over(s, &ref[t], true, out);
     for (int i = 0; i < BINS; i++) out->highest = fmax(out->highest, out->bin[i]);
 }

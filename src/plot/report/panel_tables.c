@@ -12,6 +12,31 @@
 #include "spectrum/gamut.h"
 #include "table/table.h"
 
+/* panel_tables lists the tables in the order of the page; each report_... adds those of its
+ * subject, or says why they are not there. Every figure is one of panel_figure.h: here it only
+ * gets its row. */
+
+static void report_viewing(Report *report, const PlotData *data);
+static void report_colour(Report *report, const PlotData *data);
+static void report_levels(Report *report, const PlotData *data);
+static void report_reflection(Report *report, const PlotData *data);
+static void report_ambient(Report *report, const PlotData *data);
+static void report_places(Report *report, const PlotData *data);
+static void report_errors(Report *report, const PlotData *data);
+
+Report *panel_tables(const PlotData *data, Arena *arena) {
+    Report *report = ARENA_NEW(arena, Report, 1);
+    report->arena = arena;
+    report_viewing(report, data);
+    report_colour(report, data);
+    report_levels(report, data);
+    report_reflection(report, data);
+    report_ambient(report, data);
+    report_places(report, data);
+    report_errors(report, data);
+    return report;
+}
+
 /* ---- azimuths ---------------------------------------------------------------------------- */
 
 /* Eight, from the viewer's right counter-clockwise. What lies between azimuths that were
@@ -191,7 +216,7 @@ static void report_viewing(Report *report, const PlotData *data) {
     add_shifts(report, data);
 }
 
-/* Primaries and gamut. */
+/* ---- primaries and gamut ----------------------------------------------------------------- */
 
 static void add_primaries(Report *report, const PlotData *s, const GamutTriangle *xy) {
     GamutTriangle uv = gamut_in_uv(xy);
@@ -248,11 +273,9 @@ static void report_colour(Report *report, const PlotData *data) {
     add_gamut(report, &xy);
 }
 
-/* Gamma by angle, and grey inversion. */
+/* ---- gamma by angle ---------------------------------------------------------------------- */
 
 static const int GAMMA_DEG[] = {0, 15, 30, 45, 60};
-
-/* ---- gamma ------------------------------------------------------------------------------- */
 
 static void add_gamma_row(Table *table, const PlotData *s, int deg) {
     table_row(table);
@@ -343,8 +366,6 @@ static void report_levels(Report *report, const PlotData *data) {
                        "Grey levels were not "
                        "measured over the angle: whether greys invert is not known.");
 }
-
-/* Reflectance by incidence and in the usual geometries; contrast in ambient light. */
 
 #define WITHOUT_REFLECTION \
     "The reflection was not measured: no reflectance and no contrast in ambient light are " \
@@ -520,6 +541,8 @@ static void report_ambient(Report *report, const PlotData *data) {
         add_condition(table, data, "as asked", &ambient->light[i]);
 }
 
+/* ---- over the active area ---------------------------------------------------------------- */
+
 static void add_places(Table *table, const PlotData *s, Pattern pattern) {
     float rgb[3];
     pattern_codes(pattern, rgb);
@@ -564,7 +587,7 @@ static void report_places(Report *report, const PlotData *data) {
     if (data->has_black) add_places(table, data, PATTERN_BLACK);
 }
 
-/* How far the panel file is from what was measured: one figure, explained. */
+/* ---- how far the file is from what was measured ------------------------------------------ */
 
 static void add_part(Table *table, const PlotData *s, bool of_reflection) {
     PanelPartError e = panel_part_error(s->source.report, of_reflection);
@@ -608,17 +631,4 @@ static void report_errors(Report *report, const PlotData *data) {
             "not follow, are not counted in either.",
             dim));
     for (int part = 0; part < 2; part++) add_part(table, data, part == 1);
-}
-
-Report *panel_tables(const PlotData *data, Arena *arena) {
-    Report *report = ARENA_NEW(arena, Report, 1);
-    report->arena = arena;
-    report_viewing(report, data);
-    report_colour(report, data);
-    report_levels(report, data);
-    report_reflection(report, data);
-    report_ambient(report, data);
-    report_places(report, data);
-    report_errors(report, data);
-    return report;
 }
