@@ -56,6 +56,7 @@ start 'variants of a review' variants python3 tests/image/variants.py $program
 start 'colours of symbols as they are seen' colour python3 tests/image/colour.py $program
 start 'a matte finish tried out' finish python3 tests/image/finish.py $program
 start 'the README as written, its review met' guides guides_and_meeting
+start 'columns of answers' answers python3 tests/image/answers.py $program
 start 'the command line' cli python3 tests/hostile/cli.py $program
 start 'what was removed says what to do' removed python3 tests/hostile/removed.py $program
 start 'what is not known is no pass' unjudged python3 tests/hostile/unjudged.py $program

@@ -15,7 +15,8 @@ set(pages ${CMAKE_BINARY_DIR}/installed)
 add_custom_command(OUTPUT ${pages}/completions/parhelion
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/assets/install/pages.py
     $<TARGET_FILE:parhelion> ${pages}
-  DEPENDS parhelion assets/install/pages.py assets/install/completion.bash)
+  DEPENDS parhelion assets/install/pages.py assets/install/completion.bash
+    assets/schemas/json_answers.md)
 add_custom_target(pages ALL DEPENDS ${pages}/completions/parhelion)
 # What `cmake --install` wants built, without the tests.
 add_custom_target(product DEPENDS parhelion parhelion_pictures pages)
@@ -30,7 +31,9 @@ install(FILES ${pages}/completions/parhelion COMPONENT parhelion
 set(share ${CMAKE_INSTALL_DATADIR}/parhelion)
 install(DIRECTORY assets/schemas assets/profiles assets/coatings assets/spectra assets/ci
     assets/slurm assets/denoise
-  DESTINATION ${share}/assets COMPONENT parhelion PATTERN "*.py" EXCLUDE)
+  DESTINATION ${share}/assets COMPONENT parhelion PATTERN "*.py" EXCLUDE
+  PATTERN json_answers.md EXCLUDE)
+install(FILES ${pages}/json_answers.md DESTINATION ${share}/assets/schemas COMPONENT parhelion)
 install(DIRECTORY assets/content assets/panels
   DESTINATION ${share}/assets COMPONENT parhelion-scenes)
 install(DIRECTORY scenes DESTINATION ${share} COMPONENT parhelion-scenes

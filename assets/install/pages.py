@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""pages.py PROGRAM FOLDER -- manual pages and bash's completion, as an installation has them.
+"""pages.py PROGRAM FOLDER -- manual pages, bash's completion and the page of the answers of --json,
+as an installation has them.
 
 Commands come from `PROGRAM help --json`, in section 1; guides, which it lists, from
 assets/guides, in section 7. Of Markdown it knows what guides use: headings, paragraphs, lists,
@@ -15,6 +16,8 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 GUIDES = os.path.join(HERE, "..", "guides")
+ANSWERS = os.path.join(HERE, "..", "schemas", "json_answers.md")
+ANSWERS_MARK = "<!-- the answers of commands stand here in what the build makes of this page -->\n"
 PAGE_COLUMNS = 70  # letters of a terminal's line that are left to a page's text
 TABLE_TOGETHER = 16  # lines: a table near the end of a page begins the next
 COLUMN_GAP = 3
@@ -123,6 +126,37 @@ def program_page(told):
                              for guide in told["guides"]]) +
             rows("EXIT STATUS", STATUSES) + rows("ENVIRONMENT", ENVIRONMENT) +
             rows("FILES", FILES))
+
+
+# ---- answers -----------------------------------------------------------------------------
+
+
+def column_of(column):
+    """Its row in the page: what people read, and what only who reads JSON is told."""
+    words = [column.get("words", ""), column.get("about", "")]
+    if "interval" in column:
+        words.append(f"95 %: `{column['interval']}`")
+    if "none" in column:
+        words.append(f"null: {column['none']}")
+    words = "; ".join(filter(None, words)).replace("|", "\\|")
+    return f"| `{column['key']}` | {column.get('unit', '')} | {words} |\n"
+
+
+def answers_page(commands):
+    """assets/schemas/json_answers.md, with a table for each answer where it marks the place."""
+    tables = {}
+    for words, row in commands:
+        for answer in row.get("answers", ()):
+            name = " ".join((*words, answer["with"])).strip()
+            tables[name] = tables.get(name, "") + "".join(map(column_of, answer["columns"]))
+    with open(ANSWERS, encoding="utf-8") as file:
+        before, behind = file.read().split(ANSWERS_MARK)
+    headings = {}  # commands that answer alike stand together
+    for name, rows in tables.items():
+        headings.setdefault(rows, []).append(f"`{name}`")
+    return before + "\n".join(f"## {', '.join(names)}\n\n| key | unit | what |\n"
+                              f"| --- | --- | --- |\n{rows}"
+                              for rows, names in headings.items()) + behind
 
 
 # ---- guides ------------------------------------------------------------------------------
@@ -294,6 +328,8 @@ def main(program, folder):
             file.write(gzip.compress(page.encode(), 9, mtime=0))
     with open(os.path.join(folder, "completions", "parhelion"), "w", encoding="utf-8") as file:
         file.write(completion(told, commands))
+    with open(os.path.join(folder, "json_answers.md"), "w", encoding="utf-8") as file:
+        file.write(answers_page(commands))
 
 
 if __name__ == "__main__":

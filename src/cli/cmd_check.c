@@ -232,14 +232,28 @@ static const Column LIGHTS[] = {
     COLUMN_SHARE("level", "level"),
     COLUMN_DIGITS("flux_lm", "flux", "lm", 4),
     COLUMN_DIGITS("max_cd", "at most", "cd", 4),
-    {.key = "direction", .words = "towards", .is_fixed = true, .places = 3},
+    {.key = "direction",
+     .words = "towards",
+     .is_fixed = true,
+     .places = 3,
+     .about = "unit, world: where `max_cd` goes to"},
     {.key = "cct_k", .words = "colour", .unit = "K", .none = "D65"},
-    COLUMN_TEXT("cct_text", "the file says"),
-    COLUMN_TEXT("opening.shape", "opening"),
-    COLUMN_DIGITS("opening.size_m", "of", "m", 0),
-    COLUMN_DIGITS("tilt.angle_deg", "tilt", "deg", 3),
-    COLUMN_DIGITS("tilt.factor", "by it times", NULL, 0),
-    COLUMN_TEXT("file", "file")};
+    {.key = "cct_text",
+     .words = "the file says",
+     .about = "of its colour, understood or not; null: nothing, or `--light-cct` spoke"},
+    {.key = "opening.shape",
+     .words = "opening",
+     .about = "`rectangle`, `ellipse`, `box`, `cylinder`, `ellipsoid`; `opening` is null: a point"},
+    {.key = "opening.size_m", .words = "of", .unit = "m", .about = "along the node's X, Y and Z"},
+    {.key = "tilt.angle_deg",
+     .words = "tilt",
+     .unit = "deg",
+     .places = 3,
+     .about = "`tilt` is null: the file has no factors"},
+    {.key = "tilt.factor", .words = "by it times", .about = "is in `flux_lm` and `max_cd`"},
+    {.key = "file",
+     .words = "file",
+     .about = "of a luminaire, as all from `level` on; inside a scene `SCENE#` and the pointer"}};
 static const TableKind LIGHTS_KIND = TABLE_KIND("lights", NULL, LIGHTS);
 
 static const Column CAMERAS[] = {COLUMN_TEXT("node", "camera, node"), COLUMN_TEXT("name", "name"),
@@ -248,14 +262,19 @@ static const Column CAMERAS[] = {COLUMN_TEXT("node", "camera, node"), COLUMN_TEX
                                  COLUMN_DIGITS("ymag_m", "half height", "m", 0)};
 static const TableKind CAMERAS_KIND = TABLE_KIND("cameras", NULL, CAMERAS);
 
-static const Column ANIMATIONS[] = {COLUMN_TEXT("name", "animation"),
-                                    COLUMN_DIGITS("end_s", "ends at", "s", 0)};
+static const Column ANIMATIONS[] = {
+    COLUMN_TEXT("name", "animation"),
+    {.key = "end_s", .words = "ends at", .unit = "s", .about = "the last key frame"}};
 static const TableKind ANIMATIONS_KIND = TABLE_KIND("animations", NULL, ANIMATIONS);
 
 static const Column SCENE[] = {
     COLUMN_TEXT("triangles", "triangles"),
     COLUMN_DIGITS("size_m", "size", "m", 4),
-    {.key = "origin_m", .words = "coordinates begin at", .unit = "m", .hides_zero = true},
+    {.key = "origin_m",
+     .words = "coordinates begin at",
+     .unit = "m",
+     .hides_zero = true,
+     .about = "0 unless the scene stands far off: `parhelion help scenes`"},
     COLUMN_TEXT("materials", "materials"),
     COLUMN_TEXT("textures", "textures"),
     {.key = "ignored_occlusion_textures",
@@ -269,16 +288,28 @@ static const Column SCENE[] = {
     COLUMN_DIGITS("environment.sun.illuminance_lx", "sun", "lx", 0),
     {.key = "variants", .words = "variants", .parts = ""},
     {.key = "extensions", .words = "extensions", .parts = ""},
-    {.key = "one_sided", .words = "one-sided, back seen too", .parts = ""},
+    {.key = "one_sided",
+     .words = "one-sided, back seen too",
+     .parts = "",
+     .about =
+         "materials without `doubleSided`, but for displays: viewers of glTF leave their backs "
+         "out, which are seen and reflect here"},
     {.key = "displays", .of = &DISPLAYS_KIND},
     {.key = "lights", .of = &LIGHTS_KIND},
     {.key = "cameras", .of = &CAMERAS_KIND},
     {.key = "animations", .of = &ANIMATIONS_KIND},
+    COLUMN_KEY("ok", "no problem is an error"),
+    COLUMN_KEY("problems", "`file`, `path`, `severity` (`error`, `warning`), `message` of each"),
+    COLUMN_KEY("bounds_m", "low and high corner of all triangles, world; null without any, as "
+                           "`size_m`"),
+    COLUMN_KEY("missed_light", "light that no path connects, as `may_miss.lights` of `render`"),
 };
 static const TableKind SCENE_KIND = TABLE_KIND("scene", NULL, SCENE);
 
 static const Column MATERIALS[] = {COLUMN_TEXT("name", "material"),
-                                   COLUMN_TEXT("looks_like_screen", "screen?"),
+                                   {.key = "looks_like_screen",
+                                    .words = "screen?",
+                                    .about = "flat, with an emissive texture and coordinates"},
                                    COLUMN_DIGITS("area_m2", "area", "m2", 4),
                                    COLUMN_TEXT("is_flat", "flat"),
                                    COLUMN_TEXT("has_uv", "UVs"),
@@ -332,14 +363,16 @@ static Outcome run_check(int argc, char **argv, Arena *arena, Error *err) {
          &is_strict},
         STATE_OPTIONS(&words.state),
     };
-    const CliCommand command = {"check",
-                                command_check.summary,
-                                "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...]",
-                                "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf",
-                                options,
-                                COUNT_OF(options),
-                                1,
-                                -1};
+    const CliCommand command = {
+        "check",
+        command_check.summary,
+        "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...]",
+        "parhelion check scenes/car_dashboard.gltf scenes/noon.gltf",
+        options,
+        COUNT_OF(options),
+        1,
+        -1,
+        .answers = (const Answer[]){{"", &SCENE_KIND}, {"", &MATERIALS_ONLY_KIND}, {0}}};
     Cli cli;
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;

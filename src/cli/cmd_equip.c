@@ -27,6 +27,28 @@ typedef struct EquipWords {
     Cli cli;
 } EquipWords;
 
+/* ---- what it answers --------------------------------------------------------------------- */
+
+static const Column RESULT[] = {
+    COLUMN_TEXT("scene", "scene"),
+    COLUMN_TEXT("displays", "displays"),
+    COLUMN_TEXT("eyes", "eyes"),
+    COLUMN_TEXT("materials", "materials"),
+    COLUMN_DIGITS("forward", "ahead", NULL, 0),
+    COLUMN_TEXT("forward_is_proposed", "ahead by where the first eye looks"),
+    COLUMN_TEXT("bin", "bytes"),
+    {.key = "occupant", .words = "occupant", .none = "none: nobody sits in the driver's seat"},
+    COLUMN_TEXT("copies", "copy"),
+    {.key = "review",
+     .words = "review",
+     .none = "none: no display shows content that could be read"},
+    {.key = "without_data", .words = "without data (parhelion check)", .hides_zero = true},
+    COLUMN_TEXT("next", "next"),
+    COLUMN_TEXT("look", "look")};
+static const TableKind RESULT_KIND = TABLE_KIND("equip", NULL, RESULT);
+
+/* ---- the command line -------------------------------------------------------------------- */
+
 static bool parse(int argc, char **argv, Arena *arena, EquipWords *out, Error *err) {
     const Option options[] = {
         {"-o", OPTION_TEXT, "FILE", "the page (default: MODEL.equip.html), or the scene",
@@ -47,7 +69,8 @@ static bool parse(int argc, char **argv, Arena *arena, EquipWords *out, Error *e
         options,
         COUNT_OF(options),
         1,
-        1};
+        1,
+        .answers = (const Answer[]){{"--with", &RESULT_KIND}, {0}}};
     return cli_parse(&command, argc, argv, arena, &out->cli, err);
 }
 
@@ -101,24 +124,6 @@ static const char *look_command(const EquipResult *r, Arena *arena) {
                         " --preview -o look.exr --png look.png",
                         escape_shell(r->scene, arena), escape_shell(r->first_eye, arena));
 }
-
-static const Column RESULT[] = {
-    COLUMN_TEXT("scene", "scene"),
-    COLUMN_TEXT("displays", "displays"),
-    COLUMN_TEXT("eyes", "eyes"),
-    COLUMN_TEXT("materials", "materials"),
-    COLUMN_DIGITS("forward", "ahead", NULL, 0),
-    COLUMN_TEXT("forward_is_proposed", "ahead by where the first eye looks"),
-    COLUMN_TEXT("bin", "bytes"),
-    {.key = "occupant", .words = "occupant", .none = "none: nobody sits in the driver's seat"},
-    COLUMN_TEXT("copies", "copy"),
-    {.key = "review",
-     .words = "review",
-     .none = "none: no display shows content that could be read"},
-    {.key = "without_data", .words = "without data (parhelion check)", .hides_zero = true},
-    COLUMN_TEXT("next", "next"),
-    COLUMN_TEXT("look", "look")};
-static const TableKind RESULT_KIND = TABLE_KIND("equip", NULL, RESULT);
 
 static bool print_result(const EquipWords *words, const EquipResult *r, Arena *arena, Error *err) {
     const char *next = r->review ? arena_format(arena, "parhelion review %s --dry-run",

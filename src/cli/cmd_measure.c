@@ -15,6 +15,105 @@
 #include "text/interval_text.h"
 #include "text/json_text.h"
 
+/* ---- what people read -------------------------------------------------------------------- */
+
+static const Column LIGHTS[] = {
+    COLUMN_TEXT("name", "light"), COLUMN_DIGITS("cd_m2", "luminance", "cd/m2", 6),
+    COLUMN_SHARE("share", "share"), COLUMN_KEY("layer", "of the frame")};
+static const TableKind LIGHTS_KIND = TABLE_KIND("lights", NULL, LIGHTS);
+
+static const Column FIGURES[] = {
+    COLUMN_TEXT("pixels", "pixels"),
+    {.key = "rim",
+     .words = "pixels at the rim",
+     .about = "how they count: `by coverage`; of frames without the layers of displays `left out`, "
+              "or `whole`, with what is around"},
+    {.key = "area_pixels", .words = "pixels by their part", .about = "the parts added up"},
+    COLUMN_TEXT("rim_pixels", "at the rim"),
+    {.key = "shared_pixels", .words = "of two displays, not in the contrast", .hides_zero = true},
+    {.key = "unknown_pixels", .words = "of more displays, left out", .hides_zero = true},
+    {.key = "nonfinite_pixels", .words = "not finite, left out", .hides_zero = true},
+    {.key = "luminance_cd_m2",
+     .words = "luminance",
+     .unit = "cd/m2",
+     .interval = "luminance_interval"},
+    COLUMN_DIGITS("luminance_min_cd_m2", "least pixel", "cd/m2", 0),
+    COLUMN_DIGITS("luminance_max_cd_m2", "greatest pixel", "cd/m2", 0),
+    {.key = "xy.0",
+     .words = "x",
+     .interval = "xy_interval.0",
+     .none = "undefined: there is no light"},
+    COLUMN_MEASURED("xy.1", "y", NULL, "xy_interval.1"),
+    COLUMN_MEASURED("uv.0", "u'", NULL, "uv_interval.0"),
+    COLUMN_MEASURED("uv.1", "v'", NULL, "uv_interval.1"),
+    {.key = "contrast.value",
+     .words = "contrast",
+     .unit = ": 1",
+     .interval = "contrast.interval",
+     .none = "missing: no pixel of a display, or no layers of it (--layers display)"},
+    COLUMN_DIGITS("contrast.white_cd_m2", "white", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.black_cd_m2", "black", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.reflected_cd_m2", "reflected", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.mirror_cd_m2", "by the mirror", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.haze_cd_m2", "by haze", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.lambertian_cd_m2", "lambertian", "cd/m2", 0),
+    COLUMN_DIGITS("contrast.shown_cd_m2", "shown", "cd/m2", 0),
+    {.key = "contrast.extrapolated_share",
+     .words = "reflected, by extrapolation",
+     .unit = "%",
+     .places = 3,
+     .times = 100,
+     .hides_zero = true},
+    {.key = "contrast.extrapolated_emitted_share",
+     .words = "emitted, by extrapolation",
+     .unit = "%",
+     .places = 3,
+     .times = 100,
+     .hides_zero = true},
+    COLUMN_TEXT("content.missing", "no contrast of content"),
+    COLUMN_MEASURED("content.ratio", "content, contrast", ": 1", "content.ratio_interval"),
+    COLUMN_MEASURED("content.characters_cd_m2", "characters", "cd/m2",
+                    "content.characters_interval"),
+    COLUMN_MEASURED("content.ground_cd_m2", "ground", "cd/m2", "content.ground_interval"),
+    COLUMN_MEASURED("content.michelson", "Michelson", NULL, "content.michelson_interval"),
+    COLUMN_MEASURED("content.weber", "Weber", NULL, "content.weber_interval"),
+    {.key = "content.edges_left_out",
+     .words = "edges of strokes left out",
+     .about = "false: strokes are too thin, and the contrast is at least this"},
+    {.key = "may_miss", .words = "may miss light", .about = "`parhelion:mayMiss` of the frame"},
+    {.key = "rare_error",
+     .words = "rare light, error at most",
+     .unit = "%",
+     .places = 3,
+     .times = 100,
+     .hides_zero = true},
+    COLUMN_TEXT("missing_layers", "missing (render --layers)"),
+    {.key = "lights", .of = &LIGHTS_KIND},
+    COLUMN_KEY("lights_pixels", "pixels that those luminances, which add up to `luminance_cd_m2`, "
+                                "are shared out by; of a display those that show it alone"),
+    COLUMN_KEY("frame", "the file"),
+    COLUMN_KEY("display", "as requested, as `region`; else absent"),
+    COLUMN_KEY("region", "X0, Y0, X1, Y1"),
+    COLUMN_KEY("XYZ", "CIE 1931, Y in cd/m2"),
+    COLUMN_KEY("contrast", "of the means over the display's parts: `value` = (white + reflected) / "
+                           "(black + reflected); an interval's upper end of null: there is none, "
+                           "since black with nothing reflected lies within the noise"),
+    COLUMN_KEY("contrast.scattered_cd_m2", "haze and lambertian; null: not in the frame"),
+    COLUMN_KEY("contrast.pixels", NULL),
+    COLUMN_KEY(
+        "content",
+        "of a region or a display: what is shown there, split in two luminances, "
+        "`characters_cd_m2` the smaller part; `ratio` brighter by darker, `weber` characters "
+        "less ground, by ground"),
+    COLUMN_KEY("content.separability",
+               "the share of the variance, less the noise's, that the split "
+               "explains"),
+    COLUMN_KEY("content.noise_sigmas", "the distance of the two in standard errors of a pixel"),
+    COLUMN_KEY("content.character_pixels", NULL),
+    COLUMN_KEY("content.ground_pixels", NULL),
+};
+static const TableKind FIGURES_KIND = TABLE_KIND("measure", NULL, FIGURES);
+
 /* ---- the command line -------------------------------------------------------------------- */
 
 typedef struct MeasureWords {
@@ -94,7 +193,11 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
         options,
         COUNT_OF(options),
         1,
-        -1};
+        -1,
+        .answers = (const Answer[]){{"", &FIGURES_KIND},
+                                    {"--glare", &measure_glare_kind},
+                                    {"--illuminance", &luxmeter_kind},
+                                    {0}}};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     if (!glare_words_check(&out->glare, err)) return false;
@@ -106,78 +209,6 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
     return out->luxmeter.places.count ? read_luxmeter(out, arena, err)
                                       : read_frame_request(region, out, err);
 }
-
-/* ---- what people read -------------------------------------------------------------------- */
-
-static const Column LIGHTS[] = {COLUMN_TEXT("name", "light"),
-                                COLUMN_DIGITS("cd_m2", "luminance", "cd/m2", 6),
-                                COLUMN_SHARE("share", "share")};
-static const TableKind LIGHTS_KIND = TABLE_KIND("lights", NULL, LIGHTS);
-
-static const Column FIGURES[] = {
-    COLUMN_TEXT("pixels", "pixels"),
-    COLUMN_TEXT("rim", "pixels at the rim"),
-    COLUMN_DIGITS("area_pixels", "pixels by their part", NULL, 0),
-    COLUMN_TEXT("rim_pixels", "at the rim"),
-    {.key = "shared_pixels", .words = "of two displays, not in the contrast", .hides_zero = true},
-    {.key = "unknown_pixels", .words = "of more displays, left out", .hides_zero = true},
-    {.key = "nonfinite_pixels", .words = "not finite, left out", .hides_zero = true},
-    {.key = "luminance_cd_m2",
-     .words = "luminance",
-     .unit = "cd/m2",
-     .interval = "luminance_interval"},
-    COLUMN_DIGITS("luminance_min_cd_m2", "least pixel", "cd/m2", 0),
-    COLUMN_DIGITS("luminance_max_cd_m2", "greatest pixel", "cd/m2", 0),
-    {.key = "xy.0",
-     .words = "x",
-     .interval = "xy_interval.0",
-     .none = "undefined: there is no light"},
-    COLUMN_MEASURED("xy.1", "y", NULL, "xy_interval.1"),
-    COLUMN_MEASURED("uv.0", "u'", NULL, "uv_interval.0"),
-    COLUMN_MEASURED("uv.1", "v'", NULL, "uv_interval.1"),
-    {.key = "contrast.value",
-     .words = "contrast",
-     .unit = ": 1",
-     .interval = "contrast.interval",
-     .none = "missing: no pixel of a display, or no layers of it (--layers display)"},
-    COLUMN_DIGITS("contrast.white_cd_m2", "white", "cd/m2", 0),
-    COLUMN_DIGITS("contrast.black_cd_m2", "black", "cd/m2", 0),
-    COLUMN_DIGITS("contrast.reflected_cd_m2", "reflected", "cd/m2", 0),
-    COLUMN_DIGITS("contrast.mirror_cd_m2", "by the mirror", "cd/m2", 0),
-    COLUMN_DIGITS("contrast.haze_cd_m2", "by haze", "cd/m2", 0),
-    COLUMN_DIGITS("contrast.lambertian_cd_m2", "lambertian", "cd/m2", 0),
-    COLUMN_DIGITS("contrast.shown_cd_m2", "shown", "cd/m2", 0),
-    {.key = "contrast.extrapolated_share",
-     .words = "reflected, by extrapolation",
-     .unit = "%",
-     .places = 3,
-     .times = 100,
-     .hides_zero = true},
-    {.key = "contrast.extrapolated_emitted_share",
-     .words = "emitted, by extrapolation",
-     .unit = "%",
-     .places = 3,
-     .times = 100,
-     .hides_zero = true},
-    COLUMN_TEXT("content.missing", "no contrast of content"),
-    COLUMN_MEASURED("content.ratio", "content, contrast", ": 1", "content.ratio_interval"),
-    COLUMN_MEASURED("content.characters_cd_m2", "characters", "cd/m2",
-                    "content.characters_interval"),
-    COLUMN_MEASURED("content.ground_cd_m2", "ground", "cd/m2", "content.ground_interval"),
-    COLUMN_MEASURED("content.michelson", "Michelson", NULL, "content.michelson_interval"),
-    COLUMN_MEASURED("content.weber", "Weber", NULL, "content.weber_interval"),
-    COLUMN_TEXT("content.edges_left_out", "edges of strokes left out"),
-    COLUMN_TEXT("may_miss", "may miss light"),
-    {.key = "rare_error",
-     .words = "rare light, error at most",
-     .unit = "%",
-     .places = 3,
-     .times = 100,
-     .hides_zero = true},
-    COLUMN_TEXT("missing_layers", "missing (render --layers)"),
-    {.key = "lights", .of = &LIGHTS_KIND},
-};
-static const TableKind FIGURES_KIND = TABLE_KIND("measure", NULL, FIGURES);
 
 /* ---- the answer --------------------------------------------------------------------------- */
 

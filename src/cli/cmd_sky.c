@@ -232,7 +232,13 @@ static const Column FIGURES[] = {
     FIGURE("luminous_efficacy.diffuse_lm_w", "efficacy, diffuse", "lm/W", 4),
     COLUMN_TEXT("luminous_efficacy.rule", "lux by"),
     FIGURE("luminous_efficacy.water_cm", "with water of", "cm", 3),
-    FIGURE("synthetic_cloud_relief_m", "cloud relief, synthetic", "m", 4),
+    {.key = "synthetic_cloud_relief_m",
+     .words = "cloud relief, synthetic",
+     .unit = "m",
+     .places = 4,
+     .hides_zero = true,
+     .about =
+         "of a picture, no measured weather; absent without; other figures are an even deck's"},
     FIGURE("horizon_deg", "horizon", "°", 3),
     COLUMN_TEXT("weather.file", "weather file"),
     COLUMN_TEXT("weather.line", "its line"),
@@ -243,13 +249,38 @@ static const Column FIGURES[] = {
     COLUMN_SHARE("moon.illuminated_fraction", "moon lit"),
     FIGURE("moon.direct_normal_lx", "moon direct normal", "lx", 4),
 };
+static const TableKind FIGURES_KIND = TABLE_KIND("sky", NULL, FIGURES);
 #define OF_THE_MOON 4 /* by day it stands in JSON alone */
 
 static TableKind figures_kind(const DaylightMetrics *f) {
-    TableKind kind = TABLE_KIND("sky", NULL, FIGURES);
+    TableKind kind = FIGURES_KIND;
     if (!(f->night.background_lx > 0)) kind.column_count -= OF_THE_MOON;
     return kind;
 }
+
+/* Those of JSON alone. */
+static const Column KEYS[] = {
+    COLUMN_KEY("sun.zenith_deg", "from straight up"),
+    COLUMN_KEY("sun.true_elevation_deg", "without refraction"),
+    COLUMN_KEY("sun.refraction_deg", NULL),
+    COLUMN_KEY("sun.distance_au", NULL),
+    COLUMN_KEY("sun.is_up", NULL),
+    COLUMN_KEY("air_mass", "along the beam over straight up; 0: the sun is down"),
+    COLUMN_KEY("luminous_efficacy", "of a Perez sky; else null. `rule`: `perez 1990` or `file`"),
+    COLUMN_KEY("luminous_efficacy.global_lm_w", "a fit of its own; of `file` the ratio"),
+    COLUMN_KEY("luminous_efficacy.water_source", "`dew point`, `given`, `assumed`"),
+    COLUMN_KEY("moon", "null without a time; `is_in_light`: the frame has its light; "
+                       "`direct_normal_lx` and `diffuse_horizontal_lx` by its light in the air"),
+    COLUMN_KEY("weather",
+               "of `--weather` the row taken, else null: `month`, `day`, `label_h`, "
+               "`instant_minus_when_min`; where its instant lies: `offset_h`, `offset_source`; how "
+               "well the file fits the sun: `closes`, `closure_rows`, `closure_w_m2`, "
+               "`closure_hour_means_w_m2`, `best_offset_h`, `best_closure_w_m2`; "
+               "`file_direct_normal_lx`, `file_diffuse_horizontal_lx`: its own columns, null where "
+               "they are missing"),
+    COLUMN_KEY("output", "the picture; absent without `-o`"),
+};
+static const TableKind KEYS_KIND = TABLE_KIND("sky", NULL, KEYS);
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
@@ -440,7 +471,8 @@ static Outcome run_sky(int argc, char **argv, Arena *arena, Error *err) {
         options,
         COUNT_OF(options),
         0,
-        -1};
+        -1,
+        .answers = (const Answer[]){{"", &FIGURES_KIND}, {"", &KEYS_KIND}, {0}}};
     if (!cli_parse(&command, argc, argv, arena, &work.cli, err)) return OUTCOME_FAILED;
     if (work.cli.help_shown) return OUTCOME_DONE;
     OutputKind kind = output_kind(work.output);

@@ -99,8 +99,9 @@ static const Column ILLUMINANCE[] = {{.key = "illuminance_lx",
                                       .interval = "illuminance_interval"},
                                      {.key = "xy", .words = "x, y", .is_fixed = true, .places = 4},
                                      {.key = "place", .words = "at", .unit = "m"},
-                                     COLUMN_DIGITS("normal", "facing", NULL, 4)};
-static const TableKind ILLUMINANCE_KIND = TABLE_KIND("illuminance", NULL, ILLUMINANCE);
+                                     COLUMN_DIGITS("normal", "facing", NULL, 4),
+                                     COLUMN_KEY("samples", "paths")};
+const TableKind luxmeter_kind = TABLE_KIND("illuminance", NULL, ILLUMINANCE);
 
 static bool print_answer(const Cli *cli, const LuxmeterRequest *request, const Places *places,
                          const Illuminance *found, Error *err) {
@@ -113,7 +114,7 @@ static bool print_answer(const Cli *cli, const LuxmeterRequest *request, const P
         json_array_append_new(list, json_of(&places->list[i], &found[i], request->samples));
     json_t *answer = places->is_single ? json_incref(json_array_get(list, 0)) : json_incref(list);
     json_decref(list);
-    return cli_print_answer(&ILLUMINANCE_KIND, answer, cli->json, err);
+    return cli_print_answer(&luxmeter_kind, answer, cli->json, err);
 }
 
 /* ---- the measurement --------------------------------------------------------------------- */

@@ -8,6 +8,8 @@
 #pragma once
 #include "cli/options/scene_options.h"
 
+extern const TableKind luxmeter_kind; /* of the answer at a point */
+
 typedef struct LuxmeterRequest {
     CliTexts places; /* of --illuminance: X,Y,Z,NX,NY,NZ or a file of such rows */
     long samples;    /* of each */

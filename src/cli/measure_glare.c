@@ -40,7 +40,9 @@ static const Column SOURCES[] = {COLUMN_DIGITS("luminance_cd_m2", "luminance", "
                                  COLUMN_FIXED("up_deg", "up", "deg", 1),
                                  COLUMN_DIGITS("illuminance_lx", "at the eye", "lx", 4),
                                  COLUMN_TEXT("pixels", "pixels"),
-                                 {.key = "pixel", .words = "about pixel", .is_fixed = true}};
+                                 {.key = "pixel", .words = "about pixel", .is_fixed = true},
+                                 COLUMN_KEY("luminance_max_cd_m2", "of its pixels"),
+                                 COLUMN_KEY("has_core", "false: too small for the frame")};
 static const TableKind SOURCES_KIND = TABLE_KIND("sources", "Sources", SOURCES);
 
 static const Column FIGURES[] = {
@@ -60,8 +62,12 @@ static const Column FIGURES[] = {
     {.key = "areas_of_noise",
      .words = "above it by noise, not counted",
      .none = "not known: no layers of noise (--layers halves,variance)"},
-    {.key = "sources", .of = &SOURCES_KIND}};
-static const TableKind FIGURES_KIND = TABLE_KIND("glare", NULL, FIGURES);
+    {.key = "sources", .of = &SOURCES_KIND},
+    COLUMN_KEY("frame", "the file"),
+    COLUMN_KEY("settings", "as requested; `task_cd_m2` as found"),
+    COLUMN_KEY("half_space_seen", "the share of it, by the cosine"),
+    COLUMN_KEY("solid_angle_sr", "of what is seen")};
+const TableKind measure_glare_kind = TABLE_KIND("glare", NULL, FIGURES);
 
 /* ---- the answer --------------------------------------------------------------------------- */
 
@@ -122,7 +128,7 @@ static bool print_answer(const char *name, const FrameGlare *g, const GlareWords
     json_object_set_new(out, "sources_without_core", json_integer(count_small(g)));
     json_object_set_new(out, "areas_of_noise",
                         g->has_noise ? json_integer(g->doubtful) : json_null());
-    return cli_print_answer(&FIGURES_KIND, out, as_json, err);
+    return cli_print_answer(&measure_glare_kind, out, as_json, err);
 }
 
 bool measure_glare(const Cli *cli, const FrameImage *frame, const GlareWords *words, Arena *arena,

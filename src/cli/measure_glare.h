@@ -7,6 +7,8 @@
 #include "cli/options/cli.h"
 #include "vision/frame/frame_glare.h"
 
+extern const TableKind measure_glare_kind; /* of the answer */
+
 typedef struct GlareWords {
     bool given; /* --glare */
     GlareRequest request;

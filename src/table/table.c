@@ -381,6 +381,30 @@ void table_add_document(const TableKind *kind, const json_t *document, Text *tex
 
 /* ---- JSON, CSV, page --------------------------------------------------------------------- */
 
+static void add_kind(json_t *list, const TableKind *kind, const char *before, Arena *arena) {
+    for (int c = 0; c < kind->column_count; c++) {
+        const Column *column = &kind->columns[c];
+        const char *key = arena_format(arena, "%s%s", before, column->key);
+        const char *unit = column->times > 0 ? column->times == 100 ? "share" : NULL : column->unit;
+        if (column->of) {
+            add_kind(list, column->of, arena_format(arena, "%s[].", key), arena);
+            continue;
+        }
+        json_t *one = json_pack("{s:s, s:s*, s:s*, s:s*, s:s*, s:s*}", "key", key, "unit", unit,
+                                "words", column->words, "none", column->none, "about",
+                                column->about, "interval", column->interval);
+        json_array_append_new(list, one);
+    }
+}
+
+json_t *table_kind_json(const TableKind *kind) {
+    Arena arena = arena_reserve((size_t)1 << 24);
+    json_t *list = json_array();
+    add_kind(list, kind, "", &arena);
+    arena_release(&arena);
+    return list;
+}
+
 json_t *table_json(const Table *table) {
     json_t *rows = json_array();
     for (int r = 0; r < table->row_count; r++) {

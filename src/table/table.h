@@ -32,6 +32,7 @@ typedef struct Column {
     const char *none;     /* for people, where it is null; NULL: a record leaves the line out */
     bool hides_zero;      /* a record leaves the line out that would show 0 */
     const TableKind *of;  /* of lists of objects: rows, shown behind the record */
+    const char *about;    /* for who reads JSON: what words leave open; NULL: nothing */
 } Column;
 
 struct TableKind {
@@ -53,6 +54,9 @@ struct TableKind {
     {.key = key_, .words = words_, .unit = unit_, .places = places_}
 #define COLUMN_SHARE(key_, words_) \
     {.key = key_, .words = words_, .unit = "%", .places = 3, .times = 100}
+
+/* For JSON alone. What is about an object or a list holds for all that is in it. */
+#define COLUMN_KEY(key_, about_) {.key = key_, .about = about_}
 
 /* With an interval, which decides the digits. */
 #define COLUMN_MEASURED(key_, words_, unit_, interval_) \
@@ -120,6 +124,11 @@ TableLine *table_lines(const TableKind *kind, const json_t *document, Arena *are
 
 /* The same as text, then the tables of its lists; a list of objects as rows. */
 void table_add_document(const TableKind *kind, const json_t *document, Text *text);
+
+/* What a document of the kind has, for who reads it as JSON: of each column "key", of a list of
+ * objects those of its rows as "lights[].name", and as far as they are there "unit", "words",
+ * "interval", "none" and "about"; a share has the unit "share". */
+json_t *table_kind_json(const TableKind *kind);
 
 /* A list of objects; numbers are those that people read. */
 json_t *table_json(const Table *table);

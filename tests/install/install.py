@@ -174,6 +174,9 @@ def check_completion(report, prefix, folder):
     top = {row["name"] for row in told["commands"]}
     report.claim(completion.ask("parhelion ") == top, "not every command is offered")
     report.claim(completion.ask("parhelion ren") == {"render"}, "`ren` is not render")
+    with open(os.path.join(prefix, "share/parhelion/assets/schemas/json_answers.md")) as file:
+        report.claim("`panel fit`, `panel info`\n\n| key |" in file.read(),
+                     "the page of answers has no columns")
     guides = {row["name"] for row in told["guides"]}
     report.claim(completion.ask("parhelion help ") == top | guides, "help offers not all pages")
     for words in commands(told["commands"]):

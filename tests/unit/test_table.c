@@ -157,6 +157,30 @@ ARENA_TEST(a_document_is_read_by_its_columns) {
                                    "sun       50.0\n");
 }
 
+/* Every column, those of its rows in its list's place, as what made it says. */
+ARENA_TEST(a_kind_lists_its_columns) {
+    json_auto_t *list = table_kind_json(&ANSWER_KIND);
+    const char *const ROW_KEYS[] = {"items[].name", "items[].share"};
+    int plain = ANSWER_KIND.column_count - 1;
+    assert_int_equal(json_array_size(list), plain + COUNT_OF(ROW_KEYS));
+    for (int c = 0; c < plain; c++) {
+        const json_t *row = json_array_get(list, (size_t)c);
+        const Column *column = &ANSWER[c];
+        const char *const texts[][2] = {{"key", column->key},
+                                        {"words", column->words},
+                                        {"unit", column->unit},
+                                        {"interval", column->interval},
+                                        {"none", column->none}};
+        for (int i = 0; i < COUNT_OF(texts); i++)
+            if (texts[i][1]) assert_string_equal(json_text_at(row, texts[i][0]), texts[i][1]);
+            else assert_null(json_object_get(row, texts[i][0]));
+    }
+    for (int i = 0; i < COUNT_OF(ROW_KEYS); i++)
+        assert_string_equal(json_text_at(json_array_get(list, (size_t)(plain + i)), "key"),
+                            ROW_KEYS[i]);
+    assert_string_equal(json_text_at(json_array_get(list, (size_t)plain + 1), "unit"), "share");
+}
+
 ARENA_TEST(what_has_nothing_to_say_says_nothing) {
     json_auto_t *empty = json_object(), *none = json_loads("{\"items\": []}", 0, NULL);
     Text text = {.arena = &arena};

@@ -11,6 +11,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "table/table.h"
 
 /* How a command ended, and its exit status. */
 typedef enum Outcome {
@@ -78,6 +79,12 @@ typedef struct Option {
     OptionFile file;   /* of OPTION_TEXT */
 } Option;
 
+/* A document that --json answers with, of which the build makes assets/schemas/json_answers.md. */
+typedef struct Answer {
+    const char *with; /* the options that request it: "--glare"; "": those of every other run */
+    const TableKind *kind; /* its own, or of a list that of each; NULL ends a list of answers */
+} Answer;
+
 typedef void HelpRow(void *user, const char *name, const char *text);
 
 typedef struct CliCommand {
@@ -90,4 +97,5 @@ typedef struct CliCommand {
     int min_arguments, max_arguments; /* max -1: any number */
     const char *rows_title;           /* of what the help lists besides: "formats"; NULL: nothing */
     void (*each_row)(HelpRow *row, void *user);
+    const Answer *answers; /* NULL: not as columns */
 } CliCommand;

@@ -18,6 +18,14 @@ static void add_row(void *user, const char *name, const char *text) {
     json_array_append_new(user, json_pack("{s:s, s:s}", "name", name, "text", text));
 }
 
+static json_t *answers_json(const Answer *answers) {
+    json_t *list = json_array();
+    for (; answers && answers->kind; answers++)
+        json_array_append_new(list, json_pack("{s:s, s:o}", "with", answers->with, "columns",
+                                              table_kind_json(answers->kind)));
+    return list;
+}
+
 bool help_json_command(const CliCommand *command, const Option *common, int common_count,
                        Error *err) {
     const char *blank = strrchr(command->name, ' ');
@@ -26,11 +34,12 @@ bool help_json_command(const CliCommand *command, const Option *common, int comm
     add_options(options, command->options, command->option_count);
     add_options(options, common, common_count);
     if (command->each_row) command->each_row(add_row, rows);
-    return cli_print_json(json_pack("{s:s, s:s, s:s, s:o, s:s?, s:o, s:s, s:s?}", "name",
+    return cli_print_json(json_pack("{s:s, s:s, s:s, s:o, s:s?, s:o, s:s, s:s?, s:o}", "name",
                                     blank ? blank + 1 : command->name, "summary", command->summary,
                                     "arguments", command->usage, "options", options, "rows_title",
                                     command->rows_title, "rows", rows, "example", command->example,
-                                    "guide", guide ? guide->name : NULL),
+                                    "guide", guide ? guide->name : NULL, "answers",
+                                    answers_json(command->answers)),
                           err);
 }
 

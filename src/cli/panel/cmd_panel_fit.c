@@ -88,7 +88,8 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
                                 options,
                                 COUNT_OF(options),
                                 1,
-                                1};
+                                1,
+                                .answers = (const Answer[]){{"", &panel_report_kind}, {0}}};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     if (!out->output) return error_set(err, ERROR_USAGE, "panel fit wants -o X.panel");

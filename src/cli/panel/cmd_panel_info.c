@@ -49,14 +49,17 @@ static Outcome run_info(int argc, char **argv, Arena *arena, Error *err) {
          "only how far each level of its trees is off, for --level of other commands",
          &wants_levels},
     };
-    const CliCommand command = {"panel info",
-                                command_panel_info.summary,
-                                "X.panel [--levels]",
-                                "parhelion panel info assets/panels/ips_cluster.panel",
-                                options,
-                                COUNT_OF(options),
-                                1,
-                                1};
+    const CliCommand command = {
+        "panel info",
+        command_panel_info.summary,
+        "X.panel [--levels]",
+        "parhelion panel info assets/panels/ips_cluster.panel",
+        options,
+        COUNT_OF(options),
+        1,
+        1,
+        .answers =
+            (const Answer[]){{"", &panel_report_kind}, {"--levels", &panel_level_kind}, {0}}};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;
     if (!panel_open(cli.arguments[0], arena, &panel, err)) return OUTCOME_FAILED;

@@ -58,6 +58,26 @@ static bool run(ReportRequest *request, const Cli *cli, Arena *arena, Error *err
     return true;
 }
 
+/* What --csv writes as report.json. */
+static const Column REPORT[] = {
+    COLUMN_KEY("panel", "as the manifest states it, as all up to the hash; null: not stated"),
+    COLUMN_KEY("instrument", NULL),
+    COLUMN_KEY("date", NULL),
+    COLUMN_KEY("operator", NULL),
+    COLUMN_KEY("conditions", NULL),
+    COLUMN_KEY("source", NULL),
+    COLUMN_KEY("source_hash_xxh3", NULL),
+    COLUMN_KEY("verdict", "null: not stated"),
+    COLUMN_KEY("file", "the panel"),
+    COLUMN_KEY("emission_to_theta_deg", "null: none"),
+    COLUMN_KEY("reflection_to_incidence_deg", "null: none"),
+    COLUMN_KEY("tables",
+               "each with `name`, `title`, `note`, `missing` (why there is none; or null) "
+               "and `rows`, objects of the columns of NAME.csv: numbers, or texts such "
+               "as `\"> 60\"`, `\"not measured\"`"),
+};
+static const TableKind REPORT_KIND = TABLE_KIND("report", NULL, REPORT);
+
 static Outcome run_report(int argc, char **argv, Arena *arena, Error *err) {
     Cli cli;
     ReportRequest request = {0};
@@ -91,7 +111,8 @@ static Outcome run_report(int argc, char **argv, Arena *arena, Error *err) {
         options,
         COUNT_OF(options),
         1,
-        1};
+        1,
+        .answers = (const Answer[]){{"", &REPORT_KIND}, {0}}};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;
     request.panel = cli.arguments[0];

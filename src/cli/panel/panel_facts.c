@@ -177,13 +177,16 @@ void panel_facts_add(const Panel *panel, json_t *report) {
 #define BEYOND "beyond what was measured"
 
 static const Column BESIDE[] = {COLUMN_DIGITS("mm", "from its middle", "mm", 4),
-                                COLUMN_DIGITS("black_cd_m2", "black", "cd/m2", 3)};
+                                COLUMN_DIGITS("black_cd_m2", "black", "cd/m2", 3),
+                                COLUMN_KEY("backlight", "over full")};
 static const TableKind BESIDE_KIND = TABLE_KIND("halo", "black beside the white square", BESIDE);
 
 static const Column SPOTS[] = {{.key = "position", .words = "spot (right, down)", .places = 4},
                                COLUMN_FIXED("bytes", "bytes", NULL, 0),
                                COLUMN_SHARE("max_error", "largest error"),
-                               COLUMN_TEXT("verdict", "verdict")};
+                               COLUMN_TEXT("verdict", "verdict"),
+                               COLUMN_KEY("emission", "true: has its own"),
+                               COLUMN_KEY("reflection", "true: has its own")};
 static const TableKind SPOTS_KIND = TABLE_KIND("spots", "spots", SPOTS);
 
 static const Column FLAGS[] = {
@@ -191,7 +194,8 @@ static const Column FLAGS[] = {
     COLUMN_DIGITS("phi_deg", "phi", "degrees", 0), COLUMN_DIGITS("value", "value", "cd/m2", 5),
     COLUMN_DIGITS("expected", "expected", "cd/m2", 5)};
 static const TableKind OUTLIERS_KIND = TABLE_KIND("outliers", "outliers", FLAGS);
-static const TableKind HOLES_KIND = TABLE_KIND("holes", "holes", FLAGS);
+static const TableKind HOLES_KIND = {
+    .key = "holes", .words = "holes", .columns = FLAGS, .column_count = 3};
 
 #define EVENNESS(pattern) \
     COLUMN_DIGITS("display.places." pattern ".nine_least", pattern ", nine points, least", \
@@ -211,8 +215,12 @@ static const Column INFO[] = {
     COLUMN_TEXT("panel", "panel"),
     COLUMN_TEXT("source", "source"),
     COLUMN_TEXT("instrument", "instrument"),
-    {.key = "verdict", .words = "verdict", .none = "none in this file: fit the set again"},
-    COLUMN_TEXT("reasons", "reason"),
+    {.key = "verdict",
+     .words = "verdict",
+     .none = "none in this file: fit the set again",
+     .about = "`good`, `usable with care`, `not usable`: then `fit` ends with status 1 and writes "
+              "no file unless forced"},
+    {.key = "reasons", .words = "reason", .about = "sentences, the worst first"},
     COLUMN_DIGITS("display.white_cd_m2", "white", "cd/m2", 4),
     {.key = "display.white_xy", .words = "white, xy", .is_fixed = true, .places = 4},
     {.key = "display.contrast",
@@ -224,7 +232,8 @@ static const Column INFO[] = {
      .words = "primaries, xy",
      .is_fixed = true,
      .places = 4,
-     .parts = PARTS_PRIMARIES},
+     .parts = PARTS_PRIMARIES,
+     .about = "of the whole pattern, black included"},
     {.key = "display.srgb_coverage",
      .words = "covers of sRGB",
      .unit = "% by area in xy",
@@ -245,7 +254,9 @@ static const Column INFO[] = {
      .none = "not measured"},
     COLUMN_SHARE("display.polarisation.degree", "polarised"),
     COLUMN_DIGITS("display.polarisation.azimuth_deg", "polarised along", "degrees", 0),
-    COLUMN_TEXT("display.local_dimming.zones", "zones (across, down)"),
+    {.key = "display.local_dimming.zones",
+     .words = "zones (across, down)",
+     .about = "absent: one backlight, always full, as all of `local_dimming`"},
     COLUMN_DIGITS("display.local_dimming.spread.sigma_mm", "light spread, sigma", "mm", 4),
     COLUMN_DIGITS("display.local_dimming.spread.radius_mm", "light spread, radii", "mm", 4),
     COLUMN_TEXT("display.local_dimming.drive.rule", "zones driven by"),
@@ -259,7 +270,8 @@ static const Column INFO[] = {
      .is_fixed = true,
      .places = 2,
      .parts = PARTS_SIDES,
-     .none = BEYOND},
+     .none = BEYOND,
+     .about = "to the right, up, left, down; each null: likewise, or not along that azimuth"},
     {.key = "display.contrast_10_deg",
      .words = "contrast 10 : 1",
      .unit = "degrees",
@@ -275,12 +287,23 @@ static const Column INFO[] = {
      .places = 4,
      .times = 100},
     COLUMN_DIGITS("display.haze_peak_sr", "haze, mirror direction", "sr^-1", 4),
-    COLUMN_DIGITS("display.haze_fwhm_deg", "haze, width at half", "degrees", 3),
+    {.key = "display.haze_fwhm_deg",
+     .words = "haze, width at half",
+     .unit = "degrees",
+     .places = 3,
+     .about = "in the plane of incidence, halfway between peak and what is left 60 degrees "
+              "further; absent where there is no peak"},
     COLUMN_TEXT("display.places.map", "uniformity map, pixels"),
     EVENNESS("white"),
     EVENNESS("black"),
-    {.key = "emission", .words = "emission"},
-    {.key = "reflection", .words = "reflection"},
+    {.key = "emission",
+     .words = "emission",
+     .about = "of the fit: `tolerance` is the bound required (or chosen), `bound` the one met: the "
+              "largest error beside five sigmas of noise; below the share `error_floor` of a "
+              "table's largest value errors are relative to it; `azimuths_deg`: those measured, "
+              "where they are 8 at most and somewhere more than 45 degrees apart (else absent); "
+              "`spectra_assumed`: in words, where the primaries' spectra were not measured"},
+    {.key = "reflection", .words = "reflection", .about = "likewise"},
     COLUMN_TEXT("notes", "note"),
     COLUMN_DIGITS("cpu_seconds", "processor time", "s", 3),
     {.key = "peak_memory_bytes",
@@ -292,14 +315,45 @@ static const Column INFO[] = {
     {.key = "spots", .of = &SPOTS_KIND},
     {.key = "outliers", .of = &OUTLIERS_KIND},
     {.key = "holes", .of = &HOLES_KIND},
+    COLUMN_KEY(
+        "judged",
+        "what the verdict was made of. `emission` and `reflection`: `beyond_share`, "
+        "`rms_beside_noise`; `emission_peak_error`, of a grid: what the panel may miss beside "
+        "a sample that alone shows a peak, relative; `emission_between_samples` and "
+        "`reflection_between_samples`, of samples without a grid's order: what may be missed "
+        "between them, `light` as a share of it and `worst` in a direction; "
+        "`reflection_spread`: their noise, relative, rms, of which structure finer than the "
+        "samples cannot be told; `coarse`: incidences whose mirror or haze the samples do not "
+        "tell, `incidence_deg`, `step_deg`, `mirror` [least, most], maybe `haze_sr` and "
+        "`haze_fwhm_deg` the same way"),
+    COLUMN_KEY("coarse", "true where a reason begins with \"coarse: \"; else absent"),
+    COLUMN_KEY("tables", "each with its sizes and errors; of one whose samples the fit does not "
+                         "follow also `outliers` and `outliers_max_error`, which no error counts"),
+    COLUMN_KEY("total", "the same of all tables"),
+    COLUMN_KEY("basis", "of the trees: `vertex` or `haar`"),
+    COLUMN_KEY("file_bytes", "of the file"),
+    COLUMN_KEY("date", "as the manifest states it, as the three that follow"),
+    COLUMN_KEY("operator", NULL),
+    COLUMN_KEY("conditions", NULL),
+    COLUMN_KEY("note", NULL),
+    COLUMN_KEY("size_mm", "width, height"),
+    COLUMN_KEY("pixels", "across, down"),
+    COLUMN_KEY("source_hash_xxh3", "of the files that were fitted"),
+    COLUMN_KEY("display.black_cd_m2", "along the normal; null: not measured"),
+    COLUMN_KEY("display.local_dimming", "the manifest's keys, and what `halo`, a white square on "
+                                        "black, does"),
+    COLUMN_KEY("display.places",
+               "of a panel that is not the same everywhere. `spots`: positions; of "
+               "`white` and `black`: `nine_cd_m2`, row by row; non-uniformity is "
+               "1 - least / most"),
 };
-static const TableKind INFO_KIND = TABLE_KIND("info", NULL, INFO);
+const TableKind panel_report_kind = TABLE_KIND("info", NULL, INFO);
 
 bool panel_print_report(json_t *report, bool as_json, Error *err) {
     if (as_json) return cli_print_json(report, err);
     Arena arena = arena_reserve((size_t)1 << 30);
     Text text = {.arena = &arena};
-    table_add_document(&INFO_KIND, report, &text);
+    table_add_document(&panel_report_kind, report, &text);
     const Table *tables = panel_file_table(report, &arena);
     if (tables) {
         text_add(&text, "\n");

@@ -12,6 +12,9 @@
 
 #include "base/error.h"
 #include "panel/query/panel.h"
+#include "table/table.h"
+
+extern const TableKind panel_report_kind;
 
 /* Puts "display" into the report: only what was measured. */
 void panel_facts_add(const Panel *panel, json_t *report);

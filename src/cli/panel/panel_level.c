@@ -96,5 +96,9 @@ static const Column LEVELS[] = {COLUMN_TEXT("level", "level"),
                                 COLUMN_SHARE("emission.max_error", "emission, largest error"),
                                 COLUMN_SHARE("emission.rms_error", "emission, rms error"),
                                 COLUMN_SHARE("reflection.max_error", "reflection, largest error"),
-                                COLUMN_SHARE("reflection.rms_error", "reflection, rms error")};
+                                COLUMN_SHARE("reflection.rms_error", "reflection, rms error"),
+                                COLUMN_KEY("emission", "`level` that was read, `finest` of its "
+                                                       "tree; errors are relative to the whole "
+                                                       "panel"),
+                                COLUMN_KEY("reflection", "likewise")};
 const TableKind panel_level_kind = TABLE_KIND("levels", NULL, LEVELS);
