@@ -103,6 +103,22 @@ static Table *table_of_list(const TableKind *kind, const json_t *list, Arena *ar
     return table;
 }
 
+static Table *table_of_lists(const TableKind *kind, const json_t *document, Arena *arena) {
+    Table *table = table_new(kind, arena);
+    size_t count = json_array_size(value_at(document, kind->columns[0].key));
+    for (size_t i = 0; i < count; i++) {
+        table_row(table);
+        for (int c = 0; c < kind->column_count; c++)
+            *cell_at(table, c) =
+                cell_of(json_array_get(value_at(document, kind->columns[c].key), i));
+    }
+    return table;
+}
+
+static bool has_rows(const Column *column) {
+    return column->of || column->lists;
+}
+
 /* The name with blanks for underscores. */
 static const char *readable(const char *name, Arena *arena) {
     char *copy = arena_string(arena, name, strlen(name));
@@ -213,7 +229,7 @@ static const char *cell_text(const Cell *cell, const Column *column, Arena *aren
     case CELL_TEXT: return cell->text && *cell->text ? cell->text : column->none;
     case CELL_DOCUMENT: break;
     }
-    if (column->of) return NULL;
+    if (has_rows(column)) return NULL;
     if (json_is_object(cell->document)) add_members(&text, cell->document, column);
     else if (is_all_null(cell->document)) return column->none;
     else add_list(&text, cell->document, column, ", ");
@@ -319,7 +335,7 @@ void table_add_text(const Table *table, Text *text) {
 
 /* A list of sentences has a line each. */
 static bool is_sentences(const Cell *cell, const Column *column) {
-    return cell->kind == CELL_DOCUMENT && !column->of && !column->parts &&
+    return cell->kind == CELL_DOCUMENT && !has_rows(column) && !column->parts &&
            json_is_string(json_array_get(cell->document, 0));
 }
 
@@ -332,7 +348,8 @@ static int add_lines(const Column *column, const Cell *cell, TableLine *line, Ar
         return (int)json_array_size(cell->document);
     }
     const char *words = cell_text(cell, column, arena);
-    bool is_zero = words && !words[strspn(words, "-0., ")];
+    bool is_zero =
+        cell->kind == CELL_FLAG ? !(cell->value > 0) : words && !words[strspn(words, "-0., ")];
     if (!words || (is_zero && column->hides_zero)) return 0;
     bool has_unit = column->unit && words != column->none;
     *line = (TableLine){column->words,
@@ -348,19 +365,15 @@ TableLine *table_lines(const TableKind *kind, const json_t *document, Arena *are
     *count = 0;
     for (int c = 0; c < kind->column_count; c++) {
         const Cell cell = cell_in(document, &kind->columns[c]);
-        if (kind->columns[c].words && !kind->columns[c].of)
+        if (kind->columns[c].words && !has_rows(&kind->columns[c]))
             *count += add_lines(&kind->columns[c], &cell, lines + *count, arena);
     }
     return lines;
 }
 
-void table_add_document(const TableKind *kind, const json_t *document, Text *text) {
+static void add_document(const TableKind *kind, const json_t *document, Text *text) {
     Arena *arena = text->arena;
     int count, width = 0;
-    if (json_is_array(document)) {
-        table_add_text(table_of_list(kind, document, arena), text);
-        return;
-    }
     const TableLine *lines = table_lines(kind, document, arena, &count);
     for (int i = 0; i < count; i++)
         if (characters(lines[i].words) > width) width = characters(lines[i].words);
@@ -371,12 +384,28 @@ void table_add_document(const TableKind *kind, const json_t *document, Text *tex
         text_add(text, "\n");
     }
     for (int c = 0; c < kind->column_count; c++) {
-        const json_t *list = value_at(document, kind->columns[c].key);
-        if (!kind->columns[c].of || !json_array_size(list)) continue;
+        const Column *column = &kind->columns[c];
+        const json_t *list = value_at(document, column->key);
+        if (!has_rows(column) || !json_array_size(list)) continue;
         if (count) text_add(text, "\n");
-        table_add_text(table_of_list(kind->columns[c].of, list, arena), text);
+        table_add_text(column->of ? table_of_list(column->of, list, arena)
+                                  : table_of_lists(column->lists, document, arena),
+                       text);
         count++;
     }
+}
+
+void table_add_document(const TableKind *kind, const json_t *document, Text *text) {
+    const json_t *one;
+    size_t i;
+    bool is_alone = false;
+    for (int c = 0; c < kind->column_count; c++) is_alone |= has_rows(&kind->columns[c]);
+    if (!json_is_array(document)) add_document(kind, document, text);
+    else if (!is_alone) table_add_text(table_of_list(kind, document, text->arena), text);
+    else json_array_foreach(document, i, one) {
+            if (i) text_add(text, "\n");
+            add_document(kind, one, text);
+        }
 }
 
 /* ---- JSON, CSV, page --------------------------------------------------------------------- */
@@ -386,10 +415,9 @@ static void add_kind(json_t *list, const TableKind *kind, const char *before, Ar
         const Column *column = &kind->columns[c];
         const char *key = arena_format(arena, "%s%s", before, column->key);
         const char *unit = column->times > 0 ? column->times == 100 ? "share" : NULL : column->unit;
-        if (column->of) {
-            add_kind(list, column->of, arena_format(arena, "%s[].", key), arena);
-            continue;
-        }
+        if (column->lists) add_kind(list, column->lists, before, arena);
+        if (column->of) add_kind(list, column->of, arena_format(arena, "%s[].", key), arena);
+        if (has_rows(column)) continue;
         json_t *one = json_pack("{s:s, s:s*, s:s*, s:s*, s:s*, s:s*}", "key", key, "unit", unit,
                                 "words", column->words, "none", column->none, "about",
                                 column->about, "interval", column->interval);

@@ -26,13 +26,15 @@ typedef struct Column {
     bool is_fixed;     /* `places` are digits behind the point, else digits that count */
     int places;        /* 0 of the latter: 6, without zeros at the end */
     double times;      /* for people: so many times the cell's value (100: percent); 0: once */
-    const char *interval; /* path of [low, high], which then decides the digits; NULL: none */
-    const char *parts;    /* of a list: what its items are, "right|up|left|down"; "": they stand
-                              in one line, also sentences */
-    const char *none;     /* for people, where it is null; NULL: a record leaves the line out */
-    bool hides_zero;      /* a record leaves the line out that would show 0 */
-    const TableKind *of;  /* of lists of objects: rows, shown behind the record */
-    const char *about;    /* for who reads JSON: what words leave open; NULL: nothing */
+    const char *interval;   /* path of [low, high], which then decides the digits; NULL: none */
+    const char *parts;      /* of a list: what its items are, "right|up|left|down"; "": they stand
+                                in one line, also sentences */
+    const char *none;       /* for people, where it is null; NULL: a record leaves the line out */
+    bool hides_zero;        /* a record leaves the line out that would show 0, or no */
+    const TableKind *of;    /* of lists of objects: rows, shown behind the record */
+    const TableKind *lists; /* of a list: rows of it and of those that the kind's keys name, an item
+                               of each a row, shown likewise */
+    const char *about;      /* for who reads JSON: what words leave open; NULL: nothing */
 } Column;
 
 struct TableKind {
@@ -122,7 +124,8 @@ typedef struct TableLine {
 
 TableLine *table_lines(const TableKind *kind, const json_t *document, Arena *arena, int *count);
 
-/* The same as text, then the tables of its lists; a list of objects as rows. */
+/* The same as text, then the tables of its lists; a list of documents as rows, or, where they have
+ * tables, one below the other. */
 void table_add_document(const TableKind *kind, const json_t *document, Text *text);
 
 /* What a document of the kind has, for who reads it as JSON: of each column "key", of a list of

@@ -630,7 +630,8 @@ def check_one_string(report, commands, name):
     factor = {row["geometry"]: row["factor_percent"] for row in cells["reflectance_factors"]}
     gamut = {row["standard"]: row["coverage_xy_percent"] for row in cells["gamut"]}
     white = cells["white"][0]
-    for words in (f"white {white['luminance_cd_m2']} cd/m2", f"white, xy {white['x']}, {white['y']}",
+    for words in (f"white {white['luminance_cd_m2']} cd/m2",
+                  f"white, xy {white['x']}, {white['y']}",
                   "primaries, xy " + ", ".join(f"{one} {primary[one]['x']} {primary[one]['y']}"
                                                for one in ("red", "green", "blue")),
                   f"covers of sRGB {gamut['sRGB']} %", f"covers of DCI-P3 {gamut['DCI-P3']} %",

@@ -24,15 +24,21 @@ CAR = ("scenes/car_dashboard.gltf", "scenes/noon.gltf")
 WHEN = ("--when", "2026-06-21T12:00+02:00", "--where", "48.14,11.58,520")
 EPW = ("LOCATION,T,-,D,D,0,48.14,11.58,1.0,520\nDATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n"
        "2026,6,21,10,60,x,20,8,79,100100,0,1415,288,0,600,150,0,0,0,0\n")
+TOWARDS, FROM, GRID = ("--theta", "30"), ("--incidence", "20"), "0:60:30,0:90:90"
 RENDERED = ("render", *CAR, "--camera", "driver-eye", "--projection", "fisheye", "--size", "96x96",
             "--spp", "24", "--layers", "display,halves,light", "-o", "FOLDER/frame.exr", "--quiet")
 
 # (command, the options that its answer is of, what else is typed; FOLDER: of this test)
 RUNS = (
+    ("panel import", "", ("FOLDER/set/brdf/i10.csv", "-o", "FOLDER/again/M.json")),
     ("panel fit", "", ("FOLDER/set/MANIFEST.json", "-o", "FOLDER/odd.panel", "--force")),
     *(("panel info", "", (path,)) for path in (IPS, PANELS + "zoned_centre.panel")),
     ("panel info", "--levels", (IPS,)),
     ("panel report", "", (IPS,)),
+    ("panel eval", "", (IPS, *TOWARDS, "--rgb", "9,9,9", "--at", "0,0", "--level", "3")),
+    ("panel eval", "--brdf", (IPS, *TOWARDS, *FROM, "--at", "0,0", "--level", "3")),
+    ("panel eval", "--grid", (GRID, IPS, "--rgb", "9,9,9", "--level", "3")),
+    ("panel eval", "--brdf --grid", (GRID, IPS, *FROM, "--level", "3")),
     ("sky", "", ("--environment", "perez:800,100", *WHEN, "-o", "FOLDER/sky.exr", "--size", "8x4")),
     ("sky", "", ("--weather", "FOLDER/day.epw", "--when", "2026-06-21T09:30+01:00",
                  "--weather-offset", "-0.5")),

@@ -69,6 +69,7 @@ static bool parse(const char *const *words, Arena *arena, Values *out) {
                                 1,
                                 2,
                                 NULL,
+                                NULL,
                                 NULL};
     return cli_parse(&command, argc, argv, arena, &out->cli, &out->err);
 }

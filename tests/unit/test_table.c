@@ -181,6 +181,33 @@ ARENA_TEST(a_kind_lists_its_columns) {
     assert_string_equal(json_text_at(json_array_get(list, (size_t)plain + 1), "unit"), "share");
 }
 
+/* Lists that stand side by side are rows; documents that have rows stand one below the other, a
+ * blank line between. */
+ARENA_TEST(lists_side_by_side_are_rows) {
+    static const Column SPECTRUM[] = {COLUMN_FIXED("nm", "wavelength", "nm", 0),
+                                      COLUMN_FIXED("value", "value", NULL, 1)};
+    static const TableKind SPECTRUM_KIND = TABLE_KIND("spectrum", NULL, SPECTRUM);
+    static const Column OF[] = {COLUMN_TEXT("name", "name"),
+                                {.key = "is_far", .words = "far", .hides_zero = true},
+                                {.key = "nm", .lists = &SPECTRUM_KIND}};
+    static const TableKind OF_KIND = TABLE_KIND("of", NULL, OF);
+    json_auto_t *document = json_loads("[{\"name\": \"a\", \"is_far\": false,"
+                                       "  \"nm\": [400, 500], \"value\": [0.25, 1.0]},"
+                                       " {\"name\": \"b\", \"is_far\": true, \"nm\": []}]",
+                                       0, NULL);
+    Text text = {.arena = &arena};
+    table_add_document(&OF_KIND, document, &text);
+    assert_string_equal(text.data, "name  a\n\n"
+                                   "wavelength, nm  value\n"
+                                   "           400    0.2\n"
+                                   "           500    1.0\n\n"
+                                   "name  b\n"
+                                   "far   yes\n");
+    json_auto_t *list = table_kind_json(&OF_KIND);
+    assert_int_equal(json_array_size(list), 4);
+    assert_string_equal(json_text_at(list, "3/key"), "value");
+}
+
 ARENA_TEST(what_has_nothing_to_say_says_nothing) {
     json_auto_t *empty = json_object(), *none = json_loads("{\"items\": []}", 0, NULL);
     Text text = {.arena = &arena};

@@ -92,42 +92,32 @@ static void print_comment(const PanelQuestion *q) {
               q->rgb[0], q->rgb[1], q->rgb[2]);
 }
 
-static void print_list_names(const Panel *panel, const PanelQuestion *q) {
+/* Channels of one direction; returns whether it is measured. */
+static bool channels_at(const Panel *panel, const PanelQuestion *q, float *out) {
     PanelReflected r;
-    print_comment(q);
-    if (!q->is_brdf) {
-        print("theta,phi,X,Y,Z\n");
-        return;
-    }
+    if (!q->is_brdf) return panel_query_emission(panel, q, out);
     panel_query_reflection(panel, q, &r);
-    print("theta,phi");
-    for (int i = 0; i < r.count; i++) print(",%.9g", (double)r.nm[i]);
-    print("\n");
-}
-
-static void print_list_row(const Panel *panel, const PanelQuestion *q) {
-    print("%.10g,%.10g", q->theta, q->phi);
-    if (q->is_brdf) {
-        PanelReflected r;
-        panel_query_reflection(panel, q, &r);
-        for (int i = 0; i < r.count; i++) print(",%.9g", (double)r.brdf[i]);
-    } else {
-        float xyz[3];
-        panel_query_emission(panel, q, xyz);
-        for (int j = 0; j < 3; j++) print(",%.9g", (double)xyz[j]);
-    }
-    print("\n");
+    memcpy(out, r.brdf, sizeof *out * (size_t)r.count);
+    return r.is_measured;
 }
 
 static void print_list(const Panel *panel, const PanelQuestion *question, const PanelGrid *grid) {
     PanelQuestion q = *question;
-    print_list_names(panel, &q);
+    PanelReflected r = {.count = 3};
+    print_comment(&q);
+    print("theta,phi%s", q.is_brdf ? "" : ",X,Y,Z");
+    if (q.is_brdf) panel_query_reflection(panel, &q, &r);
+    for (int i = 0; i < r.count && q.is_brdf; i++) print(",%.9g", (double)r.nm[i]);
     for (int t = 0; t < range_count(&grid->theta); t++)
         for (int p = 0; p < range_count(&grid->phi); p++) {
+            float value[PANEL_INFO_WAVELENGTHS_MAX];
             q.theta = range_at(&grid->theta, t);
             q.phi = range_at(&grid->phi, p);
-            print_list_row(panel, &q);
+            channels_at(panel, &q, value);
+            print("\n%.10g,%.10g", q.theta, q.phi);
+            for (int i = 0; i < r.count; i++) print(",%.9g", (double)value[i]);
         }
+    print("\n");
 }
 
 typedef enum Quantity {
@@ -140,20 +130,16 @@ typedef enum Quantity {
 } Quantity;
 
 static double quantity_at(const Panel *panel, const PanelQuestion *q, Quantity quantity) {
-    PanelReflected r;
-    float xyz[3];
-    if (q->is_brdf) {
-        panel_query_reflection(panel, q, &r);
-        return (double)r.brdf[0];
-    }
-    panel_query_emission(panel, q, xyz);
-    double d = (double)xyz[0] + 15 * (double)xyz[1] + 3 * (double)xyz[2];
+    float value[PANEL_INFO_WAVELENGTHS_MAX];
+    channels_at(panel, q, value);
+    if (q->is_brdf) return (double)value[0];
+    double x = (double)value[0], y = (double)value[1], z = (double)value[2], d = x + 15 * y + 3 * z;
     switch (quantity) {
-    case QUANTITY_U: return d > 0 ? 4 * (double)xyz[0] / d : 0;
-    case QUANTITY_V: return d > 0 ? 9 * (double)xyz[1] / d : 0;
-    case QUANTITY_X: return (double)xyz[0];
-    case QUANTITY_Z: return (double)xyz[2];
-    default: return (double)xyz[1];
+    case QUANTITY_U: return d > 0 ? 4 * x / d : 0;
+    case QUANTITY_V: return d > 0 ? 9 * y / d : 0;
+    case QUANTITY_X: return x;
+    case QUANTITY_Z: return z;
+    default: return y;
     }
 }
 
@@ -185,15 +171,6 @@ static json_t *range_json(const PanelRange *range) {
     for (int i = 0; i < range_count(range); i++)
         json_array_append_new(list, json_real(range_at(range, i)));
     return list;
-}
-
-/* Channels of one direction; returns whether it is measured. */
-static bool channels_at(const Panel *panel, const PanelQuestion *q, float *out) {
-    PanelReflected r;
-    if (!q->is_brdf) return panel_query_emission(panel, q, out);
-    panel_query_reflection(panel, q, &r);
-    memcpy(out, r.brdf, sizeof *out * (size_t)r.count);
-    return r.is_measured;
 }
 
 /* The thetas at which some directions are extrapolated; which, theta x phi. */
@@ -256,10 +233,60 @@ static json_t *emission_grid_json(const Panel *panel, const PanelQuestion *q,
                      "extrapolated", far.theta, "extrapolated_at", far.at);
 }
 
-static json_t *answer_json(const Panel *panel, const PanelQuestion *q, const PanelLevel *level) {
-    json_t *one = panel_answer_json(panel, q);
-    panel_level_add(level, one);
-    return one;
+/* ---- the answer in a direction ----------------------------------------------------------- */
+
+static const Column EMISSION[] = {
+    COLUMN_DIGITS("theta_deg", "theta", "degrees", 0),
+    COLUMN_DIGITS("phi_deg", "phi", "degrees", 0),
+    {.key = "position", .words = "place (right, down)"},
+    {.key = "rgb", .words = "codes"},
+    COLUMN_DIGITS("luminance_cd_m2", "luminance", "cd/m2", 0),
+    {.key = "XYZ", .words = "X, Y, Z"},
+    {.key = "uv", .words = "u', v'", .is_fixed = true, .places = 4},
+    {.key = "extrapolated", .words = "extrapolated", .hides_zero = true},
+    COLUMN_KEY("level", PANEL_LEVEL_ABOUT)};
+static const TableKind EMISSION_KIND = TABLE_KIND("emission", NULL, EMISSION);
+
+static const Column SPECTRUM[] = {COLUMN_DIGITS("wavelengths_nm", "wavelength", "nm", 0),
+                                  COLUMN_DIGITS("brdf_sr", "BRDF", "sr^-1", 0),
+                                  COLUMN_DIGITS("lambertian_sr", "lambertian of it", "sr^-1", 0),
+                                  COLUMN_DIGITS("mirror", "mirror", NULL, 0)};
+static const TableKind SPECTRUM_KIND = TABLE_KIND("spectrum", NULL, SPECTRUM);
+static const Column REFLECTION[] = {
+    COLUMN_DIGITS("incidence_deg", "light from theta", "degrees", 0),
+    COLUMN_DIGITS("incidence_phi_deg", "phi", "degrees", 0),
+    COLUMN_DIGITS("theta_deg", "to theta", "degrees", 0),
+    COLUMN_DIGITS("phi_deg", "phi", "degrees", 0),
+    {.key = "position", .words = "place (right, down)"},
+    {.key = "extrapolated",
+     .words = "extrapolated",
+     .hides_zero = true,
+     .about = "neither these directions nor the two exchanged were measured"},
+    {.key = "wavelengths_nm", .lists = &SPECTRUM_KIND},
+    COLUMN_KEY("level", PANEL_LEVEL_ABOUT)};
+static const TableKind REFLECTION_KIND = TABLE_KIND("reflection", NULL, REFLECTION);
+
+/* A batch of them is a list. */
+static bool print_answers(const Panel *panel, const EvalRequest *request, const Cli *cli,
+                          const PanelQuestion *list, int count, Error *err) {
+    bool is_brdf = request->question.is_brdf;
+    if (request->wants_csv) {
+        panel_answer_csv_header(list, stdout);
+        for (int i = 0; i < count; i++) panel_answer_csv(panel, &list[i], stdout);
+        return true;
+    }
+    json_t *answers = json_array();
+    for (int i = 0; i < count; i++) {
+        json_t *one = panel_answer_json(panel, &list[i]);
+        panel_level_add(&request->level, one);
+        json_array_append_new(answers, one);
+    }
+    if (!request->batch) {
+        json_t *all = answers;
+        answers = json_incref(json_array_get(all, 0));
+        json_decref(all);
+    }
+    return cli_print_answer(is_brdf ? &REFLECTION_KIND : &EMISSION_KIND, answers, cli->json, err);
 }
 
 /* ---- many rows at once ----------------------------------------------------------------- */
@@ -311,32 +338,36 @@ static bool answer_batch(const Panel *panel, const EvalRequest *request, const C
         list[i] = request->question;
         if (!fill_question(&csv, i, arena, &list[i], err)) return false;
     }
-    json_t *answers = json_array();
-    if (request->wants_csv) panel_answer_csv_header(&list[0], stdout);
-    for (int i = 0; i < csv.rows; i++) {
-        if (request->wants_csv) panel_answer_csv(panel, &list[i], stdout);
-        else if (cli->json)
-            json_array_append_new(answers, answer_json(panel, &list[i], &request->level));
-        else panel_answer_print(panel, &list[i]);
-    }
-    if (cli->json) return cli_print_json(answers, err);
-    json_decref(answers);
-    return true;
+    return print_answers(panel, request, cli, list, csv.rows, err);
 }
 
-/* ---- one answer ------------------------------------------------------------------------ */
+/* ---- a grid ------------------------------------------------------------------------------ */
 
-static bool answer_one(const Panel *panel, const EvalRequest *request, const Cli *cli, Error *err) {
-    const PanelQuestion *q = &request->question;
-    if (cli->json) return cli_print_json(answer_json(panel, q, &request->level), err);
-    if (request->wants_csv) {
-        panel_answer_csv_header(q, stdout);
-        panel_answer_csv(panel, q, stdout);
-    } else {
-        panel_answer_print(panel, q);
-    }
-    return true;
-}
+#define THETAS_ABOUT "the thetas at which some directions are"
+#define DIRECTIONS_ABOUT "which directions are, over theta, then phi"
+
+static const Column EMISSION_GRID[] = {COLUMN_KEY("rgb", "codes"),
+                                       COLUMN_KEY("theta_deg", "a list, as `phi_deg`"),
+                                       COLUMN_KEY("phi_deg", NULL),
+                                       COLUMN_KEY("X", "lists over theta, then phi, as Y and Z"),
+                                       COLUMN_KEY("Y", "cd/m2"),
+                                       COLUMN_KEY("Z", NULL),
+                                       COLUMN_KEY("extrapolated", THETAS_ABOUT),
+                                       COLUMN_KEY("extrapolated_at", DIRECTIONS_ABOUT),
+                                       COLUMN_KEY("level", PANEL_LEVEL_ABOUT)};
+static const TableKind EMISSION_GRID_KIND = TABLE_KIND("emission", NULL, EMISSION_GRID);
+static const Column REFLECTION_GRID[] = {COLUMN_KEY("incidence_deg", "of the light"),
+                                         COLUMN_KEY("incidence_phi_deg", NULL),
+                                         COLUMN_KEY("theta_deg", "a list, as `phi_deg`"),
+                                         COLUMN_KEY("phi_deg", NULL),
+                                         COLUMN_KEY("wavelengths_nm", NULL),
+                                         COLUMN_KEY("brdf_sr", "of each of them lists over theta, "
+                                                               "then phi, without the mirror part"),
+                                         COLUMN_KEY("mirror", "of each of them"),
+                                         COLUMN_KEY("extrapolated", THETAS_ABOUT),
+                                         COLUMN_KEY("extrapolated_at", DIRECTIONS_ABOUT),
+                                         COLUMN_KEY("level", PANEL_LEVEL_ABOUT)};
+static const TableKind REFLECTION_GRID_KIND = TABLE_KIND("reflection", NULL, REFLECTION_GRID);
 
 static bool answer_grid(const Panel *panel, const EvalRequest *request, const Cli *cli,
                         Error *err) {
@@ -367,7 +398,7 @@ static bool answer(const char *path, EvalRequest *request, const Cli *cli, Arena
                       "has no reflection data; fit a set with a 'reflection' entry");
     else if (request->grid) ok = answer_grid(panel, request, cli, err);
     else if (request->batch) ok = answer_batch(panel, request, cli, arena, err);
-    else ok = answer_one(panel, request, cli, err);
+    else ok = print_answers(panel, request, cli, &request->question, 1, err);
     bool is_listed = request->grid || request->batch || request->wants_csv;
     if (ok && !cli->quiet && (is_listed || !cli->json))
         panel_level_print(&request->level, is_listed ? stderr : stdout);
@@ -447,7 +478,12 @@ static Outcome run_eval(int argc, char **argv, Arena *arena, Error *err) {
         options,
         COUNT_OF(options),
         1,
-        1};
+        1,
+        .answers = (const Answer[]){{"", &EMISSION_KIND},
+                                    {"--brdf", &REFLECTION_KIND},
+                                    {"--grid", &EMISSION_GRID_KIND},
+                                    {"--brdf --grid", &REFLECTION_GRID_KIND},
+                                    {0}}};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;
     return outcome_of(check_request(&r, &cli, err) &&

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "print/print.h"
 #include "base/number.h"
 #include "base/reference.h"
 #include "cli/options/answer.h"
@@ -31,19 +30,48 @@ static bool read_files(const Cli *cli, ImportRequest *request, ImportSet *set, E
     return ok;
 }
 
-/* ---- the summary ------------------------------------------------------------------------- */
+/* ---- the answer -------------------------------------------------------------------------- */
+
+static const Column TABLES[] = {COLUMN_TEXT("file", "table"),
+                                COLUMN_TEXT("rows", "directions"),
+                                COLUMN_TEXT("values", "values"),
+                                COLUMN_TEXT("masked", "masked"),
+                                COLUMN_TEXT("from", "from"),
+                                COLUMN_KEY("channels", "values of a direction"),
+                                COLUMN_KEY("not_measured", "theta, phi of those that are masked")};
+static const TableKind TABLES_KIND = TABLE_KIND("tables", NULL, TABLES);
+static const Column SUMMARY[] = {
+    COLUMN_TEXT("manifest", "manifest"),
+    COLUMN_FIXED("rows", "directions", NULL, 0),
+    COLUMN_FIXED("masked", "masked", NULL, 0),
+    COLUMN_TEXT("notes", "note"),
+    {.key = "not_stated", .words = "not stated, for a report", .parts = ""},
+    {.key = "tables", .of = &TABLES_KIND}};
+static const TableKind SUMMARY_KIND = TABLE_KIND("import", NULL, SUMMARY);
 
 static json_t *table_summary(const ImportSet *set, const ImportTable *table, Arena *arena) {
-    json_t *one =
-        json_pack("{s:s, s:o, s:i, s:i, s:i}", "file", import_table_file(set, table, arena), "from",
-                  json_text(table->file), "rows", table->rows, "channels", table->channels,
-                  "masked", table->masked);
     json_t *list = json_array();
     for (int i = 0; table->masked_theta_deg && i < table->masked; i++)
         json_array_append_new(
             list, json_pack("[f,f]", table->masked_theta_deg[i], table->masked_phi_deg[i]));
-    json_object_set_new(one, "not_measured", list);
-    return one;
+    return json_pack(
+        "{s:s, s:o, s:i, s:i, s:I, s:i, s:o}", "file", import_table_file(set, table, arena), "from",
+        json_text(table->file), "rows", table->rows, "channels", table->channels, "values",
+        (json_int_t)table->rows * table->channels, "masked", table->masked, "not_measured", list);
+}
+
+/* What a report of the panel would lack. */
+static json_t *unstated(const ImportSet *set) {
+    const struct {
+        const char *option, *text;
+    } words[] = {{"--instrument", set->instrument},
+                 {"--date", set->date},
+                 {"--operator", set->operator_name},
+                 {"--conditions", set->conditions}};
+    json_t *list = json_array();
+    for (int i = 0; i < COUNT_OF(words); i++)
+        if (!words[i].text) json_array_append_new(list, json_string(words[i].option));
+    return list;
 }
 
 static json_t *summary(const ImportSet *set, const char *manifest, Arena *arena) {
@@ -54,41 +82,9 @@ static json_t *summary(const ImportSet *set, const char *manifest, Arena *arena)
         rows += set->table[i].rows;
         masked += set->table[i].masked;
     }
-    return json_pack("{s:o, s:o, s:f, s:f, s:o}", "manifest", json_text(manifest), "tables", tables,
-                     "rows", rows, "masked", masked, "notes",
-                     json_texts(set->note, set->note_count));
-}
-
-/* What a report of the panel would lack. */
-static void print_unstated(const ImportSet *set) {
-    const struct {
-        const char *option, *text;
-    } words[] = {{"--instrument", set->instrument},
-                 {"--date", set->date},
-                 {"--operator", set->operator_name},
-                 {"--conditions", set->conditions}};
-    bool is_begun = false;
-    for (int i = 0; i < COUNT_OF(words); i++) {
-        if (words[i].text) continue;
-        print("%s%s", is_begun ? ", " : "not stated, for a report: ", words[i].option);
-        is_begun = true;
-    }
-    if (is_begun) print("\n");
-}
-
-static void print_summary(const ImportSet *set, const char *manifest, Arena *arena) {
-    double rows = 0, masked = 0;
-    print("%-32s %10s %9s %7s  %s\n", "table", "directions", "values", "masked", "from");
-    for (int i = 0; i < set->count; i++) {
-        const ImportTable *table = &set->table[i];
-        print("%-32s %10d %9.0f %7d  %s\n", import_table_file(set, table, arena), table->rows,
-              (double)table->rows * table->channels, table->masked, table->file);
-        rows += table->rows;
-        masked += table->masked;
-    }
-    for (int i = 0; i < set->note_count; i++) print("note: %s\n", set->note[i]);
-    print_unstated(set);
-    print("%s: %d tables, %.0f directions, %.0f masked\n", manifest, set->count, rows, masked);
+    return json_pack("{s:o, s:o, s:f, s:f, s:o, s:o}", "manifest", json_text(manifest), "tables",
+                     tables, "rows", rows, "masked", masked, "notes",
+                     json_texts(set->note, set->note_count), "not_stated", unstated(set));
 }
 
 /* ---- options ----------------------------------------------------------------------------- */
@@ -297,9 +293,7 @@ static bool run(const Cli *cli, const Words *words, Arena *arena, Error *err) {
     if (!make_request(words, arena, request, err) || !read_files(cli, request, &set, err) ||
         !import_write(&set, words->output, err))
         return false;
-    if (cli->json) return cli_print_json(summary(&set, words->output, arena), err);
-    print_summary(&set, words->output, arena);
-    return true;
+    return cli_print_answer(&SUMMARY_KIND, summary(&set, words->output, arena), cli->json, err);
 }
 
 static Outcome run_import(int argc, char **argv, Arena *arena, Error *err) {
@@ -318,7 +312,8 @@ static Outcome run_import(int argc, char **argv, Arena *arena, Error *err) {
         1,
         -1,
         "formats",
-        each_format};
+        each_format,
+        .answers = (const Answer[]){{"", &SUMMARY_KIND}, {0}}};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;
     if (!words->output) return error_set(err, ERROR_USAGE, "panel import wants -o MANIFEST.json");

@@ -19,6 +19,10 @@
      .out = &(level).asked, \
      .given = &(level).is_asked}
 
+#define PANEL_LEVEL_ABOUT \
+    "with `--level`: `level` as asked, and of what was asked and is there `emission` and " \
+    "`reflection` as `panel info --levels` has them"
+
 typedef struct PanelLevel {
     long asked;
     bool is_asked;     /* false: the whole panel */

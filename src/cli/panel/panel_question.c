@@ -150,29 +150,6 @@ json_t *panel_answer_json(const Panel *panel, const PanelQuestion *q) {
     return out;
 }
 
-/* ---- text ------------------------------------------------------------------------------ */
-
-static void print_emission(const Panel *panel, const PanelQuestion *q) {
-    float xyz[3];
-    bool measured = panel_query_emission(panel, q, xyz);
-    double x = (double)xyz[0], y = (double)xyz[1], z = (double)xyz[2], d = x + 15 * y + 3 * z;
-    print("%.6g cd/m2  XYZ %.6g %.6g %.6g  u'v' %.4f %.4f%s\n", y, x, y, z, d > 0 ? 4 * x / d : 0,
-          d > 0 ? 9 * y / d : 0, measured ? "" : "  (extrapolated)");
-}
-
-static void print_reflection(const Panel *panel, const PanelQuestion *q) {
-    PanelReflected r;
-    panel_query_reflection(panel, q, &r);
-    for (int i = 0; i < r.count; i++)
-        print("%g nm  %.6g sr^-1  mirror %.6g%s\n", (double)r.nm[i], (double)r.brdf[i],
-              (double)r.mirror[i], r.is_measured ? "" : "  (extrapolated)");
-}
-
-void panel_answer_print(const Panel *panel, const PanelQuestion *q) {
-    if (q->is_brdf) print_reflection(panel, q);
-    else print_emission(panel, q);
-}
-
 /* ---- CSV ------------------------------------------------------------------------------- */
 
 void panel_answer_csv_header(const PanelQuestion *q, FILE *out) {

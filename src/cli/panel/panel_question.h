@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* panel_question.h -- one question to a panel, and its answer as JSON, text or a row of CSV.
+/* panel_question.h -- one question to a panel, and its answer as JSON or a row of CSV.
  *
  * Units    degrees; codes 0 to 255; XYZ with Y in cd m^-2; BRDF in sr^-1 without the cosine;
  *          mirror reflectance without unit; nm.
@@ -45,7 +45,6 @@ void panel_query_reflection(const Panel *panel, const PanelQuestion *question, P
 
 /* A new document (cli.md: panel eval --json). */
 json_t *panel_answer_json(const Panel *panel, const PanelQuestion *question);
-void panel_answer_print(const Panel *panel, const PanelQuestion *question);
 
 /* A header line, and then rows, of the question and its answer: one of an emission, one for
  * each wavelength of a reflection. */
