@@ -22,7 +22,7 @@ light="$panels src/import src/sky src/scene src/bvh src/light src/mirror src/kee
 options="$light src/table src/missed src/denoise src/vision src/cli/ src/cli/options"
 render="$options assets src/cli/render"
 tables="$render src/page src/plot src/cli/panel"
-review="$render src/review src/page src/plot src/cli/review src/equip src/cli/explain"
+review="$render src/probe src/review src/page src/plot src/cli/review src/equip src/cli/explain"
 compare="$render src/measure src/page src/compare"
 all="$build src shaders assets"
 

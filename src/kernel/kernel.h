@@ -11,7 +11,7 @@
 #include "film/film.h"
 #include "film/sample_shares.h"
 #include "guide/guide_training.h"
-#include "kernel/probe.h"
+#include "kernel/aim.h"
 #include "light/light_groups.h"
 #include "path/cell_lights.h"
 #include "path/collect/training.h"
@@ -65,7 +65,7 @@ typedef struct Kernel {
     void (*train)(const TrainingJob *job, uint32_t cell, PathStatistics *statistics);
     /* Takes light samples in a cell: they decide how often it samples each set of lights. */
     void (*try_lights)(const TrainingJob *job, uint32_t cell, PathStatistics *statistics);
-    /* The functions of probe.h. */
+    /* The functions of aim.h. */
     void (*look)(const ProbeAim *aim, int first, int end, ProbeLook *out,
                  PathStatistics *statistics);
     void (*trace)(const ProbeAim *aim, int first, int end, const PathListener *listener,

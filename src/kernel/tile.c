@@ -314,7 +314,7 @@ static void train_try_lights(const TrainingJob *job, uint32_t cell, PathStatisti
 #define KERNEL_ISA "native"
 #endif
 extern const Kernel KERNEL_NAME;
-const Kernel KERNEL_NAME = {KERNEL_ISA,        tile_render,        tile_find_displays,
-                            train_find_places, train_cell,         train_try_lights,
-                            probe_look,        probe_trace,        probe_sample_cells,
-                            probe_sample_suns, probe_sample_images};
+const Kernel KERNEL_NAME = {KERNEL_ISA,        tile_render,      tile_find_displays,
+                            train_find_places, train_cell,       train_try_lights,
+                            aim_look,          aim_trace,        aim_sample_cells,
+                            aim_sample_suns,   aim_sample_images};

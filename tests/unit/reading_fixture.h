@@ -10,8 +10,8 @@ static inline const Kernel *kernel(void) {
     return chosen;
 }
 
-static inline ReadingTools reading_tools(int threads) {
-    return (ReadingTools){.kernel = kernel(), .threads = threads};
+static inline ProbeTools reading_tools(int threads) {
+    return (ProbeTools){.kernel = kernel(), .threads = threads};
 }
 
 /* user: a limit. */

@@ -55,8 +55,8 @@ static World room(const float wall[PARTS], float level) {
 
 static const float grey[PARTS] = {[FLOOR] = 0.5f, [SIDE] = 0.5f, [BACK] = 0.5f, [PANE] = 1};
 
-static ReadingTools tools_of(int threads) {
-    ReadingTools tools = {.threads = threads};
+static ProbeTools tools_of(int threads) {
+    ProbeTools tools = {.threads = threads};
     assert_done(kernel_choose(NULL, &tools.kernel, &err));
     return tools;
 }
@@ -70,7 +70,7 @@ static ProbeAim aim_of(const World *world, uint32_t seed) {
 }
 
 static Chains find(World *world, uint32_t seed, long paths, int threads) {
-    ReadingTools tools = tools_of(threads);
+    ProbeTools tools = tools_of(threads);
     ProbeAim aim = aim_of(world, seed);
     ChainArgs args = {.aim = &aim, .tools = &tools, .paths = paths, .most = MOST};
     return chains_find(&args, &world->arena);

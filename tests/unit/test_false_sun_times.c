@@ -109,7 +109,7 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found) {
     add_facet(&world, &facet);
     world_ready(&world, 16);
     assert_done(kernel_choose(NULL, &kernel, &err));
-    setup.tools = (ReadingTools){.kernel = kernel, .threads = 2};
+    setup.tools = (ProbeTools){.kernel = kernel, .threads = 2};
     setup.context = world.context;
     Brute brute = brute_force(&setup, &facet, &suns);
     assert_true(brute.certain >= 3 && brute.certain < 60);

@@ -71,7 +71,7 @@ TEST(emitters_of_other_levels_tell_the_same_light) {
     static const double ONE[2] = {1, 1}, LEVELS[2] = {0.25, 4}, FAR[2] = {8, 0.05};
     ReadingGoal longer = {.most = all_laws() ? 1 << 17 : 1 << 16};
     ENDS_BY(world_end) World world = room();
-    ReadingTools tools = reading_tools(2);
+    ProbeTools tools = reading_tools(2);
     for (int by_meter = 0; by_meter < 2; by_meter++) {
         Reading kept, own;
         ProbeAim aim = aim_of(&world, 5, by_meter);
@@ -93,7 +93,7 @@ TEST(emitters_of_other_levels_tell_the_same_light) {
 TEST(other_levels_leave_what_the_suns_rays_do) {
     ReadingGoal goal = {.most = 4096};
     ENDS_BY(world_end) World world = room();
-    ReadingTools tools = reading_tools(2);
+    ProbeTools tools = reading_tools(2);
     Lights *sunny;
     builder_part(world.scene, builder_mirror(0.6f));
     builder_quad(world.scene, vec3(-0.3f, 0, 0.3f), vec3(0.1f, 0, 0.1f), vec3(0, 0.1f, 0));

@@ -315,7 +315,7 @@ static PaneImageReading read_image(const Setup *setup, const PaneImage *image, A
 }
 
 /* By three standard errors, which are small. */
-static void assert_found(const char *what, GazeFound found, double wanted) {
+static void assert_found(const char *what, Estimate found, double wanted) {
     double off = fabs(found.mean - wanted);
     if (!(off <= 3 * found.sigma + 1e-3 * wanted && found.sigma <= 0.011 * wanted))
         fail_msg("%s: %g +- %g cd/m2, required %g", what, found.mean, found.sigma, wanted);

@@ -23,7 +23,7 @@ static ProbeAim aim_of(const World *world, uint32_t seed) {
 
 static Reading read_ball(const World *world, uint32_t seed, const ReadingGoal *goal) {
     ProbeAim aim = aim_of(world, seed);
-    ReadingTools tools = reading_tools(2);
+    ProbeTools tools = reading_tools(2);
     return reading_take(&aim, goal, &tools, world->arena);
 }
 
@@ -124,7 +124,7 @@ TEST(a_question_costs_no_paths) {
 TEST(readings_are_the_same_for_any_threads) {
     ENDS_BY(world_end) World world = closed_ball();
     ReadingGoal goal = {.precision = 0.02, .most = 1 << 14};
-    ReadingTools one = reading_tools(1), five = reading_tools(5);
+    ProbeTools one = reading_tools(1), five = reading_tools(5);
     ProbeAim aim = aim_of(&world, 9);
     Reading a = reading_take(&aim, &goal, &one, world.arena);
     Reading b = reading_take(&aim, &goal, &five, world.arena);

@@ -67,7 +67,7 @@ static Reading read_with(uint32_t seed, const ReadingGoal *goal) {
     static const Scene scene;
     static const PathContext context = {.scene = &scene};
     ProbeAim aim = {.context = &context, .seed = seed};
-    ReadingTools tools = {.kernel = &kernel, .threads = 1};
+    ProbeTools tools = {.kernel = &kernel, .threads = 1};
     stand_in.seed_count = 0;
     stand_in.is_double = false;
     for (int i = 0; i < READING_BATCHES; i++)

@@ -38,7 +38,7 @@ static ProbeAim aim_of(const World *world) {
 
 static Reading read_all(const ProbeAim *aim, Arena scratch) {
     ReadingGoal goal = {.precision = 0.01, .most = 1 << 16};
-    ReadingTools tools = reading_tools(2);
+    ProbeTools tools = reading_tools(2);
     return reading_take(aim, &goal, &tools, scratch);
 }
 
@@ -315,7 +315,7 @@ TEST(a_reading_knows_of_the_sun_in_a_display) {
     PathContext without = world.context;
     ProbeAim rest = aim;
     ReadingGoal all = {.most = 1 << 16}, less = {.most = 1 << 11, .known = known};
-    ReadingTools tools = reading_tools(2);
+    ProbeTools tools = reading_tools(2);
     without.without_mirrored_sun = true;
     rest.context = &without;
     Reading by_luck = reading_take(&aim, &all, &tools, world.arena);

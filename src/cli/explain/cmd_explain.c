@@ -97,7 +97,7 @@ static bool explain_lit(const SceneQuestion *question, const SceneCamera *camera
                         const RenderSetup *setup, Arena *arena, ExplainAnswer *out, Error *err) {
     const double *r = question->region;
     const ProbePixel pixel = {&setup->camera, (int)r[0], (int)r[1]};
-    const ReadingTools tools = {setup->kernel, question->render.threads};
+    const ProbeTools tools = {setup->kernel, question->render.threads};
     ProbeAim aim = {.context = &setup->context,
                     .eye = camera->world_from_camera.origin,
                     .pixel = question->has_pixel ? &pixel : NULL,

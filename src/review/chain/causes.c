@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/parallel.h"
 #include "estimate/estimate.h"
 #include "review/chain/chains.h"
 #include "spectrum/spectral_table.h"
@@ -229,21 +228,9 @@ void case_hiders(const SymbolSurface *surface, const PathContext *context, Vec3 
 
 /* ---- a pixel's light --------------------------------------------------------------------- */
 
-#define FIGURES (3 + PIXEL_BANDS)
-
 _Static_assert(PIXEL_FIRST_NM == SPECTRAL_FIRST_NM &&
                    PIXEL_BANDS * PIXEL_BAND_NM == SPECTRAL_COUNT - 1,
                "the bands are those that paths carry");
-
-/* Sums over a chunk's paths: XYZ, then the bands. */
-typedef struct ChunkLight {
-    double sum[FIGURES];
-} ChunkLight;
-
-typedef struct LightSearch {
-    const ChainArgs *args;
-    ChunkLight *chunks;
-} LightSearch;
 
 /* Weight of a lane's radiance in its band: wavelength_steps is the integral of the
  * density, in 2^-24, and the density constant within a nanometre (wavelengths.c). */
@@ -257,46 +244,51 @@ static double lane_weight(double nm, int *band) {
     return 1 / (SPECTRUM_LANES * density * PIXEL_BAND_NM);
 }
 
-static void on_light(void *user, const PathHistory *history, const float xyz[3]) {
-    ChunkLight *to = user;
+static void *begin_light(void *user, ProbePiece *piece, Arena *arena) {
+    (void)user, (void)piece;
+    return ARENA_NEW(arena, double, PIXEL_FIGURES);
+}
+
+static void on_light(void *of, const PathHistory *history, const float xyz[3]) {
+    double *sums = of;
     const float *nm = (const float *)&history->wavelengths->nm;
-    for (int i = 0; i < 3; i++) to->sum[i] += (double)xyz[i];
+    for (int i = 0; i < 3; i++) sums[i] += (double)xyz[i];
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         int band;
         double weight = lane_weight((double)nm[i], &band);
-        to->sum[3 + band] += weight * (double)history->lanes[i];
+        sums[3 + band] += weight * (double)history->lanes[i];
     }
 }
 
-static void trace_chunk(void *user, int item, int worker) {
-    (void)worker;
-    const LightSearch *search = user;
-    PathListener listener = {
-        .on_light = on_light, .user = &search->chunks[item], .with_lanes = true};
-    PathStatistics statistics = {0};
-    search->args->tools->kernel->trace(search->args->aim, item * CHAIN_CHUNK,
-                                       (item + 1) * CHAIN_CHUNK, &listener, &statistics);
+static void merge_light(void *user, const ProbePiece *piece, void *of) {
+    PixelLightSums *to = user;
+    const double *sums = of;
+    for (int k = 0; k < PIXEL_FIGURES; k++) to->batch[k][piece->id % CHAIN_BATCHES] += sums[k];
+    to->chunks++;
+}
+
+ProbeFold pixel_light_fold(PixelLightSums *to) {
+    return (ProbeFold){.user = to,
+                       .begin = begin_light,
+                       .on_light = on_light,
+                       .with_lanes = true,
+                       .merge = merge_light};
 }
 
 /* Batches as those of chains: an error of Y is that of their sum. */
-static PixelFigure figure_of(const ChunkLight *chunks, int count, int k) {
-    EstimateSums sums = {.batches = count < CHAIN_BATCHES ? count : CHAIN_BATCHES,
-                         .paths = (long)count * CHAIN_CHUNK,
+static PixelFigure figure_of(const PixelLightSums *light, int k) {
+    EstimateSums sums = {.batches = light->chunks < CHAIN_BATCHES ? light->chunks : CHAIN_BATCHES,
+                         .paths = (long)light->chunks * CHAIN_CHUNK,
                          .piece = CHAIN_CHUNK,
                          .share = 1};
-    for (int i = 0; i < count; i++) sums.batch[i % sums.batches] += chunks[i].sum[k];
+    memcpy(sums.batch, light->batch[k], sizeof light->batch[k]);
     Estimate estimate = estimate_of(&sums);
     return (PixelFigure){estimate.mean, estimate.sigma};
 }
 
-PixelLight pixel_light_find(const ChainArgs *args) {
-    int count = (int)((args->paths + CHAIN_CHUNK - 1) / CHAIN_CHUNK);
-    Arena own = arena_reserve((size_t)1 << 30);
-    LightSearch search = {args, ARENA_NEW(&own, ChunkLight, count)};
+PixelLight pixel_light_of(const PixelLightSums *sums) {
     PixelLight out;
-    parallel_for(args->tools->threads, count, trace_chunk, &search);
-    for (int i = 0; i < 3; i++) out.xyz[i] = figure_of(search.chunks, count, i);
-    for (int i = 0; i < PIXEL_BANDS; i++) out.radiance[i] = figure_of(search.chunks, count, 3 + i);
-    arena_release(&own);
+    for (int i = 0; i < 3; i++) out.xyz[i] = figure_of(sums, i);
+    for (int i = 0; i < PIXEL_BANDS; i++) out.radiance[i] = figure_of(sums, 3 + i);
     return out;
 }

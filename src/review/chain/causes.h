@@ -19,7 +19,7 @@
 #define CAUSE_RAYS 4
 
 typedef struct CauseArgs {
-    const ReadingTools *tools;
+    const ProbeTools *tools;
     const ProbeAim *aim;
     long paths;
     int rays;              /* of each cause, at most CHAIN_RAYS */
@@ -72,5 +72,14 @@ typedef struct PixelLight {
     PixelFigure radiance[PIXEL_BANDS]; /* means over the bands */
 } PixelLight;
 
-/* args: of a pixel (ProbeAim.pixel). As many paths as chains_find takes of it, the same. */
-PixelLight pixel_light_find(const ChainArgs *args);
+#define PIXEL_FIGURES (3 + PIXEL_BANDS)
+
+/* Zeros at first. */
+typedef struct PixelLightSums {
+    double batch[PIXEL_FIGURES][CHAIN_BATCHES]; /* XYZ, then the bands */
+    int chunks;
+} PixelLightSums;
+
+/* Beside the chains of a pixel (ProbeAim.pixel, ChainArgs.beside): by the same paths. */
+ProbeFold pixel_light_fold(PixelLightSums *to);
+PixelLight pixel_light_of(const PixelLightSums *sums);

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/parallel.h"
 #include "base/sampler.h"
 #include "scene/load/material_data.h"
 
@@ -26,17 +25,6 @@ typedef struct ChunkChain {
     bool is_used;
 } ChunkChain;
 
-typedef struct ChainChunk {
-    ChunkChain *table; /* [CHUNK_ROOM] */
-    int count;
-    double all, mirror, own, reflected;
-    BrightSamples bright, bright_reflected; /* as all, as reflected */
-    double lost, rare;                      /* PathStatistics' */
-    ChainGroups groups;
-    double *by_seat; /* NULL: none is requested */
-    uint32_t draws;
-} ChainChunk;
-
 /* Shared by all chunks. */
 typedef struct ChainSearch {
     const ChainArgs *args;
@@ -45,15 +33,21 @@ typedef struct ChainSearch {
     const bool *lacks_data, *is_guessed; /* [part] */
     float far_m;                         /* length of a ray drawn towards a distant source */
     int chunks, batches;
-    int first;        /* chunk of this round */
-    ChainChunk *sums; /* one a chunk of the round */
+    struct FoundChains *found;
+    Chains *out;
+    Arena *own; /* of what is found */
 } ChainSearch;
 
-typedef struct ChunkListener {
+typedef struct ChainChunk {
     const ChainSearch *search;
-    ChainChunk *sums;
-    int chunk;
-} ChunkListener;
+    ChunkChain *table; /* [CHUNK_ROOM] */
+    int id, count;
+    double all, mirror, own, reflected;
+    BrightSamples bright, bright_reflected; /* as all, as reflected */
+    ChainGroups groups;
+    double *by_seat; /* NULL: none is requested */
+    uint32_t draws;
+} ChainChunk;
 
 static int alike_or_none(const int *alike, int part_id) {
     return part_id == NO_ID ? NO_ID : alike[part_id];
@@ -115,9 +109,8 @@ static ChainRay ray_of(const ChainSearch *search, const PathHistory *history) {
 
 /* Rays with a chance that goes with their light, one pass, any order: the least of
  * -ln(u) / light (Efraimidis and Spirakis 2006). */
-static void draw_ray(const ChunkListener *to, ChunkChain *chain, const PathHistory *history,
-                     double y) {
-    uint32_t bits = hash_combine(hash_u32((uint32_t)to->chunk), to->sums->draws++);
+static void draw_ray(ChainChunk *to, ChunkChain *chain, const PathHistory *history, double y) {
+    uint32_t bits = hash_combine(hash_u32((uint32_t)to->id), to->draws++);
     double draw = -log((bits + 0.5) * 0x1p-32) / y;
     if (!(draw < chain->draw)) return;
     chain->draw = draw;
@@ -125,16 +118,16 @@ static void draw_ray(const ChunkListener *to, ChunkChain *chain, const PathHisto
 }
 
 /* Beyond a pane is outside. */
-static void add_seat(const ChunkListener *to, const PathHistory *history, double y) {
+static void add_seat(ChainChunk *to, const PathHistory *history, double y) {
     const PathStep *next = &history->step[1];
     if (history->count < 2 || next->pane_id != NO_ID) return;
     if (seat_is_back(to->search->args->seat, next->position))
-        to->sums->by_seat[to->search->alike[next->part_id]] += y;
+        to->by_seat[to->search->alike[next->part_id]] += y;
 }
 
 /* A source by itself; an emitter counts as a surface that is met. */
-static void add_straight(const ChunkListener *to, const PathHistory *history, double y) {
-    ChainGroups *groups = &to->sums->groups;
+static void add_straight(ChainChunk *to, const PathHistory *history, double y) {
+    ChainGroups *groups = &to->groups;
     if (history->source == LIGHTS_EMITTERS)
         groups->by_surface[to->search->alike[history->source_id]] += y;
     else groups->straight[history->source] += y;
@@ -154,8 +147,8 @@ static bool is_through_any(const PathHistory *history, const bool *is_any) {
     return history->pane_id != NO_ID && is_any[history->pane_id];
 }
 
-static void add_groups(const ChunkListener *to, const PathHistory *history, double y) {
-    ChainGroups *groups = &to->sums->groups;
+static void add_groups(ChainChunk *to, const PathHistory *history, double y) {
+    ChainGroups *groups = &to->groups;
     const int *alike = to->search->alike;
     groups->by_set[history->source] += y;
     if (history->source == LIGHTS_EMITTERS) groups->by_emitter[alike[history->source_id]] += y;
@@ -175,55 +168,30 @@ static int display_of(const Scene *scene, int part_id) {
     return scene->materials[scene->parts[part_id].material_id].display_id;
 }
 
-static void on_light(void *user, const PathHistory *history, const float xyz[3]) {
-    const ChunkListener *to = user;
+static void on_light(void *sums, const PathHistory *history, const float xyz[3]) {
+    ChainChunk *to = sums;
     const Scene *scene = to->search->scene;
-    ChainChunk *sums = to->sums;
     double y = (double)xyz[1];
     if (!(y > 0) || (history->count == 0 && !to->search->args->with_direct)) return;
     ChainKey key = key_of(to->search, history);
-    ChunkChain *chain = chunk_chain(sums, &key);
+    ChunkChain *chain = chunk_chain(to, &key);
     int display = history->count ? display_of(scene, history->step[0].part_id) : NO_ID;
-    sums->all += y;
+    to->all += y;
     if (history->count) {
-        sums->reflected += y;
-        bright_add(&sums->bright_reflected, y);
+        to->reflected += y;
+        bright_add(&to->bright_reflected, y);
     }
-    bright_add(&sums->bright, y);
-    if (display != NO_ID && history->step[0].event == PATH_REFLECTS) sums->mirror += y;
+    bright_add(&to->bright, y);
+    if (display != NO_ID && history->step[0].event == PATH_REFLECTS) to->mirror += y;
     if (display != NO_ID && history->source == LIGHTS_EMITTERS &&
         display_of(scene, history->source_id) == display)
-        sums->own += y;
+        to->own += y;
     add_groups(to, history, y);
     if (display != NO_ID && to->search->args->seat) add_seat(to, history, y);
     if (!chain) return;
     chain->sum += y;
     bright_add(&chain->bright, y);
     draw_ray(to, chain, history, y);
-}
-
-/* A batch's chunks follow each other in a random stream of its own. */
-static int batch_of(const ChainSearch *search, int chunk) {
-    return chunk % search->batches;
-}
-
-static void trace_chunk(void *user, int item, int worker) {
-    (void)worker;
-    const ChainSearch *search = user;
-    int chunk = search->first + item, place = chunk;
-    ChunkListener to = {search, &search->sums[item], chunk};
-    PathListener listener = {.on_light = on_light, .user = &to, .with_extrapolated = true};
-    PathStatistics statistics = {0};
-    ProbeAim aim = *search->args->aim;
-    if (!aim.pixel) {
-        aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)batch_of(search, chunk));
-        aim.is_spread = true;
-        place = chunk / search->batches;
-    }
-    search->args->tools->kernel->trace(&aim, place * CHAIN_CHUNK, (place + 1) * CHAIN_CHUNK,
-                                       &listener, &statistics);
-    search->sums[item].lost = statistics.lost;
-    search->sums[item].rare = statistics.rare;
 }
 
 /* ---- all chunks -------------------------------------------------------------------------- */
@@ -290,25 +258,6 @@ static void keep_ray(FoundChain *f, const ChunkChain *from) {
     if (count < CHAIN_RAYS) f->chain.ray_count++;
 }
 
-static void add_chunk(FoundChains *found, const ChainChunk *sums, int batch, Arena *own) {
-    add_sum(&found->all, batch, sums->all);
-    add_bright(&found->all, &sums->bright);
-    add_sum(&found->mirror, batch, sums->mirror);
-    add_sum(&found->reflected, batch, sums->reflected);
-    add_bright(&found->reflected, &sums->bright_reflected);
-    found->all.lost = found->reflected.lost += sums->lost;
-    found->all.rare = found->reflected.rare += sums->rare;
-    found->own += sums->own;
-    for (int i = 0; i < CHUNK_ROOM; i++) {
-        const ChunkChain *from = &sums->table[i];
-        FoundChain *to = from->is_used ? found_chain(found, &from->key, own) : NULL;
-        if (!to) continue;
-        add_sum(&to->sums, batch, from->sum);
-        add_bright(&to->sums, &from->bright);
-        keep_ray(to, from);
-    }
-}
-
 static ChainGroups fresh_groups(const Scene *scene, Arena *arena) {
     return (ChainGroups){.by_emitter = ARENA_NEW(arena, double, scene->part_count),
                          .by_lamp = ARENA_NEW(arena, double, scene->light_count),
@@ -334,6 +283,33 @@ static void merge_groups(ChainGroups *to, const ChainGroups *from, const Scene *
     to->extrapolated += scale * from->extrapolated;
 }
 
+/* A batch's chunks follow each other in a random stream of its own. */
+static void merge_chunk(void *user, const ProbePiece *piece, void *of) {
+    const ChainSearch *search = user;
+    const ChainChunk *sums = of;
+    FoundChains *found = search->found;
+    int batch = piece->id % search->batches, parts = search->scene->part_count;
+    double share = 1.0 / CHAIN_CHUNK / search->chunks;
+    add_sum(&found->all, batch, sums->all);
+    add_bright(&found->all, &sums->bright);
+    add_sum(&found->mirror, batch, sums->mirror);
+    add_sum(&found->reflected, batch, sums->reflected);
+    add_bright(&found->reflected, &sums->bright_reflected);
+    found->all.lost = found->reflected.lost += piece->statistics.lost;
+    found->all.rare = found->reflected.rare += piece->statistics.rare;
+    found->own += sums->own;
+    for (int i = 0; i < CHUNK_ROOM; i++) {
+        const ChunkChain *from = &sums->table[i];
+        FoundChain *to = from->is_used ? found_chain(found, &from->key, search->own) : NULL;
+        if (!to) continue;
+        add_sum(&to->sums, batch, from->sum);
+        add_bright(&to->sums, &from->bright);
+        keep_ray(to, from);
+    }
+    merge_groups(&search->out->groups, &sums->groups, search->scene, share);
+    if (sums->by_seat) add_all(search->out->by_seat, sums->by_seat, parts, share);
+}
+
 static bool *parts_without_data(const Scene *scene, Arena *arena) {
     bool *lacks_data = ARENA_NEW(arena, bool, scene->part_count);
     for (int i = 0; i < scene->part_count; i++) lacks_data[i] = !part_has_data(scene, i);
@@ -347,13 +323,15 @@ static bool *guessed_parts(const Scene *scene, Arena *arena) {
     return is_guessed;
 }
 
-static ChainChunk *fresh_sums(int count, const Scene *scene, bool has_seat, Arena *arena) {
-    ChainChunk *sums = ARENA_NEW(arena, ChainChunk, count);
-    for (int i = 0; i < count; i++) {
-        sums[i].table = ARENA_NEW(arena, ChunkChain, CHUNK_ROOM);
-        sums[i].groups = fresh_groups(scene, arena);
-        if (has_seat) sums[i].by_seat = ARENA_NEW(arena, double, scene->part_count);
-    }
+static void *begin_chunk(void *user, ProbePiece *piece, Arena *arena) {
+    const ChainSearch *search = user;
+    int parts = search->scene->part_count;
+    ChainChunk *sums = ARENA_NEW(arena, ChainChunk, 1);
+    sums->search = search;
+    sums->id = piece->id;
+    sums->table = ARENA_NEW(arena, ChunkChain, CHUNK_ROOM);
+    sums->groups = fresh_groups(search->scene, arena);
+    if (search->args->seat) sums->by_seat = ARENA_NEW(arena, double, parts);
     return sums;
 }
 
@@ -470,19 +448,20 @@ Chains chains_find(const ChainArgs *args, Arena *arena) {
     FoundChains found = {.table = ARENA_NEW(&own, FoundChain *, ROOM),
                          .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_KEPT)};
     Arena rounds = arena_reserve(OWN_BYTES);
-    for (; search.first < chunks; search.first += ROUND) {
-        int count = chunks - search.first < ROUND ? chunks - search.first : ROUND;
-        Arena room = rounds;
-        search.sums = fresh_sums(count, scene, args->seat, &room);
-        parallel_for(args->tools->threads, count, trace_chunk, &search);
-        for (int i = 0; i < count; i++) {
-            add_chunk(&found, &search.sums[i], batch_of(&search, search.first + i), &own);
-            merge_groups(&out.groups, &search.sums[i].groups, scene, 1.0 / CHAIN_CHUNK / chunks);
-            if (args->seat)
-                add_all(out.by_seat, search.sums[i].by_seat, scene->part_count,
-                        1.0 / CHAIN_CHUNK / chunks);
-        }
-    }
+    search.found = &found;
+    search.out = &out;
+    search.own = &own;
+    ProbeGoal goal = {.pieces = chunks,
+                      .paths = CHAIN_CHUNK,
+                      .streams = args->aim->pixel ? 0 : search.batches,
+                      .at_once = ROUND};
+    ProbeFold folds[2] = {{.user = &search,
+                           .begin = begin_chunk,
+                           .on_light = on_light,
+                           .with_extrapolated = true,
+                           .merge = merge_chunk}};
+    if (args->beside) folds[1] = *args->beside;
+    probe_read(args->aim, &goal, args->tools, folds, args->beside ? 2 : 1, rounds);
     out.all = figure_of(&found.all, &search);
     out.mirror = figure_of(&found.mirror, &search);
     out.reflected = figure_of(&found.reflected, &search);

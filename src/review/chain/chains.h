@@ -99,12 +99,14 @@ typedef struct Chains {
 
 typedef struct ChainArgs {
     const ProbeAim *aim; /* not a luxmeter */
-    const ReadingTools *tools;
-    long paths;            /* at least CHAIN_PATHS_LEAST; rounded up to a chunk */
-    int most;              /* chains that are kept */
-    bool with_direct;      /* sources that the eye sees by themselves count, too */
-    const ChainSeat *seat; /* light off its back is kept apart; NULL: none */
-    bool with_first_pane;  /* a pane before the first surface is in the key */
+    const ProbeTools *tools;
+    long paths;              /* at least CHAIN_PATHS_LEAST; rounded up to a chunk */
+    int most;                /* chains that are kept */
+    bool with_direct;        /* sources that the eye sees by themselves count, too */
+    const ChainSeat *seat;   /* light off its back is kept apart; NULL: none */
+    bool with_first_pane;    /* a pane before the first surface is in the key */
+    const ProbeFold *beside; /* takes the light of the same paths, in chunks of CHAIN_CHUNK; or
+                                NULL */
 } ChainArgs;
 
 #define CHAIN_PATHS_LEAST (2 * CHAIN_CHUNK) /* an error takes two batches */

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "base/count.h"
-#include "base/parallel.h"
 #include "base/units.h"
 #include "estimate/estimate.h"
 #include "review/eye/unmet_lamps.h"
@@ -93,9 +92,9 @@ static EyeSource source_of(const PathHistory *history) {
 
 /* One path at work. */
 typedef struct EyeListener {
+    const EyePaths *paths;
     EyePath *path;
-    RoadVeils *road; /* or NULL */
-    int id;          /* the path's */
+    int id;
 } EyeListener;
 
 static void add_found(void *user, const PathHistory *history, const float xyz[3]) {
@@ -103,8 +102,9 @@ static void add_found(void *user, const PathHistory *history, const float xyz[3]
     EyePath *path = listener->path;
     bool is_direct = history->count == 0 || (history->count == 1 && history->is_sampled);
     if (is_direct && history->source == LIGHTS_SUN) return;
-    if (listener->road && (!is_direct || history->source == LIGHTS_SKY))
-        road_light_add(listener->road, listener->id, history, (double)xyz[1]);
+    RoadVeils *road = listener->paths->road;
+    if (road && (!is_direct || history->source == LIGHTS_SKY))
+        road_light_add(road, listener->id, history, (double)xyz[1]);
     bool is_shown = is_direct && history->source == LIGHTS_EMITTERS;
     bool is_apart = !is_direct || history->source == LIGHTS_SKY;
     if (is_apart) path->apart[source_of(history)] += (double)xyz[1];
@@ -126,16 +126,18 @@ static void note_mirror(void *user, const PathHistory *history, Vec3 towards, fl
     path->image = (Ray){history->step[history->count - 1].position, towards, 0, INFINITY};
 }
 
-static void read_chunk(void *user, int item, int worker) {
-    (void)worker;
-    EyePaths *paths = user;
-    PathStatistics statistics = {0};
-    for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
-        EyeListener own = {&paths->found[i], paths->road, i};
-        PathListener listener = {.on_light = add_found, .on_mirror = note_mirror, .user = &own};
-        paths->found[i].lamp = NO_ID;
-        paths->setup->tools.kernel->trace(&paths->aim, i, i + 1, &listener, &statistics);
-    }
+static void *begin_chunk(void *user, ProbePiece *piece, Arena *arena) {
+    (void)piece;
+    EyeListener *listener = ARENA_NEW(arena, EyeListener, 1);
+    listener->paths = user;
+    return listener;
+}
+
+static void before_path(void *sums, int path) {
+    EyeListener *listener = sums;
+    listener->path = &listener->paths->found[path];
+    listener->path->lamp = NO_ID;
+    listener->id = path;
 }
 
 /* ---- what is seen by itself -------------------------------------------------------------- */
@@ -184,32 +186,6 @@ static void add_to_pupil(void *user, const PathHistory *history, const float xyz
         sums->beside[k] += veil_of(sums->paths, history->towards, (double)xyz[2 * k]);
 }
 
-typedef struct PupilWork {
-    ProbeAim aim;
-    const EyePaths *paths;
-    PupilSums *sums; /* one a chunk */
-} PupilWork;
-
-static void read_pupil_chunk(void *user, int item, int worker) {
-    (void)worker;
-    PupilWork *work = user;
-    PathStatistics statistics = {0};
-    PupilSums *sums = &work->sums[item];
-    PathListener listener = {.on_light = add_to_pupil, .user = sums};
-    *sums = (PupilSums){.paths = work->paths};
-    work->paths->setup->tools.kernel->trace(&work->aim, item * CHUNK, (item + 1) * CHUNK, &listener,
-                                            &statistics);
-}
-
-static void add_pupil(PupilSums *to, const PupilSums *sums) {
-    to->sun_veil += sums->sun_veil / PATHS;
-    to->lamp_veil += sums->lamp_veil / PATHS;
-    to->image_veil += sums->image_veil / PATHS;
-    for (int k = 0; k < 2; k++) to->beside[k] += sums->beside[k] / PATHS;
-    to->sun_lx += sums->sun_lx / PATHS;
-    to->lamp_lx += sums->lamp_lx / PATHS;
-}
-
 /* Light samples alone, and of mirrors what lamps and small emitters send by one. */
 static PathContext pupil_context(const Setup *setup) {
     PathContext context = setup->context;
@@ -221,20 +197,38 @@ static PathContext pupil_context(const Setup *setup) {
     return context;
 }
 
-/* Lamps, displays and the sun's disc: light samples alone find them here. One a round. */
-static PupilSums *read_pupil(const EyePaths *paths, Arena *arena) {
-    int rounds = paths->count / PATHS, chunks = paths->count / CHUNK;
-    PupilSums *all = ARENA_NEW(arena, PupilSums, rounds);
-    Arena scratch = *arena;
+/* times: as many samples as the eye has paths. */
+static void read_pupil(const EyePaths *paths, uint32_t seed, int times, const ProbeFold *fold,
+                       Arena scratch) {
     LitPoint pupil = {paths->aim.eye, paths->gaze, false};
     PathContext lights_only = pupil_context(paths->setup);
-    uint32_t seed = review_seed(paths->setup->request, SEED + 1);
-    PupilWork work = {{.context = &lights_only, .meter = &pupil, .seed = seed},
-                      paths,
-                      ARENA_NEW(&scratch, PupilSums, chunks)};
-    parallel_for(paths->setup->tools.threads, chunks, read_pupil_chunk, &work);
-    for (int i = 0; i < chunks; i++) add_pupil(&all[i / (PATHS / CHUNK)], &work.sums[i]);
-    return all;
+    ProbeAim aim = {
+        .context = &lights_only, .meter = &pupil, .seed = review_seed(paths->setup->request, seed)};
+    ProbeGoal goal = {.pieces = paths->count / CHUNK, .paths = CHUNK * times};
+    probe_read(&aim, &goal, &paths->setup->tools, fold, 1, scratch);
+}
+
+typedef struct PupilRounds {
+    const EyePaths *paths;
+    PupilSums *sums; /* one a round */
+} PupilRounds;
+
+static void *begin_pupil(void *user, ProbePiece *piece, Arena *arena) {
+    (void)piece;
+    PupilSums *sums = ARENA_NEW(arena, PupilSums, 1);
+    sums->paths = ((const PupilRounds *)user)->paths;
+    return sums;
+}
+
+static void merge_pupil(void *user, const ProbePiece *piece, void *of) {
+    const PupilSums *sums = of;
+    PupilSums *to = &((const PupilRounds *)user)->sums[piece->first / PATHS];
+    to->sun_veil += sums->sun_veil / PATHS;
+    to->lamp_veil += sums->lamp_veil / PATHS;
+    to->image_veil += sums->image_veil / PATHS;
+    for (int k = 0; k < 2; k++) to->beside[k] += sums->beside[k] / PATHS;
+    to->sun_lx += sums->sun_lx / PATHS;
+    to->lamp_lx += sums->lamp_lx / PATHS;
 }
 
 /* ---- figures ----------------------------------------------------------------------------- */
@@ -350,40 +344,32 @@ static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *
 
 typedef struct RoadPupil {
     const EyePaths *paths;
-    ProbeAim aim;
-    int chunk; /* at work */
+    double *chunk;
 } RoadPupil;
 
-static void add_to_road(void *user, const PathHistory *history, const float xyz[3]) {
-    const RoadPupil *pupil = user;
+static void *begin_road(void *user, ProbePiece *piece, Arena *arena) {
+    (void)piece;
+    EyePaths *paths = user;
+    RoadPupil *pupil = ARENA_NEW(arena, RoadPupil, 1);
+    *pupil = (RoadPupil){paths, road_veils_chunk(paths->road, arena)};
+    return pupil;
+}
+
+static void add_to_road(void *sums, const PathHistory *history, const float xyz[3]) {
+    const RoadPupil *pupil = sums;
     RoadSample sample = {.degrees = degrees_between(history->towards, pupil->paths->gaze),
                          .lx = (double)xyz[1],
                          .part_id =
                              history->source == LIGHTS_EMITTERS ? history->source_id : NO_ID};
-    if (!is_seen_by_itself(history)) return;
-    road_veils_add_sample(pupil->paths->road, pupil->chunk, &sample);
+    if (is_seen_by_itself(history))
+        road_veils_add_sample(pupil->paths->road, &sample, pupil->chunk);
 }
 
-static void read_road_chunk(void *user, int item, int worker) {
-    (void)worker;
-    RoadPupil own = *(const RoadPupil *)user;
-    PathStatistics statistics = {0};
-    PathListener listener = {.on_light = add_to_road, .user = &own};
-    int first = item * CHUNK * ROAD_TIMES;
-    own.chunk = item;
-    own.paths->setup->tools.kernel->trace(&own.aim, first, first + CHUNK * ROAD_TIMES, &listener,
-                                          &statistics);
-}
-
-static void read_road_pupil(const EyePaths *paths, Arena scratch) {
-    int chunks = paths->count / CHUNK;
-    LitPoint pupil = {paths->aim.eye, paths->gaze, false};
-    PathContext lights_only = pupil_context(paths->setup);
-    uint32_t seed = review_seed(paths->setup->request, ROAD_SEED);
-    RoadPupil work = {paths, {.context = &lights_only, .meter = &pupil, .seed = seed}, 0};
-    road_veils_expect_samples(paths->road, chunks, &scratch);
-    parallel_for(paths->setup->tools.threads, chunks, read_road_chunk, &work);
-    road_veils_add_chunks(paths->road, 1.0 / ((double)paths->count * ROAD_TIMES));
+static void merge_road(void *user, const ProbePiece *piece, void *sums) {
+    const EyePaths *paths = user;
+    road_veils_add_chunk(paths->road, piece->first / ROAD_TIMES / PATHS,
+                         1.0 / ((double)paths->count * ROAD_TIMES),
+                         ((const RoadPupil *)sums)->chunk);
 }
 
 /* A path behind its mirror: what a lamp of 1 cd m^-2 there adds to the veil. */
@@ -452,14 +438,16 @@ static void set_veil_range(const EyePaths *paths, EyeSums *sums, Arena scratch) 
     out->veil_range = veil.interval;
 }
 
-static void finish_road(const EyePaths *paths, Arena scratch) {
-    read_road_pupil(paths, scratch);
+static void finish_road(EyePaths *paths, Arena scratch) {
+    ProbeFold fold = {
+        .user = paths, .begin = begin_road, .on_light = add_to_road, .merge = merge_road};
+    read_pupil(paths, ROAD_SEED, ROAD_TIMES, &fold, scratch);
     for (int a = 0; a < road_veils_ages(paths->road); a++)
         road_veils_set_unmet(paths->road, a,
                              unmet_veil(paths, road_veils_age(paths->road, a), scratch));
 }
 
-static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena scratch) {
+static EyeReading sum_up(EyePaths *paths, const PupilSums *pupils, Arena scratch) {
     int rounds = paths->count / PATHS;
     EyeSums sums = {.veil = {.batches = rounds, .paths = paths->count, .piece = PATHS, .share = 1}};
     EyeReading *r = &sums.reading;
@@ -492,7 +480,16 @@ EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch) {
                            .target_count = count,
                            .seed = review_seed(setup->request, SEED)};
     for (int i = 0; i < count; i++) aim_path(&paths, &frame, i);
-    parallel_for(setup->tools.threads, count / CHUNK, read_chunk, &paths);
-    PupilSums *pupils = read_pupil(&paths, &scratch);
-    return sum_up(&paths, pupils, scratch);
+    ProbeGoal goal = {.pieces = count / CHUNK, .paths = CHUNK};
+    ProbeFold fold = {.user = &paths,
+                      .begin = begin_chunk,
+                      .before = before_path,
+                      .on_light = add_found,
+                      .on_mirror = note_mirror};
+    probe_read(&paths.aim, &goal, &setup->tools, &fold, 1, scratch);
+    PupilRounds pupils = {&paths, ARENA_NEW(&scratch, PupilSums, look->rounds)};
+    ProbeFold lights = {
+        .user = &pupils, .begin = begin_pupil, .on_light = add_to_pupil, .merge = merge_pupil};
+    read_pupil(&paths, SEED + 1, 1, &lights, scratch);
+    return sum_up(&paths, pupils.sums, scratch);
 }

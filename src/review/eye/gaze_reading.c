@@ -14,6 +14,11 @@
 
 enum { GAZE_THROUGH, GAZE_MIRRORED, GAZE_FIGURES };
 
+typedef struct GazeAsker {
+    const Setup *setup;
+    const GazeGoal *goal;
+} GazeAsker;
+
 /* A ray behind its last mirror, and the share of its light that the eye sees. */
 typedef struct GazeImage {
     Ray ray;
@@ -37,8 +42,8 @@ typedef struct GazeBatch {
 
 /* Even over the cone's solid angle. */
 static Vec3 towards(KindBatch *batch, double u, double v) {
-    const GazeGoal *goal = batch->paths->goal;
-    Frame frame = frame_from_z(vec3_normalize(goal->towards));
+    const GazeAsker *asker = batch->paths->goal;
+    Frame frame = frame_from_z(vec3_normalize(asker->goal->towards));
     double cosine = 1 - (1 - cos(radians_from_degrees(GAZE_CONE_DEG))) * u;
     double sine = sqrt(1 - cosine * cosine), phi = 2 * PI * v;
     Vec3 d = vec3((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cosine);
@@ -62,7 +67,7 @@ static int place_shown(const Scene *scene, const PathHistory *history, int from)
 static void on_light(void *user, const PathHistory *history, const float xyz[3]) {
     KindBatch *batch = user;
     GazeBatch *own = batch->own;
-    const Scene *scene = batch->paths->setup->scene;
+    const Scene *scene = batch->paths->context->scene;
     bool by_mirrors = batch->paths->by_mirrors;
     if (is_suns_disc(history) || path_is_by_mirrors(history) != by_mirrors) return;
     int step = path_mirroring_step(scene, history);
@@ -85,7 +90,7 @@ static int mirrors_of(const PathHistory *history) {
 static void on_mirror(void *user, const PathHistory *history, Vec3 towards, float share) {
     KindBatch *kind = user;
     GazeBatch *batch = kind->own;
-    bool is_mirrored = path_mirroring_step(kind->paths->setup->scene, history) != NO_ID;
+    bool is_mirrored = path_mirroring_step(kind->paths->context->scene, history) != NO_ID;
     int figure = is_mirrored ? GAZE_MIRRORED : GAZE_THROUGH;
     int again = mirrors_of(history) > 1, *count = &batch->images[figure][again];
     if (history->count > PATH_STEPS_MAX || *count == GAZE_IMAGES ||
@@ -101,15 +106,15 @@ static void on_mirror(void *user, const PathHistory *history, Vec3 towards, floa
  * came by. */
 static double unmet(const KindPaths *paths, int figure, Arena scratch) {
     if (figure >= GAZE_FIGURES) return 0;
-    const Setup *setup = paths->setup;
-    Vec3 ahead = frame_from_z(vec3_normalize(((const GazeGoal *)paths->goal)->towards)).z;
-    int parts = setup->scene->part_count;
+    const GazeAsker *asker = paths->goal;
+    Vec3 ahead = frame_from_z(vec3_normalize(asker->goal->towards)).z;
+    int parts = paths->context->scene->part_count;
     bool *met = ARENA_NEW(&scratch, bool, parts);
     double most = 0, half = radians_from_degrees(GAZE_CONE_DEG);
     for (int b = 0; b < ESTIMATE_BATCHES; b++)
         for (int i = 0; i < parts; i++)
             met[i] |= ((const GazeBatch *)paths->batch[b].own)->met[figure][i];
-    UnmetLamps lamps = lamps_unmet(setup, met, &scratch);
+    UnmetLamps lamps = lamps_unmet(asker->setup, met, &scratch);
     if (figure == GAZE_THROUGH)
         most = lamps_brightest(&lamps, (Ray){paths->eye, ahead, 0, INFINITY}, half, false);
     for (int i = 0; i < ESTIMATE_BATCHES * 2 * GAZE_IMAGES; i++) {
@@ -125,7 +130,7 @@ static double unmet(const KindPaths *paths, int figure, Arena scratch) {
 /* ---- how many ---------------------------------------------------------------------------- */
 
 static double precision_of(const PathKinds *pair) {
-    return ((const GazeGoal *)pair->whole.goal)->precision;
+    return ((const GazeAsker *)pair->whole.goal)->goal->precision;
 }
 
 /* Of the variance that may be, by mirrors; the rest is left to whole paths, which cost more. */
@@ -165,7 +170,7 @@ static bool whole_will_do(void *user, long pilot, long paths) {
 
 /* Adds where mirrored light came from, each path by `weight`: [part], [part and sets]. */
 static void add_places(const KindPaths *paths, double weight, double *panes, double *shown) {
-    int parts = paths->setup->scene->part_count;
+    int parts = paths->context->scene->part_count;
     for (int b = 0; b < ESTIMATE_BATCHES; b++) {
         const GazeBatch *batch = paths->batch[b].own;
         for (int i = 0; i < parts; i++) panes[i] += weight * batch->panes[i];
@@ -183,7 +188,7 @@ static int greatest(const double *values, int count) {
 
 static GazeMirrored find_mirrored(const PathKinds *pair) {
     Arena scratch = pair->scratch;
-    int parts = pair->whole.setup->scene->part_count;
+    int parts = pair->whole.context->scene->part_count;
     double *panes = ARENA_NEW(&scratch, double, parts);
     double *shown = ARENA_NEW(&scratch, double, parts + LIGHT_SETS);
     add_places(&pair->whole, 1.0 / pair->whole.end, panes, shown);
@@ -194,7 +199,7 @@ static GazeMirrored find_mirrored(const PathKinds *pair) {
 }
 
 static void give_batches(KindPaths *paths, Arena *arena) {
-    int parts = paths->setup->scene->part_count;
+    int parts = paths->context->scene->part_count;
     for (int b = 0; b < ESTIMATE_BATCHES; b++) {
         GazeBatch *batch = paths->batch[b].own = ARENA_NEW(arena, GazeBatch, 1);
         batch->panes = ARENA_NEW(arena, double, parts);
@@ -212,10 +217,11 @@ static PathKinds start(const KindPaths *like, uint32_t seed, Arena *arena) {
 
 GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch) {
     uint32_t seed = review_seed(setup->request, SEED);
-    KindPaths paths = {.setup = setup,
+    GazeAsker asker = {setup, goal};
+    KindPaths paths = {.tools = &setup->tools,
                        .context = &setup->context,
                        .eye = goal->eye,
-                       .goal = goal,
+                       .goal = &asker,
                        .towards = towards,
                        .first_axis = SHIFT_AXIS,
                        .listener = {.on_light = on_light, .on_mirror = on_mirror},

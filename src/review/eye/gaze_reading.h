@@ -16,8 +16,8 @@
  * Memory       scratch only. Threads: starts its own; the same figures for any count.
  */
 #pragma once
+#include "probe/path_kinds.h"
 #include "review/eye/eye_reading.h"
-#include "review/eye/path_kinds.h"
 
 #define GAZE_CONE_DEG EYE_NEAR_DEG /* half its width */
 
@@ -38,7 +38,7 @@ typedef struct GazeMirrored {
 } GazeMirrored;
 
 typedef struct GazeReading {
-    GazeFound through, mirrored;
+    Estimate through, mirrored;
     GazeMirrored most; /* most of what is mirrored */
 } GazeReading;
 

@@ -79,7 +79,7 @@ static void note_ghost(const PathHistory *history, double luminance, const KindP
     way = vec3_normalize(way);
     double beside = (double)vec3_length(vec3_along(off, way, -vec3_dot(off, way)));
     double shift =
-        ghost_shift(paths->setup->scene, history->step[0].part_id, history->towards, way);
+        ghost_shift(paths->context->scene, history->step[0].part_id, history->towards, way);
     batch->alone += luminance;
     if (!(shift > 0 && beside > GHOST_LEAST * shift)) return;
     batch->ghost += luminance;
@@ -91,7 +91,7 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
     const KindPaths *paths = batch->paths;
     const PaneImage *image = ((const PaneImageGoal *)paths->goal)->image;
     if (path_is_by_mirrors(history) != paths->by_mirrors) return;
-    int step = path_mirroring_step(paths->setup->scene, history);
+    int step = path_mirroring_step(paths->context->scene, history);
     bool is_image = paths->by_mirrors && step != NO_ID &&
                     history->step[step].part_id == image->pane_id &&
                     history->source == LIGHTS_EMITTERS && history->source_id == image->part_id;
@@ -157,7 +157,7 @@ PaneImageReading pane_image_read(const Setup *setup, const PaneImageGoal *goal, 
     PolarisedEye eye = {.right = frame.x, .forward = frame.z};
     PathContext context = setup->context;
     context.eye = &eye;
-    KindPaths paths = {.setup = setup,
+    KindPaths paths = {.tools = &setup->tools,
                        .context = &context,
                        .eye = goal->eye,
                        .goal = goal,
@@ -166,6 +166,7 @@ PaneImageReading pane_image_read(const Setup *setup, const PaneImageGoal *goal, 
     const double *shares = shares_of(goal->image, &scratch);
     PathKinds pilot = start(&paths, hash_combine(hash_u32(seed), PILOT_SEED), shares, &scratch);
     PathKinds fresh = start(&paths, seed, shares, &scratch);
+    pilot.scratch = fresh.scratch = scratch;
     path_kinds_plan(&pilot, goal->most, mirrors_will_do, whole_will_do);
     path_kinds_read(&fresh, &pilot);
     PaneImageReading out = {.image = path_kinds_figure(&fresh, IMAGE),

@@ -30,7 +30,7 @@ typedef struct PaneImageGoal {
 } PaneImageGoal;
 
 typedef struct PaneImageReading {
-    GazeFound image, through, against;
+    Estimate image, through, against;
     double ghost_share; /* of the image's light: by the pane's far face, which shows
                            another place of the display than its near one there */
     double ghost_rad;   /* how far beside it stands, as the eye sees it: mean over that

@@ -21,8 +21,6 @@ struct RoadVeils {
     double (*ways)[ROAD_WAYS]; /* [display] for the first age */
     double *mirrored;          /* [display][part] likewise */
     double without_data_veil;
-    double *chunks; /* [chunk][age][display], the whole, by the eye's spread */
-    int chunk_count;
 };
 
 /* ---- what was found ---------------------------------------------------------------------- */
@@ -163,40 +161,34 @@ void road_veils_add_path(RoadVeils *veils, const RoadPath *path) {
     }
 }
 
-void road_veils_expect_samples(RoadVeils *veils, int chunks, Arena *arena) {
-    size_t sums = (size_t)veils->ages.count * (size_t)(veils->scene->display_count + 2);
-    veils->chunk_count = chunks;
-    veils->chunks = ARENA_NEW(arena, double, (size_t)chunks *sums);
+/* Of each age, one after the other: by display, the whole, by the eye's own spread. */
+static int chunk_sums(const RoadVeils *veils) {
+    return veils->scene->display_count + 2;
 }
 
-static double *chunk_of(const RoadVeils *veils, int chunk, int age) {
-    int sums = veils->scene->display_count + 2;
-    return &veils->chunks[((size_t)chunk * (size_t)veils->ages.count + (size_t)age) * (size_t)sums];
+double *road_veils_chunk(const RoadVeils *veils, Arena *arena) {
+    return ARENA_NEW(arena, double, veils->ages.count *chunk_sums(veils));
 }
 
-void road_veils_add_sample(RoadVeils *veils, int chunk, const RoadSample *sample) {
+void road_veils_add_sample(const RoadVeils *veils, const RoadSample *sample, double *chunk) {
     int displays = veils->scene->display_count, display = display_of(veils, sample->part_id);
     if (!(sample->degrees >= ROAD_VEIL_FROM_DEG)) return;
-    for (int a = 0; a < veils->ages.count; a++) {
+    for (int a = 0; a < veils->ages.count; a++, chunk += chunk_sums(veils)) {
         HumanEye eye = {veils->ages.list[a], veils->ages.pigment};
         double veil = veil_of(veils, a, sample->degrees, sample->lx);
-        double *to = chunk_of(veils, chunk, a);
-        to[displays] += veil;
-        to[displays + 1] += sample->lx * eye_spread_at(fmin(sample->degrees, 90), eye);
-        if (display != NO_ID) to[display] += veil;
+        chunk[displays] += veil;
+        chunk[displays + 1] += sample->lx * eye_spread_at(fmin(sample->degrees, 90), eye);
+        if (display != NO_ID) chunk[display] += veil;
     }
 }
 
-void road_veils_add_chunks(RoadVeils *veils, double share) {
+void road_veils_add_chunk(RoadVeils *veils, int round, double share, const double *chunk) {
     int displays = veils->scene->display_count;
-    for (int i = 0; i < veils->chunk_count * veils->ages.count; i++) {
-        int a = i % veils->ages.count, chunk = i / veils->ages.count;
-        int round = chunk / (veils->chunk_count / veils->rounds);
-        const double *from = chunk_of(veils, chunk, a);
-        veils->by_spread[a] += share * from[displays + 1];
+    for (int a = 0; a < veils->ages.count; a++, chunk += chunk_sums(veils)) {
+        veils->by_spread[a] += share * chunk[displays + 1];
         for (int d = 0; d <= displays; d++) {
-            sums_of(veils, a, d)->batch[round] += share * from[d] * veils->paths;
-            if (a == 0 && d < displays) veils->ways[d][ROAD_STRAIGHT] += share * from[d];
+            sums_of(veils, a, d)->batch[round] += share * chunk[d] * veils->paths;
+            if (a == 0 && d < displays) veils->ways[d][ROAD_STRAIGHT] += share * chunk[d];
         }
     }
 }

@@ -92,12 +92,12 @@ typedef struct RoadSample {
     int part_id;
 } RoadSample;
 
-/* Light samples come in chunks, as many to each round; a chunk is one thread's. */
-void road_veils_expect_samples(RoadVeils *veils, int chunks, Arena *arena);
-void road_veils_add_sample(RoadVeils *veils, int chunk, const RoadSample *sample);
+/* Light samples come in chunks, each of one thread: its sums, 0 at first. */
+double *road_veils_chunk(const RoadVeils *veils, Arena *arena);
+void road_veils_add_sample(const RoadVeils *veils, const RoadSample *sample, double *chunk);
 
-/* When all chunks are there: their sum, each sample's lux times `share`. */
-void road_veils_add_chunks(RoadVeils *veils, double share);
+/* Each sample's lux times `share`. */
+void road_veils_add_chunk(RoadVeils *veils, int round, double share, const double *chunk);
 
 /* Light that is known without paths, as if each piece had come by chance. */
 void road_veils_add_known(RoadVeils *veils, double degrees, double lx);

@@ -228,7 +228,7 @@ static Vec3 *sun_directions(const DistantTools *tools, Arena *arena) {
 }
 
 void distant_probe_respond(DistantProbe *probe, const DistantTools *tools, Arena *arena) {
-    const ReadingTools *with = &tools->setup->tools;
+    const ProbeTools *with = &tools->setup->tools;
     ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->paths, with->threads,
                                tools->precision};
     response_trace(&probe->aim, &options, arena, &probe->response);
@@ -269,7 +269,7 @@ static const float *sample_scattered_suns(const DistantProbe *probe, const Respo
 }
 
 void distant_probe_sample_suns(DistantProbe *probe, const DistantTools *tools, Arena *arena) {
-    const ReadingTools *with = &tools->setup->tools;
+    const ProbeTools *with = &tools->setup->tools;
     ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->sun_paths, with->threads, 0};
     ProbeSuns suns = {.towards = sun_directions(tools, arena),
                       .count = tools->suns.count,

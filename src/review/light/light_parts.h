@@ -10,7 +10,7 @@
  * Threads  pure functions.
  */
 #pragma once
-#include "kernel/probe.h"
+#include "kernel/aim.h"
 
 typedef struct LightParts {
     ProbeAim aim;       /* a target and its patch for each cell that is seen */

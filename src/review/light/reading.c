@@ -8,13 +8,11 @@
 #include <xxhash.h>
 
 #include "base/count.h"
-#include "base/parallel.h"
 #include "base/sampler.h"
 #include "estimate/estimate.h"
 #include "estimate/estimate_plan.h"
 #include "guide/guide_file.h"
 #include "render/identity.h"
-#include "render/signals.h"
 #include "review/light/response_suns.h"
 
 static void add_floats(XXH3_state_t *state, Vec3 v) {
@@ -58,91 +56,73 @@ uint64_t reading_aim_hash(const ProbeAim *aim) {
 #define BATCHES READING_BATCHES
 #define PILOT_REACH 4 /* estimate_plan.h */
 #define PILOT_SEED 0x70696c6fu
-#define PIECE 64 /* paths that are looked at together */
-#define SPLIT 8  /* parts of a batch's paths, each of which a thread takes: work for 256 */
+#define SPLIT 8 /* parts of a batch's paths, each of which a thread takes: work for 256 */
 #define PARTS (BATCHES * SPLIT)
 
-/* The sums of one batch of a reading's paths. */
+/* The sums of one batch of a reading's paths, or of a part of one. */
 typedef struct Batch {
     double reflected, mirror;
     double beside[2]; /* X and Z of what is reflected */
     long found;
+    BrightSamples bright;
     long sky_finds;    /* PathStatistics', */
     double lost, rare; /* its, too */
     double sent_on;
-    BrightSamples bright;
+    TargetLight *targets; /* of a part; NULL: they are not kept apart */
 } Batch;
 
 /* Paths that go on where they ended. */
 typedef struct Stream {
     ProbeAim aim;
-    const Kernel *kernel;
-    int threads;
+    const ProbeTools *tools;
     int first, end; /* paths of every batch */
     Batch *batches;
-    Batch *parts;         /* [SPLIT] of each batch: what is read now */
-    TargetLight *targets; /* of each of those; NULL: they are not kept apart */
+    TargetLight *targets; /* [PARTS][target]; NULL: they are not kept apart */
 } Stream;
-
-static void add_targets(TargetLight *to, const ProbeLook *looks, int count) {
-    for (int i = 0; i < count; i++) {
-        if (!looks[i].is_found) continue;
-        TargetLight *target = &to[looks[i].target];
-        target->paths++;
-        target->sum += looks[i].reflected[1];
-        target->squares += looks[i].reflected[1] * looks[i].reflected[1];
-    }
-}
-
-static void add_looks(Batch *to, const ProbeLook *looks, int count) {
-    for (int i = 0; i < count; i++) {
-        to->reflected += (double)looks[i].reflected[1];
-        to->mirror += (double)looks[i].mirror[1];
-        for (int k = 0; k < 2; k++) to->beside[k] += (double)looks[i].reflected[2 * k];
-        bright_add(&to->bright, (double)looks[i].reflected[1]);
-        to->found += looks[i].is_found;
-    }
-}
 
 static int part_begin(const Stream *stream, int part) {
     return stream->first + (int)((long)(stream->end - stream->first) * part / SPLIT);
 }
 
-static void read_part(void *user, int item, int worker) {
-    (void)worker;
+static void *begin_part(void *user, ProbePiece *piece, Arena *arena) {
     const Stream *stream = user;
-    ProbeLook looks[PIECE];
-    PathStatistics statistics = {0};
-    ProbeAim aim = stream->aim;
-    Batch *to = &stream->parts[item];
-    aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)(item / SPLIT));
-    aim.is_spread = true;
-    *to = (Batch){0};
-    int last = part_begin(stream, item % SPLIT + 1);
-    for (int first = part_begin(stream, item % SPLIT); first < last; first += PIECE) {
-        if (signals_stop_requested()) return;
-        int end = first + PIECE < last ? first + PIECE : last;
-        stream->kernel->look(&aim, first, end, looks, &statistics);
-        add_looks(to, looks, end - first);
-        if (stream->targets)
-            add_targets(stream->targets + (size_t)item * (size_t)aim.target_count, looks,
-                        end - first);
-    }
-    to->sky_finds = (long)statistics.sky_finds;
-    to->sent_on = statistics.sent_on;
-    to->lost = statistics.lost;
-    to->rare = statistics.rare;
+    Batch *part = ARENA_NEW(arena, Batch, 1);
+    int split = piece->id / BATCHES;
+    piece->first = part_begin(stream, split);
+    piece->end = part_begin(stream, split + 1);
+    if (stream->targets)
+        part->targets = stream->targets +
+                        (size_t)(piece->stream * SPLIT + split) * (size_t)stream->aim.target_count;
+    return part;
 }
 
-static void add_part(Batch *to, const Batch *part) {
+static void add_look(void *sums, int path, const ProbeLook *look) {
+    (void)path;
+    Batch *to = sums;
+    double y = (double)look->reflected[1];
+    to->reflected += y;
+    to->mirror += (double)look->mirror[1];
+    for (int k = 0; k < 2; k++) to->beside[k] += (double)look->reflected[2 * k];
+    bright_add(&to->bright, y);
+    to->found += look->is_found;
+    if (!to->targets || !look->is_found) return;
+    TargetLight *target = &to->targets[look->target];
+    target->paths++;
+    target->sum += y;
+    target->squares += look->reflected[1] * look->reflected[1];
+}
+
+static void merge_part(void *user, const ProbePiece *piece, void *sums) {
+    const Batch *part = sums;
+    Batch *to = &((const Stream *)user)->batches[piece->stream];
     to->reflected += part->reflected;
     to->mirror += part->mirror;
     for (int k = 0; k < 2; k++) to->beside[k] += part->beside[k];
     to->found += part->found;
-    to->sky_finds += part->sky_finds;
-    to->lost += part->lost;
-    to->rare += part->rare;
-    to->sent_on += part->sent_on;
+    to->sky_finds += (long)piece->statistics.sky_finds;
+    to->lost += piece->statistics.lost;
+    to->rare += piece->statistics.rare;
+    to->sent_on += piece->statistics.sent_on;
     to->bright.squares += part->bright.squares;
     to->bright.fourths += part->bright.fourths;
 }
@@ -234,19 +214,16 @@ static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena sc
 
 /* ---- one stream -------------------------------------------------------------------------- */
 
-static Stream stream_start(const ProbeAim *aim, const ReadingTools *tools, Arena *arena) {
-    return (Stream){.aim = *aim,
-                    .kernel = tools->kernel,
-                    .threads = tools->threads,
-                    .batches = ARENA_NEW(arena, Batch, BATCHES),
-                    .parts = ARENA_NEW(arena, Batch, PARTS)};
+static Stream stream_start(const ProbeAim *aim, const ProbeTools *tools, Arena *arena) {
+    return (Stream){.aim = *aim, .tools = tools, .batches = ARENA_NEW(arena, Batch, BATCHES)};
 }
 
 /* All of its paths, up to so many. */
-static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal) {
+static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal, Arena scratch) {
+    ProbeGoal parts = {.pieces = PARTS, .streams = BATCHES};
+    ProbeFold fold = {.user = stream, .begin = begin_part, .look = add_look, .merge = merge_part};
     stream->end = (int)(paths / BATCHES);
-    parallel_for(stream->threads, PARTS, read_part, stream);
-    for (int i = 0; i < PARTS; i++) add_part(&stream->batches[i / SPLIT], &stream->parts[i]);
+    probe_read(&stream->aim, &parts, stream->tools, &fold, 1, scratch);
     stream->first = stream->end;
     return reading_of(&stream->aim, stream->batches, stream->end, goal);
 }
@@ -263,7 +240,7 @@ typedef struct PilotWork {
 
 static void read_pilot(void *user, long paths) {
     PilotWork *work = user;
-    work->reading = stream_read(&work->stream, paths, work->goal);
+    work->reading = stream_read(&work->stream, paths, work->goal, work->scratch);
 }
 
 static bool will_do(void *user, long pilot, long paths) {
@@ -291,7 +268,7 @@ static EstimatePlan plan_of(PilotWork *work) {
                           .will_do = will_do};
 }
 
-static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
+static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal, const ProbeTools *tools,
                             Arena scratch) {
     Stream fresh = stream_start(aim, tools, &scratch);
     PilotWork work = {.stream = stream_start(aim, tools, &scratch), .goal = goal};
@@ -300,10 +277,10 @@ static Reading take_planned(const ProbeAim *aim, const ReadingGoal *goal, const 
     EstimatePlan plan = plan_of(&work);
     long paths = estimate_plan(&plan);
     if (goal->times > 1) paths *= goal->times;
-    return stream_read(&fresh, paths > goal->least ? paths : goal->least, goal);
+    return stream_read(&fresh, paths > goal->least ? paths : goal->least, goal, scratch);
 }
 
-Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
+Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ProbeTools *tools,
                      Arena scratch) {
     Reading reading = take_planned(aim, goal, tools, scratch);
     reading.reached = uncertainty(&reading, goal);
@@ -312,13 +289,13 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
 
 /* ---- target by target -------------------------------------------------------------------- */
 
-Reading reading_field(const ProbeAim *aim, long paths, double known, const ReadingTools *tools,
+Reading reading_field(const ProbeAim *aim, long paths, double known, const ProbeTools *tools,
                       TargetLight *targets, Arena scratch) {
     ReadingGoal goal = {.known = known};
     size_t count = (size_t)aim->target_count;
     Stream stream = stream_start(aim, tools, &scratch);
     stream.targets = ARENA_NEW(&scratch, TargetLight, PARTS * count);
-    Reading reading = stream_read(&stream, paths, &goal);
+    Reading reading = stream_read(&stream, paths, &goal, scratch);
     for (size_t i = 0; i < PARTS * count; i++) {
         TargetLight *to = &targets[i % count];
         to->paths += stream.targets[i].paths;

@@ -15,7 +15,7 @@
 #pragma once
 #include "base/arena.h"
 #include "estimate/estimate.h"
-#include "kernel/kernel.h"
+#include "probe/probe.h"
 #include "review/light/light_parts.h"
 
 /* Where the probe is and looks, as a hash. */
@@ -48,11 +48,6 @@ typedef struct ReadingGoal {
     const ReadingQuestion *question; /* NULL: none */
 } ReadingGoal;
 
-typedef struct ReadingTools {
-    const Kernel *kernel;
-    int threads;
-} ReadingTools;
-
 /* batches are alike and independent: each has a seed of its own, its samples are well spread among
  * themselves */
 #define READING_BATCHES ESTIMATE_BATCHES
@@ -76,11 +71,11 @@ typedef struct Reading {
 /* with a question: light that only one path in hundreds finds must have been met */
 #define READING_ASKED_LEAST 4096
 
-Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
+Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ProbeTools *tools,
                      Arena scratch);
 
 /* A reading of `paths` paths, whatever they find (a multiple of READING_BATCHES), that also
  * reports which target sends how much: to find what is read then. known: as a goal's; not in
  * targets, which are [aim->target_count] 0 before. */
-Reading reading_field(const ProbeAim *aim, long paths, double known, const ReadingTools *tools,
+Reading reading_field(const ProbeAim *aim, long paths, double known, const ProbeTools *tools,
                       TargetLight *targets, Arena scratch);

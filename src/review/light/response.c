@@ -233,7 +233,7 @@ float *response_empty(int level, Arena *arena, Response *out) {
     size_t size = table_size(&out->cells);
     float *shares = ARENA_NEW(arena, float, size + groups_size(&out->cells));
     Vec3 *centers = ARENA_NEW(arena, Vec3, out->cells.count);
-    for (int i = 0; i < out->cells.count; i++) centers[i] = probe_cell_center(&out->cells, i);
+    for (int i = 0; i < out->cells.count; i++) centers[i] = aim_cell_center(&out->cells, i);
     out->centers = centers;
     sort_slabs(out, arena);
     out->first = shares;

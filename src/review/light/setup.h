@@ -38,7 +38,7 @@ typedef struct ScenesKept {
 typedef struct Setup {
     const ReviewRequest *request;
     const ReviewCondition *condition;
-    ReadingTools tools;
+    ProbeTools tools;
     Scene *scene;
     Bvh *bvh;
     PathContext context;

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/parallel.h"
 #include "review/run/symbols.h"
 
 #define PATHS 1024 /* of the part, and of the whole from all points together */
@@ -24,29 +23,25 @@ struct CasePilot {
 };
 
 typedef struct AlikeWork {
-    const Kernel *kernel;
     const ProbeAim *aims;
     const CasePilot *pilot;
 } AlikeWork;
 
-static void read_aim(const AlikeWork *work, int aim, int piece) {
-    const CasePilot *pilot = work->pilot;
-    int first = pilot->first[aim], count = pilot->first[aim + 1] - first;
-    ProbeLook looks[PIECE];
-    PathStatistics statistics = {0};
-    int begin = piece * PIECE, end = begin + PIECE < count ? begin + PIECE : count;
-    if (begin >= end || !work->aims[aim].target_count) return;
-    work->kernel->look(&work->aims[aim], begin, end, looks, &statistics);
-    for (int i = begin; i < end; i++)
-        if (looks[i - begin].is_found) pilot->light[first + i] = looks[i - begin].reflected[1];
+/* All points' paths, a piece each, or the part's pieces. */
+static void *begin_piece(void *user, ProbePiece *piece, Arena *arena) {
+    (void)arena;
+    const AlikeWork *work = user;
+    int aim = piece->id / (PATHS / PIECE), first = work->pilot->first[aim];
+    int count = work->pilot->first[aim + 1] - first, left;
+    piece->aim = work->aims[aim];
+    piece->first = piece->id % (PATHS / PIECE) * PIECE;
+    left = piece->aim.target_count ? count - piece->first : 0;
+    piece->end = piece->first + (left < PIECE ? left : PIECE);
+    return &work->pilot->light[first];
 }
 
-/* All points' paths, a piece each, or the part's pieces. */
-static void read_piece(void *user, int item, int worker) {
-    (void)worker;
-    const AlikeWork *work = user;
-    int pieces = PATHS / PIECE;
-    read_aim(work, item / pieces, item % pieces);
+static void take_look(void *sums, int path, const ProbeLook *look) {
+    if (look->is_found) ((float *)sums)[path] = look->reflected[1];
 }
 
 const CasePilot *case_pilot(const PilotArgs *args, Arena *arena) {
@@ -75,8 +70,10 @@ const CasePilot *case_pilot(const PilotArgs *args, Arena *arena) {
         symbol_aim(args->surface, &scratch, &aims[i]);
     }
     without.without_mirrored_sun = args->mirror > 0;
-    AlikeWork work = {args->setup->tools.kernel, aims, pilot};
-    parallel_for(args->setup->tools.threads, count * (PATHS / PIECE), read_piece, &work);
+    AlikeWork work = {aims, pilot};
+    ProbeGoal goal = {.pieces = count * (PATHS / PIECE)};
+    ProbeFold fold = {.user = &work, .begin = begin_piece, .look = take_look};
+    probe_read(&aims[0], &goal, &args->setup->tools, &fold, 1, scratch);
     return pilot;
 }
 

@@ -127,17 +127,22 @@ bool explain_review(const ReviewRequest *request, const ExplainOptions *options,
 
 #define PANES 16 /* before a display, at most */
 
+static void note_display(void *sums, int path, const ProbeLook *look) {
+    ((bool *)sums)[path] = look->is_found;
+}
+
 /* Leaves the targets that show a display, if at least half of them do. */
 static bool aim_at_displays(const ExplainPlace *place, ProbeAim *aim, Arena *arena) {
     const ProbeAim *all = &place->aim;
     Vec3 *targets = ARENA_NEW(arena, Vec3, all->target_count);
     ProbePatch *patches = all->patches ? ARENA_NEW(arena, ProbePatch, all->target_count) : NULL;
+    bool *shows = ARENA_NEW(arena, bool, all->target_count);
+    ProbeGoal goal = {.pieces = 1, .paths = all->target_count};
+    ProbeFold fold = {.user = shows, .look = note_display};
     int count = 0;
+    probe_read(aim, &goal, place->tools, &fold, 1, *arena);
     for (int i = 0; i < all->target_count; i++) {
-        ProbeLook look;
-        PathStatistics statistics = {0};
-        place->tools->kernel->look(aim, i, i + 1, &look, &statistics);
-        if (!look.is_found) continue;
+        if (!shows[i]) continue;
         if (patches) patches[count] = all->patches[i];
         targets[count++] = all->targets[i];
     }
@@ -250,15 +255,18 @@ void explain_place(const ExplainPlace *place, Arena *arena, Explained *out) {
                        .has_pixel = pixel != NULL};
     if (is_display) set_sent(place, &aim, out);
     if (pixel) aim = place->aim;
+    PixelLightSums light = {.chunks = 0};
+    ProbeFold fold = pixel_light_fold(&light);
     ChainArgs args = {.aim = &aim,
                       .tools = place->tools,
                       .paths = place->paths,
                       .most = place->most,
                       .with_direct = pixel || !is_display,
-                      .with_first_pane = pixel != NULL};
+                      .with_first_pane = pixel != NULL,
+                      .beside = pixel ? &fold : NULL};
     out->chains = chains_find(&args, arena);
     out->paths = out->chains.paths;
     set_light(&out->chains, is_display, &out->of);
     case_causes_of(&out->chains, CHAIN_RAYS, &out->of, arena);
-    if (pixel) out->light = pixel_light_find(&args);
+    if (pixel) out->light = pixel_light_of(&light);
 }

@@ -41,7 +41,7 @@ bool explain_review(const ReviewRequest *request, const ExplainOptions *options,
 
 /* A scene that is lit, and what is looked at in it. */
 typedef struct ExplainPlace {
-    const ReadingTools *tools;
+    const ProbeTools *tools;
     ProbeAim aim; /* along its targets the eye looks; a path each, and again. With a
                      pixel its samples are traced, and the targets, which lie in
                      it, tell whether it shows a display */

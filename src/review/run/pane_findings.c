@@ -126,7 +126,7 @@ static const char *why_none(const PaneFinding *f, Arena *arena) {
     return arena_format(arena, "%s stands between", f->covered_by);
 }
 
-static void set_figure(GazeFound found, double least, double *value, MeanInterval *range) {
+static void set_figure(Estimate found, double least, double *value, MeanInterval *range) {
     *value = fmax(found.mean, least);
     *range = (MeanInterval){fmax(found.interval.low, least), fmax(found.interval.high, least)};
 }

@@ -102,7 +102,7 @@ static Vec3 seen_from(const PaneImage *image) {
 
 /* ---- one pane ---------------------------------------------------------------------------- */
 
-static MeanInterval within(GazeFound found, double least, double scale) {
+static MeanInterval within(Estimate found, double least, double scale) {
     return (MeanInterval){fmax(found.interval.low, least) * scale,
                           fmax(found.interval.high, least) * scale};
 }

@@ -11,7 +11,7 @@
  */
 #pragma once
 #include "estimate/estimate.h"
-#include "review/light/setup.h"
+#include "probe/probe.h"
 
 #define KIND_FIGURES 3 /* at most */
 
@@ -23,13 +23,15 @@
 typedef struct KindBatch {
     const struct KindPaths *paths;
     void *own;                 /* the asker's */
+    uint32_t seed;             /* of its random numbers */
+    Vec3 target;               /* where the path at work goes */
     double path[KIND_FIGURES]; /* of the path at work: its listener adds to it; and of all */
     double sum[KIND_FIGURES];
     BrightSamples bright[KIND_FIGURES];
 } KindBatch;
 
 typedef struct KindPaths {
-    const Setup *setup;
+    const ProbeTools *tools;
     const PathContext *context;
     Vec3 eye;
     const void *goal;                                      /* the asker's */
@@ -39,7 +41,7 @@ typedef struct KindPaths {
     double (*unmet_of)(const struct KindPaths *paths, int figure, Arena scratch); /* or NULL */
     bool by_mirrors;
     uint32_t seed;
-    int first, end; /* paths of every batch */
+    int end; /* paths of every batch that are read */
     KindBatch batch[ESTIMATE_BATCHES];
     double unmet[KIND_FIGURES]; /* the most that a path may have missed, of paths by mirrors */
 } KindPaths;
@@ -65,12 +67,7 @@ void path_kinds_plan(PathKinds *pilot, int most, KindsWillDo *mirrors_will_do,
 /* As many fresh ones as the pilot found. */
 void path_kinds_read(PathKinds *fresh, const PathKinds *pilot);
 
-typedef struct GazeFound {
-    double mean, sigma;    /* its standard error */
-    MeanInterval interval; /* 95 % */
-} GazeFound;
-
-GazeFound path_kinds_figure(const PathKinds *kinds, int figure);
+Estimate path_kinds_figure(const PathKinds *kinds, int figure);
 
 /* ---- where light came from --------------------------------------------------------------- */
 

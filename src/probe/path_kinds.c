@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/eye/path_kinds.h"
+#include "probe/path_kinds.h"
 
 #include <math.h>
 
-#include "base/parallel.h"
 #include "base/sampler.h"
 #include "estimate/estimate_plan.h"
-#include "render/signals.h"
 
-#define CHUNK 32 /* paths that are aimed together */
 #define MIRROR_SEED 0x6d697272u
 #define LEAST 2048 /* whole paths */
 #define PILOT 1024
@@ -33,41 +30,53 @@ static double even_place(uint32_t seed, uint32_t axis, double step, int i) {
     return x - floor(x);
 }
 
-static void read_batch(void *user, int item, int worker) {
-    (void)worker;
+static void *begin(void *user, ProbePiece *piece, Arena *arena) {
+    (void)arena;
     KindPaths *paths = user;
-    KindBatch *batch = &paths->batch[item];
-    uint32_t seed = hash_combine(hash_u32(paths->seed), (uint32_t)item), axis = paths->first_axis;
-    Vec3 targets[CHUNK];
-    ProbeAim aim = {.context = paths->context,
-                    .eye = paths->eye,
-                    .targets = targets,
-                    .target_count = CHUNK,
-                    .seed = seed};
-    PathListener listener = paths->listener;
-    PathStatistics statistics = {0};
+    KindBatch *batch = &paths->batch[piece->stream];
     batch->paths = paths;
-    listener.user = batch;
-    listener.reach = paths->by_mirrors ? PATH_BY_MIRRORS : PATH_TO_ITS_END;
-    for (int i = paths->first; i < paths->end; i++) {
-        if (signals_stop_requested()) return;
-        double u = even_place(seed, axis, EVEN_STEP_U, i);
-        double v = even_place(seed, axis + 1, EVEN_STEP_V, i);
-        targets[i % CHUNK] = vec3_add(paths->eye, paths->towards(batch, u, v));
-        for (int k = 0; k < KIND_FIGURES; k++) batch->path[k] = 0;
-        paths->setup->tools.kernel->trace(&aim, i, i + 1, &listener, &statistics);
-        for (int k = 0; k < KIND_FIGURES; k++) {
-            batch->sum[k] += batch->path[k];
-            bright_add(&batch->bright[k], batch->path[k]);
-        }
+    batch->seed = piece->aim.seed;
+    piece->aim.targets = &batch->target;
+    return batch;
+}
+
+static void before(void *sums, int path) {
+    KindBatch *batch = sums;
+    const KindPaths *paths = batch->paths;
+    double u = even_place(batch->seed, paths->first_axis, EVEN_STEP_U, path);
+    double v = even_place(batch->seed, paths->first_axis + 1, EVEN_STEP_V, path);
+    batch->target = vec3_add(paths->eye, paths->towards(batch, u, v));
+    for (int k = 0; k < KIND_FIGURES; k++) batch->path[k] = 0;
+}
+
+static void after(void *sums, int path) {
+    (void)path;
+    KindBatch *batch = sums;
+    for (int k = 0; k < KIND_FIGURES; k++) {
+        batch->sum[k] += batch->path[k];
+        bright_add(&batch->bright[k], batch->path[k]);
     }
 }
 
 /* Goes on to so many paths in all, a multiple of ESTIMATE_BATCHES. */
 static void read_kind(KindPaths *paths, long count, Arena scratch) {
-    paths->end = (int)(count / ESTIMATE_BATCHES);
-    parallel_for(paths->setup->tools.threads, ESTIMATE_BATCHES, read_batch, paths);
-    paths->first = paths->end;
+    int end = (int)(count / ESTIMATE_BATCHES);
+    ProbeAim aim = {
+        .context = paths->context, .eye = paths->eye, .target_count = 1, .seed = paths->seed};
+    ProbeGoal goal = {.pieces = ESTIMATE_BATCHES,
+                      .paths = end - paths->end,
+                      .first = paths->end,
+                      .streams = ESTIMATE_BATCHES,
+                      .reach = paths->by_mirrors ? PATH_BY_MIRRORS : PATH_TO_ITS_END,
+                      .is_polarised = paths->listener.is_polarised};
+    ProbeFold fold = {.user = paths,
+                      .begin = begin,
+                      .before = before,
+                      .on_light = paths->listener.on_light,
+                      .on_mirror = paths->listener.on_mirror,
+                      .after = after};
+    probe_read(&aim, &goal, paths->tools, &fold, 1, scratch);
+    paths->end = end;
     for (int k = 0; k < KIND_FIGURES && paths->by_mirrors && paths->unmet_of; k++)
         paths->unmet[k] = paths->unmet_of(paths, k, scratch);
 }
@@ -105,11 +114,10 @@ Estimate path_kind_estimate(const KindPaths *paths, int figure) {
     return estimate_of(&sums);
 }
 
-GazeFound path_kinds_figure(const PathKinds *kinds, int figure) {
+Estimate path_kinds_figure(const PathKinds *kinds, int figure) {
     EstimateSums sums = sums_of(&kinds->whole, figure), mirrors = sums_of(&kinds->mirrors, figure);
     estimate_sums_add(&sums, &mirrors);
-    Estimate estimate = estimate_of(&sums);
-    return (GazeFound){estimate.mean, estimate.sigma, estimate.interval};
+    return estimate_of(&sums);
 }
 
 /* ---- how many ---------------------------------------------------------------------------- */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "kernel/probe.h"
+#include "kernel/aim.h"
 
 #include "base/mathd.h"
 #include "base/mathf.h"
@@ -104,8 +104,8 @@ static ProbeAim aim_of_first(const ProbeAim *aim, PathContext *room) {
     return own;
 }
 
-void probe_look(const ProbeAim *asked, int first, int end, ProbeLook *out,
-                PathStatistics *statistics) {
+void aim_look(const ProbeAim *asked, int first, int end, ProbeLook *out,
+              PathStatistics *statistics) {
     PathContext context;
     ProbeAim aim = aim_of_first(asked, &context);
     for (int path = first; path < end; path++)
@@ -119,8 +119,8 @@ static void go(const ProbeAim *aim, const ProbePath *path) {
     else path_from_ray(&path->start, path->ray, NULL);
 }
 
-void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *listener,
-                 PathStatistics *statistics) {
+void aim_trace(const ProbeAim *asked, int first, int end, const PathListener *listener,
+               PathStatistics *statistics) {
     PathContext context;
     ProbeAim own = aim_of_first(asked, &context), *aim = &own;
     for (int path = first; path < end; path++) {
@@ -164,7 +164,7 @@ static Vec3 cells_of_world(Vec3 d) {
     return vec3(d.z, d.x, d.y);
 }
 
-Vec3 probe_cell_center(const ProbeCells *cells, int cell) {
+Vec3 aim_cell_center(const ProbeCells *cells, int cell) {
     int half = cells->count / 2;
     Vec3 d = geodesic_center(cells->level, (uint32_t)(cell % half));
     if (cell >= half) d.z = -d.z;
@@ -221,8 +221,8 @@ static void draw_cells(const ProbeAim *aim, const ProbeCells *cells, int path, V
     }
 }
 
-void probe_sample_cells(const ProbeAim *asked, const ProbeCells *cells, int first, int end,
-                        ProbeAnswers *out, PathStatistics *statistics) {
+void aim_sample_cells(const ProbeAim *asked, const ProbeCells *cells, int first, int end,
+                      ProbeAnswers *out, PathStatistics *statistics) {
     PathContext context;
     ProbeAim own = aim_of_first(asked, &context), *aim = &own;
     CellSums to = {cells, out->sums};
@@ -311,8 +311,8 @@ static void draw_suns(const ProbeAim *aim, const SunSums *to, int path, Vec3 *to
     }
 }
 
-void probe_sample_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
-                       ProbeAnswers *out, PathStatistics *statistics) {
+void aim_sample_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
+                     ProbeAnswers *out, PathStatistics *statistics) {
     double half = sin_d((double)suns->radius / 2);
     float chord2 = (float)(4 * half * half);
     SunSums to = {suns, chord2, out->sums, 1 / (PI_F * chord2), 0};
@@ -355,8 +355,8 @@ static void add_image(void *user, const PathHistory *history, Vec3 direction, co
     if (part_id != NO_ID) images->found(images->user, part_id, direction, share);
 }
 
-void probe_sample_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
-                         PathStatistics *statistics) {
+void aim_sample_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
+                       PathStatistics *statistics) {
     ProbeImages listener = *images;
     PathImages wanted = {add_image, &listener};
     PathContext once = *aim->context;

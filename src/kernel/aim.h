@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* probe.h -- what one eye sees of one surface, sampled outside a frame: by the light that is
+/* aim.h -- what one eye sees of one surface, sampled outside a frame: by the light that is
  * there now, or as a response to light from any direction. A luxmeter may stand in the eye's
  * place.
  *
@@ -50,12 +50,11 @@ typedef struct ProbeLook {
 } ProbeLook;
 
 /* HOT. Path i of [first, end) fills out[i - first]. */
-void probe_look(const ProbeAim *aim, int first, int end, ProbeLook *out,
-                PathStatistics *statistics);
+void aim_look(const ProbeAim *aim, int first, int end, ProbeLook *out, PathStatistics *statistics);
 
 /* HOT. Reports all light that paths [first, end) find. */
-void probe_trace(const ProbeAim *aim, int first, int end, const PathListener *listener,
-                 PathStatistics *statistics);
+void aim_trace(const ProbeAim *aim, int first, int end, const PathListener *listener,
+               PathStatistics *statistics);
 
 /* ---- responses --------------------------------------------------------------------------- */
 
@@ -73,20 +72,20 @@ typedef struct ProbeCells {
 #define PROBE_ORDERS 2 /* light that the first vertex sends to the eye; all other */
 
 /* The direction, world, that stands for a cell. */
-Vec3 probe_cell_center(const ProbeCells *cells, int cell);
+Vec3 aim_cell_center(const ProbeCells *cells, int cell);
 
 /* Where answers are added, and room for as many directions as are sampled. */
 typedef struct ProbeAnswers {
     float *sums;
     Vec3 *towards;
-    long near_suns; /* probe_sample_suns by mirror: paths whose mirror direction lies near one,
+    long near_suns; /* aim_sample_suns by mirror: paths whose mirror direction lies near one,
                        whatever stands before it */
 } ProbeAnswers;
 
 /* HOT. Adds the sum over paths to sums[order][cell][lane]: what comes to the eye of a radiance
  * of 1 from all of the cell. */
-void probe_sample_cells(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
-                        ProbeAnswers *out, PathStatistics *statistics);
+void aim_sample_cells(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
+                      ProbeAnswers *out, PathStatistics *statistics);
 
 /* Discs of one size in the sky. */
 #define PROBE_NEAR_SUN 4 /* radii from a sun's centre that are near it */
@@ -99,8 +98,8 @@ typedef struct ProbeSuns {
 
 /* HOT. Adds the sum over paths to sums[sun][lane]: what the first vertex sends to the eye of an
  * irradiance of 1 on a plane that faces the sun. */
-void probe_sample_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
-                       ProbeAnswers *out, PathStatistics *statistics);
+void aim_sample_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
+                     ProbeAnswers *out, PathStatistics *statistics);
 
 /* ---- mirror images ----------------------------------------------------------------------- */
 
@@ -114,5 +113,5 @@ typedef struct ProbeImages {
 } ProbeImages;
 
 /* HOT. For paths [first, end) of an eye. */
-void probe_sample_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
-                         PathStatistics *statistics);
+void aim_sample_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
+                       PathStatistics *statistics);
