@@ -12,6 +12,7 @@
 
 #define NOTHING "–"
 #define LIST_MOST 12 /* names of a list that people read */
+#define BAR 40       /* characters of the greatest */
 
 /* ---- made by hand ------------------------------------------------------------------------ */
 
@@ -54,16 +55,21 @@ void table_text(Table *table, const char *text) {
 
 /* ---- of a document ----------------------------------------------------------------------- */
 
-/* "display.gamma.2": a member's member, an item; null where what should have it is null. */
-static const json_t *value_at(const json_t *value, const char *path) {
+/* "display.gamma.2": a member's member, an item; null where what should have it is null. Of "a|b"
+ * the first that is there. */
+static const json_t *value_at(const json_t *document, const char *path) {
+    const json_t *value = document;
     for (;; path++) {
-        size_t length = strcspn(path, ".");
+        size_t length = strcspn(path, ".|");
         uint64_t item = 0;
         value = json_is_array(value) && number_read_count(path, &item)
                     ? json_array_get(value, (size_t)item)
                     : json_object_getn(value, path, length);
         path += length;
-        if (!*path || !value || json_is_null(value)) return value;
+        if (value && *path == '.' && !json_is_null(value)) continue;
+        path += strcspn(path, "|");
+        if (value || !*path) return value;
+        value = document;
     }
 }
 
@@ -81,11 +87,13 @@ static Cell cell_of(const json_t *value) {
 static Cell cell_in(const json_t *object, const Column *column) {
     Cell cell = cell_of(value_at(object, column->key));
     const json_t *ends = column->interval ? value_at(object, column->interval) : NULL;
-    if (json_array_size(ends) != 2) return cell;
+    if (json_array_size(ends) != 2 || cell.kind == CELL_ABSENT) return cell;
     const json_t *high = json_array_get(ends, 1);
     cell.kind = CELL_NUMBER;
     cell.low = json_number_value(json_array_get(ends, 0));
     cell.high = json_is_number(high) ? json_number_value(high) : INFINITY;
+    if (isinf(cell.high) && json_is_number(json_array_get(ends, 0)) && isnan(cell.value))
+        cell.value = INFINITY;
     return cell;
 }
 
@@ -166,9 +174,9 @@ static const char *digits_text(double value, int digits, Arena *arena) {
 static const char *number_text(const Cell *cell, const Column *column, Arena *arena) {
     double times = column->times > 0 ? column->times : 1, value = cell->value * times;
     if (isnan(value)) return column->none;
-    if (isinf(value)) return value > 0 ? "infinite" : "-infinite";
     if (!isnan(cell->low))
         return interval_text(value, cell->low * times, cell->high * times, arena);
+    if (isinf(value)) return value > 0 ? "infinite" : "-infinite";
     return column->is_fixed ? fixed_text(value, column->places, arena)
                             : digits_text(value, column->places, arena);
 }
@@ -240,10 +248,20 @@ static const Cell *cell_of_row(const Table *table, int row, int column) {
     return &table->cells[row * table->kind->column_count + column];
 }
 
+static const char *bar(const Table *table, int row, int column, Arena *arena) {
+    double most = 0, value = cell_of_row(table, row, column)->value;
+    for (int r = 0; r < table->row_count; r++)
+        most = fmax(most, cell_of_row(table, r, column)->value);
+    int length = most > 0 ? (int)(BAR * fmax(value, 0) / most + 0.5) : 0;
+    return arena_format(arena, "%.*s", length, "########################################");
+}
+
 /* The views' own: what a text grows in may be a copy of the table's arena. */
 static const char *words_of(const Table *table, int row, int column, Arena *arena) {
+    const Column *of = &table->kind->columns[column];
     const Cell *cell = cell_of_row(table, row, column);
-    const char *words = cell_text(cell, &table->kind->columns[column], arena);
+    if (of->is_bar) return bar(table, row, column, arena);
+    const char *words = cell_text(cell, of, arena);
     return words || cell->kind == CELL_ABSENT ? words : NOTHING;
 }
 
@@ -252,8 +270,12 @@ const char *table_cell_text(const Table *table, int row, int column) {
 }
 
 static bool has_column(const Table *table, int column) {
-    for (int r = 0; r < table->row_count; r++)
-        if (cell_of_row(table, r, column)->kind != CELL_ABSENT) return true;
+    bool hides_zero = table->kind->columns[column].hides_zero;
+    for (int r = 0; r < table->row_count; r++) {
+        const Cell *cell = cell_of_row(table, r, column);
+        bool is_zero = cell->kind <= CELL_FLAG && !(fabs(cell->value) > 0);
+        if (cell->kind != CELL_ABSENT && !(hides_zero && is_zero)) return true;
+    }
     return table->row_count == 0;
 }
 
@@ -263,7 +285,7 @@ static bool is_read(const Table *table, int column) {
 
 /* Stands to the right: figures are in it. */
 static bool is_number_column(const Table *table, int column) {
-    for (int r = 0; r < table->row_count; r++) {
+    for (int r = 0; r < table->row_count && !table->kind->columns[column].is_bar; r++) {
         CellKind kind = table->cells[r * table->kind->column_count + column].kind;
         if (kind == CELL_NUMBER || kind == CELL_COUNT) return true;
     }
@@ -272,10 +294,21 @@ static bool is_number_column(const Table *table, int column) {
 
 /* ---- text -------------------------------------------------------------------------------- */
 
-static int characters(const char *text) {
+static int characters(const char *text, int length) {
     int count = 0;
-    for (; *text; text++) count += !utf8_continues(*text);
+    for (int i = 0; i < length; i++) count += !utf8_continues(text[i]);
     return count;
+}
+
+/* Of lines. */
+static int widest(const char *text) {
+    int most = 0;
+    while (*text) {
+        int length = (int)strcspn(text, "\n"), own = characters(text, length);
+        if (own > most) most = own;
+        text += length + (text[length] == '\n');
+    }
+    return most;
 }
 
 static void add_blanks(Text *text, int count) {
@@ -287,50 +320,100 @@ static const char *heading(const Column *column, Arena *arena) {
                         : column->words;
 }
 
+typedef struct RowLines {
+    int count; /* columns */
+    int width[TABLE_COLUMNS];
+    bool is_right[TABLE_COLUMNS];
+    const char *left[TABLE_COLUMNS]; /* of the row's cells, what is not written */
+} RowLines;
+
+static void add_rows(const Table *table, bool has_headings, Text *text);
+
+/* What a cell shows, in row -1 its heading; of a list that has columns lines. "": nothing. */
+static const char *cell_lines(const Table *table, int row, int column, bool has_unit,
+                              Arena *arena) {
+    const Column *of = &table->kind->columns[column];
+    const json_t *list = of->of && row >= 0 ? cell_of_row(table, row, column)->document : NULL;
+    const json_t *item;
+    const char *words = row < 0 ? heading(of, arena)
+                        : list  ? NULL
+                                : words_of(table, row, column, arena);
+    Text text = {.arena = arena};
+    size_t i;
+    if (json_is_object(json_array_get(list, 0)))
+        add_rows(table_of_list(of->of, list, arena), false, &text);
+    else json_array_foreach(list, i, item) {
+            text_add_printable(&text, json_string_value(item), json_string_length(item));
+            text_add(&text, "\n");
+        }
+    if (words) text_add_printable(&text, words, strlen(words));
+    if (words && has_unit && of->unit && strcmp(words, NOTHING) != 0)
+        text_format(&text, " %s", of->unit);
+    return text.data ? text.data : "";
+}
+
 /* How many rows from this one on read the same. */
 static int alike_from(const Table *table, int row, Arena *arena) {
     int next = row + 1;
     for (; next < table->row_count; next++)
-        for (int c = 0; c < table->kind->column_count; c++) {
-            const char *a = words_of(table, row, c, arena), *b = words_of(table, next, c, arena);
-            if (!a != !b || (a && strcmp(a, b))) return next - row;
-        }
+        for (int c = 0; c < table->kind->column_count; c++)
+            if (strcmp(cell_lines(table, row, c, false, arena),
+                       cell_lines(table, next, c, false, arena)) != 0)
+                return next - row;
     return next - row;
 }
 
-void table_add_text(const Table *table, Text *text) {
+/* Writes the next line of each cell, without its end; false: it was the last. */
+static bool add_line(RowLines *lines, Text *text) {
+    int owed = 0; /* blanks, which no line ends with */
+    bool is_there = false;
+    for (int c = 0; c < lines->count; c++) {
+        if (lines->width[c] < 0) continue; /* it is not read */
+        int length = (int)strcspn(lines->left[c], "\n");
+        int rest = lines->width[c] - characters(lines->left[c], length);
+        if (length) {
+            add_blanks(text, owed + (lines->is_right[c] ? rest : 0));
+            text_format(text, "%.*s", length, lines->left[c]);
+            owed = 2 + (lines->is_right[c] ? 0 : rest);
+        } else owed += lines->width[c] + 2;
+        lines->left[c] += length + (lines->left[c][length] == '\n');
+        is_there |= lines->left[c][0] != '\0';
+    }
+    return is_there;
+}
+
+/* Without headings a figure has its unit behind it. */
+static void add_rows(const Table *table, bool has_headings, Text *text) {
     const TableKind *kind = table->kind;
-    int width[TABLE_COLUMNS];
-    bool is_right[TABLE_COLUMNS];
+    RowLines lines = {.count = kind->column_count};
     for (int c = 0; c < kind->column_count; c++) {
-        is_right[c] = is_number_column(table, c);
-        width[c] = is_read(table, c) ? characters(heading(&kind->columns[c], text->arena)) : -1;
-        for (int r = 0; width[c] >= 0 && r < table->row_count; r++) {
-            const char *words = words_of(table, r, c, text->arena);
-            if (words && characters(words) > width[c]) width[c] = characters(words);
+        lines.is_right[c] = is_number_column(table, c);
+        lines.width[c] = -1;
+        if (!is_read(table, c)) continue;
+        for (int r = has_headings ? -1 : 0; r < table->row_count; r++) {
+            int own = widest(cell_lines(table, r, c, !has_headings, text->arena));
+            if (own > lines.width[c]) lines.width[c] = own;
         }
     }
-    if (kind->words) text_format(text, "%s\n", kind->words);
-    for (int r = -1; r < table->row_count; r++) {
-        int owed = 0; /* blanks, which no line ends with */
-        for (int c = 0; c < kind->column_count; c++) {
-            if (width[c] < 0) continue;
-            const char *words = r < 0 ? heading(&kind->columns[c], text->arena)
-                                      : words_of(table, r, c, text->arena);
-            if (!words || !*words) {
-                owed += width[c] + 2;
-                continue;
-            }
-            int rest = width[c] - characters(words);
-            add_blanks(text, owed + (is_right[c] ? rest : 0));
-            text_add_printable(text, words, strlen(words));
-            owed = 2 + (is_right[c] ? 0 : rest);
-        }
+    for (int r = has_headings ? -1 : 0; r < table->row_count; r++) {
+        for (int c = 0; c < kind->column_count; c++)
+            lines.left[c] =
+                is_read(table, c) ? cell_lines(table, r, c, !has_headings, text->arena) : "";
+        bool has_more = add_line(&lines, text);
         int alike = r < 0 ? 1 : alike_from(table, r, text->arena);
         if (alike > 1) text_format(text, "  %d times", alike);
         text_add(text, "\n");
         r += alike - 1;
+        while (has_more) {
+            has_more = add_line(&lines, text);
+            text_add(text, "\n");
+        }
     }
+}
+
+void table_add_text(const Table *table, Text *text) {
+    if (table->kind->words) text_format(text, "%s\n", table->kind->words);
+    add_rows(table, true, text);
 }
 
 /* A list of sentences has a line each. */
@@ -365,8 +448,10 @@ TableLine *table_lines(const TableKind *kind, const json_t *document, Arena *are
     *count = 0;
     for (int c = 0; c < kind->column_count; c++) {
         const Cell cell = cell_in(document, &kind->columns[c]);
-        if (kind->columns[c].words && !has_rows(&kind->columns[c]))
-            *count += add_lines(&kind->columns[c], &cell, lines + *count, arena);
+        const Column *column = &kind->columns[c];
+        bool is_left_out = column->unless && value_at(document, column->unless);
+        if (column->words && !has_rows(column) && !is_left_out)
+            *count += add_lines(column, &cell, lines + *count, arena);
     }
     return lines;
 }
@@ -376,10 +461,10 @@ static void add_document(const TableKind *kind, const json_t *document, Text *te
     int count, width = 0;
     const TableLine *lines = table_lines(kind, document, arena, &count);
     for (int i = 0; i < count; i++)
-        if (characters(lines[i].words) > width) width = characters(lines[i].words);
+        if (widest(lines[i].words) > width) width = widest(lines[i].words);
     for (int i = 0; i < count; i++) {
         text_add(text, lines[i].words);
-        add_blanks(text, width + 2 - characters(lines[i].words));
+        add_blanks(text, width + 2 - widest(lines[i].words));
         text_add_printable(text, lines[i].value, strlen(lines[i].value));
         text_add(text, "\n");
     }
@@ -413,11 +498,14 @@ void table_add_document(const TableKind *kind, const json_t *document, Text *tex
 static void add_kind(json_t *list, const TableKind *kind, const char *before, Arena *arena) {
     for (int c = 0; c < kind->column_count; c++) {
         const Column *column = &kind->columns[c];
-        const char *key = arena_format(arena, "%s%s", before, column->key);
+        const char *other = strchr(column->key, '|'); /* a list of texts in the place of rows */
+        int length = (int)strcspn(column->key, "|");
+        const char *key = arena_format(arena, "%s%.*s", before, length, column->key);
         const char *unit = column->times > 0 ? column->times == 100 ? "share" : NULL : column->unit;
         if (column->lists) add_kind(list, column->lists, before, arena);
         if (column->of) add_kind(list, column->of, arena_format(arena, "%s[].", key), arena);
-        if (has_rows(column)) continue;
+        if (other) key = arena_format(arena, "%s%s", before, other + 1);
+        if ((has_rows(column) && !other) || column->is_bar) continue;
         json_t *one = json_pack("{s:s, s:s*, s:s*, s:s*, s:s*, s:s*}", "key", key, "unit", unit,
                                 "words", column->words, "none", column->none, "about",
                                 column->about, "interval", column->interval);

@@ -20,7 +20,8 @@
 typedef struct TableKind TableKind;
 
 typedef struct Column {
-    const char *key;   /* in JSON and CSV, with its unit; of a document a path, "display.gamma.2" */
+    const char *key;   /* in JSON and CSV, with its unit; of a document a path, "display.gamma.2";
+                           "a|b": the first that is there */
     const char *words; /* for people; NULL: not for them */
     const char *unit;  /* for people, behind the figure; NULL: none */
     bool is_fixed;     /* `places` are digits behind the point, else digits that count */
@@ -30,8 +31,12 @@ typedef struct Column {
     const char *parts;      /* of a list: what its items are, "right|up|left|down"; "": they stand
                                 in one line, also sentences */
     const char *none;       /* for people, where it is null; NULL: a record leaves the line out */
-    bool hides_zero;        /* a record leaves the line out that would show 0, or no */
-    const TableKind *of;    /* of lists of objects: rows, shown behind the record */
+    const char *unless;     /* path: a record leaves the line out where it is there */
+    bool hides_zero;        /* a record leaves the line out that would show 0, or no; rows the
+                               column in which all do or have no figure */
+    bool is_bar;            /* of rows: a bar, against the column's greatest */
+    const TableKind *of;    /* of lists of objects: rows, shown behind the record; of a row lines
+                               in its cell, also of texts */
     const TableKind *lists; /* of a list: rows of it and of those that the kind's keys name, an item
                                of each a row, shown likewise */
     const char *about;      /* for who reads JSON: what words leave open; NULL: nothing */
@@ -113,7 +118,8 @@ void table_add_object(Table *table, const json_t *object);
 const char *table_cell_text(const Table *table, int row, int column);
 
 /* Columns under their headings; rows that read alike stand once, "13 times". In all views of rows a
- * figure that there is not is a dash, and a column that no row has is left out. */
+ * figure that there is not is a dash, and a column that no row has is left out. A list in a row has
+ * a line each, of objects without headings but with units. */
 void table_add_text(const Table *table, Text *text);
 
 /* The document as people read it: for each column of the kind its words, and the figure with its

@@ -184,7 +184,7 @@ def check_ways(report, pair):
     """Of a pixel, a display and a wall."""
     ask = "dash.gltf", "lamps.gltf", *SKY, "--size", "24x16"
     told = pair.run(FAR, "explain", *ask, "--pixel", "12,4", "--paths", "128")
-    wanted = f"  at {pair.at[FAR][0]:.0f}"[:7]
+    wanted = f"  {pair.at[FAR][0]:.0f}"[:4]
     report.claim(wanted in told, f"explain's text has no '{wanted}': {told}")
     eye = "--eye", lambda kind: numbers(pair.point(kind, EYE))
     for what in (("--display", "screen", *eye, "--look-at",

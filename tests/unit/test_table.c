@@ -113,6 +113,7 @@ static const TableKind ITEMS_KIND = TABLE_KIND("items", NULL, ITEMS);
 static const Column ANSWER[] = {
     {.key = "light.cd_m2", .words = "luminance", .unit = "cd/m2", .interval = "light.interval"},
     {.key = "open.value", .words = "contrast", .unit = ": 1", .interval = "open.interval"},
+    {.key = "none", .words = "without", .unit = ": 1", .interval = "none_interval"},
     {.key = "cone",
      .words = "half",
      .unit = "deg",
@@ -135,6 +136,7 @@ ARENA_TEST(a_document_is_read_by_its_columns) {
     json_auto_t *document =
         json_loads("{\"light\": {\"cd_m2\": 41.234, \"interval\": [41.0, 41.468]},"
                    "\"open\": {\"value\": 12, \"interval\": [9.5, null]},"
+                   "\"none\": null, \"none_interval\": [7, null],"
                    "\"cone\": [60.04, null], \"xy\": [0.31, 0.3289], \"gone\": null,"
                    "\"nothing\": 0, \"notes\": [\"one\", \"two\"], \"names\": [\"a\", \"b\"],"
                    "\"choices\": {\"tree_level\": 7, \"basis\": \"haar\", \"of\": {\"x\": 1}},"
@@ -144,6 +146,7 @@ ARENA_TEST(a_document_is_read_by_its_columns) {
     table_add_document(&ANSWER_KIND, document, &text);
     assert_string_equal(text.data, "luminance  41.23 +- 0.23 cd/m2\n"
                                    "contrast   at least 9.5 : 1\n"
+                                   "without    at least 7 : 1\n"
                                    "half       right 60.0, up beyond deg\n"
                                    "y          0.329\n"
                                    "gone       no layer\n"
@@ -206,6 +209,56 @@ ARENA_TEST(lists_side_by_side_are_rows) {
     json_auto_t *list = table_kind_json(&OF_KIND);
     assert_int_equal(json_array_size(list), 4);
     assert_string_equal(json_text_at(list, "3/key"), "value");
+}
+
+/* ---- rows in rows ------------------------------------------------------------------------ */
+
+static const Column STEPS[] = {COLUMN_TEXT("what", "what"), COLUMN_TEXT("node", "node"),
+                               COLUMN_FIXED("at", "at", "m", 1)};
+static const TableKind STEPS_KIND = TABLE_KIND("steps", NULL, STEPS);
+static const Column WAYS[] = {COLUMN_SHARE("share", "share"),
+                              {.key = "is_cut", .words = "further", .hides_zero = true},
+                              {.key = "without", .words = "without", .hides_zero = true},
+                              {.key = "steps|names", .words = "via", .of = &STEPS_KIND}};
+static const TableKind WAYS_KIND = TABLE_KIND("ways", NULL, WAYS);
+static const Column BANDS[] = {COLUMN_TEXT("of.nm", "nm"),
+                               COLUMN_DIGITS("of.power", "power", "W", 3),
+                               {.key = "of.power", .words = "", .is_bar = true}};
+static const TableKind BANDS_KIND = TABLE_KIND("bands", NULL, BANDS);
+static const Column LIGHT[] = {{.key = "all", .words = "of a region", .unless = "pixel"},
+                               {.key = "all", .words = "of a pixel", .unless = "region"},
+                               COLUMN_MEASURED("absent", "absent", NULL, "interval"),
+                               {.key = "ways", .of = &WAYS_KIND},
+                               {.key = "of.nm", .lists = &BANDS_KIND}};
+static const TableKind LIGHT_KIND = TABLE_KIND("light", NULL, LIGHT);
+
+ARENA_TEST(a_row_holds_lines) {
+    json_auto_t *document = json_loads(
+        "{\"all\": 3, \"pixel\": [1, 2], \"interval\": [1, 2], \"ways\": ["
+        "{\"share\": 0.75, \"is_cut\": false, \"without\": null, \"steps\": ["
+        "{\"what\": \"mirror\", \"node\": \"ball\", \"at\": [1.0, 2.55, 3.0]},"
+        "{\"what\": \"passes\", \"node\": \"a\\nb\", \"at\": 4.0}], \"names\": [\"unused\"]},"
+        "{\"share\": 0.25, \"is_cut\": false, \"without\": null,"
+        " \"names\": [\"all\", \"others\"]}],"
+        "\"of\": {\"unit\": \"W\", \"nm\": [365, 375], \"power\": [2.0, 0.5]}}",
+        0, NULL);
+    Text text = {.arena = &arena};
+    table_add_document(&LIGHT_KIND, document, &text);
+    assert_string_equal(text.data, "of a pixel  3\n"
+                                   "\n"
+                                   "share, %  via\n"
+                                   "    75.0  mirror  ball      1.0, 2.5, 3.0 m\n"
+                                   "          passes  a\\u000Ab            4.0 m\n"
+                                   "    25.0  all\n"
+                                   "          others\n"
+                                   "\n"
+                                   " nm  power, W\n"
+                                   "365      2.00  ########################################\n"
+                                   "375     0.500  ##########\n");
+    json_auto_t *list = table_kind_json(&WAYS_KIND), *bands = table_kind_json(&BANDS_KIND);
+    assert_string_equal(json_text_at(list, "5/key"), "steps[].at");
+    assert_string_equal(json_text_at(list, "6/key"), "names");
+    assert_int_equal(json_array_size(bands), 2);
 }
 
 ARENA_TEST(what_has_nothing_to_say_says_nothing) {

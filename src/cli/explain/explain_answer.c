@@ -2,17 +2,13 @@
 #include "cli/explain/explain_answer.h"
 
 #include <math.h>
-#include <stdio.h>
 
+#include "base/count.h"
 #include "cli/options/answer.h"
-#include "print/print.h"
 #include "review/output/case_json.h"
 #include "review/output/review_words.h"
 #include "review/review_decide.h"
-#include "text/interval_text.h"
 #include "text/json_text.h"
-
-#define BAR 40 /* letters of the longest in the spectrum */
 
 /* ---- a chain as bounces ------------------------------------------------------------------ */
 
@@ -64,165 +60,97 @@ static LightWay way_of(const ExplainAnswer *answer, const Chain *chain) {
     return way;
 }
 
-/* ---- as text ----------------------------------------------------------------------------- */
+/* ---- what people read -------------------------------------------------------------------- */
 
-static void print_where(const ExplainAnswer *answer) {
-    const ReviewCase *c = &answer->found.of;
-    if (answer->found.has_pixel)
-        print("pixel      %d,%d of %dx%d, %ld paths\n", answer->pixel[0], answer->pixel[1],
-              answer->size[0], answer->size[1], answer->found.paths);
-    if (c->symbol)
-        print("symbol     %s on %s, seen by %s, %s\n", c->symbol, c->display, c->eye, c->condition);
-    else if (c->display) print("display    %s\n", c->display);
-    print("eye        %.3f, %.3f, %.3f m\n", c->eye_m[0], c->eye_m[1], c->eye_m[2]);
-}
+static const Column HIDERS[] = {COLUMN_TEXT("what", "hidden by"), COLUMN_SHARE("share", "share")};
+static const TableKind HIDERS_KIND = TABLE_KIND("hidden_by", NULL, HIDERS);
 
-static void print_pixel(const PixelLight *light) {
-    const PixelFigure *xyz = light->xyz;
-    double sum = xyz[0].mean + xyz[1].mean + xyz[2].mean;
-    print("luminance  %.5g cd/m2, standard error %.2g", xyz[1].mean, xyz[1].sigma);
-    if (sum > 0) print("; x %.4f, y %.4f", xyz[0].mean / sum, xyz[1].mean / sum);
-    print("\n");
-}
+/* Each of the three adds up to all of the light. */
+#define GROUP(kind, columns, words) \
+    static const Column columns[] = {COLUMN_TEXT("what", words), COLUMN_SHARE("share", "share"), \
+                                     COLUMN_DIGITS("cd_m2", "luminance", "cd/m2", 4)}; \
+    static const TableKind kind = TABLE_KIND("cause_groups", NULL, columns)
+GROUP(LIGHTS_KIND, LIGHTS, "began at");
+GROUP(OPENINGS_KIND, OPENINGS, "came by");
+GROUP(SURFACES_KIND, SURFACES, "met at");
 
-static void print_light(const Explained *explained, Arena scratch) {
-    const ReviewCase *c = &explained->of;
-    const CaseLuminances *l = &c->luminance_cd_m2;
-    if (explained->has_pixel) print_pixel(&explained->light);
-    if (c->symbol)
-        print("sends      %.4g cd/m2 foreground, %.4g background\n", l->foreground, l->background);
-    else if (c->display)
-        print("sends      %.4g cd/m2; white %.4g, black %.4g\n", explained->shown, l->foreground,
-              l->background);
-    if (!explained->has_pixel || c->display)
-        print(
-            "%-10s %s cd/m2", c->display ? "reflected" : "luminance",
-            interval_text(l->reflected, c->reflected_range.low, c->reflected_range.high, &scratch));
-    if (c->display)
-        print(": mirror %.4g, scattered %.4g\n"
-              "contrast   %s : 1; %.4g : 1 if nothing were reflected",
-              l->mirror, l->scattered,
-              interval_text(c->contrast_ratio, c->contrast_low, c->contrast_high, &scratch),
-              luminance_contrast(l->foreground, l->background, 0));
-    if (!explained->has_pixel || c->display) print("\n");
-}
+static const Column BOUNCES[] = {
+    COLUMN_TEXT("what", "what"),
+    COLUMN_TEXT("node", "node"),
+    COLUMN_TEXT("material", "material"),
+    {.key = "at_m", .words = "at", .unit = "m", .is_fixed = true, .places = 3}};
+static const TableKind BOUNCES_KIND = TABLE_KIND("bounces", NULL, BOUNCES);
 
-/* Of a review's case: the quantity of the limit that decides it. */
-static void print_judged(const ReviewCase *c, Arena scratch) {
-    const LimitVerdict *limit = case_worst_limit(c);
-    if (!limit) return;
-    print("judged     %s: %s %s, required %s\n", verdict_names[c->verdict], words_kind(limit),
-          words_measured(limit, &scratch), words_required(limit, &scratch));
-}
+static const Column CHAINS[] = {
+    COLUMN_SHARE("share", "share"),
+    COLUMN_MEASURED("cd_m2", "luminance", "cd/m2", "interval"),
+    {.key = "contrast_without",
+     .words = "contrast without it",
+     .unit = ": 1",
+     .places = 3,
+     .hides_zero = true},
+    COLUMN_TEXT("light", "light"),
+    {.key = "from_m",
+     .words = "it begins at",
+     .unit = "m",
+     .is_fixed = true,
+     .places = 3,
+     .hides_zero = true},
+    {.key = "has_further_surfaces", .words = "further surfaces", .hides_zero = true},
+    {.key = "bounces|chain", .words = "what the eye's ray meets", .of = &BOUNCES_KIND}};
+static const TableKind CHAINS_KIND = TABLE_KIND("chains", NULL, CHAINS);
 
-/* Each adds up to all of the light. */
-static void print_groups(const ReviewCase *c) {
-    static const char *const NAMES[CAUSE_GROUPS] = {"began at", "came by", "met at"};
-    for (int g = 0; g < CAUSE_GROUPS; g++) {
-        const CaseGroup *group = &c->groups[g];
-        if (group->count && g) print("\n");
-        for (int i = 0; i < group->count; i++)
-            print("%s%.3g %% %s", i ? ", " : "", 100 * group->list[i].share, group->list[i].what);
-        if (group->count) print(" (%s)", NAMES[g]);
-    }
-    print("\n");
-}
+static const Column SPECTRUM[] = {
+    COLUMN_TEXT("spectrum.nm", "nm"),
+    COLUMN_DIGITS("spectrum.radiance", "radiance", "W m-2 sr-1 nm-1", 4),
+    COLUMN_DIGITS("spectrum.standard_error", "standard error", NULL, 2),
+    {.key = "spectrum.radiance", .words = "", .is_bar = true}};
+static const TableKind SPECTRUM_KIND = TABLE_KIND("spectrum", NULL, SPECTRUM);
 
-static void print_place(const Scene *scene, Vec3 p) {
-    double at[3];
-    world_from_scene(scene->origin, p, at);
-    print("  at %.3f, %.3f, %.3f m", at[0], at[1], at[2]);
-}
+static const Column EXPLAIN[] = {
+    COLUMN_TEXT("pixel", "pixel"),
+    COLUMN_TEXT("size", "of a picture"),
+    COLUMN_TEXT("condition", "condition"),
+    COLUMN_TEXT("symbol", "symbol"),
+    COLUMN_TEXT("display", "display"),
+    COLUMN_TEXT("eye", "eye"),
+    COLUMN_FIXED("eye_m", "eye at", "m", 3),
+    COLUMN_TEXT("paths", "paths"),
+    COLUMN_DIGITS("XYZ.1", "luminance", "cd/m2", 5),
+    COLUMN_DIGITS("standard_error_cd_m2", "its standard error", "cd/m2", 2),
+    {.key = "luminance_cd_m2.all",
+     .words = "luminance",
+     .unit = "cd/m2",
+     .interval = "reflected_interval",
+     .unless = "pixel"},
+    {.key = "xy", .words = "colour", .parts = "x|y", .is_fixed = true, .places = 4},
+    COLUMN_DIGITS("luminance_cd_m2.emitted", "sends", "cd/m2", 4),
+    COLUMN_DIGITS("luminance_cd_m2.foreground", "sends, foreground", "cd/m2", 4),
+    COLUMN_DIGITS("luminance_cd_m2.background", "background", "cd/m2", 4),
+    COLUMN_DIGITS("luminance_cd_m2.white", "white", "cd/m2", 4),
+    COLUMN_DIGITS("luminance_cd_m2.black", "black", "cd/m2", 4),
+    COLUMN_MEASURED("luminance_cd_m2.reflected", "reflected", "cd/m2", "reflected_interval"),
+    COLUMN_DIGITS("luminance_cd_m2.mirror", "by the mirror", "cd/m2", 4),
+    COLUMN_DIGITS("luminance_cd_m2.scattered", "scattered", "cd/m2", 4),
+    COLUMN_MEASURED("contrast_ratio", "contrast", ": 1", "contrast_interval"),
+    {.key = "contrast_unlit",
+     .words = "if nothing were reflected",
+     .unit = ": 1",
+     .places = 4,
+     .none = "infinite"},
+    COLUMN_TEXT("verdict", "verdict"),
+    COLUMN_TEXT("judged_line", "judged"),
+    COLUMN_TEXT("notes", "note"),
+    COLUMN_TEXT("remedy_lines", "remedy"),
+    {.key = "hidden_by", .of = &HIDERS_KIND},
+    {.key = "cause_groups.light", .of = &LIGHTS_KIND},
+    {.key = "cause_groups.opening", .of = &OPENINGS_KIND},
+    {.key = "cause_groups.surface", .of = &SURFACES_KIND},
+    {.key = "chains", .of = &CHAINS_KIND},
+    {.key = "spectrum.nm", .lists = &SPECTRUM_KIND}};
+static const TableKind EXPLAIN_KIND = TABLE_KIND("explain", NULL, EXPLAIN);
 
-/* A line for each thing that the eye's ray meets before the light. */
-static void print_bounces(const ExplainAnswer *answer, const Chain *chain, int indent,
-                          Arena scratch) {
-    const Scene *scene = answer->found.chains.scene;
-    LightWay way = way_of(answer, chain);
-    print("  %s\n", way.light);
-    for (int i = 0; i < way.count; i++) {
-        const Bounce *bounce = &way.bounce[i];
-        print("%*d %-8s %s", indent, i + 1, bounce->what,
-              chain_part_words(scene, bounce->part_id, &scratch));
-        if (bounce->has_place) print_place(scene, bounce->at);
-        print("\n");
-    }
-    if (chain->key.is_longer) print("%*s further surfaces\n", indent, "");
-    if (!way.has_from) return;
-    print("%*s begins ", indent, "");
-    print_place(scene, way.from);
-    print("\n");
-}
-
-static void print_cause(const ExplainAnswer *answer, int index, bool has_contrast, Arena scratch) {
-    const Explained *found = &answer->found;
-    const CaseCause *cause = &found->of.causes[index];
-    print("%6.1f %%  %8s  %8s to %-8s", 100 * cause->share,
-          words_within(cause->cd_m2, cause->low, cause->high, &scratch),
-          words_within(cause->low, cause->low, cause->high, &scratch),
-          words_within(cause->high, cause->low, cause->high, &scratch));
-    if (has_contrast && isnan(cause->contrast_without)) print("  %11s", "");
-    else if (has_contrast) print("  %7.3g : 1", cause->contrast_without);
-    if (found->has_pixel && index < found->chains.count) {
-        print_bounces(answer, &found->chains.list[index], has_contrast ? 54 : 41, scratch);
-        return;
-    }
-    for (int i = 0; i < cause->links; i++) print("%s%s", i ? " > " : "  ", cause->chain[i]);
-    print("\n");
-}
-
-static void print_causes(const ExplainAnswer *answer, Arena scratch) {
-    const ReviewCase *c = &answer->found.of;
-    bool has_contrast = c->display != NULL;
-    if (!c->cause_count) return;
-    print("\n   share     cd/m2   95 %% interval     %s  %s\n", has_contrast ? "without it " : "",
-          answer->found.has_pixel ? "light, and what the eye's ray meets before it" : "via");
-    for (int i = 0; i < c->cause_count; i++) print_cause(answer, i, has_contrast, scratch);
-}
-
-static void print_remedies(const ReviewCase *c, Arena scratch) {
-    if (c->remedy_count) print("\n");
-    for (int i = 0; i < c->remedy_count; i++)
-        print("remedy     %s: %s\n", c->remedies[i].what, words_remedy(&c->remedies[i], &scratch));
-}
-
-static int band_center_nm(int band) {
-    return PIXEL_FIRST_NM + PIXEL_BAND_NM * band + PIXEL_BAND_NM / 2;
-}
-
-static void print_spectrum(const PixelLight *light) {
-    double most = 0;
-    for (int i = 0; i < PIXEL_BANDS; i++) most = fmax(most, light->radiance[i].mean);
-    if (!(most > 0)) return;
-    print("\n    nm  W m-2 sr-1 nm-1      error\n");
-    for (int i = 0; i < PIXEL_BANDS; i++) {
-        const PixelFigure *figure = &light->radiance[i];
-        int length = (int)(BAR * fmax(figure->mean, 0) / most + 0.5);
-        print("%6d  %15.4g  %9.2g  %.*s\n", band_center_nm(i), figure->mean, figure->sigma, length,
-              "########################################");
-    }
-}
-
-static void print_text(const ExplainAnswer *answer, Arena *arena) {
-    const Explained *explained = &answer->found;
-    const ReviewCase *c = &explained->of;
-    print_where(answer);
-    if (c->hider_count) print("hidden     %s\n", words_hiders(c, arena));
-    if (!case_is_seen(c)) {
-        print("%s\n", words_reason(c, arena));
-        return;
-    }
-    print_light(explained, *arena);
-    print_judged(c, *arena);
-    print_groups(c);
-    print_causes(answer, *arena);
-    const char *seat = words_empty_seat(c, arena);
-    if (seat[0]) print("\nnote       %s\n", seat);
-    print_remedies(c, *arena);
-    if (explained->has_pixel) print_spectrum(&explained->light);
-}
-
-/* ---- as JSON ----------------------------------------------------------------------------- */
+/* ---- the answer -------------------------------------------------------------------------- */
 
 static json_t *json_point(const double origin_m[3], Vec3 p) {
     double at[3];
@@ -304,7 +232,8 @@ static json_t *json_light(const Explained *explained) {
 static json_t *json_spectrum(const PixelLight *light) {
     json_t *nm = json_array(), *radiance = json_array(), *error = json_array();
     for (int i = 0; i < PIXEL_BANDS; i++) {
-        json_array_append_new(nm, json_integer(band_center_nm(i)));
+        int middle = PIXEL_FIRST_NM + PIXEL_BAND_NM * i + PIXEL_BAND_NM / 2;
+        json_array_append_new(nm, json_integer(middle));
         json_array_append_new(radiance, json_real(light->radiance[i].mean));
         json_array_append_new(error, json_real(light->radiance[i].sigma));
     }
@@ -314,16 +243,39 @@ static json_t *json_spectrum(const PixelLight *light) {
 
 static void add_pixel(const ExplainAnswer *answer, json_t *to) {
     const PixelFigure *xyz = answer->found.light.xyz;
+    double sum = xyz[0].mean + xyz[1].mean + xyz[2].mean;
     json_object_set_new(to, "pixel", json_pack("[i, i]", answer->pixel[0], answer->pixel[1]));
     json_object_set_new(to, "size", json_pack("[i, i]", answer->size[0], answer->size[1]));
     json_object_set_new(to, "XYZ", json_pack("[f, f, f]", xyz[0].mean, xyz[1].mean, xyz[2].mean));
+    if (sum > 0)
+        json_object_set_new(to, "xy", json_pack("[f, f]", xyz[0].mean / sum, xyz[1].mean / sum));
     json_object_set_new(to, "standard_error_cd_m2", json_real(xyz[1].sigma));
     json_object_set_new(to, "spectrum", json_spectrum(&answer->found.light));
 }
 
-static bool print_json(const ExplainAnswer *answer, Error *err) {
+/* Of a review's case: the quantity of the limit that decides it; what is not seen is not judged. */
+static void add_judged(const ReviewCase *c, json_t *to, Arena *arena) {
+    const LimitVerdict *limit = case_worst_limit(c);
+    const char *line = NULL, *seat = words_empty_seat(c, arena);
+    json_t *remedies = json_array();
+    if (!case_is_seen(c)) line = words_reason(c, arena);
+    else if (limit)
+        line = arena_format(arena, "%s %s, required %s", words_kind(limit),
+                            words_measured(limit, arena), words_required(limit, arena));
+    for (int i = 0; i < c->remedy_count; i++)
+        json_array_append_new(remedies,
+                              json_text(arena_format(arena, "%s: %s", c->remedies[i].what,
+                                                     words_remedy(&c->remedies[i], arena))));
+    json_object_set_new(to, "verdict", json_text_or_null(line ? verdict_names[c->verdict] : NULL));
+    json_object_set_new(to, "judged_line", json_text_or_null(line));
+    json_object_set_new(to, "notes", json_texts(&seat, seat[0] != '\0'));
+    json_object_set_new(to, "remedy_lines", remedies);
+}
+
+bool explain_answer(const Cli *cli, const ExplainAnswer *answer, Arena *arena, Error *err) {
     const Explained *explained = &answer->found;
     const ReviewCase *c = &explained->of;
+    const CaseLuminances *l = &c->luminance_cd_m2;
     json_t *out = json_pack(
         "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:[o,o], s:I}", "condition",
         json_text_or_null(c->condition), "eye", json_text_or_null(c->eye), "symbol",
@@ -331,6 +283,9 @@ static bool print_json(const ExplainAnswer *answer, Error *err) {
         json_world_point(c->eye_m), "luminance_cd_m2", json_light(explained), "contrast_ratio",
         json_figure(c->contrast_ratio), "contrast_interval", json_figure(c->contrast_low),
         json_figure(c->contrast_high), "paths", (json_int_t)explained->paths);
+    if (c->display && case_is_seen(c))
+        json_object_set_new(out, "contrast_unlit",
+                            json_figure(luminance_contrast(l->foreground, l->background, 0)));
     json_object_set_new(out, "visible_share", json_figure(c->visible_share));
     case_whole_json(c, out);
     json_object_set_new(out, "hidden_by", case_hiders_json(c));
@@ -340,12 +295,7 @@ static bool print_json(const ExplainAnswer *answer, Error *err) {
     json_object_set_new(out, "cause_groups", case_groups_json(c));
     json_object_set_new(out, "chains", json_chains(answer));
     json_object_set_new(out, "remedies", case_remedies_json(c));
+    add_judged(c, out, arena);
     if (explained->has_pixel) add_pixel(answer, out);
-    return cli_print_json(out, err);
-}
-
-bool explain_answer(const Cli *cli, const ExplainAnswer *answer, Arena *arena, Error *err) {
-    if (cli->json) return print_json(answer, err);
-    print_text(answer, arena);
-    return true;
+    return cli_print_answer(&EXPLAIN_KIND, out, cli->json, err);
 }
