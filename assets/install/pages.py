@@ -136,7 +136,7 @@ def column_of(column):
     words = [column.get("words", ""), column.get("about", "")]
     if "interval" in column:
         words.append(f"95 %: `{column['interval']}`")
-    if "none" in column:
+    if column.get("none"):
         words.append(f"null: {column['none']}")
     words = "; ".join(filter(None, words)).replace("|", "\\|")
     return f"| `{column['key']}` | {column.get('unit', '')} | {words} |\n"

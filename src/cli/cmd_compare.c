@@ -47,25 +47,83 @@ static bool write_files(const CompareRun *run, const json_t *folders, Error *err
     return !r->junit || answer_write_junit(&run->answer, r->junit, err);
 }
 
+/* ---- the answers ------------------------------------------------------------------------- */
+
+static const Column ROWS[] = {COLUMN_TEXT("label", "figure"),
+                              COLUMN_TEXT("text", "found"),
+                              {.key = "limit", .words = "limit", .none = ""},
+                              {.key = "verdict",
+                               .words = "verdict",
+                               .none = "",
+                               .about = "`within`, `beyond`, `moved`, `below the noise`, or empty"},
+                              COLUMN_KEY("figure", "its name"),
+                              COLUMN_KEY("of", "display or region; empty: all"),
+                              COLUMN_KEY("reference", "null: the figure is of both, as `test`"),
+                              COLUMN_KEY("test", NULL),
+                              COLUMN_KEY("value", "the figure, or test / reference - 1"),
+                              COLUMN_KEY("half_width", "of its 95 % interval; null: not known"),
+                              COLUMN_KEY("p", "of the statistical test; or null"),
+                              COLUMN_KEY("change", "`value` in words"),
+                              COLUMN_KEY("is_key", "one of the page's first figures")};
+static const TableKind ROWS_KIND = TABLE_KIND("rows", NULL, ROWS);
+
+#define OUTCOMES \
+    "`same` (no value differs), `same light`, `within noise`, `within limits`, `different`"
+
+static const Column PAIR[] = {
+    {.key = "rows", .of = &ROWS_KIND},
+    {.key = "notes", .words = "note", .about = "one for all metadata"},
+    COLUMN_TEXT("reasons", "reason"),
+    COLUMN_KEY("name", "of the test"),
+    COLUMN_KEY("reference", "the file, as `test`"),
+    COLUMN_KEY("test", NULL),
+    COLUMN_KEY("same", "the exit status is 0"),
+    COLUMN_KEY("outcome", OUTCOMES),
+    COLUMN_KEY("verdict", "the headline"),
+    COLUMN_KEY("judged_by", "`limits`, `stat`, `equality`"),
+    COLUMN_KEY("metrics", "by their names"),
+    COLUMN_KEY("limits", "`metric`, `kind` (`min`, `max`), `limit`, `value`, `holds` of each"),
+    COLUMN_KEY("stands_out", "a pixel, or null: none does; `x`, `y`, `reference_cd_m2`, "
+                             "`test_cd_m2`, `count` of such, `is_explained` (by its own noise)"),
+    COLUMN_KEY("metadata", "key by key, what differs only: `name`, `reference`, `test`, `decides`, "
+                           "`ignored`"),
+    COLUMN_KEY("inputs_changed", "null: not stated"),
+    COLUMN_KEY("settings_changed", NULL),
+    COLUMN_KEY("kind", "`frame` or `picture`"),
+    COLUMN_KEY("size", "absent, as all that follow: there are no pixels"),
+    COLUMN_KEY("pixels", "that were compared"),
+    COLUMN_KEY("differing_pixels", NULL),
+    COLUMN_KEY("channels", "`name`, `differing`, `mean`, `max`, `nonfinite`, `gaps` of each"),
+    COLUMN_KEY("shown_ev", "of the report's pictures; of frames, as `shown_with`"),
+    COLUMN_KEY("shown_with", NULL),
+    COLUMN_KEY("seconds", NULL)};
+static const TableKind PAIR_KIND = TABLE_KIND("compare", NULL, PAIR);
+
+static const Column FOLDERS[] = {COLUMN_KEY("same", "the exit status is 0"),
+                                 COLUMN_KEY("outcome", "the worst of: " OUTCOMES ", `missing`, "
+                                                       "`failed`"),
+                                 COLUMN_KEY("verdict", "the headline"),
+                                 COLUMN_KEY("total", NULL),
+                                 COLUMN_KEY("equal", "that pass"),
+                                 COLUMN_KEY("different", NULL),
+                                 COLUMN_KEY("failed", NULL),
+                                 COLUMN_KEY("pairs", "as of two files")};
+static const TableKind FOLDERS_KIND = TABLE_KIND("folders", NULL, FOLDERS);
+
+const Answer compare_answers[] = {{"", &PAIR_KIND}, {"FOLDER FOLDER", &FOLDERS_KIND}, {0}};
+
 /* Into the file and to stdout, as far as they are requested. */
-static bool print_json(const CompareRequest *request, json_t *document, Error *err) {
-    if (request->answer && !cli_write_json(document, request->answer, err)) return false;
-    return !request->cli.json || cli_print_json(json_incref(document), err);
-}
-
-/* ---- as text ----------------------------------------------------------------------------- */
-
-/* Rows, notes, reasons and the answer of two files. */
-static void print_pair(const CompareRequest *request, const Comparison *c) {
-    for (int i = 0; i < c->row_count; i++) {
-        const CompareRow *r = &c->rows[i];
-        print("%s: %s%s%s%s%s\n", r->label, r->text, r->limit_text ? ", " : "",
-              r->limit_text ? r->limit_text : "", r->verdict[0] ? ", " : "", r->verdict);
-    }
-    for (int i = 0; i < c->notes.count; i++) print("note: %s\n", c->notes.list[i]);
-    for (int i = 0; i < c->reasons.count; i++) print("reason: %s\n", c->reasons.list[i]);
+static bool print_answer(const CompareRequest *request, const TableKind *kind, json_t *answer,
+                         Error *err) {
+    bool as_json = request->cli.json;
+    if ((request->answer && !cli_write_json(answer, request->answer, err)) ||
+        !cli_print_answer(kind, json_incref(answer), as_json, err))
+        return false;
+    if (as_json) return true;
     if (request->report) print("report: %s\n", request->report);
-    print("%s: %s\n", compare_outcome_names[c->outcome], c->verdict);
+    print("%s: %s\n", json_string_value(json_object_get(answer, "outcome")),
+          json_string_value(json_object_get(answer, "verdict")));
+    return true;
 }
 
 /* One line for a pair of two folders. */
@@ -83,9 +141,8 @@ static Outcome compare_two(CompareRun *run, Error *err) {
         return OUTCOME_FAILED;
     json_t *pair = answer_add(&run->answer, r->test, &c);
     if ((r->report && !html_report_add(&run->html, pair, &c, *run->arena, err)) ||
-        !write_files(run, NULL, err) || !print_json(r, pair, err))
+        !write_files(run, NULL, err) || !print_answer(r, &PAIR_KIND, pair, err))
         return OUTCOME_FAILED;
-    if (!r->cli.json) print_pair(r, &c);
     return c.same ? OUTCOME_DONE : OUTCOME_NO;
 }
 
@@ -185,16 +242,6 @@ static bool add_pair(CompareRun *run, const FolderPair *pair, Error *err) {
     return true;
 }
 
-static bool print_total(const CompareRun *run, Error *err) {
-    json_auto_t *folders = answer_json(&run->answer, *run->arena);
-    if (!write_files(run, folders, err) || !print_json(run->request, folders, err)) return false;
-    if (run->request->cli.json) return true;
-    if (run->request->report) print("report: %s\n", run->request->report);
-    print("%s: %s\n", json_string_value(json_object_get(folders, "outcome")),
-          json_string_value(json_object_get(folders, "verdict")));
-    return true;
-}
-
 static Outcome compare_folders(CompareRun *run, Error *err) {
     const CompareRequest *r = run->request;
     FolderPairs pairs;
@@ -211,7 +258,9 @@ static Outcome compare_folders(CompareRun *run, Error *err) {
     if (run->answer.count == 0)
         return error_at(err, ERROR_INPUT, r->reference, "",
                         "there is no picture in this folder: nothing was compared");
-    if (!print_total(run, err)) return OUTCOME_FAILED;
+    json_auto_t *folders = answer_json(&run->answer, *run->arena);
+    if (!write_files(run, folders, err) || !print_answer(r, &FOLDERS_KIND, folders, err))
+        return OUTCOME_FAILED;
     if (!run->answer.failed) return run->answer.different ? OUTCOME_NO : OUTCOME_DONE;
     *err = (Error){.code = run->first_failure}; /* said already, pair by pair */
     return OUTCOME_FAILED;

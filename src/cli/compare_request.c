@@ -196,7 +196,8 @@ static bool parse_line(int argc, char **argv, Arena *arena, CompareWords *words,
         options,
         COUNT_OF(options),
         2,
-        2};
+        2,
+        .answers = compare_answers};
     return cli_parse(&command, argc, argv, arena, &out->cli, err);
 }
 

@@ -27,5 +27,7 @@ typedef struct CompareRequest {
     Cli cli;
 } CompareRequest;
 
+extern const Answer compare_answers[]; /* cmd_compare.c */
+
 /* True with cli.help_shown when only help was requested. */
 bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Error *err);

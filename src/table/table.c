@@ -269,12 +269,19 @@ const char *table_cell_text(const Table *table, int row, int column) {
     return words_of(table, row, column, table->arena);
 }
 
+/* Absent, or null in a column that shows nothing then. */
+static bool is_blank(const Cell *cell, const char *none) {
+    bool is_null = cell->kind == CELL_TEXT ? !cell->text || !*cell->text
+                                           : cell->kind == CELL_NUMBER && isnan(cell->value);
+    return cell->kind == CELL_ABSENT || (is_null && none && !*none);
+}
+
 static bool has_column(const Table *table, int column) {
-    bool hides_zero = table->kind->columns[column].hides_zero;
+    const Column *of = &table->kind->columns[column];
     for (int r = 0; r < table->row_count; r++) {
         const Cell *cell = cell_of_row(table, r, column);
         bool is_zero = cell->kind <= CELL_FLAG && !(fabs(cell->value) > 0);
-        if (cell->kind != CELL_ABSENT && !(hides_zero && is_zero)) return true;
+        if (!is_blank(cell, of->none) && !(of->hides_zero && is_zero)) return true;
     }
     return table->row_count == 0;
 }
@@ -283,13 +290,17 @@ static bool is_read(const Table *table, int column) {
     return table->kind->columns[column].words && has_column(table, column);
 }
 
-/* Stands to the right: figures are in it. */
+/* Stands to the right: figures are in it, or none of what would be some. */
 static bool is_number_column(const Table *table, int column) {
+    bool has_null = false, has_text = false;
     for (int r = 0; r < table->row_count && !table->kind->columns[column].is_bar; r++) {
-        CellKind kind = table->cells[r * table->kind->column_count + column].kind;
-        if (kind == CELL_NUMBER || kind == CELL_COUNT) return true;
+        const Cell *cell = cell_of_row(table, r, column);
+        bool is_null = cell->kind == CELL_NUMBER && isnan(cell->value);
+        if (cell->kind == CELL_COUNT || (cell->kind == CELL_NUMBER && !is_null)) return true;
+        has_null |= is_null;
+        has_text |= cell->kind == CELL_TEXT;
     }
-    return false;
+    return has_null && !has_text;
 }
 
 /* ---- text -------------------------------------------------------------------------------- */
@@ -433,7 +444,7 @@ static int add_lines(const Column *column, const Cell *cell, TableLine *line, Ar
     const char *words = cell_text(cell, column, arena);
     bool is_zero =
         cell->kind == CELL_FLAG ? !(cell->value > 0) : words && !words[strspn(words, "-0., ")];
-    if (!words || (is_zero && column->hides_zero)) return 0;
+    if (!words || !*words || (is_zero && column->hides_zero)) return 0;
     bool has_unit = column->unit && words != column->none;
     *line = (TableLine){column->words,
                         has_unit ? arena_format(arena, "%s %s", words, column->unit) : words};
@@ -456,10 +467,10 @@ TableLine *table_lines(const TableKind *kind, const json_t *document, Arena *are
     return lines;
 }
 
-static void add_document(const TableKind *kind, const json_t *document, Text *text) {
-    Arena *arena = text->arena;
+/* A line for each column. */
+static void add_record(const TableKind *kind, const json_t *document, Text *text) {
     int count, width = 0;
-    const TableLine *lines = table_lines(kind, document, arena, &count);
+    const TableLine *lines = table_lines(kind, document, text->arena, &count);
     for (int i = 0; i < count; i++)
         if (widest(lines[i].words) > width) width = widest(lines[i].words);
     for (int i = 0; i < count; i++) {
@@ -468,15 +479,30 @@ static void add_document(const TableKind *kind, const json_t *document, Text *te
         text_add_printable(text, lines[i].value, strlen(lines[i].value));
         text_add(text, "\n");
     }
-    for (int c = 0; c < kind->column_count; c++) {
-        const Column *column = &kind->columns[c];
-        const json_t *list = value_at(document, column->key);
-        if (!has_rows(column) || !json_array_size(list)) continue;
-        if (count) text_add(text, "\n");
-        table_add_text(column->of ? table_of_list(column->of, list, arena)
-                                  : table_of_lists(column->lists, document, arena),
+}
+
+static void add_table(const Column *column, const json_t *document, Text *text) {
+    const json_t *list = value_at(document, column->key);
+    if (json_array_size(list))
+        table_add_text(column->of ? table_of_list(column->of, list, text->arena)
+                                  : table_of_lists(column->lists, document, text->arena),
                        text);
-        count++;
+}
+
+/* Lines of columns, and tables where the columns have them, with blank lines between. */
+static void add_document(const TableKind *kind, const json_t *document, Text *text) {
+    bool has_text = false;
+    for (int c = 0, next; c < kind->column_count; c = next) {
+        const Column *first = &kind->columns[c];
+        Text part = {.arena = text->arena};
+        for (next = c + 1; !has_rows(first) && next < kind->column_count; next++)
+            if (has_rows(&kind->columns[next])) break;
+        const TableKind lines = {.columns = first, .column_count = next - c};
+        if (has_rows(first)) add_table(first, document, &part);
+        else add_record(&lines, document, &part);
+        if (part.size && has_text) text_add(text, "\n");
+        if (part.size) text_add(text, part.data);
+        has_text |= part.size > 0;
     }
 }
 

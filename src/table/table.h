@@ -30,15 +30,16 @@ typedef struct Column {
     const char *interval;   /* path of [low, high], which then decides the digits; NULL: none */
     const char *parts;      /* of a list: what its items are, "right|up|left|down"; "": they stand
                                 in one line, also sentences */
-    const char *none;       /* for people, where it is null; NULL: a record leaves the line out */
+    const char *none;       /* for people, where it is null; NULL: a record leaves the line out, and
+                               rows have a dash; "": both nothing, and a column of it is left out */
     const char *unless;     /* path: a record leaves the line out where it is there */
     bool hides_zero;        /* a record leaves the line out that would show 0, or no; rows the
                                column in which all do or have no figure */
     bool is_bar;            /* of rows: a bar, against the column's greatest */
-    const TableKind *of;    /* of lists of objects: rows, shown behind the record; of a row lines
-                               in its cell, also of texts */
+    const TableKind *of;    /* of lists of objects: rows, a table in the column's place; of a row
+                               lines in its cell, also of texts */
     const TableKind *lists; /* of a list: rows of it and of those that the kind's keys name, an item
-                               of each a row, shown likewise */
+                               of each a row */
     const char *about;      /* for who reads JSON: what words leave open; NULL: nothing */
 } Column;
 
@@ -130,7 +131,7 @@ typedef struct TableLine {
 
 TableLine *table_lines(const TableKind *kind, const json_t *document, Arena *arena, int *count);
 
-/* The same as text, then the tables of its lists; a list of documents as rows, or, where they have
+/* The same as text, with the tables of its lists; a list of documents as rows, or, where they have
  * tables, one below the other. */
 void table_add_document(const TableKind *kind, const json_t *document, Text *text);
 

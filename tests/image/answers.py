@@ -26,7 +26,7 @@ EPW = ("LOCATION,T,-,D,D,0,48.14,11.58,1.0,520\nDATA PERIODS,1,1,Data,Sunday, 1/
        "2026,6,21,10,60,x,20,8,79,100100,0,1415,288,0,600,150,0,0,0,0\n")
 TOWARDS, FROM, GRID = ("--theta", "30"), ("--incidence", "20"), "0:60:30,0:90:90"
 RENDERED = ("render", *CAR, "--camera", "driver-eye", "--projection", "fisheye", "--size", "96x96",
-            "--spp", "24", "--layers", "display,halves,light", "-o", "FOLDER/frame.exr", "--quiet")
+            "--layers", "display,halves,light", "--quiet", "--spp")
 
 # (command, the options that its answer is of, what else is typed; FOLDER: of this test)
 RUNS = (
@@ -49,6 +49,8 @@ RUNS = (
     ("measure", "", ("FOLDER/two.hdr", "--region", "0,0,64,64")),
     ("measure", "--glare", ("FOLDER/frame.exr",)),
     ("measure", "--illuminance", ("0.4,0.9,0,0,1,0", *CAR, "--samples", "64")),
+    ("compare", "", ("FOLDER/frame.exr", "FOLDER/r/frame.exr")),
+    ("compare", "FOLDER FOLDER", ("FOLDER/r", "FOLDER/r")),
     ("equip", "--with", ("tests/unit/records/equip.json", "FOLDER/odd.gltf", "-o",
                          "FOLDER/equipped.gltf")),
 )
@@ -164,11 +166,14 @@ def main():
         write_set(run, folder)
         write_scene(folder)
         write_files(folder)
-        run(*RENDERED)
+        os.mkdir(os.path.join(folder, "r"))
+        run(*RENDERED, "24", "-o", "FOLDER/frame.exr")
+        run(*RENDERED, "1", "-o", "FOLDER/r/frame.exr")
         for command, option, words in RUNS:
             columns = known.get((command, option), frozenset())
-            paths = set(leaves(json.loads(run(*command.split(), *option.split(), *words,
-                                              "--json"))))
+            typed = [word for word in option.split() if word.startswith("--")]
+            answer = json.loads(run(*command.split(), *typed, *words, "--json"))
+            paths = set(leaves(answer))
             report.claim_none(f"{command} {' '.join(words)}: in the answer and no column's", sorted(
                 path for path, has_value in paths if not is_told(path, has_value, columns)))
             seen.setdefault(columns, set()).update(path for path, _ in paths)

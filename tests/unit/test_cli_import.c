@@ -68,8 +68,6 @@ LAB_TEST(options_reach_the_files) {
     assert_int_equal(table->rows, 3);
     assert_near(table->phi[1], 0, 0); /* 90 clockwise from the top is right */
     assert_near(table->phi[2], (float)radians_from_degrees(90), 0);
-    assert_non_null(strstr(printed, "emission/white.csv"));
-    assert_non_null(strstr(printed, "out/M.json: 1 tables, 3 directions, 1 masked"));
 }
 
 LAB_TEST(the_command_line_stands_above_the_declaration) {
@@ -98,7 +96,9 @@ LAB_TEST(the_answer_is_one_json_document) {
     assert_int_equal(json_integer_value(json_object_get(table, "masked")), 1);
     json_t *hole = json_array_get(json_object_get(table, "not_measured"), 0);
     assert_near(json_number_value(json_array_get(hole, 0)), 40, 0);
+    assert_near(json_number_value(json_object_get(answer, "rows")), 3, 0);
     assert_near(json_number_value(json_object_get(answer, "masked")), 1, 0);
+    assert_int_equal(json_array_size(json_object_get(answer, "not_stated")), 4);
     assert_true(json_array_size(json_object_get(answer, "notes")) >= 3);
 }
 

@@ -81,7 +81,7 @@ typedef struct Option {
 
 /* A document that --json answers with, of which the build makes assets/schemas/json_answers.md. */
 typedef struct Answer {
-    const char *with; /* the options that request it: "--glare"; "": those of every other run */
+    const char *with;      /* what requests it: "--glare"; "": every other run */
     const TableKind *kind; /* its own, or of a list that of each; NULL ends a list of answers */
 } Answer;
 
