@@ -15,7 +15,6 @@
 #include "equip/equip_apply.h"
 #include "equip/equip_page.h"
 #include "equip/equip_shipped.h"
-#include "print/print.h"
 #include "scene/load/scene_load.h"
 #include "text/json_text.h"
 #include "text/text.h"
@@ -28,6 +27,11 @@ typedef struct EquipWords {
 } EquipWords;
 
 /* ---- what it answers --------------------------------------------------------------------- */
+
+static const Column PAGE[] = {COLUMN_TEXT("page", "page"), COLUMN_TEXT("triangles", "triangles"),
+                              COLUMN_TEXT("parts", "parts"), COLUMN_TEXT("materials", "materials"),
+                              COLUMN_TEXT("next", "next")};
+static const TableKind PAGE_KIND = TABLE_KIND("page", NULL, PAGE);
 
 static const Column RESULT[] = {
     COLUMN_TEXT("scene", "scene"),
@@ -70,22 +74,11 @@ static bool parse(int argc, char **argv, Arena *arena, EquipWords *out, Error *e
         COUNT_OF(options),
         1,
         1,
-        .answers = (const Answer[]){{"--with", &RESULT_KIND}, {0}}};
+        .answers = (const Answer[]){{"", &PAGE_KIND}, {"--with", &RESULT_KIND}, {0}}};
     return cli_parse(&command, argc, argv, arena, &out->cli, err);
 }
 
 /* ---- the page ---------------------------------------------------------------------------- */
-
-static bool print_page(const EquipWords *words, const char *page, const Scene *scene, Error *err) {
-    if (words->cli.json)
-        return cli_print_json(json_pack("{s:o, s:I, s:i, s:i}", "page", json_text(page),
-                                        "triangles", (json_int_t)scene->triangle_count, "parts",
-                                        scene->part_count, "materials", scene->material_count),
-                              err);
-    print("%s: %u triangles in %d parts. Open it in a browser, click, and save.\n", page,
-          scene->triangle_count, scene->part_count);
-    return true;
-}
 
 static bool make_page(EquipWords *words, Arena *arena, Error *err) {
     const char *model = words->cli.arguments[0];
@@ -108,7 +101,12 @@ static bool make_page(EquipWords *words, Arena *arena, Error *err) {
         arena_format(arena, "parhelion equip %s%s", escape_shell(model, arena), root);
     bool ok = outputs_spare(&words->cli.outputs, scene->inputs, scene->input_count, err) &&
               equip_page_write(scene, model, command, page, arena, err) &&
-              print_page(words, page, scene, err);
+              cli_print_answer(&PAGE_KIND,
+                               json_pack("{s:o, s:I, s:i, s:i, s:s}", "page", json_text(page),
+                                         "triangles", (json_int_t)scene->triangle_count, "parts",
+                                         scene->part_count, "materials", scene->material_count,
+                                         "next", "open it in a browser, click, and save"),
+                               words->cli.json, err);
     scene_close(scene);
     return ok;
 }

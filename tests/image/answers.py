@@ -7,6 +7,7 @@ page that the build makes of the columns (assets/install/pages.py) is right.
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -25,8 +26,8 @@ WHEN = ("--when", "2026-06-21T12:00+02:00", "--where", "48.14,11.58,520")
 EPW = ("LOCATION,T,-,D,D,0,48.14,11.58,1.0,520\nDATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n"
        "2026,6,21,10,60,x,20,8,79,100100,0,1415,288,0,600,150,0,0,0,0\n")
 TOWARDS, FROM, GRID = ("--theta", "30"), ("--incidence", "20"), "0:60:30,0:90:90"
-RENDERED = ("render", *CAR, "--camera", "driver-eye", "--projection", "fisheye", "--size", "96x96",
-            "--layers", "display,halves,light", "--quiet", "--spp")
+RENDERED = ("render", *CAR, "--camera", "driver-eye", "--projection", "fisheye", "--size", "64x64",
+            "--layers", "display,halves,light", "--spp", "24", "--quiet", "-o", "FOLDER/frame.exr")
 
 # (command, the options that its answer is of, what else is typed; FOLDER: of this test)
 RUNS = (
@@ -35,6 +36,9 @@ RUNS = (
     *(("panel info", "", (path,)) for path in (IPS, PANELS + "zoned_centre.panel")),
     ("panel info", "--levels", (IPS,)),
     ("panel report", "", (IPS,)),
+    ("panel plot", "", (IPS, "-o", "FOLDER/map.svg", "--kind", "contrast", "--contour", "50%",
+                        "--ambient", "300", "--level", "3")),
+    ("panel export", "", (IPS, "--table", "red 255", "-o", "FOLDER/red.csv", "--level", "3")),
     ("panel eval", "", (IPS, *TOWARDS, "--rgb", "9,9,9", "--at", "0,0", "--level", "3")),
     ("panel eval", "--brdf", (IPS, *TOWARDS, *FROM, "--at", "0,0", "--level", "3")),
     ("panel eval", "--grid", (GRID, IPS, "--rgb", "9,9,9", "--level", "3")),
@@ -48,9 +52,12 @@ RUNS = (
     ("measure", "", ("FOLDER/frame.exr", "--display", "cluster")),
     ("measure", "", ("FOLDER/two.hdr", "--region", "0,0,64,64")),
     ("measure", "--glare", ("FOLDER/frame.exr",)),
-    ("measure", "--illuminance", ("0.4,0.9,0,0,1,0", *CAR, "--samples", "64")),
+    ("measure", "--illuminance", ("0.1,0,1,0,0,-1", "FOLDER/odd.gltf", "--environment",
+                                  "constant:9", "--samples", "64")),
     ("compare", "", ("FOLDER/frame.exr", "FOLDER/r/frame.exr")),
     ("compare", "FOLDER FOLDER", ("FOLDER/r", "FOLDER/r")),
+    ("review", "--dry-run", ("scenes/glance.review.json",)),
+    ("equip", "", ("FOLDER/odd.gltf", "-o", "FOLDER/odd.html")),
     ("equip", "--with", ("tests/unit/records/equip.json", "FOLDER/odd.gltf", "-o",
                          "FOLDER/equipped.gltf")),
 )
@@ -166,9 +173,9 @@ def main():
         write_set(run, folder)
         write_scene(folder)
         write_files(folder)
+        run(*RENDERED)
         os.mkdir(os.path.join(folder, "r"))
-        run(*RENDERED, "24", "-o", "FOLDER/frame.exr")
-        run(*RENDERED, "1", "-o", "FOLDER/r/frame.exr")
+        shutil.copy(os.path.join(folder, "frame.exr"), os.path.join(folder, "r"))
         for command, option, words in RUNS:
             columns = known.get((command, option), frozenset())
             typed = [word for word in option.split() if word.startswith("--")]

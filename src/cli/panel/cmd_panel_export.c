@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
@@ -45,15 +44,16 @@ static bool export_from(const char *path, ExportRequest *request, Arena *arena, 
     return ok;
 }
 
+static const Column DONE[] = {COLUMN_TEXT("output", "output"),
+                              COLUMN_KEY("level", PANEL_LEVEL_ABOUT)};
+static const TableKind DONE_KIND = TABLE_KIND("export", NULL, DONE);
+
 static bool print_done(const ExportRequest *request, const Cli *cli, Error *err) {
-    if (cli->json) {
-        json_t *done = json_pack("{s:o}", "output", json_text(request->output));
-        panel_level_add(&request->level, done);
-        return cli_print_json(done, err);
-    }
-    if (cli->quiet) return true;
-    print("%s%s\n", request->output, request->table ? "" : "/MANIFEST.json");
-    panel_level_print(&request->level, stdout);
+    if (cli->quiet && !cli->json) return true;
+    json_t *done = json_pack("{s:o}", "output", json_text(request->output));
+    panel_level_add(&request->level, done);
+    if (!cli_print_answer(&DONE_KIND, done, cli->json, err)) return false;
+    if (!cli->json) panel_level_print(&request->level, stdout);
     return true;
 }
 
@@ -87,7 +87,8 @@ static Outcome run_export(int argc, char **argv, Arena *arena, Error *err) {
         options,
         COUNT_OF(options),
         1,
-        1};
+        1,
+        .answers = (const Answer[]){{"", &DONE_KIND}, {0}}};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;
     if (!r.output)

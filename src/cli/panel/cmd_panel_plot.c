@@ -106,6 +106,17 @@ static bool run(PlotRequest *request, const Cli *cli, Arena *arena, Error *err) 
     return true;
 }
 
+static const Column ANSWER[] = {
+    COLUMN_KEY("picture", "`file`, and how many `figures` it has"),
+    COLUMN_KEY("contours", "with `--contour`: `chart`, `asked`, `percent_of_axis`, `level`, "
+                           "`lines_theta_phi_deg` (each a list of [theta, phi]) of each"),
+    COLUMN_KEY("ambient", "with `--ambient`: `illuminance_lx`, `formula`, and `angles`, each with "
+                          "`theta_deg`, `phi_deg`, `reflectance`, `reflected_cd_m2`, `contrast`; "
+                          "with `--directed` also `directed_lx`, `directed_theta_deg`, "
+                          "`directed_phi_deg`"),
+    COLUMN_KEY("level", PANEL_LEVEL_ABOUT)};
+static const TableKind ANSWER_KIND = TABLE_KIND("plot", NULL, ANSWER);
+
 static Outcome run_plot(int argc, char **argv, Arena *arena, Error *err) {
     Cli cli;
     PlotRequest request = {0};
@@ -140,7 +151,8 @@ static Outcome run_plot(int argc, char **argv, Arena *arena, Error *err) {
         options,
         COUNT_OF(options),
         1,
-        1};
+        1,
+        .answers = (const Answer[]){{"", &ANSWER_KIND}, {0}}};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;
     request.panel = cli.arguments[0];

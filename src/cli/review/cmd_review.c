@@ -55,6 +55,18 @@ static bool check(ReviewWords *out, Error *err) {
            error_set(err, ERROR_USAGE, "-o DIR: nothing says where the review goes");
 }
 
+/* Of --dry-run. */
+static const Column PLAN[] = {
+    COLUMN_TEXT("eyes", "eyes"),
+    COLUMN_TEXT("symbols", "symbols, a rectangle of text as one"),
+    COLUMN_TEXT("gazes", "gazes elsewhere, in each moment"),
+    COLUMN_TEXT("moments", "moments"),
+    COLUMN_TEXT("sweeps", "sweeps"),
+    {.key = "responses", .words = "responses", .about = "that the sweeps need"},
+    COLUMN_TEXT("responses_reused", "of them there already"),
+};
+static const TableKind PLAN_KIND = TABLE_KIND("plan", NULL, PLAN);
+
 static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *err) {
     const Option options[] = {
         {"-o", OPTION_TEXT, "DIR", "where everything is written", &out->folder,
@@ -97,7 +109,8 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
                                 options,
                                 COUNT_OF(options),
                                 1,
-                                -1};
+                                -1,
+                                .answers = (const Answer[]){{"--dry-run", &PLAN_KIND}, {0}}};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     return check(out, err);
@@ -109,19 +122,13 @@ static bool print_plan(const Cli *cli, const ReviewRequest *r, const ReviewPlan 
     int moments = 0;
     for (int i = 0; i < r->condition_count; i++)
         moments += r->conditions[i].kind == CONDITION_MOMENT;
-    if (cli->json)
-        return cli_print_json(json_pack("{s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "eyes", r->eye_count,
-                                        "symbols", r->symbol_count, "gazes", review_look_count(r),
-                                        "moments", moments, "sweeps", r->condition_count - moments,
-                                        "responses", plan->responses, "responses_reused",
-                                        plan->responses_kept),
-                              err);
-    print("eyes      %d\nsymbols   %d (a rectangle of text counts as one here)\n"
-          "gazes     %d (eyes that look elsewhere, in each moment)\n"
-          "moments   %d\nsweeps    %d\nresponses %d (%d of them there already)\n",
-          r->eye_count, r->symbol_count, review_look_count(r), moments,
-          r->condition_count - moments, plan->responses, plan->responses_kept);
-    return true;
+    return cli_print_answer(&PLAN_KIND,
+                            json_pack("{s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "eyes", r->eye_count,
+                                      "symbols", r->symbol_count, "gazes", review_look_count(r),
+                                      "moments", moments, "sweeps", r->condition_count - moments,
+                                      "responses", plan->responses, "responses_reused",
+                                      plan->responses_kept),
+                            cli->json, err);
 }
 
 /* Points to the remains of a review that was stopped. */
