@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion develop: from a frame to a picture that people look at. */
-#include <stdio.h>
-
 #include "base/count.h"
 #include "print/print.h"
 #include "cli/commands.h"
@@ -11,7 +9,6 @@
 #include "image/develop.h"
 #include "image/light/light_file.h"
 #include "image/exposure.h"
-#include "text/json_text.h"
 #include "text/removed.h"
 
 typedef struct DevelopWords {
@@ -20,6 +17,14 @@ typedef struct DevelopWords {
     EyeOption eye;
     Cli cli;
 } DevelopWords;
+
+static const Column DEVELOPED[] = {
+    LOOK_COLUMNS,
+    {.key = "eye.words", .words = "eye", .about = "`eye` is null without one"},
+    COLUMN_KEY("eye.age_years", NULL),
+    COLUMN_KEY("eye.pigment", NULL),
+};
+static const TableKind DEVELOPED_KIND = TABLE_KIND("develop", NULL, DEVELOPED);
 
 static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error *err) {
     DevelopOptions *o = &out->options;
@@ -49,7 +54,8 @@ static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error 
         options,
         COUNT_OF(options),
         1,
-        1};
+        1,
+        .answers = (const Answer[]){{"", &DEVELOPED_KIND}, {0}}};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     out->frame = out->cli.arguments[0];
@@ -65,32 +71,13 @@ static bool parse(int argc, char **argv, Arena *arena, DevelopWords *out, Error 
            (!o->exposure || exposure_parse(o->exposure, &unused, err));
 }
 
-static bool print_json(const DevelopWords *typed, const LookReport *look, Error *err) {
-    const DevelopReport *r = &look->develop;
-    json_t *answer =
-        json_pack("{s:o, s:[i,i], s:I}", "output", json_text(typed->output), "size", r->width,
-                  r->height, "nonfinite_pixels", (json_int_t)r->nonfinite_pixels);
-    if (r->is_developed) {
-        json_object_set_new(answer, "config", json_text(r->config));
-        json_object_set_new(answer, "display", json_text(r->display));
-        json_object_set_new(answer, "view", json_text(r->view));
-        json_object_set_new(answer, "exposure_ev", json_real(r->ev));
-        json_object_set_new(answer, "middle_grey_cd_m2", json_real(r->grey_cd_m2));
-    } else if (r->scale[0]) {
-        json_object_set_new(answer, "scale", json_text(r->scale));
-    }
-    look_options_json(look, answer);
-    return cli_print_json(answer, err);
-}
-
-static void print_text(const DevelopWords *typed, const LookReport *look, Arena scratch) {
-    const DevelopReport *r = &look->develop;
-    if (r->is_developed)
-        print("%s: %s, %s, middle grey %.4g cd/m2 (EV %.2f), %s%s\n", typed->output, r->display,
-              r->view, r->grey_cd_m2, r->ev, r->config, look_options_words(look, &scratch));
-    else
-        print("%s%s%s%s\n", typed->output, r->scale[0] ? ": " : "", r->scale,
-              look_options_words(look, &scratch));
+static json_t *answer_of(const char *output, const LookReport *look) {
+    json_t *answer = look_options_json(output, look), *eye = json_null();
+    if (look->develop.eye[0])
+        eye = json_pack("{s:f, s:f, s:s}", "age_years", look->eye.age_years, "pigment",
+                        look->eye.pigment, "words", look->develop.eye);
+    json_object_set_new(answer, "eye", eye);
+    return answer;
 }
 
 static bool develop(DevelopWords *typed, Arena *arena, Error *err) {
@@ -107,9 +94,7 @@ static bool develop(DevelopWords *typed, Arena *arena, Error *err) {
                  "parhelion: warning: %s: %ld pixels are not finite: NaN is shown black, "
                  "infinity white\n",
                  typed->frame, look.develop.nonfinite_pixels);
-    if (typed->cli.json) return print_json(typed, &look, err);
-    print_text(typed, &look, *arena);
-    return true;
+    return cli_print_answer(&DEVELOPED_KIND, answer_of(typed->output, &look), typed->cli.json, err);
 }
 
 static Outcome run_develop(int argc, char **argv, Arena *arena, Error *err) {

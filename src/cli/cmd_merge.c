@@ -45,6 +45,23 @@ typedef struct MergeRun {
     double seconds;
 } MergeRun;
 
+static const Column MERGED[] = {
+    COLUMN_TEXT("output", "frame"),
+    COLUMN_TEXT("parts", "parts"),
+    COLUMN_TEXT("size", "pixels"),
+    {.key = "window", .words = "of these", .about = "x0, y0, x1, y1, half-open"},
+    {.key = "sample_range", .words = "samples", .parts = "from|to", .about = "half-open"},
+    COLUMN_KEY("samples", "a pixel"),
+    ERROR_COLUMN("relative_error", "relative error", "unknown"),
+    RARE_COLUMN,
+    {.key = "is_part", .words = "with its sums", .hides_zero = true},
+    COLUMN_KEY("seconds", NULL),
+    COLUMN_KEY("nonfinite_samples", "left out"),
+    COLUMN_KEY("complete", NULL),
+    COLUMN_KEY("rays", NULL),
+};
+static const TableKind MERGED_KIND = TABLE_KIND("merge", NULL, MERGED);
+
 static bool parse(int argc, char **argv, MergeRun *work, Error *err) {
     const Option options[] = {
         {"-o", OPTION_TEXT, "FRAME.exr", "what is written; of reviews: DIR", &work->output,
@@ -59,7 +76,8 @@ static bool parse(int argc, char **argv, MergeRun *work, Error *err) {
                                 options,
                                 COUNT_OF(options),
                                 1,
-                                -1};
+                                -1,
+                                .answers = (const Answer[]){{"", &MERGED_KIND}, {0}}};
     if (!cli_parse(&command, argc, argv, work->arena, &work->cli, err)) return false;
     if (work->cli.help_shown) return true;
     work->files = work->cli.arguments;
@@ -323,7 +341,7 @@ static bool write_frame(MergeRun *work, Error *err) {
 
 /* ---- the answer -------------------------------------------------------------------------- */
 
-static bool print_json(const MergeRun *work, Error *err) {
+static bool print_answer(const MergeRun *work, Error *err) {
     const FilmPart *whole = &work->whole;
     json_t *answer = json_pack(
         "{s:o, s:i, s:[i,i], s:[i,i,i,i], s:[I,I], s:I, s:f, s:I, s:o, s:b, s:b}", "output",
@@ -337,22 +355,7 @@ static bool print_json(const MergeRun *work, Error *err) {
     json_object_set_new(
         answer, "rays",
         json_integer((json_int_t)(whole->camera_rays + whole->bounce_rays + whole->shadow_rays)));
-    return cli_print_json(answer, err);
-}
-
-static void print_line(const MergeRun *work) {
-    const FilmPart *whole = &work->whole;
-    const FilmRect *crop = &whole->crop;
-    char error[32];
-    print("%s: %d part%s, pixels %d,%d,%d,%d of %dx%d, samples %u:%u, relative "
-          "error %s%s\n",
-          work->output, work->count, work->count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
-          crop->y1, whole->width, whole->height, whole->first_sample, whole->end_sample,
-          cli_relative_error(work->error.frame, error, sizeof error),
-          work->keeps_sums ? ", with its sums" : "");
-    if (!isnan(work->rare_error))
-        print("%s: " RARE_WORDS "\n", work->output,
-              cli_relative_error(work->rare_error, error, sizeof error));
+    return cli_print_answer(&MERGED_KIND, answer, work->cli.json, err);
 }
 
 static bool check_dropped(const MergeRun *work, Error *err) {
@@ -364,12 +367,8 @@ static bool check_dropped(const MergeRun *work, Error *err) {
 }
 
 static bool merge(MergeRun *work, Error *err) {
-    if (!look_at_all(work, err) || !check_memory(work, err) || !add_all(work, err) ||
-        !check_dropped(work, err) || !write_frame(work, err))
-        return false;
-    if (work->cli.json) return print_json(work, err);
-    print_line(work);
-    return true;
+    return look_at_all(work, err) && check_memory(work, err) && add_all(work, err) &&
+           check_dropped(work, err) && write_frame(work, err) && print_answer(work, err);
 }
 
 static Outcome run_merge(int argc, char **argv, Arena *arena, Error *err) {

@@ -232,7 +232,9 @@ static const char *cell_text(const Cell *cell, const Column *column, Arena *aren
     switch (cell->kind) {
     case CELL_ABSENT: return NULL;
     case CELL_NUMBER: return number_text(cell, column, arena);
-    case CELL_COUNT: return arena_format(arena, "%.0f", cell->value);
+    case CELL_COUNT:
+        return column->times > 0 ? number_text(cell, column, arena)
+                                 : arena_format(arena, "%.0f", cell->value);
     case CELL_FLAG: return cell->value > 0 ? "yes" : "no";
     case CELL_TEXT: return cell->text && *cell->text ? cell->text : column->none;
     case CELL_DOCUMENT: break;

@@ -14,6 +14,7 @@ import tempfile
 
 from gltf import Scene, radiance_picture
 from lamps import ies
+from missed import two_mirrors
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
@@ -26,6 +27,7 @@ WHEN = ("--when", "2026-06-21T12:00+02:00", "--where", "48.14,11.58,520")
 EPW = ("LOCATION,T,-,D,D,0,48.14,11.58,1.0,520\nDATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n"
        "2026,6,21,10,60,x,20,8,79,100100,0,1415,288,0,600,150,0,0,0,0\n")
 TOWARDS, FROM, GRID = ("--theta", "30"), ("--incidence", "20"), "0:60:30,0:90:90"
+SMALL = (*CAR, "--size", "48x27", "--spp", "16")
 RENDERED = ("render", *CAR, "--camera", "driver-eye", "--projection", "fisheye", "--size", "64x64",
             "--layers", "display,halves,light", "--spp", "24", "--quiet", "-o", "FOLDER/frame.exr")
 
@@ -58,6 +60,16 @@ RUNS = (
     ("compare", "FOLDER FOLDER", ("FOLDER/r", "FOLDER/r")),
     ("review", "--dry-run", ("scenes/glance.review.json",)),
     ("equip", "", ("FOLDER/odd.gltf", "-o", "FOLDER/odd.html")),
+    ("render", "", (*SMALL, "--noise", "display:0.5", "--layers", "all", "-o", "FOLDER/all.exr",
+                    "--png", "FOLDER/a.png", "--denoise")),
+    ("render", "", (*SMALL, "--for", "display", "-o", "FOLDER/a.exr", "--png", "FOLDER/a.png",
+                    "--false-colour", "luminance")),
+    ("render", "", ("FOLDER/missed.gltf", "--size", "16x16", "--samples", "8:24", "-o",
+                    "FOLDER/part.exr")),
+    ("render", "--replay", ("8,8,0", *SMALL)),
+    ("develop", "", ("FOLDER/all.exr", "-o", "FOLDER/a.png", "--denoise", "--eye", "40")),
+    ("develop", "", ("FOLDER/all.exr", "-o", "FOLDER/a.png", "--layer", "depth.Z")),
+    ("merge", "", ("FOLDER/part.exr", "-o", "FOLDER/whole.exr")),
     ("equip", "--with", ("tests/unit/records/equip.json", "FOLDER/odd.gltf", "-o",
                          "FOLDER/equipped.gltf")),
 )
@@ -102,6 +114,7 @@ def write_scene(folder):
         "name": "up", "samplers": [{"input": steps[0], "output": steps[1]}],
         "channels": [{"sampler": 0, "target": {"node": 3, "path": "translation"}}]}]
     scene.write(os.path.join(folder, "odd.gltf"))
+    two_mirrors()[0].write(os.path.join(folder, "missed.gltf"))
     with open(os.path.join(folder, "lamp.ies"), "w", encoding="utf-8") as file:
         file.write(ies(size="0.1 0.2 0").replace("TILT=NONE",
                                                  "TILT=INCLUDE\n1\n3\n0 60 90\n1 0.9 0.5"))

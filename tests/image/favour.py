@@ -264,10 +264,11 @@ def check_words(report, program):
                        "--for", "display")
     report.claim(done.returncode == 0 and "nothing of the displays is in view: --for" in
                  done.stderr, f"no display in view: {done.stderr}")
-    done = program.run("beside.exr", "--spp", "8", "--crop", "0,0,2,2", "--for", "display")
-    report.claim(done.returncode == 0 and not done.stderr and
-                 "8 samples a pixel of 0, 1 of the others" in done.stdout,
-                 f"beside the area: {done.stdout}{done.stderr}")
+    done = program.run("beside.exr", "--spp", "8", "--crop", "0,0,2,2", "--for", "display",
+                       "--json")
+    told = json.loads(done.stdout)
+    report.claim(told["samples"] == 8 and not done.stderr and told["for"]["pixels"] == 0 and
+                 told["for"]["samples_of_others"] == 1, f"beside the area: {told}{done.stderr}")
 
 
 def main():

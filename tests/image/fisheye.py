@@ -5,6 +5,7 @@ pictures; and `measure --glare` of them, also beside evalglare where it is insta
 import json
 import math
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -181,7 +182,7 @@ def check_outside(report, program):
     words = ("lit.gltf", "--projection", "equisolid", "--size", "64x64", "--spp", "2")
     done = program.run("render", *words, "--crop", "0,0,4,4", "-o", "corner.exr")
     report.claim(done.returncode == 0 and "nan" not in done.stdout and
-                 "relative error unknown" in done.stdout and
+                 re.search("relative error +unknown", done.stdout) and
                  "all pixels rendered lie outside its circle" in done.stdout,
                  f"a corner alone: {done.stdout}")
     done = program.run("merge", "corner.exr", "-o", "merged.exr")

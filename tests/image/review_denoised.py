@@ -4,6 +4,7 @@ review, tables, frames' light and maps are the same bytes with and without; the 
 each picture that is, and nowhere else; such a picture is what `develop --denoise` makes of the
 frame beside it, exposed as the frame itself. FOLDER: where a copy of all goes.
 """
+import json
 import os
 import re
 import shutil
@@ -93,9 +94,9 @@ def check_picture(report, reviewer, folder):
     name = next(n for n in sorted(os.listdir(os.path.join(folder, "frames")))
                 if is_picture(n) and "variant" not in n)
     frame = os.path.join(folder, "frames", name[:-4] + ".exr")
-    ev = re.search(r"EV (-?[\d.]+)", reviewer.run("develop", frame, "-o", "own.png").stdout)
+    told = json.loads(reviewer.run("develop", frame, "-o", "own.png", "--json").stdout)
     own = reviewer.run("develop", frame, "-o", "again.png", "--denoise", "--adapt", "none",
-                       "--exposure", ev.group(1))
+                       "--exposure", f"{told['exposure_ev']:.2f}")
     report.claim(own.returncode == 0, own.stderr)
     far = [difference(reviewer, os.path.join(folder, "frames", name), other)
            for other in ("again.png", "own.png")]

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/options/answer.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -99,10 +98,4 @@ json_t *cli_json_problems(const Problems *problems, Severity severity) {
                                               severity_name, "message", json_text(one->message)));
     }
     return list;
-}
-
-const char *cli_relative_error(double error, char *out, size_t size) {
-    if (isnan(error)) snprintf(out, size, "unknown");
-    else snprintf(out, size, "%.2f%%", 100 * error);
-    return out;
 }

@@ -36,11 +36,14 @@ void cli_print_warnings(const Problems *problems);
 /* The same warnings as a JSON list of {"file","path","severity","message"}. */
 json_t *cli_json_problems(const Problems *problems, Severity severity);
 
-/* Of a frame whose light is rare (film.h): the error that there may be. */
-#define RARE_WORDS \
-    "rare light: single samples brought most of some pixels; if that is everywhere the " \
-    "relative error is %s"
-
-/* A frame's relative error, "1.23%"; of a frame without samples, whose error is NaN, "unknown".
- * Returns out, which has size bytes. */
-const char *cli_relative_error(double error, char *out, size_t size);
+/* Columns of a frame: its relative error, and the one that there may be where its light is rare
+ * (film.h). */
+#define ERROR_COLUMN(key_, words_, none_) \
+    {.key = key_, .words = words_, .unit = "%", .places = 4, .times = 100, .none = none_}
+#define RARE_COLUMN \
+    {.key = "rare_error", \
+     .words = "rare light: error", \
+     .unit = "% if what single samples brought to some pixels is everywhere", \
+     .places = 4, \
+     .times = 100, \
+     .about = "null: it is not rare"}

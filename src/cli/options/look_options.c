@@ -6,6 +6,7 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "image/frame_view.h"
+#include "text/json_text.h"
 #include "vision/eye_filter.h"
 
 /* ---- the eye ----------------------------------------------------------------------------- */
@@ -127,29 +128,27 @@ bool look_options_develop(const LookRequest *request, Arena scratch, LookReport 
     return true;
 }
 
-const char *look_options_words(const LookReport *report, Arena *arena) {
-    const DenoiseReport *denoise = &report->denoise;
-    const char *words = "";
-    if (report->develop.is_denoised)
-        words = arena_format(arena, ", denoised (%.4g of the light)", denoise->energy_ratio);
-    if (report->develop.is_adapted) words = arena_format(arena, "%s, locally adapted", words);
-    return report->develop.eye[0] ? arena_format(arena, "%s, %s", words, report->develop.eye)
-                                  : words;
-}
+/* ---- the answer -------------------------------------------------------------------------- */
 
-void look_options_json(const LookReport *report, json_t *answer) {
-    const DenoiseReport *denoise = &report->denoise;
+json_t *look_options_json(const char *output, const LookReport *report) {
+    const DevelopReport *r = &report->develop;
+    const DenoiseReport *d = &report->denoise;
+    json_t *answer = json_pack("{s:o, s:[i,i], s:I}", "output", json_text(output), "size", r->width,
+                               r->height, "nonfinite_pixels", (json_int_t)r->nonfinite_pixels);
+    if (r->is_developed) {
+        json_object_set_new(answer, "config", json_text(r->config));
+        json_object_set_new(answer, "display", json_text(r->display));
+        json_object_set_new(answer, "view", json_text(r->view));
+        json_object_set_new(answer, "exposure_ev", json_real(r->ev));
+        json_object_set_new(answer, "middle_grey_cd_m2", json_real(r->grey_cd_m2));
+    } else if (r->scale[0]) {
+        json_object_set_new(answer, "scale", json_text(r->scale));
+    }
     json_object_set_new(answer, "denoised",
-                        report->develop.is_denoised
-                            ? json_pack("{s:f, s:f, s:f}", "energy_ratio", denoise->energy_ratio,
-                                        "block_error", denoise->block_error, "left_share",
-                                        denoise->left_share)
+                        r->is_denoised
+                            ? json_pack("{s:f, s:f, s:f}", "energy_ratio", d->energy_ratio,
+                                        "block_error", d->block_error, "left_share", d->left_share)
                             : json_null());
-    json_object_set_new(answer, "adapt",
-                        report->develop.is_adapted ? json_string("local") : json_null());
-    json_object_set_new(answer, "eye",
-                        report->develop.eye[0]
-                            ? json_pack("{s:f, s:f}", "age_years", report->eye.age_years, "pigment",
-                                        report->eye.pigment)
-                            : json_null());
+    json_object_set_new(answer, "adapt", r->is_adapted ? json_string("local") : json_null());
+    return answer;
 }

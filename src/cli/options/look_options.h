@@ -84,10 +84,22 @@ bool eye_option_check(EyeOption *option, Error *err);
 bool look_options_develop(const LookRequest *request, Arena scratch, LookReport *report,
                           Error *err);
 
-/* The words behind the line of a picture: "", or ", denoised (...), locally adapted, light as
- * in an eye of ...". */
-const char *look_options_words(const LookReport *report, Arena *arena);
-
-/* Adds "denoised", {"energy_ratio","block_error","left_share"} or null, "adapt", "local" or
- * null, and "eye", {"age_years","pigment"} or null. */
-void look_options_json(const LookReport *report, json_t *answer);
+/* How the picture `output` came out, but for the eye, and its columns. */
+json_t *look_options_json(const char *output, const LookReport *report);
+#define LOOK_COLUMNS \
+    COLUMN_TEXT("output", "picture"), COLUMN_TEXT("size", "pixels"), \
+        {.key = "nonfinite_pixels", .words = "not finite", .hides_zero = true}, \
+        {.key = "scale", .words = "scale", .about = "of numbers; of light the next five"}, \
+        COLUMN_TEXT("display", "display"), COLUMN_TEXT("view", "view"), \
+        COLUMN_DIGITS("middle_grey_cd_m2", "middle grey", "cd/m2", 4), \
+        COLUMN_FIXED("exposure_ev", "EV", NULL, 2), \
+        {.key = "denoised.energy_ratio", \
+         .words = "denoised, of the light", \
+         .unit = "%", \
+         .places = 4, \
+         .times = 100, \
+         .hides_zero = true, \
+         .about = "`denoised` is null without the filter"}, \
+        COLUMN_KEY("denoised.block_error", NULL), COLUMN_KEY("denoised.left_share", NULL), \
+        {.key = "adapt", .words = "adapted", .hides_zero = true, .about = "`local`; null: not"}, \
+        COLUMN_TEXT("config", "configuration")

@@ -342,14 +342,13 @@ static bool develop(const RenderRun *work, const RenderResult *result, Arena *sc
     return look_options_develop(&request, *scratch, look, err);
 }
 
-static bool show_picture(const RenderRun *work, const RenderResult *result, Error *err) {
+static bool add_picture(const RenderRun *work, const RenderResult *result, json_t *pictures,
+                        Error *err) {
     Arena scratch = *work->arena;
     LookReport look;
+    if (!work->request.png) return true;
     if (!develop(work, result, &scratch, &look, err)) return false;
-    if (work->request.cli.json || !look.develop.is_developed) return true;
-    print("%s: %s, %s, middle grey %.4g cd/m2, %s%s\n", work->request.png, look.develop.display,
-          look.develop.view, look.develop.grey_cd_m2, look.develop.config,
-          look_options_words(&look, &scratch));
+    json_array_append_new(pictures, look_options_json(work->request.png, &look));
     return true;
 }
 
@@ -391,8 +390,13 @@ static Outcome hand_over(RenderRun *work, const RenderResult *result, Error *err
     if (!write_frame(work, result, err)) return OUTCOME_FAILED;
     if (result->complete) render_remove_checkpoint(&work->request);
     show_end(work, result);
-    if ((work->request.png && !show_picture(work, result, err)) ||
-        !render_print_answer(&work->request, result, work->live.spent_s, &work->problems, err))
+    json_t *pictures = json_array();
+    if (!add_picture(work, result, pictures, err)) {
+        json_decref(pictures);
+        return OUTCOME_FAILED;
+    }
+    if (!render_print_answer(&work->request, result, work->live.spent_s, pictures, &work->problems,
+                             err))
         return OUTCOME_FAILED;
     return result->complete ? OUTCOME_DONE : report_interruption(work, result, is_kept);
 }

@@ -8,12 +8,11 @@
 
 #include "base/machine.h"
 #include "base/number.h"
-#include "print/print.h"
-#include "base/progress.h"
 #include "base/units.h"
 #include "cli/options/answer.h"
 #include "cli/options/environment_options.h"
 #include "cli/options/missed_answer.h"
+#include "cli/render/render_columns.h"
 #include "cli/render/render_identity.h"
 #include "denoise/denoise.h"
 #include "film/film_frame.h"
@@ -235,10 +234,14 @@ static double mean_samples(const RenderRequest *request, const RenderResult *res
 /* What all samples were for; null: every pixel. */
 static json_t *favour_document(const RenderRequest *request, const RenderResult *result) {
     const RenderOptions *options = &request->render;
+    uint32_t first = options->first_sample, share = SAMPLE_SHARE_ALL / FAVOUR_OTHERS;
+    uint32_t others =
+        sample_shares_own(share, first + result->samples) - sample_shares_own(share, first);
     if (!options->favoured && !options->favours_noise) return json_null();
-    return json_pack("{s:o, s:I, s:o, s:f}", "area", json_text(request->favoured.text), "pixels",
-                     (json_int_t)sample_shares_whole(&result->shares), "others",
+    return json_pack("{s:o, s:I, s:o, s:o, s:f}", "area", json_text(request->favoured.text),
+                     "pixels", (json_int_t)sample_shares_whole(&result->shares), "others",
                      options->favoured ? json_real(1.0 / FAVOUR_OTHERS) : json_null(),
+                     "samples_of_others", options->favoured ? json_integer(others) : json_null(),
                      "mean_samples", mean_samples(request, result));
 }
 
@@ -273,8 +276,38 @@ static json_t *missed_document(const RenderRequest *request) {
     return out;
 }
 
-static json_t *answer_document(const RenderRequest *request, const RenderResult *result,
-                               const Problems *problems) {
+#define NOTES_MOST 3
+
+/* What a reader of the frame must know. */
+static json_t *notes(const RenderRequest *request, const RenderResult *result) {
+    Arena scratch = arena_reserve(WORDS_BYTES);
+    const char *list[NOTES_MOST];
+    int count = 0;
+    FilmWorst worst;
+    if (request->camera.projection)
+        list[count++] = result->statistics.samples
+                            ? "a fisheye of 180 degrees: pixels outside its circle are black and "
+                              "have no samples"
+                            : "a fisheye of 180 degrees: all pixels rendered lie outside its "
+                              "circle, they are black and have no samples";
+    if (render_output_is_radiance(request))
+        list[count++] = "W/m2/sr in Radiance's primaries: luminance is 179 (0.265 R + 0.670 G + "
+                        "0.065 B); its codes are right within 0.4 %, layers are only in .exr";
+    /* One pixel far beyond what chance makes of even noise: a caustic, or a lamp that is hardly
+     * found. */
+    if (result->samples >= WORST_LEAST_SAMPLES && film_worst_pixels(result->film, 1, &worst) &&
+        worst.error > WORST_RATIO * result->error.frame)
+        list[count++] = arena_format(&scratch,
+                                     "pixel %d,%d is the noisiest: %.4g cd/m2 with a relative "
+                                     "error of %.0f%%",
+                                     worst.x, worst.y, worst.luminance, 100 * worst.error);
+    json_t *out = json_texts(list, count);
+    arena_release(&scratch);
+    return out;
+}
+
+bool render_print_answer(const RenderRequest *request, const RenderResult *result, double live_s,
+                         json_t *pictures, const Problems *problems, Error *err) {
     const PathStatistics *counts = &result->statistics;
     json_t *answer = json_pack(
         "{s:o, s:[i,i], s:I, s:f, s:f, s:I, s:f, s:f, s:I, s:I, s:o, s:o, s:b, s:o}", "output",
@@ -296,6 +329,8 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
     json_object_set_new(answer, "noise", noise_document(request, result));
     json_object_set_new(answer, "rare_error", json_figure(result->rare_error));
     json_object_set_new(answer, "may_miss", missed_document(request));
+    json_object_set_new(answer, "notes", notes(request, result));
+    json_object_set_new(answer, "pictures", pictures);
     json_object_set_new(answer, "isa", json_string(result->kernel->isa));
     json_object_set_new(answer, "training", training_document(result));
     json_object_set_new(answer, "resumed_samples", json_integer(result->resumed_samples));
@@ -305,105 +340,8 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
                         json_pack("{s:I, s:I, s:I}", "camera", (json_int_t)counts->camera_rays,
                                   "bounce", (json_int_t)counts->bounce_rays, "shadow",
                                   (json_int_t)counts->shadow_rays));
-    return answer;
-}
-
-/* One pixel far beyond what chance makes of even noise: a caustic, or a lamp that is hardly
- * found. */
-static void print_worst(const RenderRequest *request, const RenderResult *result) {
-    FilmWorst worst;
-    if (result->samples < WORST_LEAST_SAMPLES) return;
-    if (!film_worst_pixels(result->film, 1, &worst)) return;
-    if (!(worst.error > WORST_RATIO * result->error.frame)) return;
-    print("%s: pixel %d,%d is the noisiest: %.4g cd/m2 with a relative error of %.0f%%\n",
-          request->output, worst.x, worst.y, worst.luminance, 100 * worst.error);
-}
-
-/* Whose samples a pixel has, behind their number. */
-static const char *favour_words(const RenderRequest *request, const RenderResult *result, char *out,
-                                size_t size) {
-    if (request->render.favours_noise) {
-        snprintf(out, size, " at most, %.1f on average", mean_samples(request, result));
-        return out;
-    }
-    if (!request->render.favoured) return "";
-    uint32_t first = request->render.first_sample, share = SAMPLE_SHARE_ALL / FAVOUR_OTHERS;
-    snprintf(out, size, " of %llu, %u of the others",
-             (unsigned long long)sample_shares_whole(&result->shares),
-             sample_shares_own(share, first + result->samples) - sample_shares_own(share, first));
-    return out;
-}
-
-static void print_fisheye(const RenderRequest *request, const RenderResult *result) {
-    if (!request->camera.projection) return;
-    if (result->statistics.samples)
-        print("%s: a fisheye of 180 degrees: pixels outside its circle are black and have no "
-              "samples\n",
-              request->output);
-    else
-        print("%s: a fisheye of 180 degrees: all pixels rendered lie outside its circle, they "
-              "are black and have no samples\n",
-              request->output);
-}
-
-/* Of the area whose error was required. */
-static void print_noise(const RenderRequest *request, const RenderResult *result) {
-    char error[32], required[32];
-    if (!(request->render.noise > 0) || isnan(result->noise)) return;
-    print("%s: relative error of %s %s, required %s%s\n", request->output,
-          request->noise.of.text ? request->noise.of.text : "the frame",
-          cli_relative_error(result->noise, error, sizeof error),
-          cli_relative_error(request->render.noise, required, sizeof required),
-          render_noise_is_rare(result) ? "; rare light: not yet known" : "");
-}
-
-/* Where --noise has not said so. */
-static void print_rare(const RenderRequest *request, const RenderResult *result) {
-    char error[32];
-    if (isnan(result->rare_error) || render_noise_is_rare(result)) return;
-    print("%s: " RARE_WORDS "\n", request->output,
-          cli_relative_error(result->rare_error, error, sizeof error));
-}
-
-static void print_missed(const RenderRequest *request) {
-    Arena scratch = arena_reserve(WORDS_BYTES);
-    const char *words = missed_text(request, &scratch);
-    if (words) print("%s: may miss light: %s\n", request->output, words);
-    arena_release(&scratch);
-}
-
-static void print_line(const RenderRequest *request, const RenderResult *result) {
-    const PathStatistics *counts = &result->statistics;
-    char samples[32], rays[32], favour[64], error[32];
-    rate_text(per_second((double)counts->samples, result->seconds), samples, (int)sizeof samples);
-    rate_text(per_second(ray_count(counts), result->seconds), rays, (int)sizeof rays);
-    print("%s: %dx%d, %u samples a pixel%s%s, %.1f s, %ssamples/s, %srays/s, "
-          "relative error %s, peak memory %.0f MB (%.0f while building)\n",
-          request->output, request->render.width, request->render.height, result->samples,
-          favour_words(request, result, favour, sizeof favour),
-          result->complete ? "" : " (incomplete)", result->seconds, samples, rays,
-          cli_relative_error(result->error.frame, error, sizeof error), machine_peak_bytes() / 1e6,
-          result->build_peak_bytes / 1e6);
-    print_noise(request, result);
-    print_fisheye(request, result);
-    if (render_output_is_radiance(request))
-        print("%s: W/m2/sr in Radiance's primaries: luminance is 179 (0.265 R + 0.670 G + "
-              "0.065 B); its codes are right within 0.4 %%, layers are only in .exr\n",
-              request->output);
-    print_worst(request, result);
-    print_rare(request, result);
-    print_missed(request);
-}
-
-bool render_print_answer(const RenderRequest *request, const RenderResult *result, double live_s,
-                         const Problems *problems, Error *err) {
-    if (request->cli.json) {
-        json_t *answer = answer_document(request, result, problems);
-        json_object_set_new(answer, "live_seconds", json_real(live_s));
-        return cli_print_json(answer, err);
-    }
-    print_line(request, result);
-    return true;
+    json_object_set_new(answer, "live_seconds", json_real(live_s));
+    return cli_print_answer(&render_answer_kind, answer, request->cli.json, err);
 }
 
 /* ---- replay ------------------------------------------------------------------------------ */
@@ -418,40 +356,21 @@ static json_t *triple(const FrameImage *frame, const char *a, const char *b, con
                      json_figure(value_of(frame, c)));
 }
 
-static const char *part_name(const Scene *scene, int id) {
-    return id >= 0 && id < scene->part_count ? scene->parts[id].name : NULL;
-}
-
-static const char *display_name(const Scene *scene, int id) {
-    return id >= 0 && id < scene->display_count ? scene->displays[id].name : NULL;
-}
-
 bool render_print_replay(const RenderRequest *request, const Scene *scene,
                          const RenderResult *result, Arena *arena, Error *err) {
     const RenderOptions *options = &request->render;
     FrameImage frame = film_to_frame(result->film, 0, arena);
-    bool is_finite = film_dropped(result->film).count == 0;
-    const char *part = part_name(scene, (int)value_of(&frame, "id.part"));
-    const char *display = display_name(scene, (int)value_of(&frame, "id.display"));
-    if (request->cli.json)
-        return cli_print_json(
-            json_pack("{s:i, s:i, s:I, s:b, s:o, s:o, s:o, s:o, s:o}", "x", options->crop.x0, "y",
-                      options->crop.y0, "sample", (json_int_t)options->first_sample, "finite",
-                      is_finite, "XYZ", triple(&frame, "xyz.X", "xyz.Y", "xyz.Z"), "RGB",
-                      triple(&frame, "R", "G", "B"), "depth_m",
-                      json_figure(value_of(&frame, "depth.Z")), "part", json_text_or_null(part),
-                      "display", json_text_or_null(display)),
-            err);
-    print("pixel %d,%d sample %u: ", options->crop.x0, options->crop.y0, options->first_sample);
-    if (is_finite)
-        print("XYZ %.9g %.9g %.9g cd/m2, RGB %.9g %.9g %.9g\n", value_of(&frame, "xyz.X"),
-              value_of(&frame, "xyz.Y"), value_of(&frame, "xyz.Z"), value_of(&frame, "R"),
-              value_of(&frame, "G"), value_of(&frame, "B"));
-    else print("not finite\n");
-    if (part)
-        print("first surface: %s%s%s at %.6g m\n", part, display ? ", display " : "",
-              display ? display : "", value_of(&frame, "depth.Z"));
-    return true;
+    int part = (int)value_of(&frame, "id.part"), display = (int)value_of(&frame, "id.display");
+    bool has_part = part >= 0 && part < scene->part_count;
+    bool has_display = display >= 0 && display < scene->display_count;
+    json_t *answer = json_pack(
+        "{s:i, s:i, s:I, s:b, s:o, s:o, s:o, s:o, s:o}", "x", options->crop.x0, "y",
+        options->crop.y0, "sample", (json_int_t)options->first_sample, "finite",
+        film_dropped(result->film).count == 0, "XYZ", triple(&frame, "xyz.X", "xyz.Y", "xyz.Z"),
+        "RGB", triple(&frame, "R", "G", "B"), "depth_m", json_figure(value_of(&frame, "depth.Z")),
+        "part", json_text_or_null(has_part ? scene->parts[part].name : NULL), "display",
+        json_text_or_null(has_display ? scene->displays[display].name : NULL));
+    return cli_print_answer(&render_replay_kind, answer, request->cli.json, err);
 }
 
 static void set_time(FrameImage *frame, Arena *arena) {

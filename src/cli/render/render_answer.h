@@ -14,9 +14,10 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
                              const SceneCamera *camera, const RenderResult *result, FrameUse use,
                              Arena *arena);
 
-/* The command's answer on stdout. live_s: seconds that the file of --live took. */
+/* The command's answer on stdout. live_s: seconds that the file of --live took; pictures: a list of
+ * look_options.h's answers, which is taken. */
 bool render_print_answer(const RenderRequest *request, const RenderResult *result, double live_s,
-                         const Problems *problems, Error *err);
+                         json_t *pictures, const Problems *problems, Error *err);
 
 /* The value of the one sample that was replayed, on stdout. */
 bool render_print_replay(const RenderRequest *request, const Scene *scene,

@@ -10,6 +10,7 @@
 #include "cli/options/outputs.h"
 #include "cli/render/command_line.h"
 #include "cli/render/path_options.h"
+#include "cli/render/render_columns.h"
 #include "text/nearest_word.h"
 
 #define DEFAULT_SPP 256
@@ -402,7 +403,9 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
         options,
         COUNT_OF(options),
         1,
-        -1};
+        -1,
+        .answers =
+            (const Answer[]){{"", &render_answer_kind}, {"--replay", &render_replay_kind}, {0}}};
     return cli_parse(&command, argc, argv, arena, &request->cli, err);
 }
 
