@@ -28,6 +28,11 @@ void bright_add(BrightSamples *samples, double light) {
     samples->fourths += square * square;
 }
 
+void bright_merge(BrightSamples *to, const BrightSamples *more) {
+    to->squares += more->squares;
+    to->fourths += more->fourths;
+}
+
 /* Light that few paths find, and that then is bright, is missing from most means, and their
  * spread does not show it; but the light around it does. With q and f the sums of squares and
  * of fourth powers, q^2/f samples make most of the spread, each of the light sqrt(f/q). Where

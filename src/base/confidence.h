@@ -40,6 +40,7 @@ typedef struct BrightSamples {
 } BrightSamples;
 
 void bright_add(BrightSamples *samples, double light);
+void bright_merge(BrightSamples *to, const BrightSamples *more);
 
 /* The light that a mean over `count` samples may lack for lack of bright ones: the upper end
  * of its interval has this more. repeated: the mean is over so many times these samples. */

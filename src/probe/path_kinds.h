@@ -22,10 +22,9 @@
 
 typedef struct KindBatch {
     const struct KindPaths *paths;
-    void *own;                 /* the asker's */
-    uint32_t seed;             /* of its random numbers */
-    Vec3 target;               /* where the path at work goes */
-    double path[KIND_FIGURES]; /* of the path at work: its listener adds to it; and of all */
+    void *own;                 /* the asker's, set by `begin` */
+    Vec3 target;               /* of the path at work; */
+    double path[KIND_FIGURES]; /* its light: its listener adds to it; and of all */
     double sum[KIND_FIGURES];
     BrightSamples bright[KIND_FIGURES];
 } KindBatch;
@@ -34,39 +33,40 @@ typedef struct KindPaths {
     const ProbeTools *tools;
     const PathContext *context;
     Vec3 eye;
-    const void *goal;                                      /* the asker's */
+    const void *goal; /* the asker's */
+    void (*begin)(KindBatch *batch, Arena *arena);
     Vec3 (*towards)(KindBatch *batch, double u, double v); /* u, v: in [0, 1) */
     uint32_t first_axis;                                   /* of the random shifts of u and v */
-    PathListener listener;                                 /* its user becomes the batch */
+    bool is_polarised;                                     /* PathListener's, as are these: */
+    void (*on_light)(const ProbePart *batch, const PathHistory *history, const float xyz[3]);
+    void (*on_mirror)(const ProbePart *batch, const PathHistory *history, Vec3 towards,
+                      float share);
     double (*unmet_of)(const struct KindPaths *paths, int figure, Arena scratch); /* or NULL */
+    double precision; /* relative standard error of each figure that is planned, unless it takes */
+    int most;         /* more paths than that */
+    int planned[2];   /* figures */
+    bool is_halved;   /* half of their variance is whole paths', even if mirrors leave more */
+    /* Of one kind, as far as it is read: */
     bool by_mirrors;
     uint32_t seed;
-    int end; /* paths of every batch that are read */
+    int end; /* paths of every batch */
     KindBatch batch[ESTIMATE_BATCHES];
     double unmet[KIND_FIGURES]; /* the most that a path may have missed, of paths by mirrors */
 } KindPaths;
 
 typedef struct PathKinds {
     KindPaths whole, mirrors;
-    long whole_paths, mirror_paths; /* that will do */
+    long mirror_paths; /* of a pilot: that will do */
     Arena scratch;
 } PathKinds;
 
-/* Both kinds alike but for seed and by_mirrors; `own` and scratch are yet to be set. */
-PathKinds path_kinds_start(const KindPaths *like, uint32_t seed);
+/* As many fresh paths of both kinds as a pilot finds. What batches have of the arena stays. */
+void path_kinds_read(const KindPaths *like, uint32_t seed, Arena *arena, PathKinds *out);
 
 /* Of paths of one kind as far as they are read. */
 Estimate path_kind_estimate(const KindPaths *paths, int figure);
 
-/* Reads the pilot: at most so many whole paths, and as many by mirrors. will_do: estimate_plan.h;
- * their user is the pilot. */
-typedef bool KindsWillDo(void *pilot, long count, long paths);
-void path_kinds_plan(PathKinds *pilot, int most, KindsWillDo *mirrors_will_do,
-                     KindsWillDo *whole_will_do);
-
-/* As many fresh ones as the pilot found. */
-void path_kinds_read(PathKinds *fresh, const PathKinds *pilot);
-
+/* Of both. */
 Estimate path_kinds_figure(const PathKinds *kinds, int figure);
 
 /* ---- where light came from --------------------------------------------------------------- */

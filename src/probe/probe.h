@@ -35,8 +35,7 @@ typedef struct ProbeGoal {
                           stream has random numbers of its own and takes targets by chance
                           (ProbeAim.is_spread); 0: all are of one, that of the aim as it is */
     int at_once;       /* pieces that are kept until they are merged; 0: all */
-    PathReach reach;   /* of listeners */
-    bool is_polarised; /* likewise */
+    PathListener like; /* what listeners want of paths; its functions are the folds' */
 } ProbeGoal;
 
 /* Paths that one thread follows. */
@@ -45,28 +44,38 @@ typedef struct ProbePiece {
     int stream;                /* 0 if there is one */
     int first, end;            /* its paths, half open; */
     ProbeAim aim;              /* by which they go: `begin` may set other ones */
-    PathStatistics statistics; /* theirs, when they are done */
+    int path;                  /* at work */
+    PathStatistics statistics; /* its paths', when they are done */
 } ProbePiece;
 
-/* What becomes of the light: pieces by listeners or by looks. Functions that are NULL are not
- * called, but one of on_light and look is required. `sums` is what `begin` returned. */
+/* Where a fold's part of a piece goes. */
+typedef struct ProbePart {
+    void *user; /* ProbeFold's */
+    void *own;  /* its bytes, 0 at first; or what `begin` sets */
+    ProbePiece *piece;
+} ProbePart;
+
+/* What becomes of the light, which comes by on_light and on_mirror (path/collect/history.h), by
+ * look, or as `ask` asks for it; what else is NULL is not called. */
 typedef struct ProbeFold {
     void *user;
-    /* Where the light of a piece goes: zeros of the arena, which are there until the piece is
-     * merged, or memory of the caller's own. NULL: to the user. */
-    void *(*begin)(void *user, ProbePiece *piece, Arena *arena);
-    /* By the piece's thread: before a path; its light (path/collect/history.h); when it is done. */
-    void (*before)(void *sums, int path);
-    void (*on_light)(void *sums, const PathHistory *history, const float xyz[3]);
-    void (*on_mirror)(void *sums, const PathHistory *history, Vec3 towards, float share);
-    bool with_lanes, with_extrapolated; /* PathListener's */
-    void (*look)(void *sums, int path, const ProbeLook *look);
-    void (*after)(void *sums, int path);
-    /* By the caller's thread, piece by piece. */
-    void (*merge)(void *user, const ProbePiece *piece, void *sums);
+    size_t bytes; /* of a piece, until it is merged */
+    /* In order. The arena's memory is there until the piece is merged. */
+    void (*begin)(ProbePart *to, Arena *arena);
+    /* By the piece's thread, for each of its paths. */
+    void (*before)(const ProbePart *to);
+    void (*on_light)(const ProbePart *to, const PathHistory *history, const float xyz[3]);
+    void (*on_mirror)(const ProbePart *to, const PathHistory *history, Vec3 towards, float share);
+    void (*look)(const ProbePart *to, const ProbeLook *look);
+    void (*ask)(const ProbePart *to, const Kernel *kernel); /* all of the piece's paths at once */
+    void (*after)(const ProbePart *to);
+    /* In order. */
+    void (*merge)(const ProbePart *from);
 } ProbeFold;
 
-/* fold_count: at least 1; several take the light of the same paths, all of them by listeners or
- * all by looks. */
+#define PROBE_FOLDS 2 /* at most */
+
+/* fold_count: 1 .. PROBE_FOLDS; two take the light of the same paths, in the same way; one
+ * that asks is alone. */
 void probe_read(const ProbeAim *aim, const ProbeGoal *goal, const ProbeTools *tools,
                 const ProbeFold *folds, int fold_count, Arena scratch);

@@ -88,8 +88,7 @@ static Illuminance add_batches(const Meter *meter, int point) {
         rare += sums->rare / samples;
         for (int k = 0; k < 3; k++) total.xyz_lx[k] += sums->xyz[k] / samples;
         y.batch[i] = sums->xyz[1];
-        y.bright.squares += sums->bright.squares;
-        y.bright.fourths += sums->bright.fourths;
+        bright_merge(&y.bright, &sums->bright);
     }
     y.unseen += fmax(rare, 0);
     MeanInterval in = estimate_of(&y).interval;

@@ -38,24 +38,19 @@ static ProbeTools tools_of(int threads) {
     return tools;
 }
 
-static void *begin_sum(void *user, ProbePiece *piece, Arena *arena) {
-    (void)user, (void)piece;
-    return ARENA_NEW(arena, double, 1);
-}
-
-static void add_light(void *sums, const PathHistory *history, const float xyz[3]) {
+static void add_light(const ProbePart *to, const PathHistory *history, const float xyz[3]) {
     (void)history;
-    *(double *)sums += (double)xyz[1];
+    *(double *)to->own += (double)xyz[1];
 }
 
-static void merge_sum(void *user, const ProbePiece *piece, void *sums) {
-    (void)piece;
-    *(double *)user += *(const double *)sums;
+static void merge_sum(const ProbePart *from) {
+    *(double *)from->user += *(const double *)from->own;
 }
 
 static ProbeFold sum_into(double *sum) {
     *sum = 0;
-    return (ProbeFold){.user = sum, .begin = begin_sum, .on_light = add_light, .merge = merge_sum};
+    return (ProbeFold){
+        .user = sum, .bytes = sizeof *sum, .on_light = add_light, .merge = merge_sum};
 }
 
 /* rho E / pi to an eye, E to a luxmeter. */
@@ -118,37 +113,36 @@ typedef struct Merged {
 } Merged;
 
 typedef struct Followed {
-    uint32_t seed;
-    int first, next;
+    int next;
     bool is_wrong;
 } Followed;
 
-static void *begin_followed(void *user, ProbePiece *piece, Arena *arena) {
-    (void)user;
-    Followed *sums = ARENA_NEW(arena, Followed, 1);
-    sums->is_wrong = sums->next != 0; /* zeros, also where an earlier round was */
-    sums->seed = piece->aim.seed;
-    sums->first = sums->next = piece->first;
-    return sums;
+static void begin_followed(ProbePart *to, Arena *arena) {
+    (void)arena;
+    Followed *own = to->own;
+    own->is_wrong = own->next != 0; /* zeros, also where an earlier round was */
+    own->next = to->piece->first;
 }
 
-static void take_look(void *sums, int path, const ProbeLook *found) {
-    Followed *to = sums;
-    float bits = (float)(hash_combine(hash_u32(to->seed), (uint32_t)path) >> 8);
-    to->is_wrong |= path != to->next || found->reflected[1] != bits || !found->is_found;
-    to->next++;
+static void take_look(const ProbePart *to, const ProbeLook *found) {
+    Followed *own = to->own;
+    int path = to->piece->path;
+    float bits = (float)(hash_combine(hash_u32(to->piece->aim.seed), (uint32_t)path) >> 8);
+    own->is_wrong |= path != own->next || found->reflected[1] != bits || !found->is_found;
+    own->next++;
 }
 
-static void merge_followed(void *user, const ProbePiece *piece, void *sums) {
-    const Followed *from = sums;
-    Merged *to = user;
+static void merge_followed(const ProbePart *from) {
+    const Followed *own = from->own;
+    const ProbePiece *piece = from->piece;
+    Merged *to = from->user;
     uint32_t seed = hash_combine(hash_u32(SEED), (uint32_t)piece->stream);
-    to->is_wrong |= from->is_wrong || piece->id != to->pieces || from->seed != seed ||
-                    piece->stream != piece->id % STREAMS || from->next != piece->end ||
-                    from->first != to->next[piece->stream] ||
+    to->is_wrong |= own->is_wrong || piece->id != to->pieces || piece->aim.seed != seed ||
+                    piece->stream != piece->id % STREAMS || own->next != piece->end ||
+                    piece->first != to->next[piece->stream] ||
                     piece->statistics.lost != piece->end - piece->first;
-    to->next[piece->stream] = from->next;
-    to->paths += from->next - from->first;
+    to->next[piece->stream] = piece->end;
+    to->paths += piece->end - piece->first;
     to->pieces++;
 }
 
@@ -161,8 +155,11 @@ TEST(every_path_is_followed_once_and_merged_in_order) {
         ProbeGoal goal = {
             .pieces = 27, .paths = 100, .first = 5, .streams = STREAMS, .at_once = at_once};
         Merged merged = {.next = {5, 5, 5, 5, 5, 5, 5, 5}};
-        ProbeFold fold = {
-            .user = &merged, .begin = begin_followed, .look = take_look, .merge = merge_followed};
+        ProbeFold fold = {.user = &merged,
+                          .bytes = sizeof(Followed),
+                          .begin = begin_followed,
+                          .look = take_look,
+                          .merge = merge_followed};
         probe_read(&no_aim, &goal, &tools, &fold, 1, *test_memory());
         assert_false(merged.is_wrong);
         assert_int_equal(merged.pieces, 27);
@@ -170,45 +167,51 @@ TEST(every_path_is_followed_once_and_merged_in_order) {
     }
 }
 
-/* Before and after each path, when a fold wants to know which one is at work. */
-static void before(void *sums, int path) {
-    Followed *to = sums;
-    to->is_wrong |= path != to->next || to->first != 0;
-    to->first = -1;
+/* A path's light comes between. */
+typedef struct Between {
+    int count;
+    bool is_open, is_wrong;
+} Between;
+
+static void before(const ProbePart *to) {
+    Between *between = to->user;
+    between->is_wrong |= between->is_open || to->piece->path != between->count;
+    between->is_open = true;
 }
 
-static void after(void *sums, int path) {
-    Followed *to = sums;
-    to->is_wrong |= path + 1 != to->next || to->first != -1;
-    to->first = 0;
-}
-
-static void count_look(void *sums, int path, const ProbeLook *found) {
+static void count_look(const ProbePart *to, const ProbeLook *found) {
     (void)found;
-    Followed *to = sums;
-    to->is_wrong |= path != to->next++ || to->first != -1;
+    Between *between = to->user;
+    between->is_wrong |= !between->is_open;
+    between->count++;
+}
+
+static void after(const ProbePart *to) {
+    Between *between = to->user;
+    between->is_wrong |= !between->is_open || to->piece->path + 1 != between->count;
+    between->is_open = false;
 }
 
 TEST(a_path_is_between_before_and_after) {
     ProbeTools tools = {&stand_in, 1};
     ProbeGoal goal = {.pieces = 3, .paths = 100};
-    Followed followed = {.seed = 0};
-    ProbeFold fold = {.user = &followed, .before = before, .look = count_look, .after = after};
+    Between between = {.count = 0};
+    ProbeFold fold = {.user = &between, .before = before, .look = count_look, .after = after};
     probe_read(&no_aim, &goal, &tools, &fold, 1, *test_memory());
-    assert_false(followed.is_wrong);
-    assert_int_equal(followed.next, 300);
+    assert_false(between.is_wrong);
+    assert_int_equal(between.count, 300);
 }
 
 /* ---- a stop ------------------------------------------------------------------------------ */
 
 #define STOPS_AT 1000
 
-static void stop(void *sums, int path, const ProbeLook *found) {
-    (void)path, (void)found;
-    if (++*(int *)sums == STOPS_AT) raise(SIGTERM);
+static void stop(const ProbePart *to, const ProbeLook *found) {
+    (void)found;
+    if (++*(int *)to->user == STOPS_AT) raise(SIGTERM);
 }
 
-TEST(a_stop_ends_it_within_some_paths) {
+TEST(a_stop_ends_it_at_once) {
     ProbeTools tools = {&stand_in, 1};
     for (int at_once = 0; at_once < 2; at_once++) {
         ProbeGoal goal = {.pieces = 100, .paths = 300, .at_once = at_once};
@@ -216,7 +219,7 @@ TEST(a_stop_ends_it_within_some_paths) {
         ProbeFold fold = {.user = &count, .look = stop};
         signals_watch();
         probe_read(&no_aim, &goal, &tools, &fold, 1, *test_memory());
-        assert_in_range(count, STOPS_AT, STOPS_AT + 64);
+        assert_int_equal(count, STOPS_AT);
         signals_watch();
         count = STOPS_AT;
         probe_read(&no_aim, &goal, &tools, &fold, 1, *test_memory());
@@ -231,14 +234,9 @@ static Vec3 straight_down(KindBatch *batch, double u, double v) {
     return vec3(0, -1, 0);
 }
 
-static void add_kind(void *sums, const PathHistory *history, const float xyz[3]) {
-    KindBatch *batch = sums;
+static void add_kind(const ProbePart *to, const PathHistory *history, const float xyz[3]) {
+    KindBatch *batch = to->own;
     if (path_is_by_mirrors(history) == batch->paths->by_mirrors) batch->path[0] += (double)xyz[1];
-}
-
-static bool never(void *pilot, long count, long paths) {
-    (void)pilot, (void)count, (void)paths;
-    return false;
 }
 
 /* Both kinds together are all light, of as many paths as are allowed where none will do. */
@@ -249,14 +247,14 @@ TEST(two_kinds_add_up_to_the_closed_form) {
                       .context = &world.context,
                       .eye = vec3(0, 1, 0),
                       .towards = straight_down,
-                      .listener = {.on_light = add_kind}};
-    PathKinds pilot = path_kinds_start(&like, 1), fresh = path_kinds_start(&like, 2);
-    pilot.scratch = fresh.scratch = world.arena;
-    path_kinds_plan(&pilot, 1 << 14, never, never);
-    path_kinds_read(&fresh, &pilot);
-    assert_int_equal(pilot.whole_paths, 1 << 14);
-    assert_close(path_kinds_figure(&fresh, 0).mean, (double)REFLECTANCE * LUX / PI, 0.005);
-    assert_true(path_kind_estimate(&fresh.mirrors, 0).mean == 0);
+                      .on_light = add_kind,
+                      .most = 1 << 14,
+                      .precision = -1};
+    PathKinds found;
+    path_kinds_read(&like, 1, &world.arena, &found);
+    assert_int_equal(found.whole.end * ESTIMATE_BATCHES, 1 << 14);
+    assert_close(path_kinds_figure(&found, 0).mean, (double)REFLECTANCE * LUX / PI, 0.005);
+    assert_true(path_kind_estimate(&found.mirrors, 0).mean == 0);
 }
 
 TEST_PROGRAM(make_arena, drop_arena)

@@ -43,7 +43,7 @@ static Reading read_all(const ProbeAim *aim, Arena scratch) {
 }
 
 static Response respond(const ProbeAim *aim, int paths, int threads, Arena *arena) {
-    ResponseOptions options = {kernel(), RESPONSE_LEVEL, paths, threads, 0};
+    ResponseOptions options = {reading_tools(threads), RESPONSE_LEVEL, paths, 0};
     Response response;
     response_trace(aim, &options, arena, &response);
     return response;
@@ -87,7 +87,7 @@ TEST(a_luxmeter_in_the_open_responds_with_pi) {
     assert_near(uniform_reading(&response, bands), PI, 0.01);
     Vec3 sun = vec3_normalize(vec3(1, 1, 0));
     ProbeSuns suns = {&sun, 1, 0.00465f, false};
-    ResponseOptions options = {kernel(), 4, 16, 1, 0};
+    ResponseOptions options = {reading_tools(1), 4, 16, 0};
     const float *shares = response_suns(&aim, &options, &suns, &world.arena);
     for (int b = 0; b < LIGHT_BANDS; b++) assert_near(shares[b], sqrt(0.5), 2e-3);
 }
@@ -162,7 +162,7 @@ TEST(a_response_to_a_sun_is_what_paths_find_under_it) {
     ProbeAim aim = aim_of(&world);
     Response response = respond(&aim, 32768, 2, &world.arena);
     ProbeSuns asked = {suns, count, world.scene->environment.sun_angular_radius, false};
-    ResponseOptions options = {kernel(), 4, 64, 2, 0};
+    ResponseOptions options = {reading_tools(2), 4, 64, 0};
     const float *scattered = response_suns(&aim, &options, &asked, &world.arena);
     double squares = 0;
     int judged = 0;
@@ -240,7 +240,7 @@ TEST(a_sun_in_a_display_is_as_bright_as_its_mirror_says) {
                     .target_count = TILES * TILES,
                     .seed = 7};
     ProbeSuns asked = {suns, SUNS, radius, true};
-    ResponseOptions options = {kernel(), 4, response_mirror_paths(&aim, radius), 2, 0};
+    ResponseOptions options = {reading_tools(2), 4, response_mirror_paths(&aim, radius), 0};
     const float *shares = response_suns(&aim, &options, &asked, &world.arena);
     double squares = 0;
     for (int i = 0; i < SUNS; i++) {
@@ -280,7 +280,7 @@ TEST(a_slice_of_the_sun_at_a_rim_of_a_display_is_found) {
                     .target_count = TILES * TILES,
                     .seed = 7};
     ProbeSuns all = {suns, SUNS, radius, true}, one = all;
-    ResponseOptions options = {kernel(), 4, response_mirror_paths(&aim, radius), 2, 0};
+    ResponseOptions options = {reading_tools(2), 4, response_mirror_paths(&aim, radius), 0};
     const float *together = response_suns(&aim, &options, &all, &world.arena);
     one.count = 1;
     for (int i = 0; i < SUNS; i++) {
@@ -310,7 +310,7 @@ TEST(a_reading_knows_of_the_sun_in_a_display) {
     assert_true(setup_sun(&setup, &towards, bands));
     float radius = world.scene->environment.sun_angular_radius;
     ProbeSuns asked = {&towards, 1, radius, true};
-    ResponseOptions options = {kernel(), 4, response_mirror_paths(&aim, radius), 2, 0};
+    ResponseOptions options = {reading_tools(2), 4, response_mirror_paths(&aim, radius), 0};
     double known = light_bands_sum(response_suns(&aim, &options, &asked, &world.arena), bands);
     PathContext without = world.context;
     ProbeAim rest = aim;
@@ -423,7 +423,7 @@ TEST(a_response_reaches_all_suns_that_light_it) {
     Response response = respond(&aim, 8192, 2, &world.arena);
     Vec3 *suns = suns_all_round(&world.arena);
     ProbeSuns asked = {suns, SUNS, 0.00465f, false};
-    ResponseOptions options = {kernel(), 4, 256, 2, 0};
+    ResponseOptions options = {reading_tools(2), 4, 256, 0};
     const float *shares = response_suns(&aim, &options, &asked, &world.arena);
     for (int i = 0; i < SUNS; i++) {
         bool is_lit = false;
@@ -502,7 +502,7 @@ TEST(a_sun_is_answered_alike_beside_any_others) {
     int lit = 0;
     for (int by_mirror = 0; by_mirror < 2; by_mirror++) {
         ProbeSuns all = {suns, SUNS, 0.00465f, by_mirror}, one = all;
-        ResponseOptions options = {kernel(), 4, by_mirror ? 2048 : 49, 2, 0};
+        ResponseOptions options = {reading_tools(2), 4, by_mirror ? 2048 : 49, 0};
         const float *together = response_suns(&aim, &options, &all, &world.arena);
         for (int i = 0; i < SUNS; i += 7) {
             Arena room = world.arena;

@@ -244,13 +244,8 @@ static double lane_weight(double nm, int *band) {
     return 1 / (SPECTRUM_LANES * density * PIXEL_BAND_NM);
 }
 
-static void *begin_light(void *user, ProbePiece *piece, Arena *arena) {
-    (void)user, (void)piece;
-    return ARENA_NEW(arena, double, PIXEL_FIGURES);
-}
-
-static void on_light(void *of, const PathHistory *history, const float xyz[3]) {
-    double *sums = of;
+static void on_light(const ProbePart *to, const PathHistory *history, const float xyz[3]) {
+    double *sums = to->own;
     const float *nm = (const float *)&history->wavelengths->nm;
     for (int i = 0; i < 3; i++) sums[i] += (double)xyz[i];
     for (int i = 0; i < SPECTRUM_LANES; i++) {
@@ -260,18 +255,18 @@ static void on_light(void *of, const PathHistory *history, const float xyz[3]) {
     }
 }
 
-static void merge_light(void *user, const ProbePiece *piece, void *of) {
-    PixelLightSums *to = user;
-    const double *sums = of;
-    for (int k = 0; k < PIXEL_FIGURES; k++) to->batch[k][piece->id % CHAIN_BATCHES] += sums[k];
+static void merge_light(const ProbePart *from) {
+    PixelLightSums *to = from->user;
+    const double *sums = from->own;
+    for (int k = 0; k < PIXEL_FIGURES; k++)
+        to->batch[k][from->piece->id % CHAIN_BATCHES] += sums[k];
     to->chunks++;
 }
 
 ProbeFold pixel_light_fold(PixelLightSums *to) {
     return (ProbeFold){.user = to,
-                       .begin = begin_light,
+                       .bytes = PIXEL_FIGURES * sizeof(double),
                        .on_light = on_light,
-                       .with_lanes = true,
                        .merge = merge_light};
 }
 

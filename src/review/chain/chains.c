@@ -125,14 +125,6 @@ static void add_seat(ChainChunk *to, const PathHistory *history, double y) {
         to->by_seat[to->search->alike[next->part_id]] += y;
 }
 
-/* A source by itself; an emitter counts as a surface that is met. */
-static void add_straight(ChainChunk *to, const PathHistory *history, double y) {
-    ChainGroups *groups = &to->groups;
-    if (history->source == LIGHTS_EMITTERS)
-        groups->by_surface[to->search->alike[history->source_id]] += y;
-    else groups->straight[history->source] += y;
-}
-
 static bool is_off_any(const PathHistory *history, const bool *is_any) {
     for (int i = 0; i < path_steps_kept(history); i++)
         if (is_any[history->step[i].part_id]) return true;
@@ -155,8 +147,10 @@ static void add_groups(ChainChunk *to, const PathHistory *history, double y) {
     if (history->source == LIGHTS_PUNCTUAL) groups->by_lamp[history->source_id] += y;
     if (history->pane_id == NO_ID) groups->by_no_pane += y;
     else groups->by_pane[alike[history->pane_id]] += y;
-    if (history->count < 2) add_straight(to, history, y);
-    else groups->by_surface[alike[history->step[1].part_id]] += y;
+    if (history->count >= 2) groups->by_surface[alike[history->step[1].part_id]] += y;
+    else if (history->source == LIGHTS_EMITTERS) /* counts as a surface that is met */
+        groups->by_surface[alike[history->source_id]] += y;
+    else groups->straight[history->source] += y;
     if (is_off_any(history, to->search->lacks_data)) groups->without_data += y;
     if (is_off_any(history, to->search->is_guessed) ||
         is_through_any(history, to->search->is_guessed))
@@ -168,8 +162,8 @@ static int display_of(const Scene *scene, int part_id) {
     return scene->materials[scene->parts[part_id].material_id].display_id;
 }
 
-static void on_light(void *sums, const PathHistory *history, const float xyz[3]) {
-    ChainChunk *to = sums;
+static void on_light(const ProbePart *sums, const PathHistory *history, const float xyz[3]) {
+    ChainChunk *to = sums->own;
     const Scene *scene = to->search->scene;
     double y = (double)xyz[1];
     if (!(y > 0) || (history->count == 0 && !to->search->args->with_direct)) return;
@@ -196,18 +190,11 @@ static void on_light(void *sums, const PathHistory *history, const float xyz[3])
 
 /* ---- all chunks -------------------------------------------------------------------------- */
 
-/* Over all chunks, and over each batch's. */
-typedef struct FoundSums {
-    double sum, by_batch[CHAIN_BATCHES];
-    BrightSamples bright;
-    double lost, rare; /* PathStatistics', of sums that may have it */
-} FoundSums;
-
 typedef struct FoundChain {
     Chain chain;
     double draw[CHAIN_RAYS]; /* its rays', rising */
-    FoundSums sums;
-    double sure; /* its mean less one standard error: one lucky path has 0 */
+    EstimateSums sums;       /* batches, brightness, what is unseen */
+    double sure;             /* its mean less one standard error: one lucky path has 0 */
     int id;
     bool is_kept;
 } FoundChain;
@@ -216,19 +203,9 @@ typedef struct FoundChains {
     FoundChain **table; /* [ROOM] */
     FoundChain **by_id;
     int count;
-    FoundSums all, mirror, reflected;
-    double own;
+    EstimateSums all, mirror, reflected;
+    double own, lost, rare; /* PathStatistics' */
 } FoundChains;
-
-static void add_sum(FoundSums *sums, int batch, double sum) {
-    sums->sum += sum;
-    sums->by_batch[batch] += sum;
-}
-
-static void add_bright(FoundSums *sums, const BrightSamples *more) {
-    sums->bright.squares += more->squares;
-    sums->bright.fourths += more->fourths;
-}
 
 /* NULL: the table is full. */
 static FoundChain *found_chain(FoundChains *found, const ChainKey *key, Arena *own) {
@@ -284,67 +261,51 @@ static void merge_groups(ChainGroups *to, const ChainGroups *from, const Scene *
 }
 
 /* A batch's chunks follow each other in a random stream of its own. */
-static void merge_chunk(void *user, const ProbePiece *piece, void *of) {
-    const ChainSearch *search = user;
-    const ChainChunk *sums = of;
+static void merge_chunk(const ProbePart *of) {
+    const ChainSearch *search = of->user;
+    const ChainChunk *sums = of->own;
     FoundChains *found = search->found;
-    int batch = piece->id % search->batches, parts = search->scene->part_count;
+    int batch = of->piece->id % search->batches, parts = search->scene->part_count;
     double share = 1.0 / CHAIN_CHUNK / search->chunks;
-    add_sum(&found->all, batch, sums->all);
-    add_bright(&found->all, &sums->bright);
-    add_sum(&found->mirror, batch, sums->mirror);
-    add_sum(&found->reflected, batch, sums->reflected);
-    add_bright(&found->reflected, &sums->bright_reflected);
-    found->all.lost = found->reflected.lost += piece->statistics.lost;
-    found->all.rare = found->reflected.rare += piece->statistics.rare;
+    found->all.batch[batch] += sums->all;
+    bright_merge(&found->all.bright, &sums->bright);
+    found->mirror.batch[batch] += sums->mirror;
+    found->reflected.batch[batch] += sums->reflected;
+    bright_merge(&found->reflected.bright, &sums->bright_reflected);
+    found->lost += of->piece->statistics.lost;
+    found->rare += of->piece->statistics.rare;
     found->own += sums->own;
     for (int i = 0; i < CHUNK_ROOM; i++) {
         const ChunkChain *from = &sums->table[i];
         FoundChain *to = from->is_used ? found_chain(found, &from->key, search->own) : NULL;
         if (!to) continue;
-        add_sum(&to->sums, batch, from->sum);
-        add_bright(&to->sums, &from->bright);
+        to->sums.batch[batch] += from->sum;
+        bright_merge(&to->sums.bright, &from->bright);
         keep_ray(to, from);
     }
     merge_groups(&search->out->groups, &sums->groups, search->scene, share);
     if (sums->by_seat) add_all(search->out->by_seat, sums->by_seat, parts, share);
 }
 
-static bool *parts_without_data(const Scene *scene, Arena *arena) {
-    bool *lacks_data = ARENA_NEW(arena, bool, scene->part_count);
-    for (int i = 0; i < scene->part_count; i++) lacks_data[i] = !part_has_data(scene, i);
-    return lacks_data;
-}
-
-static bool *guessed_parts(const Scene *scene, Arena *arena) {
-    bool *is_guessed = ARENA_NEW(arena, bool, scene->part_count);
-    for (int i = 0; i < scene->part_count; i++)
-        is_guessed[i] = scene->materials[scene->parts[i].material_id].guessed_as != NULL;
-    return is_guessed;
-}
-
-static void *begin_chunk(void *user, ProbePiece *piece, Arena *arena) {
-    const ChainSearch *search = user;
+static void begin_chunk(ProbePart *to, Arena *arena) {
+    const ChainSearch *search = to->user;
     int parts = search->scene->part_count;
-    ChainChunk *sums = ARENA_NEW(arena, ChainChunk, 1);
+    ChainChunk *sums = to->own;
     sums->search = search;
-    sums->id = piece->id;
+    sums->id = to->piece->id;
     sums->table = ARENA_NEW(arena, ChunkChain, CHUNK_ROOM);
     sums->groups = fresh_groups(search->scene, arena);
     if (search->args->seat) sums->by_seat = ARENA_NEW(arena, double, parts);
-    return sums;
 }
 
-static ChainFigure figure_of(const FoundSums *found, const ChainSearch *search) {
-    EstimateSums sums = {.bright = found->bright,
-                         .batches = search->batches,
-                         .paths = (long)search->chunks * CHAIN_CHUNK,
-                         .piece = CHAIN_CHUNK,
-                         .share = 1};
-    sums.unseen = (found->lost + fmax(found->rare, 0)) / (double)sums.paths;
-    for (int i = 0; i < search->batches; i++) sums.batch[i] = found->by_batch[i];
+static ChainFigure figure_of(const EstimateSums *found, const ChainSearch *search) {
+    EstimateSums sums = *found;
+    sums.batches = search->batches;
+    sums.paths = (long)search->chunks * CHAIN_CHUNK;
+    sums.piece = CHAIN_CHUNK;
+    sums.share = 1;
     Estimate estimate = estimate_of(&sums);
-    return (ChainFigure){found->sum / (double)sums.paths, estimate.sigma, estimate.interval.low,
+    return (ChainFigure){estimate.mean, estimate.sigma, estimate.interval.low,
                          estimate.interval.high};
 }
 
@@ -356,7 +317,7 @@ static int compare(double x, double y, const FoundChain *a, const FoundChain *b)
 
 static int by_sum(const void *a, const void *b) {
     const FoundChain *x = *(FoundChain *const *)a, *y = *(FoundChain *const *)b;
-    return compare(x->sums.sum, y->sums.sum, x, y);
+    return compare(x->chain.figure.cd_m2, y->chain.figure.cd_m2, x, y);
 }
 
 static int by_sureness(const void *a, const void *b) {
@@ -366,13 +327,11 @@ static int by_sureness(const void *a, const void *b) {
 
 /* Light by chains that are not kept. */
 static ChainFigure rest_of(const FoundChains *found, const ChainSearch *search) {
-    FoundSums rest = {
-        .bright = found->all.bright, .lost = found->all.lost, .rare = found->all.rare};
+    EstimateSums rest = found->all;
     for (int k = 0; k < search->batches; k++) {
-        double left = found->all.by_batch[k];
         for (int i = 0; i < found->count; i++)
-            if (found->by_id[i]->is_kept) left -= found->by_id[i]->sums.by_batch[k];
-        add_sum(&rest, k, fmax(left, 0));
+            if (found->by_id[i]->is_kept) rest.batch[k] -= found->by_id[i]->sums.batch[k];
+        rest.batch[k] = fmax(rest.batch[k], 0);
     }
     for (int i = 0; i < found->count; i++) {
         const BrightSamples *kept = &found->by_id[i]->sums.bright;
@@ -437,31 +396,40 @@ Chains chains_find(const ChainArgs *args, Arena *arena) {
                   .groups = fresh_groups(scene, arena),
                   .alike = alike_parts(scene, arena),
                   .paths = (long)chunks * CHAIN_CHUNK};
+    bool *lacks_data = ARENA_NEW(&own, bool, scene->part_count);
+    bool *is_guessed = ARENA_NEW(&own, bool, scene->part_count);
+    for (int i = 0; i < scene->part_count; i++) {
+        lacks_data[i] = !part_has_data(scene, i);
+        is_guessed[i] = scene->materials[scene->parts[i].material_id].guessed_as != NULL;
+    }
+    FoundChains found = {.table = ARENA_NEW(&own, FoundChain *, ROOM),
+                         .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_KEPT)};
     ChainSearch search = {.args = args,
                           .scene = scene,
                           .alike = out.alike,
-                          .lacks_data = parts_without_data(scene, &own),
-                          .is_guessed = guessed_parts(scene, &own),
+                          .lacks_data = lacks_data,
+                          .is_guessed = is_guessed,
                           .chunks = chunks,
                           .batches = chunks < CHAIN_BATCHES ? chunks : CHAIN_BATCHES,
-                          .far_m = far_length(scene)};
-    FoundChains found = {.table = ARENA_NEW(&own, FoundChain *, ROOM),
-                         .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_KEPT)};
+                          .far_m = far_length(scene),
+                          .found = &found,
+                          .out = &out,
+                          .own = &own};
     Arena rounds = arena_reserve(OWN_BYTES);
-    search.found = &found;
-    search.out = &out;
-    search.own = &own;
     ProbeGoal goal = {.pieces = chunks,
                       .paths = CHAIN_CHUNK,
                       .streams = args->aim->pixel ? 0 : search.batches,
-                      .at_once = ROUND};
+                      .at_once = ROUND,
+                      .like = {.with_extrapolated = true, .with_lanes = args->beside != NULL}};
     ProbeFold folds[2] = {{.user = &search,
+                           .bytes = sizeof(ChainChunk),
                            .begin = begin_chunk,
                            .on_light = on_light,
-                           .with_extrapolated = true,
                            .merge = merge_chunk}};
     if (args->beside) folds[1] = *args->beside;
     probe_read(args->aim, &goal, args->tools, folds, args->beside ? 2 : 1, rounds);
+    found.all.unseen = found.reflected.unseen =
+        (found.lost + fmax(found.rare, 0)) / (double)out.paths;
     out.all = figure_of(&found.all, &search);
     out.mirror = figure_of(&found.mirror, &search);
     out.reflected = figure_of(&found.reflected, &search);

@@ -105,8 +105,8 @@ typedef struct ChainArgs {
     bool with_direct;        /* sources that the eye sees by themselves count, too */
     const ChainSeat *seat;   /* light off its back is kept apart; NULL: none */
     bool with_first_pane;    /* a pane before the first surface is in the key */
-    const ProbeFold *beside; /* takes the light of the same paths, in chunks of CHAIN_CHUNK; or
-                                NULL */
+    const ProbeFold *beside; /* takes the light of the same paths, lanes too, in chunks of
+                                CHAIN_CHUNK; or NULL */
 } ChainArgs;
 
 #define CHAIN_PATHS_LEAST (2 * CHAIN_CHUNK) /* an error takes two batches */

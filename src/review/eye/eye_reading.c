@@ -34,6 +34,13 @@ typedef struct EyePath {
     bool is_first;             /* the first mirror, in which compact emitters are sampled */
 } EyePath;
 
+/* Sums over the pupil's light samples. */
+typedef struct PupilSums {
+    double sun_veil, lamp_veil, sun_lx, lamp_lx;
+    double image_veil; /* of lamps and small emitters in mirrors; their lux are lamps' */
+    double beside[2];  /* X and Z of all of that veil */
+} PupilSums;
+
 /* Angles are drawn evenly in their logarithm: f cos theta sin theta is about as 1 / theta;
  * Hammersley's points, which each round but the first shifts (Cranley and Patterson 1976). */
 typedef struct EyePaths {
@@ -45,14 +52,11 @@ typedef struct EyePaths {
     Vec3 *targets;        /* one a path; the rest likewise: */
     double *solid_angles; /* sr that it stands for */
     EyePath *found;
+    PupilSums *pupils; /* one a round */
     const FalseSuns *images;
     double close_deg; /* nearer to the gaze lamps are read by paths; 0: nowhere */
     RoadVeils *road;  /* or NULL */
 } EyePaths;
-
-static Vec3 local_direction(double theta, double phi) {
-    return vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)), (float)cos(theta));
-}
 
 /* u, shifted round the unit circle as the round requires for that axis. */
 static double shifted(double u, int round, uint32_t axis) {
@@ -66,9 +70,11 @@ static void aim_path(EyePaths *paths, const Frame *gaze, int i) {
     double range = log(TO_DEG / FROM_DEG), u = shifted((k + 0.5) / PATHS, round, 0);
     double theta = radians_from_degrees(FROM_DEG * exp(range * u));
     double phi = 2 * PI * shifted(reverse_bits((uint32_t)k) * 0x1p-32, round, 1);
-    Vec3 d = frame_to_world(gaze, local_direction(theta, phi));
-    paths->targets[i] = vec3_add(paths->aim.eye, d);
+    Vec3 local =
+        vec3((float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)), (float)cos(theta));
+    paths->targets[i] = vec3_add(paths->aim.eye, frame_to_world(gaze, local));
     paths->solid_angles[i] = sin(theta) * theta * range * 2 * PI / paths->count;
+    paths->found[i].lamp = NO_ID;
 }
 
 static Vec3 direction_of(const EyePaths *paths, int i) {
@@ -90,21 +96,13 @@ static EyeSource source_of(const PathHistory *history) {
     return history->source == LIGHTS_SUN ? EYE_SUN : EYE_LAMPS;
 }
 
-/* One path at work. */
-typedef struct EyeListener {
-    const EyePaths *paths;
-    EyePath *path;
-    int id;
-} EyeListener;
-
-static void add_found(void *user, const PathHistory *history, const float xyz[3]) {
-    const EyeListener *listener = user;
-    EyePath *path = listener->path;
+static void add_found(const ProbePart *to, const PathHistory *history, const float xyz[3]) {
+    const EyePaths *paths = to->user;
+    EyePath *path = &paths->found[to->piece->path];
     bool is_direct = history->count == 0 || (history->count == 1 && history->is_sampled);
     if (is_direct && history->source == LIGHTS_SUN) return;
-    RoadVeils *road = listener->paths->road;
-    if (road && (!is_direct || history->source == LIGHTS_SKY))
-        road_light_add(road, listener->id, history, (double)xyz[1]);
+    if (paths->road && (!is_direct || history->source == LIGHTS_SKY))
+        road_light_add(paths->road, to->piece->path, history, (double)xyz[1]);
     bool is_shown = is_direct && history->source == LIGHTS_EMITTERS;
     bool is_apart = !is_direct || history->source == LIGHTS_SKY;
     if (is_apart) path->apart[source_of(history)] += (double)xyz[1];
@@ -116,8 +114,9 @@ static void add_found(void *user, const PathHistory *history, const float xyz[3]
     if (history->source == LIGHTS_EMITTERS) path->lamp = history->source_id;
 }
 
-static void note_mirror(void *user, const PathHistory *history, Vec3 towards, float share) {
-    EyePath *path = ((const EyeListener *)user)->path;
+static void note_mirror(const ProbePart *to, const PathHistory *history, Vec3 towards,
+                        float share) {
+    EyePath *path = &((const EyePaths *)to->user)->found[to->piece->path];
     if (history->count > PATH_STEPS_MAX) return;
     for (int i = 0; i < history->count; i++)
         if (history->step[i].event == PATH_SCATTERS) return;
@@ -126,29 +125,7 @@ static void note_mirror(void *user, const PathHistory *history, Vec3 towards, fl
     path->image = (Ray){history->step[history->count - 1].position, towards, 0, INFINITY};
 }
 
-static void *begin_chunk(void *user, ProbePiece *piece, Arena *arena) {
-    (void)piece;
-    EyeListener *listener = ARENA_NEW(arena, EyeListener, 1);
-    listener->paths = user;
-    return listener;
-}
-
-static void before_path(void *sums, int path) {
-    EyeListener *listener = sums;
-    listener->path = &listener->paths->found[path];
-    listener->path->lamp = NO_ID;
-    listener->id = path;
-}
-
 /* ---- what is seen by itself -------------------------------------------------------------- */
-
-/* Sums over the pupil's light samples. */
-typedef struct PupilSums {
-    const EyePaths *paths;
-    double sun_veil, lamp_veil, sun_lx, lamp_lx;
-    double image_veil; /* of lamps and small emitters in mirrors; their lux are lamps' */
-    double beside[2];  /* X and Z of all of that veil */
-} PupilSums;
 
 /* Comes light to the pupil by itself, or by one mirror from a lamp or a small emitter? */
 static bool is_seen_by_itself(const PathHistory *history) {
@@ -172,18 +149,18 @@ static double veil_at_age(const EyePaths *paths, Vec3 towards, double lux, doubl
     return degrees >= FROM_DEG ? lux * road_veil_at(fmin(degrees, 90), age) : 0;
 }
 
-static void add_to_pupil(void *user, const PathHistory *history, const float xyz[3]) {
-    PupilSums *sums = user;
+static void add_to_pupil(const ProbePart *to, const PathHistory *history, const float xyz[3]) {
+    const EyePaths *paths = to->user;
+    PupilSums *sums = to->own;
     bool is_sun = history->source == LIGHTS_SUN;
     if (!is_seen_by_itself(history)) return;
     *(is_sun ? &sums->sun_lx : &sums->lamp_lx) += (double)xyz[1];
-    if (history->source == LIGHTS_EMITTERS && is_close(sums->paths, history->towards)) return;
+    if (history->source == LIGHTS_EMITTERS && is_close(paths, history->towards)) return;
     *(is_sun           ? &sums->sun_veil
       : history->count ? &sums->image_veil
-                       : &sums->lamp_veil) +=
-        veil_of(sums->paths, history->towards, (double)xyz[1]);
+                       : &sums->lamp_veil) += veil_of(paths, history->towards, (double)xyz[1]);
     for (int k = 0; k < 2; k++)
-        sums->beside[k] += veil_of(sums->paths, history->towards, (double)xyz[2 * k]);
+        sums->beside[k] += veil_of(paths, history->towards, (double)xyz[2 * k]);
 }
 
 /* Light samples alone, and of mirrors what lamps and small emitters send by one. */
@@ -208,21 +185,9 @@ static void read_pupil(const EyePaths *paths, uint32_t seed, int times, const Pr
     probe_read(&aim, &goal, &paths->setup->tools, fold, 1, scratch);
 }
 
-typedef struct PupilRounds {
-    const EyePaths *paths;
-    PupilSums *sums; /* one a round */
-} PupilRounds;
-
-static void *begin_pupil(void *user, ProbePiece *piece, Arena *arena) {
-    (void)piece;
-    PupilSums *sums = ARENA_NEW(arena, PupilSums, 1);
-    sums->paths = ((const PupilRounds *)user)->paths;
-    return sums;
-}
-
-static void merge_pupil(void *user, const ProbePiece *piece, void *of) {
-    const PupilSums *sums = of;
-    PupilSums *to = &((const PupilRounds *)user)->sums[piece->first / PATHS];
+static void merge_pupil(const ProbePart *from) {
+    const PupilSums *sums = from->own;
+    PupilSums *to = &((const EyePaths *)from->user)->pupils[from->piece->first / PATHS];
     to->sun_veil += sums->sun_veil / PATHS;
     to->lamp_veil += sums->lamp_veil / PATHS;
     to->image_veil += sums->image_veil / PATHS;
@@ -326,7 +291,8 @@ static void add_images(const EyePaths *paths, EyeSums *sums) {
     false_suns_each(paths->images, towards, add_image, &work);
 }
 
-static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *sums) {
+static void add_pupils(const EyePaths *paths, EyeSums *sums) {
+    const PupilSums *pupils = paths->pupils;
     int rounds = paths->count / PATHS;
     for (int r = 0; r < rounds; r++) {
         add_veil(paths, r, EYE_SUN, pupils[r].sun_veil, sums);
@@ -342,34 +308,23 @@ static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *
 #define ROAD_TIMES 8
 #define ROAD_SEED (SEED + 2)
 
-typedef struct RoadPupil {
-    const EyePaths *paths;
-    double *chunk;
-} RoadPupil;
-
-static void *begin_road(void *user, ProbePiece *piece, Arena *arena) {
-    (void)piece;
-    EyePaths *paths = user;
-    RoadPupil *pupil = ARENA_NEW(arena, RoadPupil, 1);
-    *pupil = (RoadPupil){paths, road_veils_chunk(paths->road, arena)};
-    return pupil;
+static void begin_road(ProbePart *to, Arena *arena) {
+    to->own = road_veils_chunk(((const EyePaths *)to->user)->road, arena);
 }
 
-static void add_to_road(void *sums, const PathHistory *history, const float xyz[3]) {
-    const RoadPupil *pupil = sums;
-    RoadSample sample = {.degrees = degrees_between(history->towards, pupil->paths->gaze),
+static void add_to_road(const ProbePart *to, const PathHistory *history, const float xyz[3]) {
+    const EyePaths *paths = to->user;
+    RoadSample sample = {.degrees = degrees_between(history->towards, paths->gaze),
                          .lx = (double)xyz[1],
                          .part_id =
                              history->source == LIGHTS_EMITTERS ? history->source_id : NO_ID};
-    if (is_seen_by_itself(history))
-        road_veils_add_sample(pupil->paths->road, &sample, pupil->chunk);
+    if (is_seen_by_itself(history)) road_veils_add_sample(paths->road, &sample, to->own);
 }
 
-static void merge_road(void *user, const ProbePiece *piece, void *sums) {
-    const EyePaths *paths = user;
-    road_veils_add_chunk(paths->road, piece->first / ROAD_TIMES / PATHS,
-                         1.0 / ((double)paths->count * ROAD_TIMES),
-                         ((const RoadPupil *)sums)->chunk);
+static void merge_road(const ProbePart *from) {
+    const EyePaths *paths = from->user;
+    road_veils_add_chunk(paths->road, from->piece->first / ROAD_TIMES / PATHS,
+                         1.0 / ((double)paths->count * ROAD_TIMES), from->own);
 }
 
 /* A path behind its mirror: what a lamp of 1 cd m^-2 there adds to the veil. */
@@ -407,7 +362,7 @@ static double unmet_veil(const EyePaths *paths, double age, Arena scratch) {
     double most = 0;
     for (int i = 0; i < paths->count; i++)
         if (paths->found[i].lamp != NO_ID) met[paths->found[i].lamp] = true;
-    UnmetLamps lamps = lamps_unmet(paths->setup, met, &scratch);
+    UnmetLamps lamps = lamps_unmet(&paths->setup->context, met, &scratch);
     for (int k = 0; k < count && lamps.count; k++) {
         int i = images[k].path;
         double apart = IMAGES_APART * sqrt(paths->solid_angles[i]);
@@ -447,12 +402,12 @@ static void finish_road(EyePaths *paths, Arena scratch) {
                              unmet_veil(paths, road_veils_age(paths->road, a), scratch));
 }
 
-static EyeReading sum_up(EyePaths *paths, const PupilSums *pupils, Arena scratch) {
+static EyeReading sum_up(EyePaths *paths, Arena scratch) {
     int rounds = paths->count / PATHS;
     EyeSums sums = {.veil = {.batches = rounds, .paths = paths->count, .piece = PATHS, .share = 1}};
     EyeReading *r = &sums.reading;
     for (int i = 0; i < paths->count; i++) add_path(paths, i, &sums);
-    add_pupils(paths, pupils, &sums);
+    add_pupils(paths, &sums);
     add_images(paths, &sums);
     for (int k = 0; k < EYE_SOURCES; k++) r->veil += r->parts[k];
     set_veil_range(paths, &sums, scratch);
@@ -471,7 +426,8 @@ EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch) {
                       .close_deg = look->is_close ? EYE_CLOSE_DEG : 0,
                       .targets = ARENA_NEW(&scratch, Vec3, count),
                       .solid_angles = ARENA_NEW(&scratch, double, count),
-                      .found = ARENA_NEW(&scratch, EyePath, count)};
+                      .found = ARENA_NEW(&scratch, EyePath, count),
+                      .pupils = ARENA_NEW(&scratch, PupilSums, look->rounds)};
     Frame frame = frame_from_z(paths.gaze);
     if (look->road) road_veils_expect(look->road, count, look->rounds, &scratch);
     paths.aim = (ProbeAim){.context = &setup->context,
@@ -481,15 +437,10 @@ EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch) {
                            .seed = review_seed(setup->request, SEED)};
     for (int i = 0; i < count; i++) aim_path(&paths, &frame, i);
     ProbeGoal goal = {.pieces = count / CHUNK, .paths = CHUNK};
-    ProbeFold fold = {.user = &paths,
-                      .begin = begin_chunk,
-                      .before = before_path,
-                      .on_light = add_found,
-                      .on_mirror = note_mirror};
+    ProbeFold fold = {.user = &paths, .on_light = add_found, .on_mirror = note_mirror};
     probe_read(&paths.aim, &goal, &setup->tools, &fold, 1, scratch);
-    PupilRounds pupils = {&paths, ARENA_NEW(&scratch, PupilSums, look->rounds)};
     ProbeFold lights = {
-        .user = &pupils, .begin = begin_pupil, .on_light = add_to_pupil, .merge = merge_pupil};
+        .user = &paths, .bytes = sizeof(PupilSums), .on_light = add_to_pupil, .merge = merge_pupil};
     read_pupil(&paths, SEED + 1, 1, &lights, scratch);
-    return sum_up(&paths, pupils.sums, scratch);
+    return sum_up(&paths, scratch);
 }

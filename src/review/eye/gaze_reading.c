@@ -9,15 +9,8 @@
 
 #define SHIFT_AXIS 0x75u
 #define SEED 0x67617a65u
-#define PILOT_SEED 0x70696c6fu
-#define UNMET 0.1 /* of all light there: what lamps may have that no path met */
 
 enum { GAZE_THROUGH, GAZE_MIRRORED, GAZE_FIGURES };
-
-typedef struct GazeAsker {
-    const Setup *setup;
-    const GazeGoal *goal;
-} GazeAsker;
 
 /* A ray behind its last mirror, and the share of its light that the eye sees. */
 typedef struct GazeImage {
@@ -42,8 +35,8 @@ typedef struct GazeBatch {
 
 /* Even over the cone's solid angle. */
 static Vec3 towards(KindBatch *batch, double u, double v) {
-    const GazeAsker *asker = batch->paths->goal;
-    Frame frame = frame_from_z(vec3_normalize(asker->goal->towards));
+    const GazeGoal *goal = batch->paths->goal;
+    Frame frame = frame_from_z(vec3_normalize(goal->towards));
     double cosine = 1 - (1 - cos(radians_from_degrees(GAZE_CONE_DEG))) * u;
     double sine = sqrt(1 - cosine * cosine), phi = 2 * PI * v;
     Vec3 d = vec3((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cosine);
@@ -64,8 +57,8 @@ static int place_shown(const Scene *scene, const PathHistory *history, int from)
                                               : scene->part_count + (int)history->source;
 }
 
-static void on_light(void *user, const PathHistory *history, const float xyz[3]) {
-    KindBatch *batch = user;
+static void on_light(const ProbePart *to, const PathHistory *history, const float xyz[3]) {
+    KindBatch *batch = to->own;
     GazeBatch *own = batch->own;
     const Scene *scene = batch->paths->context->scene;
     bool by_mirrors = batch->paths->by_mirrors;
@@ -87,10 +80,9 @@ static int mirrors_of(const PathHistory *history) {
     return count;
 }
 
-static void on_mirror(void *user, const PathHistory *history, Vec3 towards, float share) {
-    KindBatch *kind = user;
-    GazeBatch *batch = kind->own;
-    bool is_mirrored = path_mirroring_step(kind->paths->context->scene, history) != NO_ID;
+static void on_mirror(const ProbePart *to, const PathHistory *history, Vec3 towards, float share) {
+    GazeBatch *batch = ((KindBatch *)to->own)->own;
+    bool is_mirrored = path_mirroring_step(to->piece->aim.context->scene, history) != NO_ID;
     int figure = is_mirrored ? GAZE_MIRRORED : GAZE_THROUGH;
     int again = mirrors_of(history) > 1, *count = &batch->images[figure][again];
     if (history->count > PATH_STEPS_MAX || *count == GAZE_IMAGES ||
@@ -106,15 +98,14 @@ static void on_mirror(void *user, const PathHistory *history, Vec3 towards, floa
  * came by. */
 static double unmet(const KindPaths *paths, int figure, Arena scratch) {
     if (figure >= GAZE_FIGURES) return 0;
-    const GazeAsker *asker = paths->goal;
-    Vec3 ahead = frame_from_z(vec3_normalize(asker->goal->towards)).z;
+    Vec3 ahead = frame_from_z(vec3_normalize(((const GazeGoal *)paths->goal)->towards)).z;
     int parts = paths->context->scene->part_count;
     bool *met = ARENA_NEW(&scratch, bool, parts);
     double most = 0, half = radians_from_degrees(GAZE_CONE_DEG);
     for (int b = 0; b < ESTIMATE_BATCHES; b++)
         for (int i = 0; i < parts; i++)
             met[i] |= ((const GazeBatch *)paths->batch[b].own)->met[figure][i];
-    UnmetLamps lamps = lamps_unmet(asker->setup, met, &scratch);
+    UnmetLamps lamps = lamps_unmet(paths->context, met, &scratch);
     if (figure == GAZE_THROUGH)
         most = lamps_brightest(&lamps, (Ray){paths->eye, ahead, 0, INFINITY}, half, false);
     for (int i = 0; i < ESTIMATE_BATCHES * 2 * GAZE_IMAGES; i++) {
@@ -125,45 +116,6 @@ static double unmet(const KindPaths *paths, int figure, Arena scratch) {
         most = fmax(most, (double)image->share * lamps_brightest(&lamps, image->ray, half, false));
     }
     return most;
-}
-
-/* ---- how many ---------------------------------------------------------------------------- */
-
-static double precision_of(const PathKinds *pair) {
-    return ((const GazeAsker *)pair->whole.goal)->goal->precision;
-}
-
-/* Of the variance that may be, by mirrors; the rest is left to whole paths, which cost more. */
-#define MIRRORS_SHARE 0.5
-
-static bool mirrors_will_do(void *user, long pilot, long paths) {
-    const PathKinds *pair = user;
-    double all = 0, unmet = 0;
-    for (int k = 0; k < GAZE_FIGURES; k++) {
-        Estimate whole = path_kind_estimate(&pair->whole, k);
-        Estimate mirrors = path_kind_estimate(&pair->mirrors, k);
-        Estimate then = estimate_expected(&mirrors, (double)paths / (double)pilot);
-        double mean = whole.mean + mirrors.mean;
-        if (then.sigma > precision_of(pair) * mean * sqrt(MIRRORS_SHARE)) return false;
-        all += mean;
-        unmet = fmax(unmet, then.unmet);
-    }
-    return unmet <= UNMET * all;
-}
-
-/* What mirrors are expected to leave unsure is known. */
-static bool whole_will_do(void *user, long pilot, long paths) {
-    const PathKinds *pair = user;
-    for (int k = 0; k < GAZE_FIGURES; k++) {
-        Estimate whole = path_kind_estimate(&pair->whole, k);
-        Estimate mirrors = path_kind_estimate(&pair->mirrors, k);
-        double mean = whole.mean + mirrors.mean;
-        double times = (double)pair->mirror_paths / (double)(pair->mirrors.end * ESTIMATE_BATCHES);
-        Estimate then = estimate_expected(&whole, (double)paths / (double)pilot);
-        if (hypot(then.sigma, estimate_expected(&mirrors, times).sigma) > precision_of(pair) * mean)
-            return false;
-    }
-    return true;
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
@@ -198,39 +150,30 @@ static GazeMirrored find_mirrored(const PathKinds *pair) {
                           most < parts ? LIGHTS_SUN : (LightSet)(most - parts)};
 }
 
-static void give_batches(KindPaths *paths, Arena *arena) {
-    int parts = paths->context->scene->part_count;
-    for (int b = 0; b < ESTIMATE_BATCHES; b++) {
-        GazeBatch *batch = paths->batch[b].own = ARENA_NEW(arena, GazeBatch, 1);
-        batch->panes = ARENA_NEW(arena, double, parts);
-        batch->shown = ARENA_NEW(arena, double, parts + LIGHT_SETS);
-        for (int k = 0; k < GAZE_FIGURES; k++) batch->met[k] = ARENA_NEW(arena, bool, parts);
-    }
-}
-
-static PathKinds start(const KindPaths *like, uint32_t seed, Arena *arena) {
-    PathKinds kinds = path_kinds_start(like, seed);
-    give_batches(&kinds.whole, arena);
-    give_batches(&kinds.mirrors, arena);
-    return kinds;
+static void begin_batch(KindBatch *to, Arena *arena) {
+    int parts = to->paths->context->scene->part_count;
+    GazeBatch *batch = to->own = ARENA_NEW(arena, GazeBatch, 1);
+    batch->panes = ARENA_NEW(arena, double, parts);
+    batch->shown = ARENA_NEW(arena, double, parts + LIGHT_SETS);
+    for (int k = 0; k < GAZE_FIGURES; k++) batch->met[k] = ARENA_NEW(arena, bool, parts);
 }
 
 GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch) {
-    uint32_t seed = review_seed(setup->request, SEED);
-    GazeAsker asker = {setup, goal};
     KindPaths paths = {.tools = &setup->tools,
                        .context = &setup->context,
                        .eye = goal->eye,
-                       .goal = &asker,
+                       .goal = goal,
+                       .begin = begin_batch,
                        .towards = towards,
                        .first_axis = SHIFT_AXIS,
-                       .listener = {.on_light = on_light, .on_mirror = on_mirror},
-                       .unmet_of = unmet};
-    PathKinds pilot = start(&paths, hash_combine(hash_u32(seed), PILOT_SEED), &scratch);
-    PathKinds fresh = start(&paths, seed, &scratch);
-    pilot.scratch = fresh.scratch = scratch;
-    path_kinds_plan(&pilot, goal->most, mirrors_will_do, whole_will_do);
-    path_kinds_read(&fresh, &pilot);
-    return (GazeReading){path_kinds_figure(&fresh, GAZE_THROUGH),
-                         path_kinds_figure(&fresh, GAZE_MIRRORED), find_mirrored(&fresh)};
+                       .on_light = on_light,
+                       .on_mirror = on_mirror,
+                       .unmet_of = unmet,
+                       .precision = goal->precision,
+                       .most = goal->most,
+                       .planned = {GAZE_THROUGH, GAZE_MIRRORED}};
+    PathKinds found;
+    path_kinds_read(&paths, review_seed(setup->request, SEED), &scratch, &found);
+    return (GazeReading){path_kinds_figure(&found, GAZE_THROUGH),
+                         path_kinds_figure(&found, GAZE_MIRRORED), find_mirrored(&found)};
 }

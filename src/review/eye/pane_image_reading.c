@@ -4,12 +4,10 @@
 #include <math.h>
 
 #define SEED 0x70616e65u
-#define PILOT_SEED 0x70696c6fu
 
 enum { IMAGE, THROUGH, AGAINST };
 
 typedef struct PaneImageBatch {
-    const double *shares;        /* [cell + 1] of the solid angle before each cell */
     Vec3 place;                  /* of the display, that the near face shows along the path */
     double alone, ghost, beside; /* image light by one reflection; of it, the ghost's;
                                     and that times how far beside it stands, radians */
@@ -17,29 +15,23 @@ typedef struct PaneImageBatch {
 
 /* ---- the image's solid angle ------------------------------------------------------------- */
 
-static const double *shares_of(const PaneImage *image, Arena *arena) {
-    double *out = ARENA_NEW(arena, double, image->cell_count + 1), sum = 0;
-    for (int i = 0; i < image->cell_count; i++) {
-        out[i] = sum / image->sr;
-        sum += image->cells[i].sr;
-    }
-    out[image->cell_count] = 1;
-    return out;
+/* Before a cell, of all. */
+static double share_before(const PaneImage *image, int cell) {
+    return cell < image->cell_count ? image->cells[cell].sr_before / image->sr : 1;
 }
 
 /* Cells are so small that even over the plane is even over the sphere. */
 static Vec3 towards(KindBatch *batch, double u, double v) {
-    const PaneImageGoal *goal = batch->paths->goal;
-    PaneImageBatch *own = batch->own;
-    const double *shares = own->shares;
-    int low = 0, high = goal->image->cell_count;
+    const PaneImage *image = ((const PaneImageGoal *)batch->paths->goal)->image;
+    int low = 0, high = image->cell_count;
     while (high - low > 1) {
         int middle = (low + high) / 2;
-        if (shares[middle] <= u) low = middle;
+        if (share_before(image, middle) <= u) low = middle;
         else high = middle;
     }
-    const PaneCell *cell = &goal->image->cells[low];
-    double within = (u - shares[low]) / (shares[low + 1] - shares[low]);
+    const PaneCell *cell = &image->cells[low];
+    double before = share_before(image, low);
+    double within = (u - before) / (share_before(image, low + 1) - before);
     double root = sqrt(fmin(fmax(within, 0), 1));
     float weight[3] = {(float)(1 - root), (float)(root * (1 - v)), (float)(root * v)};
     Vec3 d = vec3(0, 0, 0), p = vec3(0, 0, 0);
@@ -47,7 +39,7 @@ static Vec3 towards(KindBatch *batch, double u, double v) {
         d = vec3_along(d, cell->corner[k], weight[k]);
         p = vec3_along(p, cell->place[k], weight[k]);
     }
-    own->place = p;
+    ((PaneImageBatch *)batch->own)->place = p;
     return vec3_normalize(d);
 }
 
@@ -86,9 +78,9 @@ static void note_ghost(const PathHistory *history, double luminance, const KindP
     batch->beside += luminance * beside / far;
 }
 
-static void on_light(void *user, const PathHistory *history, const float xyz[3]) {
-    KindBatch *batch = user;
-    const KindPaths *paths = batch->paths;
+static void on_light(const ProbePart *to, const PathHistory *history, const float xyz[3]) {
+    KindBatch *batch = to->own;
+    const KindPaths *paths = to->user;
     const PaneImage *image = ((const PaneImageGoal *)paths->goal)->image;
     if (path_is_by_mirrors(history) != paths->by_mirrors) return;
     int step = path_mirroring_step(paths->context->scene, history);
@@ -98,32 +90,6 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
     batch->path[is_image ? IMAGE : AGAINST] += (double)xyz[1];
     if (step == NO_ID) batch->path[THROUGH] += (double)xyz[1];
     if (is_image && history->count == 1) note_ghost(history, (double)xyz[1], paths, batch->own);
-}
-
-/* ---- how many ---------------------------------------------------------------------------- */
-
-/* Would so many paths of one kind do, with half of the variance that may be left to each? */
-static bool will_do(const PathKinds *pair, const KindPaths *of, long pilot, long count) {
-    static const int KNOWN[] = {IMAGE, AGAINST};
-    for (int k = 0; k < 2; k++) {
-        Estimate now = path_kind_estimate(of, KNOWN[k]);
-        Estimate then = estimate_expected(&now, (double)count / (double)pilot);
-        double mean = path_kind_estimate(&pair->whole, KNOWN[k]).mean +
-                      path_kind_estimate(&pair->mirrors, KNOWN[k]).mean;
-        if (then.sigma > ((const PaneImageGoal *)of->goal)->precision * mean * sqrt(0.5))
-            return false;
-    }
-    return true;
-}
-
-static bool whole_will_do(void *user, long pilot, long count) {
-    const PathKinds *pair = user;
-    return will_do(pair, &pair->whole, pilot, count);
-}
-
-static bool mirrors_will_do(void *user, long pilot, long count) {
-    const PathKinds *pair = user;
-    return will_do(pair, &pair->mirrors, pilot, count);
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
@@ -140,19 +106,11 @@ static void set_ghost(const KindPaths *paths, PaneImageReading *out) {
     out->ghost_rad = ghost > 0 ? beside / ghost : (double)NAN;
 }
 
-static PathKinds start(const KindPaths *like, uint32_t seed, const double *shares, Arena *arena) {
-    PathKinds kinds = path_kinds_start(like, seed);
-    PaneImageBatch *own = ARENA_NEW(arena, PaneImageBatch, 2 * ESTIMATE_BATCHES);
-    for (int b = 0; b < 2 * ESTIMATE_BATCHES; b++) own[b].shares = shares;
-    for (int b = 0; b < ESTIMATE_BATCHES; b++) {
-        kinds.whole.batch[b].own = &own[b];
-        kinds.mirrors.batch[b].own = &own[ESTIMATE_BATCHES + b];
-    }
-    return kinds;
+static void begin_batch(KindBatch *batch, Arena *arena) {
+    batch->own = ARENA_NEW(arena, PaneImageBatch, 1);
 }
 
 PaneImageReading pane_image_read(const Setup *setup, const PaneImageGoal *goal, Arena scratch) {
-    uint32_t seed = review_seed(setup->request, SEED ^ goal->seed);
     Frame frame = frame_from_z(goal->image->towards);
     PolarisedEye eye = {.right = frame.x, .forward = frame.z};
     PathContext context = setup->context;
@@ -161,17 +119,19 @@ PaneImageReading pane_image_read(const Setup *setup, const PaneImageGoal *goal, 
                        .context = &context,
                        .eye = goal->eye,
                        .goal = goal,
+                       .begin = begin_batch,
                        .towards = towards,
-                       .listener = {.on_light = on_light, .is_polarised = true}};
-    const double *shares = shares_of(goal->image, &scratch);
-    PathKinds pilot = start(&paths, hash_combine(hash_u32(seed), PILOT_SEED), shares, &scratch);
-    PathKinds fresh = start(&paths, seed, shares, &scratch);
-    pilot.scratch = fresh.scratch = scratch;
-    path_kinds_plan(&pilot, goal->most, mirrors_will_do, whole_will_do);
-    path_kinds_read(&fresh, &pilot);
-    PaneImageReading out = {.image = path_kinds_figure(&fresh, IMAGE),
-                            .through = path_kinds_figure(&fresh, THROUGH),
-                            .against = path_kinds_figure(&fresh, AGAINST)};
-    set_ghost(&fresh.mirrors, &out);
+                       .is_polarised = true,
+                       .on_light = on_light,
+                       .precision = goal->precision,
+                       .most = goal->most,
+                       .planned = {IMAGE, AGAINST},
+                       .is_halved = true};
+    PathKinds found;
+    path_kinds_read(&paths, review_seed(setup->request, SEED ^ goal->seed), &scratch, &found);
+    PaneImageReading out = {.image = path_kinds_figure(&found, IMAGE),
+                            .through = path_kinds_figure(&found, THROUGH),
+                            .against = path_kinds_figure(&found, AGAINST)};
+    set_ghost(&found.mirrors, &out);
     return out;
 }

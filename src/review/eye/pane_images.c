@@ -352,8 +352,9 @@ static int halvings_of(const Part *part) {
 static void set_middle(PaneImage *image) {
     Vec3 sum = vec3(0, 0, 0);
     for (int i = 0; i < image->cell_count; i++) {
-        const PaneCell *cell = &image->cells[i];
+        PaneCell *cell = &image->cells[i];
         Vec3 middle = vec3_add(vec3_add(cell->corner[0], cell->corner[1]), cell->corner[2]);
+        cell->sr_before = image->sr;
         image->sr += cell->sr;
         sum = vec3_along(sum, middle, (float)cell->sr);
     }

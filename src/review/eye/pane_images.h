@@ -27,11 +27,11 @@
 /* A triangle of the field of view. */
 typedef struct PaneCell {
     Vec3 corner[3];
-    Vec3 place[3];  /* of the display, that the first face shows there, m, scene */
-    Vec3 seen_from; /* m, scene: as far along the way from the display to the pane as the eye
-                       is: a flat pane shows what an eye there would see straight */
-    int id;         /* among all cells of the display or raster */
-    double sr;
+    Vec3 place[3];        /* of the display, that the first face shows there, m, scene */
+    Vec3 seen_from;       /* m, scene: as far along the way from the display to the pane as the eye
+                             is: a flat pane shows what an eye there would see straight */
+    int id;               /* among all cells of the display or raster */
+    double sr, sr_before; /* of it, of all cells before it */
 } PaneCell;
 
 /* Of the display's area: they add up to 1. */

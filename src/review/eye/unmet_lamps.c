@@ -35,13 +35,13 @@ static int brightest_first(const void *a, const void *b) {
     return (x < y) - (x > y);
 }
 
-UnmetLamps lamps_unmet(const Setup *setup, const bool *met, Arena *arena) {
-    const Scene *scene = setup->scene;
+UnmetLamps lamps_unmet(const PathContext *context, const bool *met, Arena *arena) {
+    const Scene *scene = context->scene;
     int count = 0;
     for (int i = 0; i < scene->part_count; i++)
         if (!met[i] && part_luminance(scene, &scene->parts[i]) > 0)
             count += (int)scene->parts[i].triangle_count;
-    const CompactEmitters *compact = &setup->context.beams[BEAMS_OF_EMITTERS].emitters;
+    const CompactEmitters *compact = &context->beams[BEAMS_OF_EMITTERS].emitters;
     UnmetLamps out = {.list = ARENA_NEW(arena, Lamp, count)};
     for (int i = 0; i < scene->part_count; i++) {
         const Part *part = &scene->parts[i];

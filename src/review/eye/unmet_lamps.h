@@ -28,7 +28,7 @@ typedef struct UnmetLamps {
 } UnmetLamps;
 
 /* Those of parts that are not met ([part]). */
-UnmetLamps lamps_unmet(const Setup *setup, const bool *met, Arena *arena);
+UnmetLamps lamps_unmet(const PathContext *context, const bool *met, Arena *arena);
 
 /* The brightest that may be seen along the ray or within half an angle of it; 0: none.
  * no_compact: compact ones do not count. */

@@ -228,9 +228,7 @@ static Vec3 *sun_directions(const DistantTools *tools, Arena *arena) {
 }
 
 void distant_probe_respond(DistantProbe *probe, const DistantTools *tools, Arena *arena) {
-    const ProbeTools *with = &tools->setup->tools;
-    ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->paths, with->threads,
-                               tools->precision};
+    ResponseOptions options = {tools->setup->tools, RESPONSE_LEVEL, tools->paths, tools->precision};
     response_trace(&probe->aim, &options, arena, &probe->response);
 }
 
@@ -269,8 +267,7 @@ static const float *sample_scattered_suns(const DistantProbe *probe, const Respo
 }
 
 void distant_probe_sample_suns(DistantProbe *probe, const DistantTools *tools, Arena *arena) {
-    const ProbeTools *with = &tools->setup->tools;
-    ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->sun_paths, with->threads, 0};
+    ResponseOptions options = {tools->setup->tools, RESPONSE_LEVEL, tools->sun_paths, 0};
     ProbeSuns suns = {.towards = sun_directions(tools, arena),
                       .count = tools->suns.count,
                       .radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG)};

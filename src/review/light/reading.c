@@ -84,21 +84,20 @@ static int part_begin(const Stream *stream, int part) {
     return stream->first + (int)((long)(stream->end - stream->first) * part / SPLIT);
 }
 
-static void *begin_part(void *user, ProbePiece *piece, Arena *arena) {
-    const Stream *stream = user;
-    Batch *part = ARENA_NEW(arena, Batch, 1);
+static void begin_part(ProbePart *to, Arena *arena) {
+    (void)arena;
+    const Stream *stream = to->user;
+    ProbePiece *piece = to->piece;
     int split = piece->id / BATCHES;
     piece->first = part_begin(stream, split);
     piece->end = part_begin(stream, split + 1);
     if (stream->targets)
-        part->targets = stream->targets +
-                        (size_t)(piece->stream * SPLIT + split) * (size_t)stream->aim.target_count;
-    return part;
+        ((Batch *)to->own)->targets = stream->targets + (size_t)(piece->stream * SPLIT + split) *
+                                                            (size_t)stream->aim.target_count;
 }
 
-static void add_look(void *sums, int path, const ProbeLook *look) {
-    (void)path;
-    Batch *to = sums;
+static void add_look(const ProbePart *sums, const ProbeLook *look) {
+    Batch *to = sums->own;
     double y = (double)look->reflected[1];
     to->reflected += y;
     to->mirror += (double)look->mirror[1];
@@ -112,19 +111,19 @@ static void add_look(void *sums, int path, const ProbeLook *look) {
     target->squares += look->reflected[1] * look->reflected[1];
 }
 
-static void merge_part(void *user, const ProbePiece *piece, void *sums) {
-    const Batch *part = sums;
-    Batch *to = &((const Stream *)user)->batches[piece->stream];
+static void merge_part(const ProbePart *from) {
+    const Batch *part = from->own;
+    const PathStatistics *statistics = &from->piece->statistics;
+    Batch *to = &((const Stream *)from->user)->batches[from->piece->stream];
     to->reflected += part->reflected;
     to->mirror += part->mirror;
     for (int k = 0; k < 2; k++) to->beside[k] += part->beside[k];
     to->found += part->found;
-    to->sky_finds += (long)piece->statistics.sky_finds;
-    to->lost += piece->statistics.lost;
-    to->rare += piece->statistics.rare;
-    to->sent_on += piece->statistics.sent_on;
-    to->bright.squares += part->bright.squares;
-    to->bright.fourths += part->bright.fourths;
+    to->sky_finds += (long)statistics->sky_finds;
+    to->lost += statistics->lost;
+    to->rare += statistics->rare;
+    to->sent_on += statistics->sent_on;
+    bright_merge(&to->bright, &part->bright);
 }
 
 static Estimate estimate_in(const Reading *reading, double known) {
@@ -171,8 +170,7 @@ static Reading reading_of(const ProbeAim *aim, const Batch batches[BATCHES], int
         found += (double)batches[i].found;
         lost += batches[i].lost;
         rare += batches[i].rare;
-        sums.bright.squares += batches[i].bright.squares;
-        sums.bright.fourths += batches[i].bright.fourths;
+        bright_merge(&sums.bright, &batches[i].bright);
     }
     reading.bright = sums.bright;
     if (!(found > 0)) return reading;
@@ -221,7 +219,11 @@ static Stream stream_start(const ProbeAim *aim, const ProbeTools *tools, Arena *
 /* All of its paths, up to so many. */
 static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal, Arena scratch) {
     ProbeGoal parts = {.pieces = PARTS, .streams = BATCHES};
-    ProbeFold fold = {.user = stream, .begin = begin_part, .look = add_look, .merge = merge_part};
+    ProbeFold fold = {.user = stream,
+                      .bytes = sizeof(Batch),
+                      .begin = begin_part,
+                      .look = add_look,
+                      .merge = merge_part};
     stream->end = (int)(paths / BATCHES);
     probe_read(&stream->aim, &parts, stream->tools, &fold, 1, scratch);
     stream->first = stream->end;

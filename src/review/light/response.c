@@ -142,8 +142,8 @@ static void trace_chunk(void *user, int item, int worker) {
     memset(trace->tables[item], 0, size * sizeof(float));
     ProbeCells part = cells_of_chunk(trace->cells, chunk - PILOT, trace->asked[item]);
     ProbeAnswers answers = {trace->tables[item], trace->towards[item], 0};
-    trace->options->kernel->sample_cells(&aim, &part, first, first + RESPONSE_CHUNK, &answers,
-                                         &statistics);
+    trace->options->tools.kernel->sample_cells(&aim, &part, first, first + RESPONSE_CHUNK, &answers,
+                                               &statistics);
     double sent = 0;
     for (size_t i = 0; i < size; i++) sent += (double)trace->tables[item][i];
     trace->sent[item] = sent;
@@ -177,7 +177,7 @@ static void add_cells(void *user, int item, int worker) {
 }
 
 static void trace_some(Trace *trace, int chunks) {
-    int threads = trace->options->threads, count = trace->cells->count;
+    int threads = trace->options->tools.threads, count = trace->cells->count;
     trace->chunks = chunks;
     parallel_for(threads, chunks, trace_chunk, trace);
     parallel_for(threads, (count + ADD_CELLS - 1) / ADD_CELLS, add_cells, trace);

@@ -20,17 +20,16 @@
  * Threads      starts its own; the same numbers for any count.
  */
 #pragma once
-#include "kernel/kernel.h"
 #include "base/confidence.h"
+#include "probe/probe.h"
 
 #define RESPONSE_LEVEL 5 /* 8,192 triangles over the sphere, edges of about 3.4 degrees */
 #define RESPONSE_BANDS SPECTRUM_LANES
 
 typedef struct ResponseOptions {
-    const Kernel *kernel;
-    int level; /* subdivision of the triangles */
-    int paths; /* at most; at least RESPONSE_CHUNK: whole chunks are traced */
-    int threads;
+    ProbeTools tools;
+    int level;        /* subdivision of the triangles */
+    int paths;        /* at most; at least RESPONSE_CHUNK: whole chunks are traced */
     double precision; /* response_trace ends when relative_error is no more; 0: never before */
 } ResponseOptions;
 

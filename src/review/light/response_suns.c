@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/parallel.h"
 #include "base/sampler.h"
 #include "base/units.h"
 #include "review/light/sky_table.h"
@@ -16,41 +15,69 @@
 #define NEAR_CHUNK 64
 #define SUN_BYTES ((size_t)16 << 20) /* tables that are not added yet */
 
+/* What is sampled by target. */
+typedef struct TargetSums {
+    const float *weights;
+    double *of;       /* [sun][target] */
+    const int *order; /* which sun is the i-th of a table */
+    int targets;
+} TargetSums;
+
 typedef struct SunTrace {
     const ProbeAim *aim;
-    const ResponseOptions *options;
     const ProbeSuns *suns;
-    float *tables;
-    Vec3 *towards;
-    long *near;       /* of pieces: ProbeAnswers's */
-    int first, paths; /* first path of the pieces in hand; all paths */
-    int chunk;
-    bool is_by_target; /* a piece is a target's */
+    int paths, chunk;     /* all of them; those of a piece */
+    double *sums;         /* [sun][band] over all paths; NULL: those near a sun are counted alone */
+    const TargetSums *to; /* a piece is a target's; NULL: not by target */
+    long near;            /* ProbeAnswers's */
 } SunTrace;
 
-/* The aim at one of its targets. */
-static ProbeAim aim_at_target(const ProbeAim *aim, int target) {
-    ProbeAim one = *aim;
-    one.targets = aim->targets + target;
-    one.patches = aim->patches ? aim->patches + target : NULL;
-    one.target_count = 1;
-    return one;
+static void begin_suns(ProbePart *to, Arena *arena) {
+    const SunTrace *trace = to->user;
+    ProbePiece *piece = to->piece;
+    ProbeAnswers *answers = to->own;
+    answers->sums = ARENA_NEW(arena, float, (size_t)trace->suns->count *RESPONSE_BANDS);
+    answers->towards = ARENA_NEW(arena, Vec3, trace->suns->count);
+    if (trace->to) { /* the aim at one of its targets */
+        piece->aim.targets += piece->id;
+        if (piece->aim.patches) piece->aim.patches += piece->id;
+        piece->aim.target_count = 1;
+    }
+    if (piece->end > trace->paths) piece->end = trace->paths;
 }
 
-static void trace_suns(void *user, int item, int worker) {
-    (void)worker;
-    SunTrace *trace = user;
-    PathStatistics statistics = {0};
-    size_t count = (size_t)trace->suns->count;
-    float *table = trace->tables + (size_t)item * count * RESPONSE_BANDS;
-    int first = trace->first + item * trace->chunk, end = first + trace->chunk;
-    ProbeAim aim =
-        trace->is_by_target ? aim_at_target(trace->aim, first / trace->chunk) : *trace->aim;
-    memset(table, 0, count * RESPONSE_BANDS * sizeof(float));
-    ProbeAnswers answers = {table, trace->towards + (size_t)item * count, 0};
-    trace->options->kernel->sample_suns(
-        &aim, trace->suns, first, end < trace->paths ? end : trace->paths, &answers, &statistics);
-    trace->near[item] = answers.near_suns;
+static void ask_suns(const ProbePart *to, const Kernel *kernel) {
+    ProbePiece *piece = to->piece;
+    kernel->sample_suns(&piece->aim, ((const SunTrace *)to->user)->suns, piece->first, piece->end,
+                        to->own, &piece->statistics);
+}
+
+static void merge_suns(const ProbePart *from) {
+    SunTrace *trace = from->user;
+    const ProbeAnswers *answers = from->own;
+    const TargetSums *to = trace->to;
+    size_t count = (size_t)trace->suns->count, target = (size_t)from->piece->id;
+    trace->near += answers->near_suns;
+    for (size_t i = 0; i < count * RESPONSE_BANDS && trace->sums; i++)
+        trace->sums[i] += (double)answers->sums[i];
+    for (size_t i = 0; i < count && to; i++)
+        to->of[(size_t)to->order[i] * (size_t)to->targets + target] =
+            light_bands_sum(answers->sums + i * RESPONSE_BANDS, to->weights) / trace->chunk;
+}
+
+/* As many pieces at once as their tables have room for: threads wait for each other after so
+ * many. */
+static void trace_suns(SunTrace *trace, const ProbeTools *tools, Arena scratch) {
+    size_t room = SUN_BYTES / ((size_t)trace->suns->count * RESPONSE_BANDS * sizeof(float) + 1);
+    ProbeGoal goal = {.pieces = (trace->paths + trace->chunk - 1) / trace->chunk,
+                      .paths = trace->chunk,
+                      .at_once = (int)room > tools->threads ? (int)room : tools->threads};
+    ProbeFold fold = {.user = trace,
+                      .bytes = sizeof(ProbeAnswers),
+                      .begin = begin_suns,
+                      .ask = ask_suns,
+                      .merge = merge_suns};
+    probe_read(trace->aim, &goal, tools, &fold, 1, scratch);
 }
 
 #define MIRROR_HITS 1024.0 /* paths that meet the sun's image, evenly: 0.6 % */
@@ -92,65 +119,18 @@ static int *rising_order(const ProbeSuns *suns, Arena *arena) {
     return order;
 }
 
-/* What is sampled by target. */
-typedef struct TargetSums {
-    const float *weights;
-    double *of;       /* [sun][target] */
-    const int *order; /* which sun is the i-th of a table */
-    int targets;
-} TargetSums;
-
-static void add_target(const SunTrace *trace, const float *table, int target,
-                       const TargetSums *to) {
-    for (int i = 0; i < trace->suns->count; i++)
-        to->of[(size_t)to->order[i] * (size_t)to->targets + (size_t)target] =
-            light_bands_sum(table + (size_t)i * RESPONSE_BANDS, to->weights) / trace->chunk;
-}
-
-/* sums: [sun][band] over all paths. to: NULL: not by target. */
-static void sum_suns(SunTrace *trace, int pieces, double *sums, const TargetSums *to) {
-    size_t size = (size_t)trace->suns->count * RESPONSE_BANDS;
-    for (; trace->first < trace->paths; trace->first += pieces * trace->chunk) {
-        int left = (trace->paths - trace->first + trace->chunk - 1) / trace->chunk;
-        int now = left < pieces ? left : pieces;
-        parallel_for(trace->options->threads, now, trace_suns, trace);
-        for (int k = 0; k < now; k++) {
-            const float *table = trace->tables + (size_t)k * size;
-            for (size_t i = 0; i < size; i++) sums[i] += (double)table[i];
-            if (to) add_target(trace, table, trace->first / trace->chunk + k, to);
-        }
-    }
-}
-
-/* As many as their tables have room for: threads wait for each other after so many. */
-static int pieces_at_once(const SunTrace *trace) {
-    size_t room = SUN_BYTES / ((size_t)trace->suns->count * RESPONSE_BANDS * sizeof(float) + 1);
-    int all = (trace->paths + trace->chunk - 1) / trace->chunk;
-    int most = room < (size_t)all ? (int)room : all;
-    return most > trace->options->threads ? most : trace->options->threads;
-}
-
 /* Of one sun: does a share of the paths find no mirror direction near it? These are well spread:
  * what of a mirror is within PROBE_NEAR_SUN radii of the sun, wherever on its rim the image lies,
  * gets as many of them as the whole image of all. */
-static bool is_far_from_mirror(const SunTrace *of, int pieces) {
+static bool is_far_from_mirror(const SunTrace *of, const ProbeTools *tools, Arena scratch) {
     SunTrace some = *of;
-    some.is_by_target = false;
+    some.to = NULL;
+    some.sums = NULL;
     some.chunk = NEAR_CHUNK;
     some.paths = of->paths / (PROBE_NEAR_SUN * PROBE_NEAR_SUN);
-    long near = 0;
     if (!of->suns->by_mirror || of->suns->count != 1) return false;
-    for (; some.first < some.paths && !near; some.first += pieces * some.chunk) {
-        int left = (some.paths - some.first + some.chunk - 1) / some.chunk;
-        int now = left < pieces ? left : pieces;
-        parallel_for(some.options->threads, now, trace_suns, &some);
-        for (int k = 0; k < now; k++) near += some.near[k];
-    }
-    return !near;
-}
-
-static int paths_of_target(const ProbeAim *aim, const ResponseOptions *options) {
-    return (options->paths + aim->target_count - 1) / aim->target_count;
+    trace_suns(&some, tools, scratch);
+    return !some.near;
 }
 
 /* to: its order is set; of NULL: not by target. */
@@ -168,20 +148,18 @@ static const float *suns_of(const ProbeAim *aim, const ResponseOptions *options,
     rising.towards = towards;
     spread.is_spread = true;
     SunTrace trace = {.aim = &spread,
-                      .options = options,
                       .suns = &rising,
                       .paths = options->paths,
-                      .is_by_target = to->of != NULL,
+                      .sums = sums,
+                      .to = to->of ? to : NULL,
                       .chunk = suns->by_mirror ? MIRROR_CHUNK : SUN_CHUNK};
     to->order = order;
-    if (to->of) trace.chunk = paths_of_target(aim, options);
-    if (to->of) trace.paths = trace.chunk * aim->target_count;
-    size_t pieces = (size_t)pieces_at_once(&trace);
-    trace.tables = ARENA_NEW(&scratch, float, count *RESPONSE_BANDS *pieces);
-    trace.towards = ARENA_NEW(&scratch, Vec3, count * pieces);
-    trace.near = ARENA_NEW(&scratch, long, pieces);
-    if (is_far_from_mirror(&trace, (int)pieces)) return shares;
-    sum_suns(&trace, (int)pieces, sums, to->of ? to : NULL);
+    if (to->of) {
+        trace.chunk = (options->paths + aim->target_count - 1) / aim->target_count;
+        trace.paths = trace.chunk * aim->target_count;
+    }
+    if (is_far_from_mirror(&trace, &options->tools, scratch)) return shares;
+    trace_suns(&trace, &options->tools, scratch);
     for (size_t i = 0; i < count; i++)
         for (int b = 0; b < RESPONSE_BANDS; b++)
             shares[(size_t)order[i] * RESPONSE_BANDS + (size_t)b] =

@@ -28,20 +28,22 @@ typedef struct AlikeWork {
 } AlikeWork;
 
 /* All points' paths, a piece each, or the part's pieces. */
-static void *begin_piece(void *user, ProbePiece *piece, Arena *arena) {
+static void begin_piece(ProbePart *to, Arena *arena) {
     (void)arena;
-    const AlikeWork *work = user;
+    const AlikeWork *work = to->user;
+    ProbePiece *piece = to->piece;
     int aim = piece->id / (PATHS / PIECE), first = work->pilot->first[aim];
-    int count = work->pilot->first[aim + 1] - first, left;
+    int count = work->pilot->first[aim + 1] - first;
     piece->aim = work->aims[aim];
     piece->first = piece->id % (PATHS / PIECE) * PIECE;
-    left = piece->aim.target_count ? count - piece->first : 0;
-    piece->end = piece->first + (left < PIECE ? left : PIECE);
-    return &work->pilot->light[first];
+    piece->end = !piece->aim.target_count       ? 0
+                 : piece->first + PIECE < count ? piece->first + PIECE
+                                                : count;
+    to->own = &work->pilot->light[first];
 }
 
-static void take_look(void *sums, int path, const ProbeLook *look) {
-    if (look->is_found) ((float *)sums)[path] = look->reflected[1];
+static void take_look(const ProbePart *to, const ProbeLook *look) {
+    if (look->is_found) ((float *)to->own)[to->piece->path] = look->reflected[1];
 }
 
 const CasePilot *case_pilot(const PilotArgs *args, Arena *arena) {

@@ -207,7 +207,7 @@ static DirectSun direct_sun(const Setup *setup, const ProbeAim *aim, Arena scrat
     if (!setup_sun_xyz(setup, aim->colour, &towards, bands)) return direct;
     float radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
     ProbeSuns suns = {&towards, 1, radius, false};
-    ResponseOptions options = {setup->tools.kernel, 0, SUN_PATHS, setup->tools.threads, 0};
+    ResponseOptions options = {setup->tools, 0, SUN_PATHS, 0};
     for (int by_mirror = 0; by_mirror < 2; by_mirror++) {
         Arena room = scratch;
         suns.by_mirror = by_mirror;

@@ -127,8 +127,8 @@ bool explain_review(const ReviewRequest *request, const ExplainOptions *options,
 
 #define PANES 16 /* before a display, at most */
 
-static void note_display(void *sums, int path, const ProbeLook *look) {
-    ((bool *)sums)[path] = look->is_found;
+static void note_display(const ProbePart *to, const ProbeLook *look) {
+    ((bool *)to->user)[to->piece->path] = look->is_found;
 }
 
 /* Leaves the targets that show a display, if at least half of them do. */

@@ -312,7 +312,7 @@ static double add_sun(const Setup *setup, const LightParts *parts, double *known
     float bands[3][LIGHT_BANDS];
     if (!setup_sun_xyz(setup, parts->aim.colour, &towards, bands)) return 0;
     ProbeSuns sun = {&towards, 1, (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG), false};
-    ResponseOptions options = {setup->tools.kernel, 0, SUN_PATHS, setup->tools.threads, 0};
+    ResponseOptions options = {setup->tools, 0, SUN_PATHS, 0};
     return sun_parts_light(parts, &options, &sun, bands[1], known, scratch);
 }
 
