@@ -529,6 +529,8 @@ static void add_kind(json_t *list, const TableKind *kind, const char *before, Ar
         const char *other = strchr(column->key, '|'); /* a list of texts in the place of rows */
         int length = (int)strcspn(column->key, "|");
         const char *key = arena_format(arena, "%s%.*s", before, length, column->key);
+        const char *interval =
+            column->interval ? arena_format(arena, "%s%s", before, column->interval) : NULL;
         const char *unit = column->times > 0 ? column->times == 100 ? "share" : NULL : column->unit;
         if (column->lists) add_kind(list, column->lists, before, arena);
         if (column->of) add_kind(list, column->of, arena_format(arena, "%s[].", key), arena);
@@ -536,7 +538,7 @@ static void add_kind(json_t *list, const TableKind *kind, const char *before, Ar
         if ((has_rows(column) && !other) || column->is_bar) continue;
         json_t *one = json_pack("{s:s, s:s*, s:s*, s:s*, s:s*, s:s*}", "key", key, "unit", unit,
                                 "words", column->words, "none", column->none, "about",
-                                column->about, "interval", column->interval);
+                                column->about, "interval", interval);
         json_array_append_new(list, one);
     }
 }

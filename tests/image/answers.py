@@ -23,6 +23,7 @@ from report import Report  # noqa: E402
 PANELS = "assets/panels/"
 IPS = PANELS + "ips_cluster.panel"
 CAR = ("scenes/car_dashboard.gltf", "scenes/noon.gltf")
+GLANCE, SKY = "scenes/glance.review.json", ("--environment", "constant:9")
 WHEN = ("--when", "2026-06-21T12:00+02:00", "--where", "48.14,11.58,520")
 EPW = ("LOCATION,T,-,D,D,0,48.14,11.58,1.0,520\nDATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n"
        "2026,6,21,10,60,x,20,8,79,100100,0,1415,288,0,600,150,0,0,0,0\n")
@@ -54,11 +55,15 @@ RUNS = (
     ("measure", "", ("FOLDER/frame.exr", "--display", "cluster")),
     ("measure", "", ("FOLDER/two.hdr", "--region", "0,0,64,64")),
     ("measure", "--glare", ("FOLDER/frame.exr",)),
-    ("measure", "--illuminance", ("0.1,0,1,0,0,-1", "FOLDER/odd.gltf", "--environment",
-                                  "constant:9", "--samples", "64")),
+    ("measure", "--illuminance", ("0.1,0,1,0,0,-1", "FOLDER/odd.gltf", *SKY, "--samples",
+                                  "64")),
     ("compare", "", ("FOLDER/frame.exr", "FOLDER/r/frame.exr")),
     ("compare", "FOLDER FOLDER", ("FOLDER/r", "FOLDER/r")),
-    ("review", "--dry-run", ("scenes/glance.review.json",)),
+    ("explain", "", ("FOLDER/whole.review.json", "--condition", "night", "--paths", "1024",
+                     "--root", "/")),
+    ("explain", "", (*CAR, "--display", "cluster", "--paths", "1024")),
+    ("explain", "", ("FOLDER/odd.gltf", *SKY, "--pixel", "4,4", "--size", "8x8", "--paths", "128")),
+    ("review", "--dry-run", (GLANCE,)),
     ("equip", "", ("FOLDER/odd.gltf", "-o", "FOLDER/odd.html")),
     ("render", "", (*SMALL, "--noise", "display:0.5", "--layers", "all", "-o", "FOLDER/all.exr",
                     "--png", "FOLDER/a.png", "--denoise")),
@@ -118,6 +123,24 @@ def write_scene(folder):
     with open(os.path.join(folder, "lamp.ies"), "w", encoding="utf-8") as file:
         file.write(ies(size="0.1 0.2 0").replace("TILT=NONE",
                                                  "TILT=INCLUDE\n1\n3\n0 60 90\n1 0.9 0.5"))
+
+
+def write_review(folder):
+    """A symbol as large as its display, some of which the binnacle hides."""
+    with open(os.path.join(ROOT, GLANCE), encoding="utf-8") as file:
+        review = json.load(file)
+
+    def reached(name):
+        return os.path.relpath(os.path.join(ROOT, "scenes", name), folder)
+    night = review["conditions"][0]
+    review["scene"] = [reached(name) for name in review["scene"]]
+    night["lights"] = [reached(name) for name in night["lights"]]
+    speed = review["symbols"]["speed"]
+    speed.update(content=reached(speed["content"]), uv=[0, 0, 1, 1])
+    review["conditions"] = [night]
+    del review["variants"], review["frames"]
+    with open(os.path.join(folder, "whole.review.json"), "w", encoding="utf-8") as file:
+        json.dump(review, file)
 
 
 def write_files(folder):
@@ -185,6 +208,7 @@ def main():
                  answers_of(json.loads(run("help", "--json"))).items()}
         write_set(run, folder)
         write_scene(folder)
+        write_review(folder)
         write_files(folder)
         run(*RENDERED)
         os.mkdir(os.path.join(folder, "r"))

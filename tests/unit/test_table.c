@@ -108,7 +108,13 @@ ARENA_TEST(text_json_csv_and_page_have_the_same_cells) {
 
 /* ---- of a document ----------------------------------------------------------------------- */
 
-static const Column ITEMS[] = {COLUMN_TEXT("name", "item"), COLUMN_SHARE("share", "share")};
+static const Column ITEMS[] = {COLUMN_TEXT("name", "item"),
+                               {.key = "share",
+                                .words = "share",
+                                .unit = "%",
+                                .places = 3,
+                                .times = 100,
+                                .interval = "range"}};
 static const TableKind ITEMS_KIND = TABLE_KIND("items", NULL, ITEMS);
 static const Column ANSWER[] = {
     {.key = "light.cd_m2", .words = "luminance", .unit = "cd/m2", .interval = "light.interval"},
@@ -181,7 +187,9 @@ ARENA_TEST(a_kind_lists_its_columns) {
     for (int i = 0; i < COUNT_OF(ROW_KEYS); i++)
         assert_string_equal(json_text_at(json_array_get(list, (size_t)(plain + i)), "key"),
                             ROW_KEYS[i]);
-    assert_string_equal(json_text_at(json_array_get(list, (size_t)plain + 1), "unit"), "share");
+    const json_t *share = json_array_get(list, (size_t)plain + 1);
+    assert_string_equal(json_text_at(share, "unit"), "share");
+    assert_string_equal(json_text_at(share, "interval"), "items[].range");
 }
 
 /* Lists that stand side by side are rows; documents that have rows stand one below the other, a

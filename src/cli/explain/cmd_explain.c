@@ -306,7 +306,8 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
         options,
         COUNT_OF(options),
         1,
-        -1};
+        -1,
+        .answers = explain_answers};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     scene->render.threads = out->cli.threads;

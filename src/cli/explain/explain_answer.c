@@ -75,7 +75,10 @@ GROUP(OPENINGS_KIND, OPENINGS, "came by");
 GROUP(SURFACES_KIND, SURFACES, "met at");
 
 static const Column BOUNCES[] = {
-    COLUMN_TEXT("what", "what"),
+    {.key = "what",
+     .words = "what",
+     .about = "in the order of the eye's ray: `mirror`, `scatters`, `refracts`, or `passes`, of a "
+              "pane, whose `at_m` is null"},
     COLUMN_TEXT("node", "node"),
     COLUMN_TEXT("material", "material"),
     {.key = "at_m", .words = "at", .unit = "m", .is_fixed = true, .places = 3}};
@@ -111,8 +114,8 @@ static const Column EXPLAIN[] = {
     COLUMN_TEXT("pixel", "pixel"),
     COLUMN_TEXT("size", "of a picture"),
     COLUMN_TEXT("condition", "condition"),
-    COLUMN_TEXT("symbol", "symbol"),
-    COLUMN_TEXT("display", "display"),
+    {.key = "symbol", .words = "symbol", .about = "null: a scene was asked"},
+    {.key = "display", .words = "display", .about = "null: none is seen"},
     COLUMN_TEXT("eye", "eye"),
     COLUMN_FIXED("eye_m", "eye at", "m", 3),
     COLUMN_TEXT("paths", "paths"),
@@ -139,7 +142,9 @@ static const Column EXPLAIN[] = {
      .places = 4,
      .none = "infinite"},
     COLUMN_TEXT("verdict", "verdict"),
-    COLUMN_TEXT("judged_line", "judged"),
+    {.key = "judged_line",
+     .words = "judged",
+     .about = "what was found and is required, or why it is not judged; null of a scene"},
     COLUMN_TEXT("notes", "note"),
     COLUMN_TEXT("remedy_lines", "remedy"),
     {.key = "hidden_by", .of = &HIDERS_KIND},
@@ -149,6 +154,27 @@ static const Column EXPLAIN[] = {
     {.key = "chains", .of = &CHAINS_KIND},
     {.key = "spectrum.nm", .lists = &SPECTRUM_KIND}};
 static const TableKind EXPLAIN_KIND = TABLE_KIND("explain", NULL, EXPLAIN);
+
+/* Those of JSON alone. */
+static const Column CHAIN_KEYS[] = {
+    COLUMN_KEY("contrast_lost", "`contrast_without` less `contrast_ratio`"),
+    COLUMN_KEY("rays", "lists of points, m, from the eye on"),
+    COLUMN_KEY("kind", "of a scene's light: `sun`, `sky`, `surface`, `lamp`"),
+};
+static const TableKind CHAIN_KEYS_KIND = TABLE_KIND("chains", NULL, CHAIN_KEYS);
+static const Column KEYS[] = {
+    COLUMN_KEY("visible_share", "of the symbol's box, or the display"),
+    COLUMN_KEY("symbol_mean", "of a symbol, as a case's in `review.json`, as the two that follow"),
+    COLUMN_KEY("lit_share", NULL),
+    COLUMN_KEY("judged_part_uv", NULL),
+    COLUMN_KEY("remedies", "as a case's; `remedy_lines` in words"),
+    COLUMN_KEY("spectrum.unit", "of `radiance`"),
+    COLUMN_KEY("spectrum.band_nm", "width of each; `nm` are their middles"),
+    {.key = "chains", .of = &CHAIN_KEYS_KIND},
+};
+static const TableKind KEYS_KIND = TABLE_KIND("explain", NULL, KEYS);
+
+const Answer explain_answers[] = {{"", &EXPLAIN_KIND}, {"", &KEYS_KIND}, {0}};
 
 /* ---- the answer -------------------------------------------------------------------------- */
 

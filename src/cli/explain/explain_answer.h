@@ -15,4 +15,6 @@ typedef struct ExplainAnswer {
     int pixel[2], size[2];
 } ExplainAnswer;
 
+extern const Answer explain_answers[];
+
 bool explain_answer(const Cli *cli, const ExplainAnswer *answer, Arena *arena, Error *err);
