@@ -41,6 +41,8 @@ RUNS = (
     ("panel report", "", (IPS,)),
     ("panel plot", "", (IPS, "-o", "FOLDER/map.svg", "--kind", "contrast", "--contour", "50%",
                         "--ambient", "300", "--level", "3")),
+    ("panel show", "", (IPS, "--content", "assets/content/cluster.png", "--png", "FOLDER/show.png",
+                        "--size", "32x12", "--spp", "1", "--directed", "9,30,0")),
     ("panel export", "", (IPS, "--table", "red 255", "-o", "FOLDER/red.csv", "--level", "3")),
     ("panel eval", "", (IPS, *TOWARDS, "--rgb", "9,9,9", "--at", "0,0", "--level", "3")),
     ("panel eval", "--brdf", (IPS, *TOWARDS, *FROM, "--at", "0,0", "--level", "3")),
@@ -197,7 +199,7 @@ def answers_of(told, before=""):
 def main():
     report = Report()
     program = os.path.abspath(sys.argv[1])
-    seen = {}  # by the columns: an answer of two commands is one
+    seen = {}  # by the columns: an answer of two commands is one, or a part of the other's
     with tempfile.TemporaryDirectory(prefix="answers-") as folder:
         def run(*words):
             done = subprocess.run([program, *(word.replace("FOLDER", folder) for word in words)],
@@ -222,9 +224,9 @@ def main():
                 path for path, has_value in paths if not is_told(path, has_value, columns)))
             seen.setdefault(columns, set()).update(path for path, _ in paths)
     for answer, columns in known.items():
+        paths = {path for of, paths in seen.items() if of <= columns for path in paths}
         report.claim_none(f"{' '.join(answer)}: a column and in no answer", sorted(
-            column for column in columns
-            if not any(is_below(path, column) for path in seen.get(columns, ()))))
+            column for column in columns if not any(is_below(path, column) for path in paths)))
     report.finish()
 
 

@@ -14,11 +14,11 @@
 #include "cli/panel/panel_commands.h"
 #include "cli/render/cmd_render.h"
 #include "cli/render/command_line.h"
+#include "cli/render/render_columns.h"
 #include "denoise/denoise.h"
 #include "image/image.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_report.h"
-#include "print/print.h"
 #include "spectrum/twice.h"
 #include "text/base64.h"
 #include "text/json_text.h"
@@ -353,21 +353,30 @@ static json_t *about(const ShowRun *work) {
         "ambient_lx", scene->ambient_lx, "directed", directed_json(scene));
 }
 
-static void print_about(const ShowRun *work, const Arena *arena) {
-    Arena scratch = *arena;
-    const ShowScene *scene = &work->scene;
-    const char *directed = "";
-    if (scene->directed_lx > 0)
-        directed = arena_format(&scratch,
-                                ", %g lx from theta %g, phi %g (a disc of %.2f "
-                                "degrees)",
-                                scene->directed_lx, scene->directed_theta, scene->directed_phi,
-                                2 * SUN_MEAN_RADIUS_DEG);
-    print("%s: %.4g x %.4g mm (%s), seen from theta %.4g, phi %.4g at %.4g m; %g lx from a "
-          "dome%s\n",
-          work->panel.value, 1e3 * scene->size_m[0], 1e3 * scene->size_m[1], work->words.size_from,
-          work->theta_deg, work->phi_deg, show_distance(scene->eye_m), scene->ambient_lx, directed);
-}
+/* Beside what `render` answers. */
+static const Column ABOUT[] = {
+    COLUMN_TEXT("panel", "panel"),
+    COLUMN_TEXT("content", "content"),
+    COLUMN_DIGITS("size_mm", "size", "mm", 4),
+    {.key = "size_from", .words = "size from", .about = "`the panel`, `--size-mm`, `assumed`"},
+    {.key = "eye.position_m",
+     .words = "eye (right, up, before it)",
+     .unit = "m",
+     .about = "from the display's centre"},
+    COLUMN_DIGITS("eye.theta_deg", "seen from theta", "degrees", 0),
+    COLUMN_DIGITS("eye.phi_deg", "phi", "degrees", 0),
+    COLUMN_DIGITS("eye.distance_m", "distance", "m", 0),
+    COLUMN_DIGITS("ambient_lx", "from a dome", "lx", 0),
+    {.key = "directed.illuminance_lx",
+     .words = "from a disc",
+     .unit = "lx",
+     .about = "on the display; `directed` is null: none"},
+    COLUMN_DIGITS("directed.theta_deg", "its theta", "degrees", 0),
+    COLUMN_DIGITS("directed.phi_deg", "its phi", "degrees", 0),
+    COLUMN_DIGITS("directed.diameter_deg", "its diameter", "degrees", 2),
+    COLUMN_KEY("fov_deg", "the frame's height"),
+    COLUMN_KEY("output", "without `-o` the picture")};
+static const TableKind ABOUT_KIND = TABLE_KIND("show", NULL, ABOUT);
 
 static Outcome show(ShowRun *work, Arena *arena, Error *err) {
     RenderRequest *request = &work->request;
@@ -375,9 +384,10 @@ static Outcome show(ShowRun *work, Arena *arena, Error *err) {
     if (!set_render(work, arena, err)) return OUTCOME_FAILED;
     request->about = about(work);
     Outcome outcome = cmd_render_request(request, arena, err);
-    json_decref(request->about);
     bool is_told = request->cli.json || request->cli.quiet;
-    if (outcome == OUTCOME_DONE && !is_told) print_about(work, arena);
+    if (outcome == OUTCOME_DONE && !is_told)
+        return outcome_of(cli_print_answer(&ABOUT_KIND, request->about, false, err));
+    json_decref(request->about);
     return outcome;
 }
 
@@ -469,7 +479,8 @@ static bool parse(int argc, char **argv, Arena *arena, ShowRun *work, Error *err
         options,
         COUNT_OF(options),
         1,
-        1};
+        1,
+        .answers = (const Answer[]){{"", &render_answer_kind}, {"", &ABOUT_KIND}, {0}}};
     return cli_parse(&command, argc, argv, arena, &request->cli, err);
 }
 
