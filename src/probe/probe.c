@@ -86,6 +86,7 @@ static void follow_piece(void *user, int item, int worker) {
     ProbePiece *piece = &work->piece;
     const ProbeFold *folds = round->folds, *last = folds + round->fold_count - 1;
     PathListener listener = round->goal->like;
+    int step = round->goal->together ? round->goal->together : 1;
     ProbeLook look;
     listener.user = work;
     listener.on_light = on_light;
@@ -94,13 +95,16 @@ static void follow_piece(void *user, int item, int worker) {
         folds->ask(&work->parts[0], round->kernel);
         return;
     }
-    for (int path = piece->first; path < piece->end && !signals_stop_requested(); path++) {
+    for (int path = piece->first; path < piece->end && !signals_stop_requested(); path += step) {
         piece->path = path;
         for (int k = 0; k < round->fold_count; k++)
             if (folds[k].before) folds[k].before(&work->parts[k]);
         if (folds->look)
             round->kernel->look(&piece->aim, path, path + 1, &look, &piece->statistics);
-        else round->kernel->trace(&piece->aim, path, path + 1, &listener, &piece->statistics);
+        else
+            round->kernel->trace(&piece->aim, path,
+                                 path + step < piece->end ? path + step : piece->end, &listener,
+                                 &piece->statistics);
         for (int k = 0; k < round->fold_count; k++) {
             if (folds[k].look) folds[k].look(&work->parts[k], &look);
             if (folds[k].after) folds[k].after(&work->parts[k]);

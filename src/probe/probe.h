@@ -35,6 +35,8 @@ typedef struct ProbeGoal {
                           stream has random numbers of its own and takes targets by chance
                           (ProbeAim.is_spread); 0: all are of one, that of the aim as it is */
     int at_once;       /* pieces that are kept until they are merged; 0: all */
+    int together;      /* paths that listeners follow at once, of which none is known by its
+                          number; 0: one */
     PathListener like; /* what listeners want of paths; its functions are the folds' */
 } ProbeGoal;
 

@@ -81,7 +81,11 @@ TEST(threads_and_pieces_at_once_change_no_bit) {
         .context = &world.context, .eye = vec3(0, 1, 0), .targets = targets, .target_count = 3};
     double first = 0;
     for (int i = 0; i < 9; i++) {
-        ProbeGoal goal = {.pieces = 50, .paths = 33, .streams = 8, .at_once = at_once[i / 3]};
+        ProbeGoal goal = {.pieces = 50,
+                          .paths = 33,
+                          .streams = 8,
+                          .at_once = at_once[i / 3],
+                          .together = 10 * (i % 2)};
         ProbeTools tools = tools_of(threads[i % 3]);
         double sum, twice;
         ProbeFold folds[2] = {sum_into(&sum), sum_into(&twice)};

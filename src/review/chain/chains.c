@@ -420,6 +420,7 @@ Chains chains_find(const ChainArgs *args, Arena *arena) {
                       .paths = CHAIN_CHUNK,
                       .streams = args->aim->pixel ? 0 : search.batches,
                       .at_once = ROUND,
+                      .together = CHAIN_CHUNK,
                       .like = {.with_extrapolated = true, .with_lanes = args->beside != NULL}};
     ProbeFold folds[2] = {{.user = &search,
                            .bytes = sizeof(ChainChunk),

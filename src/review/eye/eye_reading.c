@@ -181,7 +181,8 @@ static void read_pupil(const EyePaths *paths, uint32_t seed, int times, const Pr
     PathContext lights_only = pupil_context(paths->setup);
     ProbeAim aim = {
         .context = &lights_only, .meter = &pupil, .seed = review_seed(paths->setup->request, seed)};
-    ProbeGoal goal = {.pieces = paths->count / CHUNK, .paths = CHUNK * times};
+    ProbeGoal goal = {
+        .pieces = paths->count / CHUNK, .paths = CHUNK * times, .together = CHUNK * times};
     probe_read(&aim, &goal, &paths->setup->tools, fold, 1, scratch);
 }
 
