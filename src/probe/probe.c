@@ -96,15 +96,13 @@ static void follow_piece(void *user, int item, int worker) {
         return;
     }
     for (int path = piece->first; path < piece->end && !signals_stop_requested(); path += step) {
+        int end = path + step < piece->end ? path + step : piece->end;
         piece->path = path;
         for (int k = 0; k < round->fold_count; k++)
             if (folds[k].before) folds[k].before(&work->parts[k]);
         if (folds->look)
             round->kernel->look(&piece->aim, path, path + 1, &look, &piece->statistics);
-        else
-            round->kernel->trace(&piece->aim, path,
-                                 path + step < piece->end ? path + step : piece->end, &listener,
-                                 &piece->statistics);
+        else round->kernel->trace(&piece->aim, path, end, &listener, &piece->statistics);
         for (int k = 0; k < round->fold_count; k++) {
             if (folds[k].look) folds[k].look(&work->parts[k], &look);
             if (folds[k].after) folds[k].after(&work->parts[k]);

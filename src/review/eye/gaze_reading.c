@@ -73,18 +73,14 @@ static void on_light(const ProbePart *to, const PathHistory *history, const floa
     own->shown[place_shown(scene, history, step)] += (double)xyz[1];
 }
 
-static int mirrors_of(const PathHistory *history) {
-    int count = 0;
-    for (int i = 0; i < path_steps_kept(history); i++)
-        count += history->step[i].event == PATH_REFLECTS;
-    return count;
-}
-
 static void on_mirror(const ProbePart *to, const PathHistory *history, Vec3 towards, float share) {
     GazeBatch *batch = ((KindBatch *)to->own)->own;
     bool is_mirrored = path_mirroring_step(to->piece->aim.context->scene, history) != NO_ID;
     int figure = is_mirrored ? GAZE_MIRRORED : GAZE_THROUGH;
-    int again = mirrors_of(history) > 1, *count = &batch->images[figure][again];
+    int mirrors = 0;
+    for (int i = 0; i < path_steps_kept(history); i++)
+        mirrors += history->step[i].event == PATH_REFLECTS;
+    int again = mirrors > 1, *count = &batch->images[figure][again];
     if (history->count > PATH_STEPS_MAX || *count == GAZE_IMAGES ||
         history->step[history->count - 1].event != PATH_REFLECTS)
         return;
