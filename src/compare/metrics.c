@@ -67,7 +67,9 @@ bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *ou
     if (out->reference.kind != INPUT_FRAME) return true;
     CompareInput *sides[2] = {&out->reference, &out->test};
     DevelopReport report;
-    DevelopOptions develop = {.exposure = options->exposure, .own_config = true};
+    /* Local adaptation is a look, of which no figure may be taken. */
+    DevelopOptions develop = {
+        .exposure = options->exposure, .own_config = true, .adapt = DEVELOP_ADAPT_NONE};
     for (int side = 0; side < 2; side++) {
         Picture picture;
         develop.frame_name = sides[side]->name;

@@ -118,6 +118,18 @@ def check_frames(report, program):
     told(report, program.compare("a.exr", "b.exr", "--region", "0,0,4,1"), 0)
 
 
+def check_itself(report, program):
+    """Of a frame beside itself no figure differs, however bright a part of it is."""
+    for stops in (0, 2, 3, 6, 12):
+        program.frame("self.exr", times(2 ** stops, 2 ** stops, 2 ** stops, lambda x, y: x < 3))
+        done = program.compare("self.exr", "self.exr", "--json")
+        answer = json.loads(done.stdout)
+        equal = {"ssim": 1, "psnr": None, "mean_shift": 0, "deltae_mean": 0, "deltae_max": 0}
+        found = {key: answer["metrics"][key] for key in equal}
+        report.claim(done.returncode == 0 and answer["outcome"] == "same" and found == equal,
+                     f"a part {stops} stops brighter, beside itself: {found}")
+
+
 def check_structure(report, program):
     """What differs whatever the limits are."""
     loose = ("--max", "differing=1")
@@ -719,7 +731,7 @@ def main():
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
         program = Compare(sys.argv[-1], folder)
-        for check in (check_frames, check_structure, check_contrast, check_numbers,
+        for check in (check_frames, check_itself, check_structure, check_contrast, check_numbers,
                       check_pictures, check_masks, check_usage, check_files,
                       check_json, check_folders, check_broken_pair,
                       check_pairs, check_not_made, check_junit, check_report, check_noise,
