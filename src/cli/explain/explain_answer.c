@@ -70,9 +70,9 @@ static const TableKind HIDERS_KIND = TABLE_KIND("hidden_by", NULL, HIDERS);
     static const Column columns[] = {COLUMN_TEXT("what", words), COLUMN_SHARE("share", "share"), \
                                      COLUMN_DIGITS("cd_m2", "luminance", "cd/m2", 4)}; \
     static const TableKind kind = TABLE_KIND("cause_groups", NULL, columns)
-GROUP(LIGHTS_KIND, LIGHTS, "began at");
-GROUP(OPENINGS_KIND, OPENINGS, "came by");
-GROUP(SURFACES_KIND, SURFACES, "met at");
+GROUP(LIGHTS_KIND, LIGHTS, "source");
+GROUP(OPENINGS_KIND, OPENINGS, "path");
+GROUP(SURFACES_KIND, SURFACES, "last surface");
 
 static const Column BOUNCES[] = {
     {.key = "what",
@@ -94,7 +94,7 @@ static const Column CHAINS[] = {
      .hides_zero = true},
     COLUMN_TEXT("light", "light"),
     {.key = "from_m",
-     .words = "it begins at",
+     .words = "from",
      .unit = "m",
      .is_fixed = true,
      .places = 3,
@@ -112,32 +112,32 @@ static const TableKind SPECTRUM_KIND = TABLE_KIND("spectrum", NULL, SPECTRUM);
 
 static const Column EXPLAIN[] = {
     COLUMN_TEXT("pixel", "pixel"),
-    COLUMN_TEXT("size", "of a picture"),
+    COLUMN_TEXT("size", "of a frame"),
     COLUMN_TEXT("condition", "condition"),
-    {.key = "symbol", .words = "symbol", .about = "null: a scene was asked"},
+    {.key = "symbol", .words = "symbol", .about = "null: of a scene"},
     {.key = "display", .words = "display", .about = "null: none is seen"},
     COLUMN_TEXT("eye", "eye"),
     COLUMN_FIXED("eye_m", "eye at", "m", 3),
     COLUMN_TEXT("paths", "paths"),
     COLUMN_DIGITS("XYZ.1", "luminance", "cd/m2", 5),
-    COLUMN_DIGITS("standard_error_cd_m2", "its standard error", "cd/m2", 2),
+    COLUMN_DIGITS("standard_error_cd_m2", "standard error", "cd/m2", 2),
     {.key = "luminance_cd_m2.all",
      .words = "luminance",
      .unit = "cd/m2",
      .interval = "reflected_interval",
      .unless = "pixel"},
     {.key = "xy", .words = "colour", .parts = "x|y", .is_fixed = true, .places = 4},
-    COLUMN_DIGITS("luminance_cd_m2.emitted", "sends", "cd/m2", 4),
-    COLUMN_DIGITS("luminance_cd_m2.foreground", "sends, foreground", "cd/m2", 4),
+    COLUMN_DIGITS("luminance_cd_m2.emitted", "emitted", "cd/m2", 4),
+    COLUMN_DIGITS("luminance_cd_m2.foreground", "emitted, foreground", "cd/m2", 4),
     COLUMN_DIGITS("luminance_cd_m2.background", "background", "cd/m2", 4),
     COLUMN_DIGITS("luminance_cd_m2.white", "white", "cd/m2", 4),
     COLUMN_DIGITS("luminance_cd_m2.black", "black", "cd/m2", 4),
     COLUMN_MEASURED("luminance_cd_m2.reflected", "reflected", "cd/m2", "reflected_interval"),
-    COLUMN_DIGITS("luminance_cd_m2.mirror", "by the mirror", "cd/m2", 4),
+    COLUMN_DIGITS("luminance_cd_m2.mirror", "by mirror", "cd/m2", 4),
     COLUMN_DIGITS("luminance_cd_m2.scattered", "scattered", "cd/m2", 4),
     COLUMN_MEASURED("contrast_ratio", "contrast", ": 1", "contrast_interval"),
     {.key = "contrast_unlit",
-     .words = "if nothing were reflected",
+     .words = "contrast without reflection",
      .unit = ": 1",
      .places = 4,
      .none = "infinite"},
