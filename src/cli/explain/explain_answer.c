@@ -133,7 +133,7 @@ static const Column EXPLAIN[] = {
     COLUMN_DIGITS("luminance_cd_m2.white", "white", "cd/m2", 4),
     COLUMN_DIGITS("luminance_cd_m2.black", "black", "cd/m2", 4),
     COLUMN_MEASURED("luminance_cd_m2.reflected", "reflected", "cd/m2", "reflected_interval"),
-    COLUMN_DIGITS("luminance_cd_m2.mirror", "by mirror", "cd/m2", 4),
+    COLUMN_DIGITS("luminance_cd_m2.mirror", "by the mirror", "cd/m2", 4),
     COLUMN_DIGITS("luminance_cd_m2.scattered", "scattered", "cd/m2", 4),
     COLUMN_MEASURED("contrast_ratio", "contrast", ": 1", "contrast_interval"),
     {.key = "contrast_unlit",
