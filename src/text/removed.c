@@ -63,6 +63,8 @@ const RemovedWord removed_words[] = {
     {"panel", "join",
      "keep a panel file of each state, and choose one by --panel "
      "MATERIAL=FILE.panel"},
+    {"panel", "export",
+     "panel eval --grid T0:T1:DT,P0:P1:DP --csv writes a table of any code or incidence"},
     {"panel", "wavelets",
      "panel fit --basis haar makes a panel, panel info --levels says how far "
      "each level is off"},

@@ -24,7 +24,7 @@ from report import Report  # noqa: E402
 
 COMMANDS = ("render", "develop", "check", "measure", "compare", "merge", "sky", "panel import",
             "panel fit", "panel info", "panel eval", "panel plot", "panel report", "panel show",
-            "panel export", "panel simulate", "explain", "equip", "help")
+            "panel simulate", "explain", "equip", "help")
 CAR = os.path.join(ROOT, "scenes", "car_dashboard.gltf")
 PANEL = os.path.join(ROOT, "assets", "panels", "ips_cluster.panel")
 
@@ -32,7 +32,7 @@ PANEL = os.path.join(ROOT, "assets", "panels", "ips_cluster.panel")
 RENDER = ("render", CAR, "-o", "x.exr", "--size", "8x8")
 UNKNOWN_NAMES = (
     (("rendr",), 2, "did you mean render?", "develop", "panel", "help"),
-    (("panel",), 2, "import", "fit", "info", "eval", "export", "plot", "report",
+    (("panel",), 2, "import", "fit", "info", "eval", "plot", "report",
      "show", "simulate"),
     (("panel", "fitt"), 2, "did you mean fit?", "import", "simulate"),
     (("help", "comparig"), 2, "did you mean comparing?", "render", "scenes"),

@@ -64,7 +64,6 @@ def writers(bench, folder):
         ("white.csv", ("panel", "import", table, "--role", "white.csv=white", "-o",
                        to("MANIFEST.json"), "--quiet")),
         ("sim", ("panel", "simulate", RECIPE, "-o", to("sim"), "--grid", "4x6", "--quiet")),
-        ("set", ("panel", "export", panel, "-o", to("set"), "--quiet")),
         ("plot.svg", ("panel", "plot", panel, "--kind", "luminance", "-o", to("plot.svg"))),
         ("r.html", ("panel", "report", panel, "-o", to("r.html"))),
         ("tables", ("panel", "report", panel, "--csv", to("tables"))),
@@ -94,7 +93,7 @@ def check_full_disk(bench):
 
 def check_nearly_full_disk(bench):
     """A page is free: what is larger is begun and cannot be finished."""
-    fill_disk(bench, 4096, ("f.exr", "white.csv", "sim", "set", "plot.svg", "r.html",
+    fill_disk(bench, 4096, ("f.exr", "white.csv", "sim", "plot.svg", "r.html",
                             "sky.png"))
 
 
@@ -174,7 +173,7 @@ def check_places(bench):
     folder = bench.file("folders")
     for name in ("f.exr", "p.png", "x.panel", "plot.svg", "MANIFEST.json", "sky.exr"):
         os.makedirs(os.path.join(folder, name), exist_ok=True)
-    for name in ("set", "sim", "tables"):
+    for name in ("sim", "tables"):
         with open(os.path.join(folder, name), "w") as file:
             file.write("kept")
     before = tree(folder)
@@ -185,7 +184,7 @@ def check_places(bench):
         bench.fails(done, 4, name, what=f"{name} is a folder")
         bench.leaves(before, folder, f"{name} is a folder")
     for name, command in writers(bench, bench.file("not", "there")):
-        words = ("No such file",) if name not in ("white.csv", "set", "sim") else ()
+        words = ("No such file",) if name not in ("white.csv", "sim") else ()
         bench.fails(bench.run(*command), 4, *words, what=f"no such folder, {name}")
     bench.claim(not os.path.exists(bench.file("not")), "a folder was made on the way")
     bench.fails(bench.run("render", folder, "-o", bench.file("x.exr"), "--quiet"), 3,

@@ -42,8 +42,6 @@ LINES = {
                    "set/MANIFEST.json set/white.csv set/levels.csv", {"-o": ".panel"})],
     "panel info": [("panel info other.panel", "other.panel", {})],
     "panel eval": [("panel eval other.panel --batch rows.csv", "other.panel rows.csv", {})],
-    "panel export": [("panel export other.panel --table black -o OUT.csv", "other.panel",
-                      {"-o": ".csv"})],
     "panel plot": [("panel plot other.panel -o OUT.svg --kind luminance --measured "
                     "set/MANIFEST.json", "other.panel set/MANIFEST.json set/white.csv "
                     "set/levels.csv", {"-o": ".svg"})],

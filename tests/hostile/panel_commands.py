@@ -174,26 +174,6 @@ def check_kinds(report, commands, panel):
                  f"a row a wavelength: {many}, {some}")
 
 
-def check_export(report, commands, panel):
-    out = commands.file("exported")
-    commands.text("export", panel, "-o", out, "--theta-step", "8", "--phi-step", "20",
-                  "--quiet")
-    report.claim(sorted(os.listdir(out)) == ["MANIFEST.json", "brdf", "emission",
-                                             "primaries.csv"], f"exported {os.listdir(out)}")
-    done = commands.run("export", panel, "-o", out, "--quiet")
-    fails(report, done, 4, "exported", "holds something already")
-    fails(report, commands.run("export", panel, "-o", commands.file("x.csv"), "--table", "pink",
-                               "--quiet"), 2, "pink", "primaries")
-    report.claim(not [name for name in os.listdir(commands.folder) if ".part" in name],
-                 "an export that failed left something behind")
-    commands.text("fit", os.path.join(out, "MANIFEST.json"), "-o", commands.file("again.panel"),
-                  "--quiet")
-    ask = ("--rgb", "255,255,255", "--theta", "40", "--phi", "80", "--json")
-    a, b = (json.loads(commands.text("eval", path, *ask))["luminance_cd_m2"]
-            for path in (panel, commands.file("again.panel")))
-    report.claim(abs(a / b - 1) < 0.04, f"fitted again, {a} cd/m2 became {b}")
-
-
 def check_levels(report, commands, panel):
     """--level: the finest is the panel, every answer says which level it is of, and what is
     asked wrongly is one line."""
@@ -225,18 +205,10 @@ def check_levels(report, commands, panel):
     done = json.loads(commands.text("plot", panel, "--kind", "luminance", "-o", picture,
                                     "--level", "3", "--json"))
     report.claim(done["level"] == levels[3] and "level 3 of " in text, f"a plot says {done}")
-    out = commands.file("coarse")
-    commands.text("export", panel, "-o", out, "--theta-step", "10", "--phi-step", "30",
-                  "--level", "3", "--quiet")
-    with open(os.path.join(out, "MANIFEST.json")) as file:
-        report.claim("read down to level 3" in file.read(), "an exported set hides its level")
     for wrong, words in (("-1", (f"required: 0 to {finest}",)), ("1.5", ("a whole number",)),
                          (str(finest + 1), (f"required: 0 to {finest}",)), ("x", ("whole",))):
         fails(report, commands.run("eval", panel, *emission, "--theta", "0", "--level", wrong),
               2, "--level", wrong, *words)
-    fails(report, commands.run("export", panel, "-o", commands.file("y.csv"), "--table",
-                               "primaries", "--level", "3", "--quiet"), 2, "--level is 3",
-          "required: none", "primaries")
     dark = commands.file("dark.panel")
     commands.text("fit", lambertian_set(commands, "dark", 0.2), "-o", dark, "--quiet")
     fails(report, commands.run("eval", dark, *emission, "--theta", "0", "--level", "0"), 2,
@@ -244,7 +216,7 @@ def check_levels(report, commands, panel):
 
 
 def check_traits(report, commands, panel):
-    """What a manifest says of polarisation is shown and exported."""
+    """What a manifest says of polarisation is shown."""
     with open(commands.file("set", "MANIFEST.json")) as file:
         manifest = json.load(file)
     del manifest["reflection"]
@@ -257,13 +229,6 @@ def check_traits(report, commands, panel):
     report.claim(facts.get("polarisation") == wanted["polarisation"], f"info says {facts}")
     line = "polarised 98.0 % polarised along 135 degrees"
     report.claim(line in squeezed(commands.text("info", panel)), f"info does not say: {line}")
-    commands.text("export", panel, "-o", commands.file("traits"), "--theta-step", "20",
-                  "--phi-step", "60", "--quiet")
-    with open(commands.file("traits", "MANIFEST.json")) as file:
-        exported = json.load(file)
-    wanted["pixels"] = manifest["pixels"]
-    for key, value in wanted.items():
-        report.claim(exported.get(key) == value, f"export says {exported.get(key)} of {key}")
     write_json(path, {**manifest, "polarisation": {"degree": 2, "azimuth_deg": 0}})
     fails(report, commands.run("fit", path, "-o", panel, "--quiet"), 3, "TRAITS.json",
           "/polarisation/degree", "0 to 1")
@@ -276,8 +241,8 @@ def write_json(path, document):
 
 
 def check_places(report, commands, panel):
-    """A simulated display that is not even: fitted, asked by place, shown, drawn, exported; and
-    what a damaged one says."""
+    """A simulated display that is not even: fitted, asked by place, shown, drawn; and what
+    a damaged one says."""
     with open(RECIPE) as file:
         recipe = json.load(file)
     recipe["emission"]["levels"] = [255]
@@ -323,11 +288,6 @@ def check_places(report, commands, panel):
           "batch.csv", "u is -0.5")
     fails(report, commands.run("simulate", source, "-o", commands.file("at"), "--at", "0,0"),
           2, "--at", "--truth")
-    commands.text("export", path, "-o", commands.file("places_out"), "--theta-step", "8",
-                  "--phi-step", "20", "--quiet")
-    report.claim(sorted(os.listdir(commands.file("places_out"))) == [
-        "MANIFEST.json", "primaries.csv", "spot_1", "spot_2", "spot_3", "spot_4",
-        "uniformity.csv"], "the export of places")
     manifest = os.path.join(folder, "MANIFEST.json")
     with open(manifest) as file:
         good = json.load(file)
@@ -666,7 +626,7 @@ def main():
             check_other_build(report, commands, Commands(options.against, folder))
             report.finish()
         panel = commands.make("small.panel")
-        for check in (check_grids, check_batch, check_export, check_levels, check_places,
+        for check in (check_grids, check_batch, check_levels, check_places,
                       check_traits, check_verdict, check_display,
                       check_plot_numbers):
             try:

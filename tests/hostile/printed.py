@@ -179,7 +179,6 @@ def check_panels(work):
     work.report.claim(found.get("panel") == named("panel"), "a panel's name is not given back")
     work.run("panel", "plot", panel, "-o", named("plot") + ".svg", asks_json=False)
     work.run("panel", "report", panel, "-o", named("plot") + ".html")
-    work.run("panel", "export", panel, "-o", named("exported") + NO_UTF8, asks_json=False)
     work.run("panel", "import", os.path.join(SET, table), "-o", os.path.join(SET, "I.json"),
              "--role", "*=white", asks_json=False, status=None)
 

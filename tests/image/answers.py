@@ -43,7 +43,6 @@ RUNS = (
                         "--ambient", "300", "--level", "3")),
     ("panel show", "", (IPS, "--content", "assets/content/cluster.png", "--png", "FOLDER/show.png",
                         "--size", "32x12", "--spp", "1", "--directed", "9,30,0")),
-    ("panel export", "", (IPS, "--table", "red 255", "-o", "FOLDER/red.csv", "--level", "3")),
     ("panel eval", "", (IPS, *TOWARDS, "--rgb", "9,9,9", "--at", "0,0", "--level", "3")),
     ("panel eval", "--brdf", (IPS, *TOWARDS, *FROM, "--at", "0,0", "--level", "3")),
     ("panel eval", "--grid", (GRID, IPS, "--rgb", "9,9,9", "--level", "3")),

@@ -134,9 +134,6 @@ def check_panels(work):
     set_ = "a_set/MANIFEST.json"
     work.claim_same("fit", ["panel", "fit", set_, "--level", "3", "--max-error", "0.5"],
                     ".panel")
-    work.claim_same("export", ["panel", "export", PANEL, "--theta-step", "10", "--phi-step",
-                               "30"], "_out")
-    work.claim_same("table", ["panel", "export", PANEL, "--table", "white 255"], ".csv")
     for kind, ending in itertools.product(("luminance", "brdf"), (".svg", ".png")):
         work.claim_same("plot", ["panel", "plot", PANEL, "--kind", kind], f".{kind}{ending}")
     work.claim_same("panel report", ["panel", "report", PANEL], ".panel.html")

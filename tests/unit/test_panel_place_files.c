@@ -9,7 +9,6 @@
 #include "panel/figures/panel_figure.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
-#include "panel/set/export.h"
 
 static Fixture folder; /* files */
 
@@ -312,38 +311,6 @@ TEST(what_the_camera_saw_under_an_angle_is_no_mura) {
     PanelEvenness e = panel_figure_evenness(panel, rgb);
     assert_true(panel_non_uniformity(e.least, e.most) < 2e-3);
     panel_close(panel);
-}
-
-#define PLACED \
-    "{\"emission\": {" FIXTURE_SPECTRA "\"black_cd_m2\": 0.7, \"levels\": [127, 255]}," \
-    "\"reflection\": {\"haze_share\": 0.5, \"haze_width\": 0.2, \"incidence_deg\": [20, 50]," \
-    "\"wavelengths_nm\": [450, 550, 650]}," \
-    "\"instrument\": {\"theta_step_deg\": 2, \"phi_step_deg\": 6}, \"places\": {" \
-    "\"u\": [0.2, 0.9, 0.4], \"v\": [0.1, 0.3, 0.8], \"map\": [48, 27], \"mura\": 0.06," \
-    "\"mura_cycles\": [3, 2], \"tint\": 0.08, \"clouding\": 0.6}}"
-
-/* What is exported is fitted to the same display again. */
-TEST(an_export_of_places_says_the_same) {
-    ENDS_BY(fixture_end) Fixture f;
-    Panel *again;
-    ExportOptions coarse = {
-        .theta_step_deg = 2, .phi_step_deg = 6, .mirror_fwhm_deg = -1, .progress = PROGRESS_NONE};
-    fixture_start(&f, PLACED, NULL);
-    const char *out = fixture_path(&f, "out"), *file = fixture_path(&f, "again.panel");
-    const char *manifest = fixture_path(&f, "out/MANIFEST.json");
-    assert_done(panel_export(f.panel, "x.panel", &coarse, out, &err) &&
-                fixture_try(&f, manifest, NULL, file, NULL, &again, &err));
-    fixture_read(&f, manifest);
-    assert_int_equal(f.set->spot_count, 3);
-    for (int i = 0; i < 40; i++) {
-        float place[2] = {0.025f * (float)i, 0.5f + 0.012f * (float)i}, rgb[3] = {255, 90, 180};
-        float a[3], b[3];
-        Vec3 d = direction_deg(2.0 * i, 31.0 * i);
-        panel_place_emission_xyz(f.panel, place, d, rgb, a);
-        panel_place_emission_xyz(again, place, d, rgb, b);
-        for (int j = 0; j < 3; j++) assert_close((double)b[j], (double)a[j], 0.006);
-    }
-    panel_close(again);
 }
 
 TEST_PROGRAM(start, fixture_group_end)

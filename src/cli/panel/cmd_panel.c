@@ -10,9 +10,8 @@
 #include "cli/panel/panel_commands.h"
 
 static const Command *const commands[] = {
-    &command_panel_import, &command_panel_fit,    &command_panel_info,
-    &command_panel_eval,   &command_panel_export, &command_panel_plot,
-    &command_panel_report, &command_panel_show,   &command_panel_simulate,
+    &command_panel_import, &command_panel_fit,    &command_panel_info, &command_panel_eval,
+    &command_panel_plot,   &command_panel_report, &command_panel_show, &command_panel_simulate,
 };
 
 enum { COMMAND_COUNT = COUNT_OF(commands) };

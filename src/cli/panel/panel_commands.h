@@ -13,7 +13,6 @@ extern const Command command_panel_import;
 extern const Command command_panel_fit;
 extern const Command command_panel_info;
 extern const Command command_panel_eval;
-extern const Command command_panel_export;
 extern const Command command_panel_plot;
 extern const Command command_panel_report;
 extern const Command command_panel_show;

@@ -57,10 +57,6 @@ double panel_info_emission_cone(const Panel *panel) {
     return panel->emission ? acos_d((double)panel->emission->cone_cos) : 0;
 }
 
-const float *panel_info_spectrum(const Panel *panel, int primary) {
-    return panel->primaries ? panel->primaries->spectrum[primary] : NULL;
-}
-
 _Static_assert(PANEL_EVENNESS_SPOTS >= SPOT_GROUND_MAX, "room for every spot");
 
 int panel_spots(const Panel *panel, float place[PANEL_EVENNESS_SPOTS][2], int map[2]) {

@@ -38,9 +38,6 @@ int panel_info_levels(const Panel *panel, int primary, double code[PANEL_INFO_LE
 /* The last measured theta. */
 double panel_info_emission_cone(const Panel *panel);
 
-/* Spectral radiance of primary 0..2 at 1 cd m^-2, every nm from SPECTRAL_FIRST_NM. */
-const float *panel_info_spectrum(const Panel *panel, int primary);
-
 /* ---- places ---------------------------------------------------------------------------- */
 
 /* Places of the spots that were measured, at most PANEL_EVENNESS_SPOTS; and the map's pixels,
