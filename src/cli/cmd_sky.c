@@ -33,7 +33,7 @@ typedef struct SkyRun {
     EnvironmentChange change;
     const char *output;
     int size[2]; /* of the EXR */
-    bool is_dark, is_fisheye;
+    bool is_fisheye;
     const char *root; /* --root, or NULL */
     Arena *arena;
     Problems problems;
@@ -379,8 +379,7 @@ static bool write_picture(const SkyRun *work, const DaylightMetrics *f, bool is_
                         work->change.has_heading || work->scene->environment.heading != 0,
                     .heading = (double)work->scene->environment.heading,
                     .title = kind_text(work),
-                    .subtitle = moment_text(work),
-                    .is_dark = work->is_dark};
+                    .subtitle = moment_text(work)};
     plot.line = table_lines(&kind, answer, work->arena, &plot.line_count);
     bool ok = sky_plot_draw(&plot, is_svg, 0, work->arena, &bytes, err) &&
               file_write(work->output, bytes.data, bytes.size, err);
@@ -459,7 +458,6 @@ static Outcome run_sky(int argc, char **argv, Arena *arena, Error *err) {
          &projection},
         {"--size", OPTION_SIZE, "WxH", "pixels of an EXR (default 1024x512, fisheye 1024x1024)",
          work.size},
-        {"--dark", OPTION_FLAG, NULL, "a chart on a dark page", &work.is_dark},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &work.root},
     };
     const CliCommand command = {

@@ -26,10 +26,6 @@ static inline float linear_from_srgb_texel(float code) {
     return code <= 0.04045f ? code * (1 / 12.92f) : pow_f((code + 0.055f) * (1 / 1.055f), 2.4f);
 }
 
-static inline double srgb_from_linear_d(double light) {
-    return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
-}
-
 static inline double linear_from_srgb_d(double code) {
     return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
 }

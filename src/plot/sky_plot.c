@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/units.h"
-#include "plot/draw/colour_map.h"
 #include "plot/draw/ticks.h"
 
 #define PAGE_W 1120.0
@@ -21,7 +20,7 @@ typedef struct SkyDrawing {
     Canvas *canvas;
     const SkyPlot *plot;
     double low, high; /* cd m^-2 */
-    uint32_t colour[1024];
+    uint32_t colour[AMOUNTS];
 } SkyDrawing;
 
 static double position(const SkyDrawing *work, double value) {
@@ -40,7 +39,7 @@ static void choose_scale(SkyDrawing *work) {
     }
     work->high = round_up(fmax(most, 1e-6));
     work->low = round_down(fmin(fmax(least, work->high * 1e-4), work->high / 10));
-    for (int i = 0; i < 1024; i++) work->colour[i] = colour_map_pixel(MAP_AMOUNT, i / 1023.0);
+    amount_palette(work->colour);
 }
 
 /* Bilinear in the panorama; turns from north over east, share from the zenith to the nadir. */
@@ -67,15 +66,15 @@ typedef struct SkyRaster {
 static uint32_t pixel_at(const void *context, int i, int j) {
     const SkyRaster *raster = context;
     double v = raster->sample(raster->work, (i + 0.5) / raster->w, (j + 0.5) / raster->h);
-    return isfinite(v) ? raster->work->colour[(int)(1023 * position(raster->work, v))] : 0;
+    return isfinite(v)
+               ? raster->work->colour[(int)((AMOUNTS - 1) * position(raster->work, v) + 0.5)]
+               : 0;
 }
 
 static void paint(const SkyDrawing *work, Box box, Sample *sample) {
     double scale = work->canvas->pixels_per_point;
     SkyRaster raster = {work, sample, (int)(box.w * scale), (int)(box.h * scale)};
-    canvas_image(
-        work->canvas, box,
-        &(CanvasRaster){raster.w, raster.h, CAIRO_FORMAT_ARGB32, false, pixel_at, &raster});
+    canvas_image(work->canvas, box, &(CanvasRaster){raster.w, raster.h, false, pixel_at, &raster});
 }
 
 /* ---- the chart of the dome --------------------------------------------------------------- */
@@ -112,7 +111,7 @@ static void disc_rings(const SkyDrawing *work, const Disc *disc) {
                     disc->x + disc->r * sin(a), disc->y - disc->r * cos(a), thin);
     }
     canvas_circle(canvas, disc->x, disc->y, disc->r);
-    canvas_stroke(canvas, (Stroke){canvas->theme.ink, 1, DASH_NONE});
+    canvas_stroke(canvas, (Stroke){INK_TEXT, 1, DASH_NONE});
 }
 
 static void disc_compass(const SkyDrawing *work, const Disc *disc) {
@@ -122,7 +121,7 @@ static void disc_compass(const SkyDrawing *work, const Disc *disc) {
         canvas_text(work->canvas, disc->x + (disc->r + 13) * sin(a),
                     disc->y - (disc->r + 13) * cos(a),
                     (Letters){.size = i % 2 ? SIZE_TICK : SIZE_TEXT,
-                              .ink = work->canvas->theme.ink,
+                              .ink = INK_TEXT,
                               .across = 0.5,
                               .down = 0.5,
                               .is_bold = i % 2 == 0},
@@ -239,20 +238,17 @@ static void draw_panorama(const SkyDrawing *work, Box box) {
     for (int i = 0; i < 5; i++) {
         double at = box.x + box.w * i / 4;
         canvas_line(canvas, at, box.y, at, box.y + box.h, thin);
-        canvas_text(
-            canvas, at, box.y + box.h + 5,
-            (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink, .across = 0.5, .is_bold = true},
-            names[i]);
+        canvas_text(canvas, at, box.y + box.h + 5,
+                    (Letters){.size = SIZE_TICK, .ink = INK_TEXT, .across = 0.5, .is_bold = true},
+                    names[i]);
     }
     for (int e = -60; e <= 60; e += 30) {
         char text[16];
         double at = box.y + box.h * (0.5 - e / 180.0);
         canvas_line(canvas, box.x, at, box.x + box.w, at, thin);
         snprintf(text, sizeof text, "%d°", e);
-        canvas_text(
-            canvas, box.x - 5, at,
-            (Letters){.size = SIZE_TICK, .ink = canvas->theme.soft, .across = 1, .down = 0.5},
-            text);
+        canvas_text(canvas, box.x - 5, at,
+                    (Letters){.size = SIZE_TICK, .ink = INK_SOFT, .across = 1, .down = 0.5}, text);
     }
     draw_sun(work, place_panorama, &box, box.w / 2);
 }
@@ -272,14 +268,14 @@ static void draw_scale(const SkyDrawing *work, Box box) {
         double x = box.x + box.w * position(work, ticks.value[i]);
         char text[32];
         canvas_line(canvas, x, box.y + box.h, x, box.y + box.h + (ticks.is_labelled[i] ? 4 : 2),
-                    (Stroke){canvas->theme.soft, 0.7, DASH_NONE});
+                    (Stroke){INK_SOFT, 0.7, DASH_NONE});
         if (ticks.is_labelled[i])
             canvas_text(canvas, x, box.y + box.h + 6,
-                        (Letters){.size = SIZE_TICK, .ink = canvas->theme.ink, .across = 0.5},
+                        (Letters){.size = SIZE_TICK, .ink = INK_TEXT, .across = 0.5},
                         tick_text(ticks.value[i], 0, text));
     }
     canvas_text(canvas, box.x + box.w, box.y - 4,
-                (Letters){.size = SIZE_TICK, .across = 1, .ink = canvas->theme.soft, .down = 1},
+                (Letters){.size = SIZE_TICK, .across = 1, .ink = INK_SOFT, .down = 1},
                 "luminance, cd/m² (without the sun's disc)");
 }
 
@@ -288,11 +284,10 @@ static void draw_lines(const SkyDrawing *work, double x, double y) {
     for (int i = 0; i < work->plot->line_count; i++) {
         const TableLine *line = &work->plot->line[i];
         double column = i % 2 ? x + PANORAMA_W / 2 : x, down = y + 17 * (i / 2);
-        canvas_text(canvas, column, down, (Letters){.size = SIZE_TEXT, .ink = canvas->theme.soft},
+        canvas_text(canvas, column, down, (Letters){.size = SIZE_TEXT, .ink = INK_SOFT},
                     line->words);
         canvas_text(canvas, column + 138, down,
-                    (Letters){.size = SIZE_TEXT, .ink = canvas->theme.ink, .is_bold = true},
-                    line->value);
+                    (Letters){.size = SIZE_TEXT, .ink = INK_TEXT, .is_bold = true}, line->value);
     }
 }
 
@@ -302,12 +297,12 @@ static void draw_sheet(Canvas *canvas, const void *context) {
     Box panorama = {PAGE_W - MARGIN - PANORAMA_W, MARGIN + 72, PANORAMA_W, PANORAMA_W / 2};
     choose_scale(&work);
     canvas_text(canvas, MARGIN, MARGIN,
-                (Letters){.size = SIZE_HEADING, .ink = canvas->theme.ink, .is_bold = true},
+                (Letters){.size = SIZE_HEADING, .ink = INK_TEXT, .is_bold = true},
                 work.plot->title);
-    canvas_text(canvas, MARGIN, MARGIN + 27,
-                (Letters){.size = SIZE_TEXT, .ink = canvas->theme.soft}, work.plot->subtitle);
+    canvas_text(canvas, MARGIN, MARGIN + 27, (Letters){.size = SIZE_TEXT, .ink = INK_SOFT},
+                work.plot->subtitle);
     canvas_line(canvas, MARGIN, MARGIN + 46, PAGE_W - MARGIN, MARGIN + 46,
-                (Stroke){canvas->theme.faint, 0.7, DASH_NONE});
+                (Stroke){INK_FAINT, 0.7, DASH_NONE});
     paint(&work, (Box){disc.x - disc.r, disc.y - disc.r, 2 * disc.r, 2 * disc.r}, disc_sample);
     disc_rings(&work, &disc);
     disc_compass(&work, &disc);
@@ -317,11 +312,11 @@ static void draw_sheet(Canvas *canvas, const void *context) {
     draw_scale(&work, (Box){panorama.x, panorama.y + panorama.h + 46, panorama.w, 12});
     draw_lines(&work, panorama.x, panorama.y + panorama.h + 94);
     canvas_text(canvas, MARGIN, PAGE_H - MARGIN + 8,
-                (Letters){.size = SIZE_TICK, .ink = canvas->theme.soft, .down = 0.5},
+                (Letters){.size = SIZE_TICK, .ink = INK_SOFT, .down = 0.5},
                 "plan of the sky: zenith in the middle, north on "
                 "top, east right");
     canvas_text(canvas, PAGE_W - MARGIN, PAGE_H - MARGIN + 8,
-                (Letters){.size = SIZE_TICK, .ink = canvas->theme.soft, .across = 1, .down = 0.5},
+                (Letters){.size = SIZE_TICK, .ink = INK_SOFT, .across = 1, .down = 0.5},
                 "Parhelion " PARHELION_VERSION);
 }
 
@@ -332,7 +327,6 @@ bool sky_plot_draw(const SkyPlot *plot, bool is_svg, int width, Arena *arena, Pl
                         .height = PAGE_H,
                         .scale = scale,
                         .is_svg = is_svg,
-                        .is_dark = plot->is_dark,
                         .draw = draw_sheet,
                         .context = plot};
     return picture_draw(&spec, arena, out, err);

@@ -32,7 +32,6 @@ typedef struct SkyPlot {
     const char *title, *subtitle;
     const TableLine *line; /* figures */
     int line_count;
-    bool is_dark;
 } SkyPlot;
 
 /* ending: ".svg" or ".png"; width in pixels, 0: chosen. */

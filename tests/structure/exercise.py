@@ -99,16 +99,17 @@ EXERCISES = {
     # White alone, over a logarithmic axis.
     "white_alone": Exercise(
         "A chart of a panel", 1, {},
-        [("src/plot/panel/angle_charts.c", "static void fill_inversion(",
-          "static void fill_white(const PanelChart *shown, ChartRows *out) {\n"
-          "    panel_chart_section_axis(out, shown->data, false);\n"
-          "    add_curve(out, panel_chart_section(out, shown->data, PANEL_WHITE, false), \"White\","
-          "\n              (Stroke){out->theme->ink, 1.9, DASH_NONE});\n"
-          "    set_range(out, shown->data, \"Luminance, cd/m²\");\n}\n\n"),
-         ("src/plot/panel/angle_charts.c", "    if ((s->has_black && !s->is_white_only) ||",
-          "    panel_chart_add(list, &(PanelChart){PLOT_SECTIONS, \"White alone\", \"logarithmic\","
-          "\n                                        \"White's luminance.\", fill_white, s, 0,\n"
-          "                                        SHEET_NEVER, false});\n")],
+        [("src/plot/panel/emission_charts.c", "static void add_contrast(PlotCharts",
+          "static void add_white(PlotCharts *charts, const PlotData *s) {\n"
+          "    Chart *chart = chart_new(CHART_AXES, \"White alone\", \"θ\", \"Luminance, cd/m²\","
+          "\n                             s->arena);\n"
+          "    chart->x.high = 80;\n    chart->y = (ChartAxis){1, 1000, .is_log = true};\n"
+          "    chart_series(chart, \"White\", (Stroke){INK_TEXT, 1.9, DASH_NONE});\n"
+          "    for (int deg = 0; deg <= 80; deg++)\n"
+          "        chart_point(chart, deg, white_at(s, radians_from_degrees(deg), 0));\n"
+          "    chart->caption = \"White's luminance.\";\n    plot_add(charts, chart);\n}\n\n"),
+         ("src/plot/panel/emission_charts.c", "    if (plot_wants(kind, PLOT_CONTRAST))",
+          "    if (plot_wants(kind, PLOT_SECTIONS)) add_white(charts, data);\n")],
         ["test_plot_files"], ["test_plot_files"]),
     # The width of a symbol's strokes.
     "stroke_arcmin": Exercise(

@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The parts of a picture: contour lines, ticks, colours, polar maps, documents. */
+/* The parts of a picture: ticks, curves, lines of equal value, colours, places, documents. */
 #include "fixture.h"
 
 #include "base/units.h"
-#include "image/srgb.h"
 #include "plot/draw/chart.h"
-#include "plot/draw/colour_map.h"
-#include "plot/draw/field.h"
-#include "plot/draw/polar.h"
 #include "plot/draw/picture.h"
 #include "plot/draw/ticks.h"
 
@@ -15,83 +11,6 @@
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void) {
     return "leak:libfontconfig";
-}
-
-/* ---- contour lines ---------------------------------------------------------------------- */
-
-/* theta itself: its lines are circles around the centre. */
-static Field theta_field(int side) {
-    Field field = field_new(side, PI / 2, test_memory());
-    for (int row = 0; row < side; row++)
-        for (int column = 0; column < side; column++) {
-            double x = column - (side - 1) / 2.0, y = row - (side - 1) / 2.0;
-            field.value[row * side + column] = (float)(hypot(x, y) / ((side - 1) / 2.0) * PI / 2);
-        }
-    return field;
-}
-
-TEST(a_function_of_theta_has_circles) {
-    enum { SIDE = 301 };
-    Field field = theta_field(SIDE);
-    for (int deg = 10; deg <= 80; deg += 10) {
-        ContourSet set = contour_lines(field.value, SIDE, radians_from_degrees(deg), test_memory());
-        assert_int_equal(set.count, 1);
-        assert_true(set.line[0].is_closed);
-        for (int i = 0; i < set.line[0].count; i++) {
-            double r = hypot(set.line[0].point[i].x - 150, set.line[0].point[i].y - 150);
-            assert_near(r, 150 * deg / 90.0, 0.02);
-        }
-    }
-}
-
-/* Every point lies where the bilinear function has the level, whatever the function. */
-TEST(lines_lie_on_their_level) {
-    enum { SIDE = 61 };
-    Field field = field_new(SIDE, PI / 2, test_memory());
-    for (int i = 0; i < SIDE * SIDE; i++)
-        field.value[i] = (float)(sin(0.21 * (i % SIDE)) * cos(0.17 * (i / SIDE)) + 0.01 * (i % 7));
-    for (int k = -6; k <= 6; k++) {
-        double level = 0.13 * k + 0.003;
-        ContourSet set = contour_lines(field.value, SIDE, level, test_memory());
-        for (int n = 0; n < set.count; n++)
-            for (int i = 0; i < set.line[n].count; i++) {
-                ContourPoint p = set.line[n].point[i];
-                assert_near(field_at(&field, p.x, p.y), level, 1e-5);
-            }
-    }
-}
-
-/* No edge with a crossing is left out and none counts twice. */
-TEST(every_crossing_is_on_one_line) {
-    enum { SIDE = 40 };
-    float value[SIDE * SIDE];
-    unsigned random = 1;
-    int crossings = 0, points = 0;
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        random = random * 1664525u + 1013904223u;
-        value[i] = (float)(random >> 8) / 16777216.0f;
-    }
-    for (int row = 0; row < SIDE; row++)
-        for (int c = 0; c < SIDE; c++) {
-            bool here = value[row * SIDE + c] >= 0.5f;
-            crossings += c + 1 < SIDE && here != (value[row * SIDE + c + 1] >= 0.5f);
-            crossings += row + 1 < SIDE && here != (value[(row + 1) * SIDE + c] >= 0.5f);
-        }
-    ContourSet set = contour_lines(value, SIDE, 0.5, test_memory());
-    for (int i = 0; i < set.count; i++)
-        points += set.line[i].count - (set.line[i].is_closed ? 1 : 0);
-    assert_int_equal(points, crossings);
-}
-
-TEST(holes_have_no_lines) {
-    enum { SIDE = 41 };
-    Field field = theta_field(SIDE);
-    for (int row = 0; row < SIDE; row++)
-        for (int c = 0; c < 20; c++) field.value[row * SIDE + c] = NAN;
-    ContourSet set = contour_lines(field.value, SIDE, PI / 4, test_memory());
-    assert_int_equal(set.count, 1);
-    assert_false(set.line[0].is_closed);
-    for (int i = 0; i < set.line[0].count; i++) assert_true(set.line[0].point[i].x >= 20);
 }
 
 /* ---- ticks ------------------------------------------------------------------------------ */
@@ -163,58 +82,7 @@ TEST(round_numbers_enclose) {
     }
 }
 
-/* CIE 1976 lightness of an sRGB colour, 0 to 100 (IEC 61966-2-1's luminance). */
-static double lightness_from_srgb(const double srgb[3]) {
-    double y = 0.2126 * linear_from_srgb_d(srgb[0]) + 0.7152 * linear_from_srgb_d(srgb[1]) +
-               0.0722 * linear_from_srgb_d(srgb[2]);
-    return y > 216.0 / 24389 ? 116 * cbrt(y) - 16 : y * 24389.0 / 27;
-}
-
-/* ---- colours ---------------------------------------------------------------------------- */
-
-static double lightness_at(ColourMap map, double t) {
-    double srgb[3];
-    colour_map_at(map, t, srgb);
-    for (int c = 0; c < 3; c++) assert_true(srgb[c] >= 0 && srgb[c] <= 1);
-    return lightness_from_srgb(srgb);
-}
-
-TEST(lightness_follows_the_number) {
-    for (int map = 0; map < MAP_COUNT; map++) {
-        if (map == MAP_SIGNED) continue;
-        double first = lightness_at((ColourMap)map, 0), last = lightness_at((ColourMap)map, 1);
-        assert_true(fabs(last - first) > 55);
-        for (int i = 0; i <= 256; i++) {
-            double t = i / 256.0;
-            assert_near(lightness_at((ColourMap)map, t), first + t * (last - first), 0.6);
-        }
-    }
-    assert_true(lightness_at(MAP_DIFFERENCE, 0) > 95); /* nothing is paper */
-}
-
-TEST(signed_colours_are_even_on_both_sides) {
-    for (int i = 1; i <= 100; i++) {
-        double t = i / 200.0;
-        assert_true(lightness_at(MAP_SIGNED, t) > lightness_at(MAP_SIGNED, t - 0.005));
-        assert_true(lightness_at(MAP_SIGNED, 1 - t) > lightness_at(MAP_SIGNED, 1.005 - t));
-        assert_near(lightness_at(MAP_SIGNED, t), lightness_at(MAP_SIGNED, 1 - t), 6);
-    }
-    double low[3], high[3];
-    colour_map_at(MAP_SIGNED, 0.1, low);
-    colour_map_at(MAP_SIGNED, 0.9, high);
-    assert_true(low[2] > low[0] && high[0] > high[2]); /* blue is below */
-}
-
-TEST(light_and_white_have_their_lightness) {
-    assert_near(lightness_from_srgb((double[3]){1, 1, 1}), 100, 1e-9);
-    assert_near(lightness_from_srgb((double[3]){0, 0, 0}), 0, 1e-12);
-    double grey = 0.46613; /* linear 0.18419: L* 50 */
-    assert_near(lightness_from_srgb((double[3]){grey, grey, grey}), 50, 0.1);
-    assert_true(colour_map_wants_light_ink(MAP_AMOUNT, 0));
-    assert_false(colour_map_wants_light_ink(MAP_AMOUNT, 1));
-}
-
-/* ---- the polar map ---------------------------------------------------------------------- */
+/* ---- charts ------------------------------------------------------------------------------ */
 
 #define SCALE 4 /* pixels per point */
 #define SIZE 400
@@ -224,162 +92,212 @@ typedef struct Picture8 {
     Canvas canvas;
 } Picture8;
 
-static Picture8 picture_start(void) {
+static Picture8 picture_of(const Chart *chart) {
     Picture8 picture = {cairo_image_surface_create(CAIRO_FORMAT_RGB24, SIZE * SCALE, SIZE * SCALE),
                         {0}};
-    picture.canvas = (Canvas){cairo_create(picture.surface), theme_light(), SCALE, test_memory()};
+    picture.canvas = (Canvas){cairo_create(picture.surface), SCALE, test_memory()};
     cairo_scale(picture.canvas.cr, SCALE, SCALE);
     cairo_rectangle(picture.canvas.cr, 0, 0, SIZE, SIZE);
-    canvas_fill(&picture.canvas, picture.canvas.theme.paper);
+    canvas_fill(&picture.canvas, INK_PAPER);
+    chart_draw(&picture.canvas, (Box){0, 0, SIZE, SIZE}, chart);
+    cairo_surface_flush(picture.surface);
+    assert_int_equal(cairo_status(picture.canvas.cr), CAIRO_STATUS_SUCCESS);
     return picture;
 }
 
-static double pixel_lightness(const Picture8 *picture, double x, double y) {
-    int stride = cairo_image_surface_get_stride(picture->surface);
-    const unsigned char *data = cairo_image_surface_get_data(picture->surface);
-    const unsigned char *p = data + (int)(y * SCALE) * stride + 4 * (int)(x * SCALE);
-    return lightness_from_srgb((double[3]){p[2] / 255.0, p[1] / 255.0, p[0] / 255.0});
-}
-
 static void picture_end(Picture8 *picture) {
-    cairo_surface_flush(picture->surface);
-    assert_int_equal(cairo_status(picture->canvas.cr), CAIRO_STATUS_SUCCESS);
     cairo_destroy(picture->canvas.cr);
     cairo_surface_destroy(picture->surface);
 }
 
-/* Where the light line crosses the ray, points from the centre: the middle of its lightness. */
-static double line_radius(const Picture8 *picture, PolarPlace disc, double phi, double near) {
-    double sum = 0, weighted = 0, ground = 0;
-    for (double r = near - 4; r < near + 4; r += 0.05) {
-        double l = pixel_lightness(picture, disc.x + r * cos(phi), disc.y - r * sin(phi));
-        if (r == near - 4) ground = l;
-        if (l < ground + 4) continue;
-        sum += l - ground;
-        weighted += (l - ground) * r;
-    }
-    return weighted / sum;
+/* red, green and blue at a point of the page, codes */
+static const unsigned char *pixel_at(const Picture8 *picture, double x, double y) {
+    static unsigned char rgb[3];
+    int stride = cairo_image_surface_get_stride(picture->surface);
+    const unsigned char *p = cairo_image_surface_get_data(picture->surface) +
+                             (int)(y * SCALE) * stride + 4 * (int)(x * SCALE);
+    for (int c = 0; c < 3; c++) rgb[c] = p[2 - c];
+    return rgb;
 }
 
-TEST(the_ring_of_50_degrees_is_at_five_ninths) {
-    Field field = theta_field(301);
-    PolarMap map = {.field = &field,
-                    .map = MAP_AMOUNT,
-                    .high = 40,
-                    .strong = NAN,
-                    .level_count = 1,
-                    .level = {radians_from_degrees(50)},
-                    .theta_measured = PI / 2,
-                    .unit = "",
-                    .step = 1};
-    Picture8 picture = picture_start();
-    PolarPlace disc = polar_draw(&picture.canvas, (Box){0, 0, SIZE, SIZE}, &map);
-    cairo_surface_flush(picture.surface);
+static bool has_ink(const unsigned char rgb[3], Ink ink) {
+    const double codes[] = {255 * ink.red, 255 * ink.green, 255 * ink.blue};
+    for (int c = 0; c < 3; c++)
+        if (fabs(rgb[c] - codes[c]) > 6) return false;
+    return true;
+}
+
+/* Where ink stands: its mean place and how many pixels have it. */
+static int ink_at(const Picture8 *picture, Ink ink, double mean[2]) {
+    int count = 0;
+    mean[0] = mean[1] = 0;
+    for (int i = 0; i < SIZE * SCALE * SIZE * SCALE; i++) {
+        double x = (i % (SIZE * SCALE) + 0.5) / SCALE, y = (i / (SIZE * SCALE) + 0.5) / SCALE;
+        if (!has_ink(pixel_at(picture, x, y), ink)) continue;
+        mean[0] += x;
+        mean[1] += y;
+        count++;
+    }
+    for (int k = 0; k < 2; k++) mean[k] /= count ? count : 1;
+    return count;
+}
+
+/* The page's disc: of its middle and radius. */
+static const double MIDDLE[] = {26 + 140, 200}, RADIUS = 140;
+
+static double theta_of(const void *context, double theta, double phi) {
+    (void)context;
+    (void)phi;
+    return theta;
+}
+
+static double towards_the_upper_right(const void *context, double theta, double phi) {
+    (void)context;
+    return sin(theta) * (cos(phi) + 0.5 * sin(phi));
+}
+
+static double above_the_middle(const void *context, double u, double v) {
+    (void)context;
+    return v < 0.5 ? 1 + u : 0;
+}
+
+TEST(rows_are_what_the_quantity_says) {
+    Chart *chart = chart_new(CHART_POLAR, "t", NULL, "cd", test_memory());
+    chart_fill(chart, towards_the_upper_right, NULL);
+    assert_int_equal(chart->table->row_count, CHART_THETAS * CHART_PHIS);
+    for (int row = 0; row < chart->table->row_count; row += 7)
+        assert_near(chart_cell(chart, row, 2),
+                    towards_the_upper_right(NULL, radians_from_degrees(chart_cell(chart, row, 0)),
+                                            radians_from_degrees(chart_cell(chart, row, 1))),
+                    1e-12);
+    ChartRange range = chart_range(chart, 45);
+    assert_near(range.high, sin(PI / 4) * sqrt(1.25), 1e-3);
+    assert_near(chart_cell(chart, range.highest, 0), 45, 1e-9);
+    assert_near(range.low, -range.high, 1e-3);
+    assert_string_equal(chart->table->kind->columns[2].key, "t, cd");
+}
+
+/* Lines of equal theta are circles where that theta is. */
+TEST(a_function_of_theta_has_circles) {
+    Chart *chart = chart_new(CHART_POLAR, "t", NULL, "", test_memory());
+    chart_fill(chart, theta_of, NULL);
+    chart->y.high = 40; /* one dark colour everywhere */
+    chart->strong = radians_from_degrees(50);
+    Picture8 picture = picture_of(chart);
     for (int deg = 10; deg < 360; deg += 10) {
-        if (deg % 45 == 0 || (deg > 80 && deg < 130)) continue; /* spokes; the line's number */
-        double r = line_radius(&picture, disc, radians_from_degrees(deg), disc.radius * 5 / 9);
-        assert_near(r * SCALE, disc.radius * 5 / 9 * SCALE, 0.3 * SCALE);
+        double sum = 0, weighted = 0, phi = radians_from_degrees(deg);
+        if (deg % 45 == 0 || (deg > 280 && deg < 310)) continue; /* spokes; the rings' degrees */
+        for (double r = RADIUS * 5 / 9 - 3; r < RADIUS * 5 / 9 + 3; r += 0.05) {
+            double l = pixel_at(&picture, MIDDLE[0] + r * cos(phi), MIDDLE[1] - r * sin(phi))[0];
+            if (l < 60) continue;
+            sum += l;
+            weighted += l * r;
+        }
+        assert_true(sum > 0);
+        assert_near(weighted / sum, RADIUS * 5 / 9, 0.3);
+    }
+    picture_end(&picture);
+}
+
+/* 0 degrees is right, 90 is up; the colour is the amount's. */
+TEST(directions_stand_where_the_viewer_sees_them) {
+    Chart *chart = chart_new(CHART_POLAR, "t", NULL, "", test_memory());
+    chart_fill(chart, towards_the_upper_right, NULL);
+    chart->y = (ChartAxis){.low = -1.2, .high = 1.2};
+    chart->has_no_lines = true;
+    Picture8 picture = picture_of(chart);
+    for (int deg = 10; deg < 360; deg += 20) {
+        double phi = radians_from_degrees(deg), theta = radians_from_degrees(50);
+        double r = RADIUS * 50 / 90;
+        double t = (towards_the_upper_right(NULL, theta, phi) + 1.2) / 2.4;
+        if (deg % 45 == 0 || (deg > 280 && deg < 310)) continue;
+        assert_true(has_ink(pixel_at(&picture, MIDDLE[0] + r * cos(phi), MIDDLE[1] - r * sin(phi)),
+                            ink_of_amount(t)));
     }
     picture_end(&picture);
 }
 
 TEST(what_was_not_measured_is_dimmed_and_hatched) {
-    Field field = field_new(61, PI / 2, test_memory());
-    for (int i = 0; i < 61 * 61; i++) field.value[i] = 0.1f;
-    PolarMap map = {.field = &field,
-                    .map = MAP_AMOUNT,
-                    .high = 1,
-                    .strong = NAN,
-                    .theta_measured = radians_from_degrees(50),
-                    .unit = ""};
-    Picture8 picture = picture_start();
-    PolarPlace disc = polar_draw(&picture.canvas, (Box){0, 0, SIZE, SIZE}, &map);
-    cairo_surface_flush(picture.surface);
-    double inside =
-        pixel_lightness(&picture, disc.x + 0.30 * disc.radius, disc.y - 0.12 * disc.radius);
-    double low = 100, high = 0;
+    Chart *chart = chart_new(CHART_POLAR, "t", NULL, "", test_memory());
+    chart_fill(chart, theta_of, NULL);
+    chart->y.high = 1000;
+    chart->measured[1] = 50;
+    Picture8 picture = picture_of(chart);
+    int inside = pixel_at(&picture, MIDDLE[0] + 0.3 * RADIUS, MIDDLE[1] - 0.1 * RADIUS)[1];
+    int low = 255, high = 0;
     for (double r = 0.92; r < 0.98; r += 0.001) {
-        double l = pixel_lightness(&picture, disc.x + r * disc.radius * cos(0.3),
-                                   disc.y - r * disc.radius * sin(0.3));
-        low = fmin(low, l);
-        high = fmax(high, l);
+        int l = pixel_at(&picture, MIDDLE[0] + r * RADIUS * cos(0.3),
+                         MIDDLE[1] - r * RADIUS * sin(0.3))[1];
+        low = l < low ? l : low;
+        high = l > high ? l : high;
     }
-    assert_near(inside, lightness_at(MAP_AMOUNT, 0.1), 1.5);
-    assert_true(low > inside + 10); /* dimmed with paper everywhere */
-    assert_true(high > low + 4);    /* and hatched */
+    assert_true(low > inside + 25); /* dimmed with paper everywhere */
+    assert_true(high > low + 10);   /* and hatched */
     picture_end(&picture);
 }
 
-/* ---- fields ----------------------------------------------------------------------------- */
-
-TEST(a_grid_point_looks_where_it_stands) {
-    Field field = field_new(91, PI / 2, test_memory());
-    for (int deg = 0; deg < 360; deg += 30) {
-        double column, row, phi = radians_from_degrees(deg);
-        field_place(&field, radians_from_degrees(60), phi, &column, &row);
-        Vec3 d = field_direction(&field, (int)nearbyint(row), (int)nearbyint(column));
-        double azimuth = atan2((double)d.y, (double)d.x);
-        assert_near(remainder(azimuth - phi, 2 * PI), 0, 0.02);
-        assert_near(acos((double)d.z), radians_from_degrees(60), 0.03);
-    }
-    Vec3 up = field_direction(&field, 0, 45), out = field_direction(&field, 0, 0);
-    assert_true(up.y > 0.99f && up.z > 0); /* row 0 is the top; the rim looks just above it */
-    assert_true(out.z > 0);
+/* Row 0 is on top, u runs to the right. */
+TEST(an_area_stands_as_one_faces_it) {
+    Chart *chart = chart_new(CHART_AREA, "t", NULL, "", test_memory());
+    double mean[2];
+    chart_fill(chart, above_the_middle, NULL);
+    chart->y.high = 2;
+    chart->ratio = 2;
+    Picture8 picture = picture_of(chart); /* 326 points wide, 163 high */
+    assert_true(has_ink(pixel_at(&picture, 50, 150), ink_of_amount(0)));
+    assert_true(has_ink(pixel_at(&picture, 300, 40), ink_of_amount((1 + 300 / 326.0) / 2)));
+    assert_true(ink_at(&picture, ink_of_amount(0), mean) > 100000);
+    assert_near(mean[1], 24 + 163 * 0.75, 3);
+    picture_end(&picture);
 }
 
-TEST(quantiles_and_ranges_agree) {
-    Field field = theta_field(101);
-    FieldRange range = field_range(&field, radians_from_degrees(45));
-    assert_near(range.low, 0, 1e-6);
-    assert_near(range.high, radians_from_degrees(45), 0.02);
-    /* the area inside theta grows as its square on this map */
-    assert_near(field_quantile(&field, PI / 2, 0.25, *test_memory()), PI / 4, 0.02);
-}
-
-/* ---- charts and documents --------------------------------------------------------------- */
-
+/* A curve's points and rings are where the axes have their values; what is not there interrupts
+ * the curve. */
 TEST(axes_put_values_where_they_belong) {
-    Picture8 picture = picture_start();
-    Chart chart = chart_open(
-        &picture.canvas, (Box){0, 0, SIZE, SIZE}, (AxisSpec){.low = -90, .high = 90, .title = "x"},
-        (AxisSpec){.low = 0.01, .high = 100, .is_log = true, .title = "y"}, 20);
-    assert_near(chart_x(&chart, -90), chart.plot.x, 1e-9);
-    assert_near(chart_x(&chart, 0), chart.plot.x + chart.plot.w / 2, 1e-9);
-    assert_near(chart_y(&chart, 0.01), chart.plot.y + chart.plot.h, 1e-9);
-    assert_near(chart_y(&chart, 1), chart.plot.y + chart.plot.h / 2, 1e-9);
-    for (int i = 0; i < 6; i++) chart_name(&chart, 90, 1, picture.canvas.theme.ink, "name");
-    chart_close(&chart);
+    Chart *chart = chart_new(CHART_AXES, "t", "x", "y", test_memory());
+    Ink red = ink_of_primary(0), blue = ink_of_primary(2);
+    double first[2], second[2], middle[2];
+    chart->x = (ChartAxis){.low = -90, .high = 90};
+    chart->y = (ChartAxis){.low = 0.01, .high = 100, .is_log = true};
+    chart_series(chart, "a", (Stroke){red, 3, DASH_NONE});
+    for (int x = -90; x <= 90; x++) chart_point(chart, x, x == 0 ? (double)NAN : 1);
+    chart_series(chart, "b", (Stroke){blue, 3, DASH_NONE})->has_rings = true;
+    chart_point(chart, 45, 10);
+    chart_point(chart, 45, -1); /* no logarithm */
+    assert_int_equal(chart->series[1].count, 2);
+    Picture8 picture = picture_of(chart);
+    assert_true(ink_at(&picture, red, first) > 2000);
+    assert_true(ink_at(&picture, blue, second) > 100);
+    int height = SIZE - 22 - 34;
+    assert_near(first[1], 22 + height * 0.5, 0.5);   /* 1 is the middle of 0.01 to 100 */
+    assert_near(second[1], 22 + height * 0.25, 0.5); /* 10 is three quarters up */
+    assert_near(second[0] - first[0], 0.25 * 2 * (SIZE - 14 - first[0]), 1);
+    assert_false(has_ink(pixel_at(&picture, first[0], first[1]), red)); /* the gap */
+    assert_true(ink_at(&picture, INK_FAINT, middle) > 100);
     picture_end(&picture);
-}
-
-TEST(ids_are_renamed_alike_and_apart) {
-    char text[] = "<?xml version=\"1.0\"?>\n<svg><g id=\"glyph0-1\"/><clipPath id=\"clip7\"/>"
-                  "<use xlink:href=\"#glyph0-1\"/><g clip-path=\"url(#clip7)\"/>"
-                  "<path d=\"M 1.23456 2.000001 L 3 4.5\"/></svg>";
-    PlotBytes in = {(unsigned char *)text, sizeof text - 1};
-    PlotBytes out = picture_with_ids(in, "a", true, test_memory());
-    assert_string_equal((char *)out.data,
-                        "<svg><g id=\"a0\"/><clipPath id=\"a1\"/><use xlink:href=\"#a0\"/>"
-                        "<g clip-path=\"url(#a1)\"/><path d=\"M 1.234 2 L 3 4.5\"/></svg>");
-    assert_int_equal(out.size, strlen((char *)out.data));
 }
 
 TEST(data_without_spread_have_a_picture) {
-    Picture8 picture = picture_start();
-    Field field = field_new(31, PI / 2, test_memory());
-    for (int pass = 0; pass < 3; pass++) {
-        for (int i = 0; i < 31 * 31; i++) field.value[i] = pass == 2 ? NAN : 0;
-        polar_draw(&picture.canvas, (Box){0, 0, SIZE, SIZE},
-                   &(PolarMap){.field = &field,
-                               .is_log = pass == 1,
-                               .strong = NAN,
-                               .theta_measured = PI / 2,
-                               .unit = ""});
-        Chart chart = chart_open(&picture.canvas, (Box){0, 0, SIZE, SIZE}, (AxisSpec){.title = "x"},
-                                 (AxisSpec){.is_log = pass == 1, .title = "y"}, 20);
-        chart_close(&chart);
+    for (int pass = 0; pass < 6; pass++) {
+        Chart *chart =
+            chart_new((ChartKind)(pass % 3), "t", pass % 3 ? NULL : "x", "y", test_memory());
+        if (pass % 3) chart_fill(chart, theta_of, NULL);
+        chart->x.is_log = chart->y.is_log = pass > 2;
+        Picture8 picture = picture_of(chart);
+        picture_end(&picture);
     }
-    picture_end(&picture);
+}
+
+static void draw_nothing(Canvas *canvas, const void *context) {
+    (void)canvas;
+    (void)context;
+}
+
+TEST(a_picture_without_end_is_an_error) {
+    PlotBytes bytes;
+    PictureSpec spec = {.width = 1e9, .height = 1e9, .scale = 1, .draw = draw_nothing};
+    assert_fails_as(picture_draw(&spec, test_memory(), &bytes, &err), ERROR_LIBRARY,
+                    "cairo cannot draw");
 }
 
 TEST_PROGRAM(make_arena, drop_arena)

@@ -4,45 +4,106 @@
 
 #include "base/count.h"
 #include "base/file.h"
+#include "base/number.h"
 #include "base/reference.h"
 #include "base/units.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/outputs.h"
 #include "cli/panel/panel_commands.h"
+#include "cli/panel/panel_facts.h"
 #include "cli/panel/panel_level.h"
 #include "panel/query/panel_open.h"
+#include "panel/query/panel_report.h"
 #include "plot/report/report.h"
 #include "text/json_text.h"
 
 /* The command line of `panel report`. */
 typedef struct ReportRequest {
-    const char *panel, *measured, *root, *contours, *ambient, *directed;
-    ReportOutput output;
+    const char *measured, *root, *ambient, *directed;
+    ReportSpec spec;
     PanelLevel level;
-    PlotOptions options;
 } ReportRequest;
+
+/* ---- light ------------------------------------------------------------------------------- */
+
+#define LARGEST_LUX 1e7
+#define DIRECTED_DEG 45.0
+
+/* Numbers above 0 with commas between, at most so many; how many, 0: *err has the reason. */
+static int read_list(const char *option, const char *text, int most, double *out, Error *err) {
+    const char *at = text;
+    for (int count = 0; count < most;) {
+        const char *after = number_read(at, &out[count]);
+        if (!after || !(out[count] > 0 && out[count] <= LARGEST_LUX)) {
+            error_set(err, ERROR_USAGE,
+                      "%s is '%s', required: numbers above 0 and up to 1e7 with commas between",
+                      option, text);
+            return 0;
+        }
+        count++;
+        if (!*after) return count;
+        if (*after != ',') {
+            error_set(err, ERROR_USAGE, "%s is '%s': '%s' is no comma and no end", option, text,
+                      after);
+            return 0;
+        }
+        at = after + 1;
+    }
+    error_set(err, ERROR_USAGE, "%s has more than %d values", option, most);
+    return 0;
+}
+
+/* --directed adds to each of --ambient, or stands alone. */
+static bool read_ambient(const ReportRequest *request, Ambient *out, Error *err) {
+    double lux[AMBIENT_MAX] = {0}, beam[2] = {0, 0};
+    if (request->ambient &&
+        !(out->count = read_list("--ambient", request->ambient, AMBIENT_MAX, lux, err)))
+        return false;
+    if (request->directed && !read_list("--directed", request->directed, 2, beam, err))
+        return false;
+    if (!(beam[1] > 0)) beam[1] = DIRECTED_DEG;
+    if (!(beam[1] < 90))
+        return error_set(err, ERROR_USAGE, "--directed is '%s': %g degrees, required: below 90",
+                         request->directed, beam[1]);
+    if (request->directed && !request->ambient) out->count = 1;
+    for (int i = 0; i < out->count; i++)
+        out->light[i] = (AmbientLight){lux[i], beam[0], radians_from_degrees(beam[1])};
+    return true;
+}
+
+/* ---- the command ------------------------------------------------------------------------- */
 
 static bool open_and_write(ReportRequest *request, const Cli *cli, Arena *arena, json_t **answer,
                            Error *err) {
+    ReportSpec *spec = &request->spec;
     Panel *panel = NULL;
+    json_t *info = NULL;
     Measurement *measured = request->measured ? ARENA_NEW(arena, Measurement, 1) : NULL;
     if (measured &&
         (!measurement_read_below(request->measured, request->root, arena, measured, err) ||
          !outputs_spare(&cli->outputs, measured->inputs.list, measured->inputs.count, err)))
         return false;
     request->level.parts = PANEL_COARSE_ALL;
-    if (!panel_level_open(request->panel, &request->level, arena, &panel, err)) return false;
-    PlotInput input = {panel, request->panel, measured, panel_level_words(&request->level, arena)};
-    bool ok = panel_report_write(&input, &request->options, &request->output, arena, answer, err);
+    if (!panel_level_open(spec->input.file, &request->level, arena, &panel, err)) return false;
+    bool ok = panel_report(panel, &info, err) || error_in_file(err, spec->input.file);
+    if (ok) {
+        panel_facts_add(panel, info);
+        spec->info = info;
+        spec->input.panel = panel;
+        spec->input.measured = measured;
+        spec->input.reading = panel_level_words(&request->level, arena);
+        ok = panel_report_write(spec, arena, answer, err);
+        json_decref(info);
+    }
     if (ok) panel_level_add(&request->level, *answer);
     panel_close(panel);
     return ok;
 }
 
 static bool check_request(const ReportRequest *request, const Cli *cli, Error *err) {
-    const char *page = request->output.page;
-    if (!page && !request->output.tables && !cli->json)
+    const char *page = request->spec.page;
+    if (!page && !request->spec.tables && !cli->json)
         return error_set(err, ERROR_USAGE, "panel report wants -o X.html, --csv DIR or --json");
     if (page && strcmp(path_ending(page), ".html") && strcmp(path_ending(page), ".htm"))
         return error_set(err, ERROR_USAGE, "-o is '%s', required: a name that ends in .html", page);
@@ -81,27 +142,28 @@ static const TableKind REPORT_KIND = TABLE_KIND("report", NULL, REPORT);
 static Outcome run_report(int argc, char **argv, Arena *arena, Error *err) {
     Cli cli;
     ReportRequest request = {0};
-    PlotOptions *plot = &request.options;
+    ReportSpec *spec = &request.spec;
     double incidence_phi = 180;
     const Option options[] = {
-        {"-o", OPTION_TEXT, "X.html", "the page, which prints on A4", &request.output.page,
+        {"-o", OPTION_TEXT, "X.html", "the page, which prints on A4", &spec->page,
          .file = OPTION_OUTPUT},
         {"--csv", OPTION_TEXT, "DIR",
          "a folder for every table and the values of every chart as CSV, and report.json",
-         &request.output.tables, .file = OPTION_OUTPUT},
+         &spec->tables, .file = OPTION_OUTPUT},
         {"--measured", OPTION_TEXT, "MANIFEST.json",
-         "the set that the panel was fitted from: its points over the curves", &request.measured},
+         "the set that the panel was fitted from: its samples beside the curves",
+         &request.measured},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request.root},
-        {"--contour", OPTION_TEXT, "V[,V...]",
-         "lines of luminance (cd/m2) and contrast at these values, with % of that on the axis",
-         &request.contours},
-        {"--ambient", OPTION_TEXT, "LUX[,LUX...]", AMBIENT_HELP, &request.ambient},
-        {"--directed", OPTION_TEXT, "LUX[,DEG]", DIRECTED_HELP, &request.directed},
+        {"--ambient", OPTION_TEXT, "LUX[,LUX...]",
+         "contrast also in even diffuse light of this illuminance", &request.ambient},
+        {"--directed", OPTION_TEXT, "LUX[,DEG]",
+         "to it a directed source: its illuminance on the panel and its angle to the normal "
+         "(default 45); alone without --ambient",
+         &request.directed},
         {"--incidence-phi", OPTION_NUMBER, "DEG",
          "azimuth of the light for reflection (default 180: from the left)", &incidence_phi, -360,
          360},
         PANEL_LEVEL_OPTION(request.level),
-        {"--dark", OPTION_FLAG, NULL, "light lines on a dark ground", &plot->is_dark},
     };
     const CliCommand command = {
         "panel report",
@@ -115,12 +177,10 @@ static Outcome run_report(int argc, char **argv, Arena *arena, Error *err) {
         .answers = (const Answer[]){{"", &REPORT_KIND}, {0}}};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return OUTCOME_FAILED;
     if (cli.help_shown) return OUTCOME_DONE;
-    request.panel = cli.arguments[0];
-    plot->incidence_phi = radians_from_degrees(incidence_phi);
-    plot->threads = cli.threads;
-    if (!check_request(&request, &cli, err) ||
-        (request.contours && !plot_contours_read(request.contours, &plot->contours, err)) ||
-        !plot_ambient_read(request.ambient, request.directed, &plot->ambient, err))
+    spec->input.file = cli.arguments[0];
+    spec->input.incidence_phi = radians_from_degrees(incidence_phi);
+    spec->info_kind = &panel_report_kind;
+    if (!check_request(&request, &cli, err) || !read_ambient(&request, &spec->ambient, err))
         return OUTCOME_FAILED;
     return outcome_of(run(&request, &cli, arena, err));
 }

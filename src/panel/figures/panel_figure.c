@@ -8,6 +8,7 @@
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
+#include "panel/query/panel_sampling.h"
 #include "spectrum/photometry.h"
 
 Vec3 panel_figure_direction(double theta, double phi) {
@@ -154,6 +155,46 @@ double panel_figure_viewing_angle(const Panel *panel, const float place[2], Pane
                        radians_from_degrees(0.25));
 }
 
+/* ---- grey inversion ---------------------------------------------------------------------- */
+
+typedef struct Greys {
+    const Panel *panel;
+    double phi;
+    int count;
+    double code[PANEL_INFO_LEVELS_MAX + 1]; /* rising, black first */
+} Greys;
+
+static PanelInversion inversion_at(const Greys *greys, double theta) {
+    PanelInversion out = {.theta = theta, .phi = greys->phi, .first = NAN};
+    Vec3 direction = panel_figure_direction(theta, greys->phi);
+    double brightest = 0, code = 0; /* of the levels before */
+    for (int i = 0; i < greys->count; i++) {
+        double light = level_luminance(greys->panel, PANEL_GREY, greys->code[i], direction);
+        double share = brightest > 0 ? 1 - light / brightest : 0;
+        if (share > out.share) out.share = share, out.low = code, out.high = greys->code[i];
+        if (light > brightest) brightest = light, code = greys->code[i];
+    }
+    return out;
+}
+
+static double inversion_margin(const void *context, double theta) {
+    return PANEL_INVERSION_LEAST - inversion_at(context, theta).share;
+}
+
+PanelInversion panel_figure_inversion(const Panel *panel, double phi) {
+    Greys greys = {.panel = panel, .phi = phi};
+    PanelInversion most = {.phi = phi, .first = NAN};
+    double cone = panel_info_emission_cone(panel), step = radians_from_degrees(0.5);
+    greys.count = panel_info_levels(panel, 1, greys.code + 1) + 1;
+    if (greys.count < 3) return most;
+    for (double theta = 0; theta < cone + step; theta += step) {
+        PanelInversion one = inversion_at(&greys, fmin(theta, cone));
+        if (one.share > most.share) most = one;
+    }
+    most.first = first_below(inversion_margin, &greys, cone, step);
+    return most.share >= PANEL_INVERSION_LEAST ? most : (PanelInversion){.phi = phi, .first = NAN};
+}
+
 /* ---- reflection -------------------------------------------------------------------------- */
 
 typedef enum Reflected { REFLECTED_ALL, REFLECTED_EVENLY, REFLECTED_MIRROR } Reflected;
@@ -203,6 +244,32 @@ double panel_figure_mirror(const Panel *panel, double theta, double nm) {
 
 double panel_figure_diffuse(const Panel *panel, double theta) {
     return (double)panel_haze_albedo(panel, (float)cos(theta));
+}
+
+#define EVEN_SAMPLES 2048
+#define EVEN_AZIMUTHS 8 /* of an anisotropic panel */
+
+/* Base 2 or 3 with its digits mirrored at the point (van der Corput, Halton 1960). */
+static float mirrored_digits(int number, int base) {
+    double value = 0, digit = 1.0 / base;
+    for (; number; number /= base, digit /= base) value += digit * (number % base);
+    return (float)fmin(value, 1 - 1e-7);
+}
+
+/* Directions drawn as the panel's own sampling has it, so that narrow lobes are met. */
+double panel_figure_reflectance(const Panel *panel, double theta) {
+    double azimuths[PANEL_INFO_AZIMUTHS_MAX], sum = 0;
+    bool is_anisotropic = panel_info_azimuths(panel, azimuths) > 1;
+    for (int i = 0; i < EVEN_SAMPLES; i++) {
+        float u[3] = {((float)i + 0.5f) / EVEN_SAMPLES, mirrored_digits(i, 2),
+                      mirrored_digits(i, 3)},
+              pdf;
+        Vec3 wi, wo = panel_figure_direction(
+                     theta, is_anisotropic ? 2 * PI * (i % EVEN_AZIMUTHS) / EVEN_AZIMUTHS : 0);
+        if (panel_sample(panel, wo, u, &wi, &pdf))
+            sum += panel_figure_brdf(panel, wo, wi, 0) * (double)(wi.z / pdf);
+    }
+    return sum / EVEN_SAMPLES + panel_figure_mirror(panel, theta, 0);
 }
 
 typedef struct HazeSide {

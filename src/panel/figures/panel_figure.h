@@ -68,6 +68,25 @@ typedef struct PanelLimit {
 double panel_figure_viewing_angle(const Panel *panel, const float place[2], PanelLimit limit,
                                   double phi);
 
+/* ---- grey inversion ----------------------------------------------------------------------- */
+
+/* Where a higher grey level gives less light than a lower one, and by how much: grey is red,
+ * green and blue at one code. At a direction the pair of measured levels that is wrong the most
+ * counts: share = 1 - L(higher) / L(lower), black included. What is below PANEL_INVERSION_LEAST
+ * counts as none: no eye sees it between two levels. */
+#define PANEL_INVERSION_LEAST 0.01
+
+typedef struct PanelInversion {
+    double share;      /* 0: none */
+    double low, high;  /* codes: the lower one is brighter */
+    double theta, phi; /* where it is largest */
+    double first;      /* theta at which it begins; NaN: none */
+} PanelInversion;
+
+/* The largest along an azimuth, by half degrees up to the measured cone. Fewer than two levels
+ * were measured: none. */
+PanelInversion panel_figure_inversion(const Panel *panel, double phi);
+
 /* ---- reflection --------------------------------------------------------------------------
  *
  * At a wavelength, or (nm 0) as the eye weighs equal-energy light: the sum of V(lambda) R over
@@ -86,6 +105,14 @@ double panel_figure_mirror(const Panel *panel, double theta, double nm);
 /* Directional-hemispherical reflectance without the mirror part, luminous: of 8 degrees CIE
  * 15's 8:de. With the mirror part, 8:di. */
 double panel_figure_diffuse(const Panel *panel, double theta);
+
+/* Hemispherical-directional: what a uniform surround sends into theta, over what a perfect white
+ * diffuser would send,
+ *   R = integral of f cos theta_w over the hemisphere of w, plus the mirror part,
+ * by 2048 directions drawn like f, to about 0.3 %; light from beyond the last measured incidence
+ * (beyond 70 degrees 12 % of it) is extrapolated. Of an anisotropic panel the mean over eight
+ * azimuths. */
+double panel_figure_reflectance(const Panel *panel, double theta);
 
 /* The haze's peak in the mirror direction of light from theta at the left, and its width where
  * it is halfway between the peak and what is left 60 degrees further out, in the plane of

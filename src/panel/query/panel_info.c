@@ -32,10 +32,6 @@ int panel_info_azimuths(const Panel *panel, double phi[PANEL_INFO_AZIMUTHS_MAX])
     return (int)r->azimuths;
 }
 
-bool panel_info_has_hulls(const Panel *panel) {
-    return panel->reflection && panel->reflection->reach;
-}
-
 double panel_info_reflection_cone(const Panel *panel) {
     return panel->reflection ? acos_d((double)panel->reflection->cone_cos) : 0;
 }

@@ -22,9 +22,8 @@ int panel_info_incidences(const Panel *panel, double theta[PANEL_INFO_INCIDENCES
 int panel_info_azimuths(const Panel *panel, double phi[PANEL_INFO_AZIMUTHS_MAX]);
 
 /* The last measured theta of leaving directions, of all tables; some may be measured to there
- * on one side only: those have hulls (panel_brdf_is_measured). */
+ * on one side only (panel_brdf_is_measured). */
 double panel_info_reflection_cone(const Panel *panel);
-bool panel_info_has_hulls(const Panel *panel);
 
 /* ---- emission -------------------------------------------------------------------------- */
 

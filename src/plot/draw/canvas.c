@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/units.h"
+#include "image/false_colour.h"
 #include "print/utf8.h"
 
 #define FACE "DejaVu Sans"
@@ -18,30 +19,28 @@ Ink ink_alpha(Ink ink, double alpha) {
     return ink;
 }
 
-Ink ink_mix(Ink a, Ink b, double t) {
-    return (Ink){a.red + t * (b.red - a.red), a.green + t * (b.green - a.green),
-                 a.blue + t * (b.blue - a.blue), a.alpha + t * (b.alpha - a.alpha)};
+Ink ink_of_primary(int primary) {
+    return ink_hex((const unsigned[]){0xc7362b, 0x1e8a4f, 0x2858c6}[primary]);
 }
 
-Theme theme_light(void) {
-    return (Theme){.paper = ink_hex(0xffffff),
-                   .ink = ink_hex(0x1b2128),
-                   .soft = ink_hex(0x57616b),
-                   .faint = ink_hex(0x98a1a9),
-                   .grid = ink_hex(0xe7eaed),
-                   .primary = {ink_hex(0xc7362b), ink_hex(0x1e8a4f), ink_hex(0x2858c6)},
-                   .accent = ink_hex(0xc77a12)};
+Ink ink_of_amount(double t) {
+    float srgb[3];
+    false_colour_of((float)fmin(fmax(t, 0), 1), srgb);
+    return (Ink){(double)srgb[0], (double)srgb[1], (double)srgb[2], 1};
 }
 
-Theme theme_dark(void) {
-    return (Theme){.paper = ink_hex(0x14181c),
-                   .ink = ink_hex(0xeef1f3),
-                   .soft = ink_hex(0xadb5bd),
-                   .faint = ink_hex(0x6f7881),
-                   .grid = ink_hex(0x2b3238),
-                   .primary = {ink_hex(0xff7a6e), ink_hex(0x5fcf90), ink_hex(0x7fa6ff)},
-                   .accent = ink_hex(0xf0b35a),
-                   .is_dark = true};
+/* The amount's lightness L* is 8 + 88 t. */
+Ink ink_on_amount(double t) {
+    return ink_hex(t < 0.57 ? 0xffffff : 0x14181c);
+}
+
+void amount_palette(uint32_t pixel[AMOUNTS]) {
+    for (int i = 0; i < AMOUNTS; i++) {
+        float srgb[3];
+        false_colour_of((float)i / (AMOUNTS - 1), srgb);
+        pixel[i] = 0xff;
+        for (int c = 0; c < 3; c++) pixel[i] = pixel[i] << 8 | (uint32_t)(srgb[c] * 255 + 0.5f);
+    }
 }
 
 /* ---- letters ---------------------------------------------------------------------------- */
@@ -128,49 +127,6 @@ void canvas_fill(Canvas *canvas, Ink ink) {
     cairo_fill(canvas->cr);
 }
 
-/* Distance of point i from the segment a b. */
-static double distance_from(const double *x, const double *y, int i, int a, int b) {
-    double dx = x[b] - x[a], dy = y[b] - y[a], px = x[i] - x[a], py = y[i] - y[a];
-    double length2 = dx * dx + dy * dy;
-    double t = length2 > 0 ? fmin(fmax((px * dx + py * dy) / length2, 0), 1) : 0;
-    return hypot(px - t * dx, py - t * dy);
-}
-
-/* Douglas and Peucker 1973: a stretch is straight when no point is off by more than the
- * tolerance; else its furthest point is kept and both halves are looked at. */
-static void keep_points(const double *x, const double *y, int count, bool *is_kept, int *stack) {
-    int depth = 0;
-    stack[depth++] = 0;
-    stack[depth++] = count - 1;
-    is_kept[0] = is_kept[count - 1] = true;
-    while (depth > 0) {
-        int b = stack[--depth], a = stack[--depth], furthest = -1;
-        double most = 0.04;
-        for (int i = a + 1; i < b; i++) {
-            double d = distance_from(x, y, i, a, b);
-            if (d <= most) continue;
-            most = d;
-            furthest = i;
-        }
-        if (furthest < 0) continue;
-        is_kept[furthest] = true;
-        stack[depth++] = a;
-        stack[depth++] = furthest;
-        stack[depth++] = furthest;
-        stack[depth++] = b;
-    }
-}
-
-void canvas_polyline(Canvas *canvas, const double *x, const double *y, int count) {
-    if (count < 2) return;
-    Arena scratch = *canvas->arena;
-    bool *is_kept = ARENA_NEW(&scratch, bool, count);
-    keep_points(x, y, count, is_kept, ARENA_NEW(&scratch, int, 2 * count + 4));
-    cairo_move_to(canvas->cr, x[0], y[0]);
-    for (int i = 1; i < count; i++)
-        if (is_kept[i]) cairo_line_to(canvas->cr, x[i], y[i]);
-}
-
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1, Stroke stroke) {
     cairo_move_to(canvas->cr, x0, y0);
     cairo_line_to(canvas->cr, x1, y1);
@@ -185,7 +141,7 @@ void canvas_circle(Canvas *canvas, double x, double y, double radius) {
 void canvas_image(Canvas *canvas, Box box, const CanvasRaster *raster) {
     int columns = raster->columns, rows = raster->rows;
     cairo_t *cr = canvas->cr;
-    cairo_surface_t *image = cairo_image_surface_create(raster->format, columns, rows);
+    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, columns, rows);
     unsigned char *bytes = cairo_image_surface_get_data(image);
     for (int row = 0; row < rows && bytes; row++) {
         uint32_t *pixel = (uint32_t *)(void *)(bytes + row * cairo_image_surface_get_stride(image));
@@ -206,7 +162,7 @@ void canvas_image(Canvas *canvas, Box box, const CanvasRaster *raster) {
 void canvas_hatch(Canvas *canvas, Box area) {
     cairo_t *cr = canvas->cr;
     cairo_rectangle(cr, area.x, area.y, area.w, area.h);
-    canvas_fill(canvas, ink_alpha(canvas->theme.paper, 0.55));
+    canvas_fill(canvas, ink_alpha(INK_PAPER, 0.55));
     cairo_save(cr);
     cairo_rectangle(cr, area.x, area.y, area.w, area.h);
     cairo_clip(cr);
@@ -214,6 +170,6 @@ void canvas_hatch(Canvas *canvas, Box area) {
         cairo_move_to(cr, area.x + at, area.y + area.h);
         cairo_line_to(cr, area.x + at + area.h, area.y);
     }
-    canvas_stroke(canvas, (Stroke){ink_alpha(canvas->theme.soft, 0.55), 0.6, DASH_NONE});
+    canvas_stroke(canvas, (Stroke){ink_alpha(INK_SOFT, 0.55), 0.6, DASH_NONE});
     cairo_restore(cr);
 }

@@ -17,19 +17,26 @@ typedef struct Ink {
 } Ink;
 
 /* The few inks of a page. */
-typedef struct Theme {
-    Ink paper, ink, soft, faint, grid;
-    Ink primary[3]; /* red, green, blue of a display */
-    Ink accent;
-    bool is_dark;
-} Theme;
+#define INK_PAPER ink_hex(0xffffff)
+#define INK_TEXT ink_hex(0x1b2128)
+#define INK_SOFT ink_hex(0x57616b)
+#define INK_FAINT ink_hex(0x98a1a9)
+#define INK_GRID ink_hex(0xe7eaed)
+#define INK_ACCENT ink_hex(0xc77a12)
 
-Theme theme_light(void);
-Theme theme_dark(void);
+Ink ink_hex(unsigned rgb);
+Ink ink_alpha(Ink ink, double alpha);
+Ink ink_of_primary(int primary); /* red, green, blue of a display */
+
+/* By false_colour.h, t in [0, 1] and cut off there; which ink reads on it; and opaque pixels of
+ * AMOUNTS of them, evenly from 0 to 1. */
+#define AMOUNTS 256
+Ink ink_of_amount(double t);
+Ink ink_on_amount(double t);
+void amount_palette(uint32_t pixel[AMOUNTS]);
 
 typedef struct Canvas {
     cairo_t *cr;
-    Theme theme;
     double pixels_per_point; /* of the finished picture, for rasters inside it */
     Arena *arena;
 } Canvas;
@@ -77,9 +84,6 @@ typedef struct Stroke {
 void canvas_stroke(Canvas *canvas, Stroke stroke);
 void canvas_fill(Canvas *canvas, Ink ink);
 
-/* Adds a polyline to the path, without the points that no eye would miss (0.04 points). */
-void canvas_polyline(Canvas *canvas, const double *x, const double *y, int count);
-
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1, Stroke stroke);
 
 /* Adds a whole circle to the path. */
@@ -91,7 +95,6 @@ typedef uint32_t CanvasPixel(const void *context, int column, int row);
 /* Rasters are smooth between their pixels, or every pixel is a cell of its own. */
 typedef struct CanvasRaster {
     int columns, rows;
-    cairo_format_t format; /* CAIRO_FORMAT_RGB24 where all is opaque */
     bool has_cells;
     CanvasPixel *pixel;
     const void *context;
@@ -102,7 +105,3 @@ void canvas_image(Canvas *canvas, Box box, const CanvasRaster *raster);
 
 /* The area inside the present clip is dimmed with paper and hatched: not measured. */
 void canvas_hatch(Canvas *canvas, Box area);
-
-Ink ink_hex(unsigned rgb);
-Ink ink_alpha(Ink ink, double alpha);
-Ink ink_mix(Ink a, Ink b, double t);

@@ -1,69 +1,90 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* chart.h -- curves over an axis: frame, grid, ticks, curves with their names beside them.
+/* chart.h -- a table as a picture. What is drawn is the rows of the chart's table:
  *
- * Units    an axis has its own unit; boxes are in points of the page.
- * Memory   lists of names come from the canvas's arena.
- * Threads  one thread a chart.
+ *   CHART_AXES   name, x, y              curves and rings over two axes, a series' rows together
+ *   CHART_POLAR  theta_deg, phi_deg, ... a quantity over the hemisphere: CHART_THETAS rings of
+ *                                        CHART_PHIS azimuths, from the normal outwards
+ *   CHART_AREA   u, v, ...               a quantity over a display: CHART_ROWS rows of
+ *                                        CHART_COLUMNS places, from the upper left
+ *
+ * Frame    the disc as one sees the display: phi counter-clockwise from the right.
+ * Units    the columns'; boxes in points of the page. NaN: nothing there.
+ * Memory   the chart's arena. Threads: one at a time a chart.
  */
 #pragma once
 #include "plot/draw/canvas.h"
+#include "table/table.h"
 
-typedef struct AxisSpec {
-    double low, high;
+typedef enum ChartKind { CHART_AXES, CHART_POLAR, CHART_AREA } ChartKind;
+
+#define CHART_THETAS 91 /* a degree apart */
+#define CHART_PHIS 120
+#define CHART_COLUMNS 96
+#define CHART_ROWS 54
+
+/* An axis; of a quantity over the hemisphere or a display its colours. */
+typedef struct ChartAxis {
+    double low, high; /* without any spread: widened */
     bool is_log;
-    const char *title;  /* "Luminance, cd/m²" */
     double step;        /* between ticks; 0: chosen */
     const char *suffix; /* behind every tick's number: "°"; NULL: none */
-} AxisSpec;
+} ChartAxis;
 
-static inline AxisSpec axis_even(double low, double high, const char *title) {
-    return (AxisSpec){.low = low, .high = high, .title = title};
-}
+typedef struct Series {
+    const char *name;
+    int first, count; /* rows of the table */
+    bool has_rings;   /* in place of a curve */
+    Stroke stroke;
+    bool is_key; /* stands in the key */
+} Series;
 
-static inline AxisSpec axis_log(double low, double high, const char *title) {
-    return (AxisSpec){.low = low, .high = high, .is_log = true, .title = title};
-}
+/* A place of an area: a ring, and the value written there where there is one. */
+typedef struct ChartMark {
+    double u, v, value;
+} ChartMark;
 
-typedef struct CurveName {
-    const char *text;
-    double x, y; /* where the curve ends, points */
-    Ink ink;
-} CurveName;
-
-#define CURVE_NAMES_MAX 24
+#define SERIES_MAX 32
+#define MARKS_MAX 64
 
 typedef struct Chart {
-    Canvas *canvas;
-    Box box;  /* the whole figure */
-    Box plot; /* where the curves are */
-    AxisSpec x, y;
-    int name_count;
-    CurveName name[CURVE_NAMES_MAX];
+    ChartKind kind;
+    const char *title, *subtitle;
+    const char *caption; /* what one sees, with units */
+    Table *table;
+    ChartAxis x, y;     /* y: also the colours */
+    double measured[2]; /* of x, or theta in degrees up to [1]: beyond is hatched */
+    bool is_square;     /* a unit is as long on both axes */
+    int series_count, mark_count;
+    Series series[SERIES_MAX];
+    ChartMark mark[MARKS_MAX];
+    bool has_no_lines; /* of equal value, over the hemisphere, at the scale's numbers */
+    double strong;     /* one that is drawn strongly; NaN: none */
+    double ratio;      /* of an area: width over height */
 } Chart;
 
-/* Draws grid and axes. right: room for the curves' names, points. */
-Chart chart_open(Canvas *canvas, Box box, AxisSpec x, AxisSpec y, double right);
+/* Nothing is hatched yet. x: of axes that one's name with its unit, else NULL; value: the other
+ * axis's name likewise, or the unit of the colours. */
+Chart *chart_new(ChartKind kind, const char *title, const char *x, const char *value, Arena *arena);
 
-/* To points; logarithms of nothing are far outside. */
-double chart_x(const Chart *chart, double value);
-double chart_y(const Chart *chart, double value);
+/* A series, whose rows follow; good until the next one. Then a row of the last one. */
+Series *chart_series(Chart *chart, const char *name, Stroke stroke);
+void chart_point(Chart *chart, double x, double y);
 
-/* A curve; values that are not finite interrupt it. */
-void chart_curve(Chart *chart, const double *x, const double *y, int count, Stroke stroke);
+/* All rows of a chart over the hemisphere (a: theta, b: phi, radians), or over a display (a: u,
+ * b: v). */
+typedef double ChartQuantity(const void *context, double a, double b);
+void chart_fill(Chart *chart, ChartQuantity *quantity, const void *context);
 
-/* The curve's name at the right of the plot, beside (x, y) of the axes. */
-void chart_name(Chart *chart, double x, double y, Ink ink, const char *text);
+/* A cell of a row; its last column is 2. */
+double chart_cell(const Chart *chart, int row, int column);
 
-/* Where the curve is last seen inside the plot: the name goes there. */
-void chart_name_curve(Chart *chart, const double *x, const double *y, int count, Ink ink,
-                      const char *text);
+/* Of the last column, over all rows whose theta is no more than a limit in degrees; values that
+ * are not finite do not count. None: low and high are 0. */
+typedef struct ChartRange {
+    double low, high;
+    int highest; /* row */
+} ChartRange;
 
-void chart_dot(Chart *chart, double x, double y, double radius, Ink ink);
-/* A line across the plot at a value, with a word on it. */
-void chart_mark_x(Chart *chart, double x, Stroke stroke, const char *text);
+ChartRange chart_range(const Chart *chart, double theta_deg);
 
-/* From x0 to x1 nothing was measured. */
-void chart_hatch(Chart *chart, double x0, double x1);
-
-/* Writes the names, spread so that none covers another. */
-void chart_close(Chart *chart);
+void chart_draw(Canvas *canvas, Box box, const Chart *chart);

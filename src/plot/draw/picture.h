@@ -19,16 +19,10 @@ typedef void PictureDraw(Canvas *canvas, const void *context);
 typedef struct PictureSpec {
     double width, height; /* points */
     double scale;         /* pixels per point */
-    bool is_svg, is_dark;
-    const char *inline_prefix; /* SVG inside a page of HTML: its ids begin so; NULL: a file */
+    bool is_svg;
     PictureDraw *draw;
     const void *context;
 } PictureSpec;
 
+/* The same bytes for the same pictures of a process in their order, and version of cairo. */
 bool picture_draw(const PictureSpec *spec, Arena *arena, PlotBytes *out, Error *err);
-
-/* Makes cairo's SVG the same every time, and fit to stand inside a page: cairo numbers its
- * elements by counters of the whole process; here every id gets a number by its first
- * appearance, behind a prefix that keeps several drawings of one page apart. A copy, with the
- * coordinates of paths cut to thousandths. is_inline: without the XML declaration. */
-PlotBytes picture_with_ids(PlotBytes svg, const char *prefix, bool is_inline, Arena *arena);

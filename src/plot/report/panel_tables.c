@@ -8,7 +8,6 @@
 #include "base/units.h"
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_stated.h"
-#include "plot/panel/grey_inversion.h"
 #include "spectrum/gamut.h"
 #include "table/table.h"
 
@@ -20,18 +19,18 @@ static void report_viewing(Report *report, const PlotData *data);
 static void report_colour(Report *report, const PlotData *data);
 static void report_levels(Report *report, const PlotData *data);
 static void report_reflection(Report *report, const PlotData *data);
-static void report_ambient(Report *report, const PlotData *data);
+static void report_ambient(Report *report, const PlotData *data, const Ambient *ambient);
 static void report_places(Report *report, const PlotData *data);
 static void report_errors(Report *report, const PlotData *data);
 
-Report *panel_tables(const PlotData *data, Arena *arena) {
+Report *panel_tables(const PlotData *data, const Ambient *ambient, Arena *arena) {
     Report *report = ARENA_NEW(arena, Report, 1);
     report->arena = arena;
     report_viewing(report, data);
     report_colour(report, data);
     report_levels(report, data);
     report_reflection(report, data);
-    report_ambient(report, data);
+    report_ambient(report, data, ambient);
     report_places(report, data);
     report_errors(report, data);
     return report;
@@ -64,7 +63,13 @@ bool report_has_azimuth(const json_t *report, int index) {
 }
 
 static bool has_azimuth(const PlotData *data, int index) {
-    return report_has_azimuth(data->source.report, index);
+    return report_has_azimuth(data->report, index);
+}
+
+/* A figure, or what stands in its place. */
+static void add_figure(Table *table, bool is_measured, double value) {
+    if (is_measured) table_number(table, value);
+    else table_text(table, NOT_MEASURED);
 }
 
 /* ---- the list of tables ------------------------------------------------------------------ */
@@ -100,8 +105,8 @@ static void add_crossings(Table *table, const PlotData *s, int criterion) {
     bool is_contrast = CRITERIA[criterion].limit.kind == PANEL_LEAST_CONTRAST;
     const char *beyond = arena_format(table->arena, "> %.4g", degrees_from_radians(s->cone));
     for (int i = 0; i < AZIMUTHS; i++) {
-        double deg = degrees_from_radians(panel_figure_viewing_angle(
-            s->source.panel, NULL, CRITERIA[criterion].limit, i * PI / 4));
+        double deg = degrees_from_radians(
+            panel_figure_viewing_angle(s->panel, NULL, CRITERIA[criterion].limit, i * PI / 4));
         if (!has_azimuth(s, i)) table_text(table, NOT_MEASURED);
         else if (is_contrast && !s->has_black) table_text(table, "no black");
         else if (is_contrast && s->is_white_only && !(deg <= 0))
@@ -151,34 +156,13 @@ static void add_shifts(Report *report, const PlotData *s) {
     for (int p = PATTERN_WHITE; p <= (s->is_white_only ? PATTERN_WHITE : PATTERN_BLUE); p++)
         for (int k = 0; k < COUNT_OF(ANGLES_DEG); k++) {
             table_row(table);
-            float rgb[3];
-            pattern_codes((Pattern)p, rgb);
             table_text(table, pattern_name((Pattern)p));
             table_number(table, ANGLES_DEG[k]);
             for (int i = 0; i < AZIMUTHS; i++)
-                if (is_measured(s, ANGLES_DEG[k], i))
-                    table_number(table, panel_figure_shift(s->source.panel,
-                                                           radians_from_degrees(ANGLES_DEG[k]),
-                                                           i * PI / 4, rgb));
-                else table_text(table, NOT_MEASURED);
+                add_figure(table, is_measured(s, ANGLES_DEG[k], i),
+                           panel_figure_shift(s->panel, radians_from_degrees(ANGLES_DEG[k]),
+                                              i * PI / 4, pattern_codes((Pattern)p)));
         }
-}
-
-/* The row of one direction; azimuth -1: the normal. */
-static void add_white(Table *table, const PlotData *s, int deg, int azimuth) {
-    PanelColour colour = panel_figure_colour(s->source.panel, radians_from_degrees(deg),
-                                             azimuth * PI / 4, PANEL_WHITE);
-    ColourTemperature white = colour_temperature(colour.uv);
-    table_row(table);
-    table_number(table, deg);
-    table_number(table, 45 * azimuth);
-    table_number(table, colour.xyz[1]);
-    for (int c = 0; c < 2; c++) table_number(table, colour.xy[c]);
-    for (int c = 0; c < 2; c++) table_number(table, colour.uv[c]);
-    if (white.is_defined) table_number(table, white.kelvin);
-    else table_text(table, "not defined");
-    if (white.is_defined) table_number(table, white.duv);
-    else table_text(table, "not defined");
 }
 
 static void add_whites(Report *report, const PlotData *s) {
@@ -198,10 +182,21 @@ static void add_whites(Report *report, const PlotData *s) {
         "plane; Duv the distance from it, above 0 on the green side. Not defined further than "
         "0.05 away, below 1,000 or above 25,000 K. Directions that were not measured have no "
         "row.");
-    add_white(table, s, 0, 0);
-    for (int k = 0; k < COUNT_OF(ANGLES_DEG); k++)
-        for (int i = 0; i < AZIMUTHS; i += 2)
-            if (is_measured(s, ANGLES_DEG[k], i)) add_white(table, s, ANGLES_DEG[k], i);
+    for (int k = -1; k < COUNT_OF(ANGLES_DEG); k++)
+        for (int i = 0; i < (k < 0 ? 1 : AZIMUTHS); i += 2) {
+            int deg = k < 0 ? 0 : ANGLES_DEG[k];
+            if (k >= 0 && !is_measured(s, deg, i)) continue;
+            PanelColour colour =
+                panel_figure_colour(s->panel, radians_from_degrees(deg), i * PI / 4, PANEL_WHITE);
+            ColourTemperature white = colour_temperature(colour.uv);
+            const double figure[] = {deg,          45 * i,       colour.xyz[1], colour.xy[0],
+                                     colour.xy[1], colour.uv[0], colour.uv[1]};
+            table_row(table);
+            for (int c = 0; c < COUNT_OF(figure); c++) table_number(table, figure[c]);
+            for (int c = 0; c < 2; c++)
+                if (white.is_defined) table_number(table, c ? white.duv : white.kelvin);
+                else table_text(table, "not defined");
+        }
 }
 
 static void report_viewing(Report *report, const PlotData *data) {
@@ -230,7 +225,8 @@ static void add_primaries(Report *report, const PlotData *s, const GamutTriangle
     for (int p = 0; p < 3; p++) {
         table_row(table);
         table_text(table, pattern_name((Pattern)(PATTERN_RED + p)));
-        table_number(table, (double)s->normal[PATTERN_RED + p][1]);
+        table_number(table, panel_figure_luminance(s->panel, 0, 0,
+                                                   pattern_codes((Pattern)(PATTERN_RED + p))));
         for (int c = 0; c < 2; c++) table_number(table, xy->at[p][c]);
         for (int c = 0; c < 2; c++) table_number(table, uv.at[p][c]);
     }
@@ -268,27 +264,12 @@ static void report_colour(Report *report, const PlotData *data) {
                        "panel's primaries are assumed, and no gamut is stated.");
         return;
     }
-    GamutTriangle xy = panel_figure_primaries(data->source.panel);
+    GamutTriangle xy = panel_figure_primaries(data->panel);
     add_primaries(report, data, &xy);
     add_gamut(report, &xy);
 }
 
 /* ---- gamma by angle ---------------------------------------------------------------------- */
-
-static const int GAMMA_DEG[] = {0, 15, 30, 45, 60};
-
-static void add_gamma_row(Table *table, const PlotData *s, int deg) {
-    table_row(table);
-    table_number(table, deg);
-    for (int i = 0; i < AZIMUTHS; i++) {
-        double theta = radians_from_degrees(deg);
-        bool is_measured =
-            theta <= s->cone + 1e-6 && has_azimuth(s, i) && !(s->is_white_only && deg > 0);
-        if (is_measured || deg == 0)
-            table_number(table, panel_figure_gamma(s->source.panel, PANEL_GREY, theta, i * PI / 4));
-        else table_text(table, NOT_MEASURED);
-    }
-}
 
 static void add_gamma(Report *report, const PlotData *s) {
     static const Column COLUMNS[] = {COLUMN_FIXED("theta_deg", "θ", "°", 0), AZIMUTH_COLUMNS(3)};
@@ -302,25 +283,31 @@ static void add_gamma(Report *report, const PlotData *s) {
             : "Exponent of the power law through full white, least squares of the logarithms "
               "over the measured levels of grey (red, green and blue at one code), black "
               "subtracted.");
-    for (int k = 0; k < COUNT_OF(GAMMA_DEG); k++) add_gamma_row(table, s, GAMMA_DEG[k]);
+    for (int deg = 0; deg <= 60; deg += 15) {
+        double theta = radians_from_degrees(deg);
+        bool is_there = theta <= s->cone + 1e-6 && !(s->is_white_only && deg > 0);
+        table_row(table);
+        table_number(table, deg);
+        for (int i = 0; i < AZIMUTHS; i++)
+            add_figure(table, deg == 0 || (is_there && has_azimuth(s, i)),
+                       panel_figure_gamma(s->panel, PANEL_GREY, theta, i * PI / 4));
+    }
 }
 
 /* ---- inversion --------------------------------------------------------------------------- */
 
-static void add_inversion_row(Table *table, const char *where, const GreyInversion *most,
-                              double first) {
+static void add_inversion_row(Table *table, const char *where, const PanelInversion *most) {
+    const double figure[] = {
+        degrees_from_radians(most->first), 100 * most->share, degrees_from_radians(most->theta),
+        degrees_from_radians(most->phi),   most->low,         most->high};
     table_row(table);
     table_text(table, where);
     table_text(table, most->share > 0 ? "yes" : "none");
-    table_number(table, degrees_from_radians(first));
-    table_number(table, most->share > 0 ? 100 * most->share : NAN);
-    table_number(table, most->share > 0 ? degrees_from_radians(most->theta) : NAN);
-    table_number(table, most->share > 0 ? degrees_from_radians(most->phi) : NAN);
-    table_number(table, most->share > 0 ? most->low : NAN);
-    table_number(table, most->share > 0 ? most->high : NAN);
+    for (int i = 0; i < COUNT_OF(figure); i++)
+        table_number(table, most->share > 0 ? figure[i] : NAN);
 }
 
-static void add_inversion(Report *report, const PlotData *s, const GreyLevels *levels) {
+static void add_inversion(Report *report, const PlotData *s) {
     static const char *const WHERE[] = {"φ 0° right",  "φ 45°",  "φ 90° up",    "φ 135°",
                                         "φ 180° left", "φ 225°", "φ 270° down", "φ 315°"};
     static const Column COLUMNS[] = {COLUMN_TEXT("where", "Where"),
@@ -338,29 +325,32 @@ static void add_inversion(Report *report, const PlotData *s, const GreyLevels *l
         "of measured levels, 1 − L(higher) / L(lower), black included. Less than 1 % counts as "
         "none. The last row is the largest of all azimuths, every 5°, or of those measured "
         "where they are few.");
-    double first = NAN;
+    PanelInversion all = {.share = 0};
     for (int i = 0; i < AZIMUTHS; i++) {
-        GreyInversion most = grey_inversion_along(s, levels, i * PI / 4, &first);
-        if (!has_azimuth(s, i)) continue;
-        add_inversion_row(table, WHERE[i], &most, first);
+        PanelInversion most = panel_figure_inversion(s->panel, i * PI / 4);
+        if (has_azimuth(s, i)) add_inversion_row(table, WHERE[i], &most);
     }
-    GreyInversion all = grey_inversion_most(s, levels);
-    if (all.share > 0) grey_inversion_along(s, levels, all.phi, &first);
-    add_inversion_row(table, "largest of all", &all, all.share > 0 ? first : NAN);
+    const json_t *emission = json_object_get(s->report, "emission");
+    const json_t *few = json_object_get(emission, "azimuths_deg");
+    int count = few ? (int)json_array_size(few) : 72;
+    for (int i = 0; i < count; i++) {
+        double deg = few ? json_number_value(json_array_get(few, (size_t)i)) : 5 * i;
+        PanelInversion one = panel_figure_inversion(s->panel, radians_from_degrees(deg));
+        if (one.share > all.share) all = one;
+    }
+    add_inversion_row(table, "largest of all", &all);
 }
 
 static void report_levels(Report *report, const PlotData *data) {
-    GreyLevels levels = grey_levels(data);
     double code[PANEL_INFO_LEVELS_MAX];
     if (!data->emits) return;
-    bool has_levels = data->is_white_only ? data->has_gamma_table
-                                          : panel_info_levels(data->source.panel, 1, code) > 1;
-    if (has_levels) add_gamma(report, data);
+    bool has_levels = !data->is_white_only && panel_info_levels(data->panel, 1, code) > 1;
+    if (has_levels || data->has_gamma_table) add_gamma(report, data);
     else
         report_missing(report, "gamma", "Gamma by angle",
                        "One level was measured: the level "
                        "curve is assumed, and no gamma is stated.");
-    if (levels.count) add_inversion(report, data, &levels);
+    if (has_levels) add_inversion(report, data);
     else
         report_missing(report, "grey_inversion", "Grey inversion",
                        "Grey levels were not "
@@ -373,27 +363,10 @@ static void report_levels(Report *report, const PlotData *data) {
 
 /* ---- reflectance ------------------------------------------------------------------------- */
 
-static void add_incidence(Table *table, const PlotData *s, double theta) {
-    double mirror = panel_figure_mirror(s->source.panel, theta, 0);
-    double all = panel_figure_diffuse(s->source.panel, theta);
-    double phi = s->source.incidence_phi;
-    double floor = panel_figure_lambertian(s->source.panel, panel_figure_direction(theta, phi + PI),
-                                           panel_figure_direction(theta, phi));
-    double even = fmin(PI * floor, all);
-    table_row(table);
-    table_number(table, degrees_from_radians(theta));
-    table_number(table, 100 * mirror);
-    table_number(table, 100 * (all - even));
-    table_number(table, 100 * even);
-    table_number(table, 100 * (mirror + all));
-    table_number(table, plot_data_brdf(s, theta, theta, 0, 0));
-}
-
 /* How wavelengths are weighted. */
 static const char *weights_text(Report *report, const PlotData *s) {
     if (s->wavelength_count != 1) return "weighted by V(λ) for equal-energy light";
-    return arena_format(report->arena, "at %.4g nm, the only wavelength that was measured",
-                        (double)s->wavelength_nm[0]);
+    return arena_format(report->arena, "at %.4g nm, the only wavelength that was measured", s->nm);
 }
 
 static void add_incidences(Report *report, const PlotData *s) {
@@ -414,21 +387,27 @@ static void add_incidences(Report *report, const PlotData *s) {
                                                    "sr⁻¹", 4)};
     static const TableKind KIND = TABLE_KIND("reflectance", "Reflectance by incidence", COLUMNS);
     Table *table = report_add(report, &KIND, note);
-    for (int i = 0; i < s->incidence_count; i++) add_incidence(table, s, s->incidence[i]);
-}
-
-static void add_factor(Table *table, const char *const texts[2], bool is_measured, double value) {
-    table_row(table);
-    for (int i = 0; i < 2; i++) table_text(table, texts[i]);
-    if (is_measured) table_number(table, 100 * value);
-    else table_text(table, NOT_MEASURED);
+    for (int i = 0; i < s->incidence_count; i++) {
+        double theta = s->incidence[i], phi = s->incidence_phi;
+        double mirror = panel_figure_mirror(s->panel, theta, 0);
+        double all = panel_figure_diffuse(s->panel, theta);
+        double floor = panel_figure_lambertian(s->panel, panel_figure_direction(theta, phi + PI),
+                                               panel_figure_direction(theta, phi));
+        double even = fmin(PI * floor, all);
+        const double figure[] = {
+            degrees_from_radians(theta), 100 * mirror,
+            100 * (all - even),          100 * even,
+            100 * (mirror + all),        plot_data_brdf(s, theta, theta, 0, 0)};
+        table_row(table);
+        for (int c = 0; c < COUNT_OF(figure); c++) table_number(table, figure[c]);
+    }
 }
 
 static void add_factors(Report *report, const PlotData *s) {
     double at_8 = radians_from_degrees(8), at_45 = radians_from_degrees(45);
     bool has_8 = plot_data_brdf_is_measured(s, at_8, at_8, PI);
     bool has_45 = plot_data_brdf_is_measured(s, at_45, 0, 0);
-    double diffuse = panel_figure_diffuse(s->source.panel, at_8);
+    double diffuse = panel_figure_diffuse(s->panel, at_8);
     static const Column COLUMNS[] = {COLUMN_TEXT("geometry", "Geometry"),
                                      COLUMN_TEXT("meaning", "Light : view"),
                                      COLUMN_DIGITS("factor_percent", "Factor", "%", 4)};
@@ -441,16 +420,21 @@ static void add_factors(Report *report, const PlotData *s) {
             "CIE 15. 8/de takes off the mirror part alone: the haze that would fall into an "
             "instrument's gloss trap, whose size no standard fixes, stays in it.",
             weights_text(report, s)));
-    add_factor(table, (const char *const[]){"45/0", "from 45°, seen at the normal"}, has_45,
-               PI * plot_data_brdf(s, at_45, 0, 0, 0));
-    add_factor(table,
-               (const char *const[]){"8/di", "from 8°, into the hemisphere, "
-                                             "specular included"},
-               has_8, diffuse + panel_figure_mirror(s->source.panel, at_8, 0));
-    add_factor(table,
-               (const char *const[]){"8/de", "from 8°, into the hemisphere, "
-                                             "specular excluded"},
-               has_8, diffuse);
+    const struct {
+        const char *geometry, *meaning;
+        bool is_measured;
+        double value;
+    } factor[] = {
+        {"45/0", "from 45°, seen at the normal", has_45, PI * plot_data_brdf(s, at_45, 0, 0, 0)},
+        {"8/di", "from 8°, into the hemisphere, specular included", has_8,
+         diffuse + panel_figure_mirror(s->panel, at_8, 0)},
+        {"8/de", "from 8°, into the hemisphere, specular excluded", has_8, diffuse}};
+    for (int i = 0; i < COUNT_OF(factor); i++) {
+        table_row(table);
+        table_text(table, factor[i].geometry);
+        table_text(table, factor[i].meaning);
+        add_figure(table, factor[i].is_measured, 100 * factor[i].value);
+    }
 }
 
 static void report_reflection(Report *report, const PlotData *data) {
@@ -462,7 +446,20 @@ static void report_reflection(Report *report, const PlotData *data) {
     add_factors(report, data);
 }
 
-/* ---- ambient contrast -------------------------------------------------------------------- */
+/* ---- ambient contrast --------------------------------------------------------------------
+ *
+ *   C(d) = (L_white(d) + L_r(d)) / (L_black(d) + L_r(d)),  L_r(d) = R(d) E / pi + f(d, s) E_s
+ *
+ * E the illuminance of a uniform surround on the panel, E / pi its luminance; R(d) is
+ * panel_figure_reflectance: a uniform surround is mirrored too (specular included). E_s is the
+ * illuminance on the panel of a small directed source (sun, lamp) that stands at s, f the BRDF.
+ * The source's image in the mirror part is seen in one direction only, which a render shows, and
+ * counts in none here. Weighted by V(lambda) for equal-energy light: lamps of other spectra
+ * change R and f where they depend on the wavelength. Source: E. F. Kelley, M. Lindfors, J.
+ * Penczek, Display daylight ambient contrast measurement methods and daylight readability, J.
+ * Soc. Inf. Display 14 (2006): sky as a uniform surround and sun as a directed source are
+ * measured apart, scaled to the illuminances and added; also SID's Information Display
+ * Measurements Standard. */
 
 /* Levels as the public abstracts and summaries of the standards quote them. */
 static const struct {
@@ -473,22 +470,41 @@ static const struct {
                   {"SAE J1757-1 diffuse, CRd: surround alone", 5000, 0},
                   {"SAE J1757-1 direct, CRh: source alone", 0, 45000}};
 
+/* L_r above. even: R there. */
+static double reflected_at(const PlotData *s, double theta, double phi, const AmbientLight *light,
+                           double even) {
+    double directed = 0;
+    if (light->directed_lux > 0)
+        directed =
+            panel_figure_brdf(s->panel, panel_figure_direction(theta, phi),
+                              panel_figure_direction(light->directed_theta, s->incidence_phi), 0);
+    return even * light->lux / PI + directed * light->directed_lux;
+}
+
+static double lit_contrast(const PlotData *s, double theta, double phi, double reflected) {
+    double white = panel_figure_luminance(s->panel, theta, phi, PANEL_WHITE) + reflected;
+    double black = panel_figure_luminance(s->panel, theta, phi, PANEL_BLACK) + reflected;
+    return black > 0 ? white / black : NAN;
+}
+
+/* even: R at the normal and at 30 degrees. */
 static void add_condition(Table *table, const PlotData *s, const char *name,
-                          const PlotLight *light) {
+                          const AmbientLight *light, const double even[2]) {
+    double reflected = reflected_at(s, 0, 0, light, even[0]), theta = radians_from_degrees(30);
     table_row(table);
     table_text(table, name);
     table_number(table, light->lux);
     table_number(table, light->directed_lux);
     table_number(table,
                  light->directed_lux > 0 ? degrees_from_radians(light->directed_theta) : NAN);
-    table_number(table, ambient_reflected(s, 0, 0, light));
-    table_number(table, ambient_contrast(s, 0, 0, light));
+    table_number(table, reflected);
+    table_number(table, lit_contrast(s, 0, 0, reflected));
     for (int i = 0; i < AZIMUTHS; i += 2) {
-        bool is_measured = s->cone >= radians_from_degrees(30) && has_azimuth(s, i) &&
+        bool is_measured = s->cone >= theta && has_azimuth(s, i) &&
                            !(s->has_black && s->is_white_only); /* black on the axis alone */
-        if (is_measured)
-            table_number(table, ambient_contrast(s, radians_from_degrees(30), i * PI / 4, light));
-        else table_text(table, NOT_MEASURED);
+        double phi = i * PI / 4;
+        add_figure(table, is_measured,
+                   lit_contrast(s, theta, phi, reflected_at(s, theta, phi, light, even[1])));
     }
 }
 
@@ -500,21 +516,24 @@ static const char *ambient_note(Report *report, const PlotData *s) {
     bool is_seen = s->last_incidence >= radians_from_degrees(45);
     return arena_format(
         report->arena,
-        "Contrast = " AMBIENT_FORMULA ". The source stands at "
+        "Contrast = (Lw + Lr) / (Lb + Lr), Lr = R E/π + f Es: white and black at an angle, E the "
+        "illuminance of an even diffuse surround, R the panel's hemispherical-directional "
+        "reflectance into that angle, mirror included, Es the illuminance of a directed source "
+        "on the panel, f the BRDF from it into that angle (Kelley, Lindfors, Penczek 2006). The "
+        "source stands at "
         "the angle given, at azimuth φ %.4g°; its mirror image is seen in one direction only "
         "and is in no figure.%s SAE J1757-1 states the two lights apart: CRd = (Ldark,w + "
         "Lamb-d) / (Ldark,k + Lamb-d), CRh = (Ldark,w + Lamb-s) / (Ldark,k + Lamb-s), of full "
         "white w and full black k, and sets no limits. The illuminances of both standards are "
         "those that public summaries quote; others by --ambient and --directed.%s",
-        degrees_from_radians(s->source.incidence_phi),
+        degrees_from_radians(s->incidence_phi),
         is_seen ? ""
                 : " Light from 45° was not "
                   "measured: its part is extrapolated.",
         black);
 }
 
-static void report_ambient(Report *report, const PlotData *data) {
-    const PlotAmbient *ambient = &data->source.ambient;
+static void report_ambient(Report *report, const PlotData *data, const Ambient *ambient) {
     static const Column COLUMNS[] = {
         COLUMN_TEXT("condition", "Light"),
         COLUMN_FIXED("diffuse_lx", "Surround", "lx", 0),
@@ -534,19 +553,19 @@ static void report_ambient(Report *report, const PlotData *data) {
         return;
     }
     Table *table = report_add(report, &KIND, ambient_note(report, data));
+    const double even[] = {panel_figure_reflectance(data->panel, 0),
+                           panel_figure_reflectance(data->panel, radians_from_degrees(30))};
     for (int i = 0; i < COUNT_OF(CONDITIONS); i++)
         add_condition(table, data, CONDITIONS[i].name,
-                      &(PlotLight){CONDITIONS[i].lux, CONDITIONS[i].directed_lux, PI / 4});
+                      &(AmbientLight){CONDITIONS[i].lux, CONDITIONS[i].directed_lux, PI / 4}, even);
     for (int i = 0; i < ambient->count; i++)
-        add_condition(table, data, "as asked", &ambient->light[i]);
+        add_condition(table, data, "as asked", &ambient->light[i], even);
 }
 
 /* ---- over the active area ---------------------------------------------------------------- */
 
 static void add_places(Table *table, const PlotData *s, Pattern pattern) {
-    float rgb[3];
-    pattern_codes(pattern, rgb);
-    PanelEvenness e = panel_figure_evenness(s->source.panel, rgb);
+    PanelEvenness e = panel_figure_evenness(s->panel, pattern_codes(pattern));
     table_row(table);
     table_text(table, pattern_name(pattern));
     for (int i = 0; i < PANEL_NINE; i++) table_number(table, e.nine[i]);
@@ -556,7 +575,7 @@ static void add_places(Table *table, const PlotData *s, Pattern pattern) {
 
 static void report_places(Report *report, const PlotData *data) {
     if (!data->emits) return;
-    if (!panel_varies(data->source.panel)) {
+    if (!panel_varies(data->panel)) {
         report_missing(report, "uniformity", "Over the active area",
                        "One place was measured: "
                        "how even the panel is, is not known.");
@@ -590,7 +609,7 @@ static void report_places(Report *report, const PlotData *data) {
 /* ---- how far the file is from what was measured ------------------------------------------ */
 
 static void add_part(Table *table, const PlotData *s, bool of_reflection) {
-    PanelPartError e = panel_part_error(s->source.report, of_reflection);
+    PanelPartError e = panel_part_error(s->report, of_reflection);
     if (!e.tables) return;
     table_row(table);
     table_text(table, of_reflection ? "reflection" : "emission");
@@ -603,7 +622,7 @@ static void add_part(Table *table, const PlotData *s, bool of_reflection) {
 }
 
 static void report_errors(Report *report, const PlotData *data) {
-    const json_t *emission = json_object_get(data->source.report, "emission");
+    const json_t *emission = json_object_get(data->report, "emission");
     double floor = json_number_value(json_object_get(emission, "error_floor"));
     const char *dim = floor > 0 ? arena_format(report->arena,
                                                ", or over %.3g %% of the "

@@ -10,6 +10,20 @@
 #include "plot/panel/plot_data.h"
 #include "table/table.h"
 
+/* Light on the panel: an even surround, and a directed source at an angle to the normal. */
+typedef struct AmbientLight {
+    double lux;            /* of the surround; 0: none */
+    double directed_lux;   /* on the panel's plane; 0: none */
+    double directed_theta; /* radians; its azimuth is the data's incidence_phi */
+} AmbientLight;
+
+#define AMBIENT_MAX 8
+
+typedef struct Ambient {
+    int count;
+    AmbientLight light[AMBIENT_MAX];
+} Ambient;
+
 #define REPORT_TABLES_MAX 24
 
 typedef struct Report {
@@ -23,4 +37,5 @@ typedef struct Report {
  * near. */
 bool report_has_azimuth(const json_t *report, int index);
 
-Report *panel_tables(const PlotData *data, Arena *arena);
+/* ambient: light in which contrast is stated besides that of the standards. */
+Report *panel_tables(const PlotData *data, const Ambient *ambient, Arena *arena);

@@ -3,19 +3,22 @@
  * tables as CSV and JSON.
  *
  * Memory   the arena's, and address space of its own for the page until it is written.
- * Threads  one call at a time per arena; `threads` of the options sample the panel.
+ * Threads  one call at a time per arena.
  * Fails    with the file and what cannot be drawn or written.
  */
 #pragma once
 #include "plot/panel/plot.h"
+#include "plot/report/panel_tables.h"
 
-/* Files to write; NULL: not that one. */
-typedef struct ReportOutput {
-    const char *page;   /* X.html */
-    const char *tables; /* a folder for the CSV files and report.json */
-} ReportOutput;
+typedef struct ReportSpec {
+    PlotInput input;
+    Ambient ambient;
+    const TableKind *info_kind; /* of what the page shows first: */
+    const json_t *info;         /* what `panel info` has of the panel */
+    const char *page;           /* X.html; NULL: none */
+    const char *tables;         /* a folder for the CSV files and report.json; NULL: none */
+} ReportSpec;
 
 /* Makes all tables and writes what is requested; *answer is the caller's: the document of
  * report.json. */
-bool panel_report_write(const PlotInput *input, const PlotOptions *options,
-                        const ReportOutput *output, Arena *arena, json_t **answer, Error *err);
+bool panel_report_write(const ReportSpec *spec, Arena *arena, json_t **answer, Error *err);
