@@ -73,7 +73,7 @@ const RemovedWord removed_words[] = {
     {"measurement_set", "states", "write a manifest of each state, and fit a panel of each"},
     {"--kind", "states", "plot the panel file of each state"},
     {"--kind", "grey-inversion", "panel report has a table of it"},
-    {"--kind", "spectra", "panel export --table primaries writes them"},
+    {"--kind", "spectra", "the set has them in its table of primaries"},
     {"--kind", "brdf-spectrum", "panel eval --brdf has a row for each wavelength"},
     {"--kind", "brdf-map",
      "--kind brdf draws the plane of incidence, panel eval --brdf --grid asks"},
