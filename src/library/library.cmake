@@ -11,7 +11,7 @@ set(panel_library_sources src/library/parhelion_panel.c src/library/open_panel.c
   src/base/arena.c src/base/error.c src/base/file.c src/base/machine.c src/base/mathd.c
   src/base/sort.c src/print/print.c src/print/printable.c src/print/utf8.c
   src/spectrum/spectral_table.c src/spectrum/wavelengths.c
-  src/hemisphere/geodesic.c src/hemisphere/specular_frame.c src/hemisphere/surface_frame.c
+  src/hemisphere/geodesic.c src/hemisphere/specular_frame.c
   src/hemisphere/vertex/vertex.c src/hemisphere/vertex/vertex_open.c
   src/hemisphere/vertex/vertex_pack.c src/hemisphere/vertex/vertex_query.c
   src/hemisphere/vertex/vertex_tree_write.c src/hemisphere/vertex/vertex_unpack.c

@@ -52,6 +52,10 @@ const RemovedWord removed_words[] = {
     {"review", "--mend",
      "find the value by bisection over reviews: the script in parhelion help "
      "glare-review, What would mend it?"},
+    {"panel fit", "--lobe-is-mirror", "state the peak's width by --instrument-fwhm DEG"},
+    {"panel fit", "--wavelet", "spectra are always a few principal ones"},
+    {"panel fit", "--frame", "the fit chooses it by the peak's width"},
+    {"panel fit", "--incidence", "between incidences it is always cubic"},
     {"review", "sensitivity",
      "name the values as variants, which a script can write: parhelion "
      "help glare-review, What would mend it?"},

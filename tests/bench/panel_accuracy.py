@@ -4,8 +4,6 @@
 emission    two foreign sets through the importer and the fit, against known truth
 reflection  the same for the first set's BRDF: its peak, its haze
 incidence   simulated panels between the measured incidences, and with one left out
-facets      GGX surfaces: a brushed one between measured azimuths, rough and smooth dielectrics
-            beyond the last measured incidence
 levels      grey levels left out and predicted, of simulated panels and of measured curves
 directions  random directions inside the cone against the closed form
 
@@ -22,7 +20,7 @@ import tempfile
 import panels
 from panels import Refused
 
-PARTS = ("emission", "reflection", "incidence", "facets", "levels", "directions")
+PARTS = ("emission", "reflection", "incidence", "levels", "directions")
 SIMULATED = ("ips_cluster", "oled_centre")
 
 
@@ -237,111 +235,6 @@ def measure_incidence(program, options):
             program.fit(left_out, panel, *options)
             print_slice(name, f"left out, {incidence} deg",
                         compare_slice(program, panel, truth, incidence), (0.035, 0.025))
-
-
-# ---- facets ----------------------------------------------------------------------------------
-
-class Facets:
-    """Walter et al. 2007 with Heitz's height-correlated masking; directions in degrees, the
-    eye's azimuth in the display's frame."""
-
-    def __init__(self, along, across, index):
-        self.along, self.across, self.index = along, across, index
-
-    def masking(self, d):
-        q = ((d[0] * self.along) ** 2 + (d[1] * self.across) ** 2) / d[2] ** 2
-        return (math.sqrt(1 + q) - 1) / 2
-
-    def brdf(self, incidence, light_phi, theta, phi):
-        i, o = direction(incidence, light_phi), direction(theta, phi)
-        z = i[2] + o[2]
-        x, y = (i[0] + o[0]) / z, (i[1] + o[1]) / z
-        bent = 1 + (x / self.along) ** 2 + (y / self.across) ** 2
-        d = (1 + x * x + y * y) ** 2 / (math.pi * self.along * self.across * bent * bent)
-        half = math.sqrt((1 + sum(a * b for a, b in zip(i, o))) / 2)
-        return (panels.fresnel(min(1, half), self.index) * d /
-                (1 + self.masking(i) + self.masking(o)) / (4 * i[2] * o[2]))
-
-
-def direction(theta, phi):
-    t, p = math.radians(theta), math.radians(phi)
-    return math.sin(t) * math.cos(p), math.sin(t) * math.sin(p), math.cos(t)
-
-
-def write_facets(program, name, value, incidences, azimuths, steps):
-    """A set of one wavelength from value(incidence, light azimuth, theta, phi)."""
-    folder = program.file(name)
-    reflection = {"wavelengths_nm": [550], "incidence_deg": incidences,
-                  "files": "i{incidence}.csv"}
-    if len(azimuths) > 1:
-        reflection.update(incidence_phi_deg=azimuths, files="i{incidence}_a{azimuth}.csv")
-    for i in incidences:
-        for a in azimuths:
-            rows = [(t, p, value(i, a, t, p + a + 180))
-                    for t in even(0, 84, steps[0]) for p in even(0, 360 - 1e-6, steps[1])
-                    if t > 0 or p == 0]
-            path = reflection["files"].replace("{incidence}", f"{i:.10g}")
-            panels.write_table(os.path.join(folder, path.replace("{azimuth}", f"{a:.10g}")),
-                               ("theta", "phi", "550"), rows)
-    return panels.write_manifest(folder, {"panel": name, "reflection": reflection})
-
-
-def even(first, last, step):
-    return [first + step * k for k in range(int((last - first) / step) + 1)]
-
-
-def brushed_questions(theta, phi, draw):
-    """Random eyes within 10 degrees of the mirror direction, and elsewhere to 80 degrees."""
-    near, far = [], []
-    while len(near) < 300 or len(far) < 300:
-        t = math.degrees(math.acos(1 - draw.random() * 0.826))
-        p = draw.uniform(0, 360)
-        if len(near) < 300 and draw.random() < 0.5:
-            t = theta + draw.uniform(-7, 7)
-            p = phi + 180 + draw.uniform(-7, 7) / math.sin(math.radians(theta))
-        is_near = panels.angle_between(t, p, theta, phi + 180) < 10
-        if 0 <= t <= 80:
-            (near if is_near else far).append((t, p, theta, phi))
-    return near[:300], far[:300]
-
-
-def measure_brushed(program, options):
-    truth, draw = Facets(0.16, 0.04, 1.5), random.Random(4)
-    panel = program.file("brushed.panel")
-    manifest = write_facets(program, "brushed", truth.brdf, [35, 50], even(0, 340, 22.5),
-                            (2, 2.5))
-    report = program.fit(manifest, panel, *options)
-    for theta in (35, 42.5, 50):
-        found = []
-        for part in zip(*[brushed_questions(theta, 11.25 + 45 * k, draw) for k in range(8)]):
-            rows = sum(part, [])
-            _, answers = program.ask(panel, ("theta", "phi", "incidence", "incidence_phi"),
-                                     rows, "--brdf", "--wavelength", 550)
-            errors = [a[6] / truth.brdf(i, lp, t, p) - 1
-                      for a, (t, p, i, lp) in zip(answers, rows)]
-            found.append(f"rms {percent(rms(errors))}, worst {percent(max(map(abs, errors)))}")
-        print(f"brushed 0.16 x 0.04, light at {theta} deg, half way between azimuths 22.5 deg "
-              f"apart: near the mirror direction {found[0]} (limit rms 3%); elsewhere "
-              f"{found[1]} (limit rms 5%)")
-    print(f"brushed: file {report['file_bytes']} bytes, fit {report['cpu_seconds']:.1f} s of "
-          f"processor")
-
-
-def measure_facets(program, options):
-    """Beyond 65 degrees, measured every 15: peak, and 3 degrees off it on both sides."""
-    for alpha, index in ((0.05, 1.5), (0.1, 1.7), (0.2, 1.5), (0.3, 1.4)):
-        truth, panel = Facets(alpha, alpha, index), program.file("rough.panel")
-        program.fit(write_facets(program, "rough", lambda i, _, t, p: truth.brdf(i, 180, t, p),
-                                 [5, 20, 35, 50, 65], [180], (1, 4)), panel, *options)
-        rows = [(i + d, 0, i) for i in (70, 75, 80, 85) for d in (-3, 0, 3)]
-        _, answers = program.ask(panel, ("theta", "phi", "incidence"), rows, "--brdf",
-                                 "--wavelength", 550)
-        errors = [a[6] / truth.brdf(i, 180, t, p) - 1 for a, (t, p, i) in zip(answers, rows)]
-        print(f"rough dielectric, alpha {alpha}, index {index}, last incidence 65 deg (limit "
-              "5%): " + "; ".join(
-                  f"{rows[3 * k + 1][2]} deg: peak {percent(errors[3 * k + 1])}, 3 deg off "
-                  f"{percent(errors[3 * k])}, {percent(errors[3 * k + 2])}" for k in range(4)))
-    measure_brushed(program, options)
 
 
 # ---- grey levels -----------------------------------------------------------------------------

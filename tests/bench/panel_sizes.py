@@ -106,12 +106,10 @@ class Bench:
 
     def haar_of_size(self, manifest, wanted, panel, like):
         """The largest share of coefficients found whose file is no larger than wanted bytes:
-        regula falsi on bytes over share, with the level and the frame of the other basis."""
+        regula falsi on bytes over share, with the level of the other basis."""
         options = ["--basis", "haar"]
         part = like.get("reflection") or like.get("emission")
         options += ["--level", max(2, min(9, int(part["level"])))]
-        if "frame_exponent" in part:
-            options += ["--frame", part["frame_exponent"]]
 
         def fit(share):
             return self.program.fit(manifest, panel, *options, "--keep", f"{share:.6g}")

@@ -34,8 +34,8 @@ class One:
         if (2, 0) in sections:
             self.emission = Emission(sections[2, 0], sections[3, 0], sections[4, 0], observer)
         if (5, 0) in sections:
-            self.reflection = Reflection(sections[5, 0], sections[6, 0], sections.get((9, 0)),
-                                         sections[7, 0], sections.get((15, 0)))
+            self.reflection = Reflection(sections[5, 0], sections[6, 0], sections[7, 0],
+                                         sections.get((15, 0)))
 
 
 class Ground:

@@ -31,14 +31,6 @@ def turned(light, d):
     return x * d[0] + y * d[1], x * d[1] - y * d[0], d[2]
 
 
-def turned_back(light, d):
-    m = math.hypot(light[0], light[1])
-    if m < 1e-6:
-        return d
-    x, y = -light[0] / m, -light[1] / m
-    return x * d[0] - y * d[1], y * d[0] + x * d[1], d[2]
-
-
 def specular(theta_i, k, d):
     """The stored direction, its azimuth's x and |d0|."""
     theta, across = polar(d), math.hypot(d[0], d[1])
@@ -81,19 +73,18 @@ def cubic_weights(x, left, right, u):
 
 
 class Reflection:
-    def __init__(self, section, tree, surface, sampling, reach):
+    def __init__(self, section, tree, sampling, reach):
         self.tree = open_tree(tree)
         s = Bytes(section)
         (self.incidences, self.azimuths, self.components, self.coefficients,
          self.wavelengths, nodes) = s.take("H", 6)
-        self.is_cubic, self.has_mirror, self.has_lobe, _ = s.take("B", 4)
-        self.k, self.index, self.cone, mean_step, lobe_step = s.take("f", 5)
+        _, self.has_mirror, _, _ = s.take("B", 4)
+        self.k, self.index, self.cone, mean_step, _ = s.take("f", 5)
         tables, width = self.incidences * self.azimuths, self.wavelengths
         self.incidence, self.azimuth = (s.take("f", n) for n in (self.incidences,
                                                                  self.azimuths))
         self.nm, self.node = s.take("f", width), s.take("f", nodes)
         basis_step, loading_step = s.take("f", self.coefficients), s.take("f", self.components)
-        self.sigma = s.take("f", tables if self.has_lobe else 0)
 
         def rows(count, letter, step):
             return rows_of([step * n for n in s.take(letter, count * width)], width)
@@ -105,26 +96,16 @@ class Reflection:
         loading = [[n * step for n, step in zip(row, loading_step)]
                    for row in rows_of(flat, self.components)]
         self.loading = rows_of(loading, self.coefficients)
-        self.lobe = rows(tables if self.has_lobe else 0, "h", lobe_step)
         self.albedo_rows = rows(tables, "H", 1 / 65535)
         self.mirrored = rows(self.incidences if self.has_mirror else 0, "H", 1 / 65535)
         self.held = rows(nodes, "H", 1 / 65535)
         self.node_albedo = rows(nodes, "H", 1 / 65535)
         assert s.at == len(section)
-        self.read_surface(Bytes(surface) if surface else None)
         self.read_reach(Bytes(reach) if reach else None, tables)
         self.last = self.incidence[-1]
         self.steps = self.name_steps()
         self.mirror_table = self.make_mirror() if self.has_mirror else None
         self.read_sampling(sampling)
-
-    def read_surface(self, s):
-        self.frame, self.beyond, self.beyond_index, self.mirror_index = 0, 0, self.index, 0
-        if s:
-            self.frame, self.beyond = s.take("B", 4)[:2]
-            self.axes, self.reach = s.take("f", 3), s.take("f")
-            self.roughness = s.take("f", 3)
-            self.beyond_index, self.mirror_index = s.take("f", 2)
 
     def read_reach(self, s, tables):
         self.hulls = None
@@ -145,7 +126,7 @@ class Reflection:
         for weight, table, other in self.mix(polar(wi), math.atan2(wi[1], wi[0])):
             if weight > 1e-3:
                 x, y, z = local
-                at = (-x, -y, z) if other and self.frame == 0 else local
+                at = (-x, -y, z) if other else local
                 room = min(room, self.room_in(self.hulls[table], at))
         return room
 
@@ -193,7 +174,7 @@ class Reflection:
         i = max([k for k in range(len(x) - 1) if x[k] <= theta], default=0)
         u = held((theta - x[i]) / (x[i + 1] - x[i]), 0, 1)
         left, right = i > 0, i + 2 < len(x)
-        if not self.is_cubic or len(x) < 3:
+        if len(x) < 3:
             w = [0.0, 1 - u, u, 0.0]
         else:
             around = [x[k] if 0 <= k < len(x) else 0.0 for k in range(i - 1, i + 3)]
@@ -241,8 +222,7 @@ class Reflection:
     def logs(self, stored, mix, nm):
         row = self.mixed(self.mean, mix)
         for other in (False, True):
-            part = [(w, table) for w, table, side in mix
-                    if (side and self.frame == 0) == other]
+            part = [(w, table) for w, table, side in mix if side == other]
             if not part:
                 continue
             x, y, z = stored
@@ -252,52 +232,7 @@ class Reflection:
                 row = [a + factor * b for a, b in zip(row, self.basis[s])]
         return self.spread(row, nm)
 
-    # ---- frames
-
-    def stored(self, wi, wo):
-        if self.frame == 0:
-            return specular(polar(wi), self.k, turned(wi, wo))[0]
-        slopes = self.frame == 1
-        over = 1 / (wi[2] + wo[2]) if slopes else 1.0
-        h = ((wi[0] + wo[0]) * over, (wi[1] + wo[1]) * over)
-        size = math.hypot(*h)
-        if not size > 1e-9:
-            return 0.0, 0.0, 1.0
-        e = (h[0] / size, h[1] / size)
-        xx, xy, yy = self.axes
-        x = (xx * e[0] + xy * e[1], xy * e[0] + yy * e[1])
-        length = math.hypot(*x)
-        g = wi[0] * e[0] + wi[1] * e[1]
-        g = g / wi[2] if slopes else g
-        horizon = g + math.sqrt(g * g + (1 if slopes else wi[2] ** 2))
-        unit = math.asinh(self.reach)
-        last = held(math.asinh(horizon * length) / unit, 1e-6, 1)
-        share = min(1, math.asinh(size * length) / unit / last)
-        return from_polar(RIGHT * held(share * last + (1 - last) * share ** 4, 0, 1), *x)
-
-    def reference(self, wi, wo):
-        if self.frame == 0:
-            return fresnel(wi[2], self.index)
-        if self.frame == 2:
-            return math.sqrt(fresnel(wi[2], self.index) * fresnel(wo[2], self.index))
-        return fresnel(self.facet(wi, wo), self.index) / (wi[2] + wo[2]) ** 2
-
-    @staticmethod
-    def facet(wi, wo):
-        return held(math.sqrt(max(0.0, (1 + dot(wi, wo)) / 2)), 0, 1)
-
     # ---- the parts
-
-    def lobe_at(self, mix, wi, local, nm):
-        sigma = max(sum(w * self.sigma[table] for w, table, _ in mix), 1e-4)
-        sine = math.sqrt(max(0.0, 1 - wi[2] ** 2))
-        chord = (local[0] - sine) ** 2 + local[1] ** 2 + (local[2] - wi[2]) ** 2
-        q = chord * (1 + chord / 12)
-        if q > (6.5 * sigma) ** 2:
-            return [0.0] * len(nm)
-        shape = math.exp(-q / (2 * sigma ** 2)) / (2 * math.pi * sigma ** 2
-                                                  * max(wi[2], 0.02))
-        return [shape * math.exp(x) for x in self.spread(self.mixed(self.lobe, mix), nm)]
 
     def make_mirror(self):
         f = [fresnel(math.cos(theta), self.index) for theta in self.incidence]
@@ -305,16 +240,10 @@ class Reflection:
         for a in range(181):
             cosine = math.cos(math.radians(a / 2))
             here = fresnel(cosine, self.index)
-            face = self.mirror_index > 0 and math.radians(a / 2) > self.last
             row = []
             for w in range(self.wavelengths):
                 rho = [self.mirrored[j][w] / f[j] for j in range(self.incidences)]
-                if face:
-                    value = (self.mirrored[-1][w] * fresnel(cosine, self.mirror_index)
-                             / fresnel(math.cos(self.last), self.mirror_index))
-                else:
-                    value = here * self.ratio(f, rho, here)
-                row.append(min(1.0, value))
+                row.append(min(1.0, here * self.ratio(f, rho, here)))
             table.append(row)
         return table
 
@@ -365,7 +294,7 @@ class Reflection:
 
     def gloss(self, cosine, nm):
         if not self.has_mirror:
-            return [fresnel(cosine, self.beyond_index)] * len(nm)
+            return [fresnel(cosine, self.index)] * len(nm)
         if not cosine > 0:
             return [1e-6] * len(nm)
         return [max(x, 1e-6) for x in self.mirror(cosine, nm)]
@@ -378,12 +307,6 @@ class Reflection:
         low, high = (self.spread(self.held[k], nm) for k in (i, i + 1))
         return [a + t * (b - a) for a, b in zip(low, high)]
 
-    def masking(self, wi, wo):
-        def m(d):
-            xx, xy, yy = self.roughness
-            return math.sqrt(d[2] ** 2 + xx * d[0] ** 2 + 2 * xy * d[0] * d[1] + yy * d[1] ** 2)
-        return 1 / (wo[2] * m(wi) + wi[2] * m(wo))
-
     # ---- the questions
 
     def brdf(self, wo, wi, nm):
@@ -394,68 +317,39 @@ class Reflection:
         if theta > self.last:
             return self.brdf_beyond(wo, wi, nm)
         mix = self.mix(theta, phi)
-        reference = self.reference(wi, wo)
-        f = [math.exp(x) * reference for x in self.logs(self.stored(wi, wo), mix, nm)]
-        if self.has_lobe:
-            here = fresnel(wi[2], self.index)
-            f = [a + here * b for a, b in zip(f, self.lobe_at(mix, wi, turned(wi, wo), nm))]
+        here = fresnel(wi[2], self.index)
+        stored = specular(theta, self.k, turned(wi, wo))[0]
+        f = [math.exp(x) * here for x in self.logs(stored, mix, nm)]
         part = [math.exp(x) for x in self.spread(self.mixed(self.lambertian, mix), nm)]
         return f, part
 
-    def asked(self, wi, local, light):
+    def asked(self, wi, local):
         """Where the last incidence is read, in the turned frame."""
         sine = math.sqrt(max(0.0, 1 - wi[2] ** 2))
-        if self.beyond == 0:
-            x, y = local[0] - sine - light[0], local[1]
-            edge, length = math.sqrt(max(0.0, 1 - self.cone ** 2)), math.hypot(x, y)
-            if length > edge:
-                x, y = x * edge / length, y * edge / length
-            return x, y, math.sqrt(max(0.0, 1 - x * x - y * y))
-        over = 1 / (wi[2] + local[2])
-        g = ((local[0] - sine) * over, local[1] * over)
-        o = 2 * (light[0] * g[0] + light[1] * g[1] + light[2]) / (1 + dot(g, g))
-        d = (o * g[0] - light[0], o * g[1] - light[1], o - light[2])
-        least, across = min(local[2], self.cone), math.hypot(d[0], d[1])
-        if d[2] >= least or not across > 0:
-            return d
-        scale = math.sqrt(1 - least * least) / across
-        return d[0] * scale, d[1] * scale, least
+        x, y = local[0] - sine + math.sin(self.last), local[1]
+        edge, length = math.sqrt(max(0.0, 1 - self.cone ** 2)), math.hypot(x, y)
+        if length > edge:
+            x, y = x * edge / length, y * edge / length
+        return x, y, math.sqrt(max(0.0, 1 - x * x - y * y))
 
     def brdf_beyond(self, wo, wi, nm):
-        local, theta = turned(wi, wo), polar(wi)
-        light = (-math.sin(self.last), 0.0, math.cos(self.last))
-        ask = self.asked(wi, local, light)
-        wi_then, wo_then = turned_back(wi, light), turned_back(wi, ask)
+        ask = self.asked(wi, turned(wi, wo))
         mix = self.mix(self.last, math.atan2(wi[1], wi[0]))
-        stored = (specular(self.last, self.k, ask)[0] if self.frame == 0
-                  else self.stored(wi_then, wo_then))
-        reference = self.reference(wi_then, wo_then)
-        total = [math.exp(x) * reference for x in self.logs(stored, mix, nm)]
-        most = max((part for part in mix if not (part[2] and self.frame == 0)),
-                   key=lambda part: part[0])
-        own = [math.exp(x) for x in self.lambertian[most[1]]]
         last = fresnel(math.cos(self.last), self.index)
-        ratio = self.haze_ratio((wi, wo), (wi_then, wo_then), nm)
-        factor = self.held_factor(theta, nm)
-        own = self.spread(own, nm)
+        stored = specular(self.last, self.k, ask)[0]
+        total = [math.exp(x) * last for x in self.logs(stored, mix, nm)]
+        most = max((part for part in mix if not part[2]), key=lambda part: part[0])
+        own = self.spread([math.exp(x) for x in self.lambertian[most[1]]], nm)
+        a, b, c, d = (self.gloss(cosine, nm)
+                      for cosine in (wi[2], wo[2], math.cos(self.last), ask[2]))
+        ratio = [math.sqrt(p * q / (r * s)) for p, q, r, s in zip(a, b, c, d)]
+        factor = self.held_factor(polar(wi), nm)
         f = [(t - min(t, p)) * r + min(t, p) for t, p, r in zip(total, own, ratio)]
-        if self.has_lobe:
-            now, then = self.gloss(wi[2], nm), self.gloss(math.cos(self.last), nm)
-            f = [a + b * last * p / q for a, b, p, q in
-                 zip(f, self.lobe_at(mix, wi, local, nm), now, then)]
         share = self.exchanged(wo, wi)
         if share:
             f = [a + share * (b - a) for a, b in zip(f, self.brdf(wi, wo, nm)[0])]
         f = [a * b for a, b in zip(f, factor)]
         return f, [p * b for p, b in zip(own, factor)]
-
-    def haze_ratio(self, now, then, nm):
-        if self.beyond == 0:
-            a, b, c, d = (self.gloss(x[2], nm) for x in (*now, *then))
-            return [math.sqrt(p * q / (r * s)) for p, q, r, s in zip(a, b, c, d)]
-        masking = self.masking(*now) / self.masking(*then)
-        a, b = (self.gloss(self.facet(*pair), nm) for pair in (now, then))
-        return [p / q * masking for p, q in zip(a, b)]
 
     def pdf(self, wo, wi):
         """(density, how near the edge of a cell it is read); None: the file has no tree."""

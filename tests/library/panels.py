@@ -70,8 +70,7 @@ def placed(program, folder):
 
 
 def haar(program, folder):
-    return fitted(program, folder, "haar", RECIPE, "--basis", "haar", "--level", "4",
-                  "--frame", "2", "--incidence", "linear", "--wavelet", "cdf53")
+    return fitted(program, folder, "haar", RECIPE, "--basis", "haar", "--level", "4")
 
 
 def brushed(program, folder, alphas=(0.3, 0.16)):

@@ -85,10 +85,9 @@ static inline double brdf_deg(const Panel *panel, const double eye[2], const dou
                               direction_deg(light[0], light[1]), &w)[lane];
 }
 
-/* What most laws need: one frame, no search for it. */
+/* What most laws need. */
 static inline FitOptions quick(void) {
     FitOptions options = fit_options_default();
-    options.frame_exponent = 1.5f;
     options.level = 6;
     return options;
 }

@@ -3,7 +3,6 @@
 #include "hemisphere_fixture.h"
 
 #include "hemisphere/specular_frame.h"
-#include "hemisphere/wavelet1d.h"
 /* ---- geodesic ---------------------------------------------------------------------------- */
 
 HEMISPHERE_TEST(a_level_has_4_to_the_level_plus_1_triangles) {
@@ -226,71 +225,6 @@ HEMISPHERE_TEST(norms_say_what_a_detail_is_worth) {
             assert_close(norms[place], sqrt(sum), 1e-5);
         }
     }
-}
-
-/* ---- wavelets over wavelength ------------------------------------------------------------ */
-
-static const WaveletKind KINDS[] = {WAVELET_HAAR, WAVELET_CDF53, WAVELET_CDF97};
-
-TEST(one_dimensional_wavelets_invert_at_every_length) {
-    uint32_t seed = 4;
-    for (size_t k = 0; k < 3; k++)
-        for (int count = 1; count <= 130; count++) {
-            float row[130], source[130];
-            for (int i = 0; i < count; i++) source[i] = row[i] = random_unit(&seed) * 10 - 3;
-            wavelet1d_forward(KINDS[k], row, count);
-            wavelet1d_inverse(KINDS[k], row, count);
-            for (int i = 0; i < count; i++) assert_near(row[i], source[i], 1e-5);
-        }
-}
-
-TEST(constants_have_no_details) {
-    for (size_t k = 0; k < 3; k++)
-        for (int count = 1; count <= 65; count += 4) {
-            float row[65];
-            for (int i = 0; i < count; i++) row[i] = 5;
-            wavelet1d_forward(KINDS[k], row, count);
-            assert_close(row[0], 5, 1e-5);
-            for (int i = 1; i < count; i++) assert_near(row[i], 0, 1e-5);
-        }
-}
-
-/* A change at one end reaches only a few coefficients at the other (the coarse ones). */
-TEST(finest_details_are_local) {
-    for (size_t k = 0; k < 3; k++)
-        for (int count = 64; count <= 65; count++) {
-            float row[65] = {0}, changed[65] = {1};
-            int first = (count + 1) / 2;
-            wavelet1d_forward(KINDS[k], row, count);
-            wavelet1d_forward(KINDS[k], changed, count);
-            assert_true(row[first] != changed[first]);
-            for (int i = first + 4; i < count; i++) assert_true(row[i] == changed[i]);
-            for (int i = first / 2 + 4; i < first; i++) assert_near(changed[i], 0, 1e-6);
-        }
-}
-
-/* Vanishing moments: straight lines for 5/3, cubics for 9/7, away from the ends. */
-TEST(smooth_rows_have_small_details) {
-    float line[64], cubic[64];
-    for (int i = 0; i < 64; i++) {
-        float x = ((float)i - 32) / 32;
-        line[i] = 2 + x;
-        cubic[i] = 1 + x - 2 * x * x + x * x * x;
-    }
-    wavelet1d_forward(WAVELET_CDF53, line, 64);
-    for (int i = 33; i < 62; i++) assert_near(line[i], 0, 1e-6);
-    wavelet1d_forward(WAVELET_CDF97, cubic, 64);
-    for (int i = 35; i < 61; i++) assert_near(cubic[i], 0, 1e-6);
-}
-
-TEST(wavelet_norms_are_positive_and_haars_are_known) {
-    float norms[8];
-    wavelet1d_norms(WAVELET_HAAR, 8, norms);
-    assert_close(norms[0], sqrt(8), 1e-6);
-    assert_close(norms[1], 0.5 * sqrt(8), 1e-6);
-    assert_close(norms[7], 0.5 * sqrt(2), 1e-6);
-    wavelet1d_norms(WAVELET_CDF97, 8, norms);
-    for (int i = 0; i < 8; i++) assert_true(norms[i] > 0.1f);
 }
 
 /* ---- specular frame

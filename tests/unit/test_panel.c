@@ -297,7 +297,6 @@ TEST(a_fit_gives_the_same_bytes_again) {
     FitOptions options = fit_options_default();
     json_auto_t *report;
     const char *path = fixture_path(&ips, "again.panel");
-    options.frame_exponent = ips.panel->reflection->frame_exponent; /* what was chosen */
     assert_done(panel_fit(ips.set, &options, path, &ips.arena, &report, &err));
     FileBytes before = read_bytes(ips.panel_path, &ips.arena);
     FileBytes after = read_bytes(path, &ips.arena);

@@ -291,7 +291,6 @@ TEST(both_bases_answer_the_same_query) {
 TEST(a_surface_that_only_reflects_emits_nothing) {
     ENDS_BY(fixture_end) Fixture f;
     FitOptions options = fit_options_default();
-    options.frame_exponent = 1;
     fixture_measure(&f, "{\"panel\": \"p\", \"emission\": {" FIXTURE_SPECTRA "\"levels\": [255]},"
                         "\"reflection\": {\"haze_share\": 1, \"haze_width\": 0.4,"
                         "\"floor_albedo\": 0.02, \"incidence_deg\": [20, 40],"

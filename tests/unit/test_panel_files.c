@@ -66,11 +66,6 @@ static Fixture folder; /* files and what is made of them */
     "{\"emission\": {\"white\": \"emission/black.csv\"}, \"uniformity\": {" \
     "\"file\": \"map.csv\"}}"
 
-#define BRUSHED \
-    "{\"panel\": \"grain\", \"reflection\": {\"wavelengths_nm\": [550]," \
-    "\"incidence_deg\": [20, 50], \"incidence_phi_deg\": [0, 90, 180, 270]," \
-    "\"files\": \"grain/i{incidence}_a{azimuth}.csv\"}}"
-
 #define CELLS "{\"emission\": {\"white\": \"emission/steps.csv\"}}"
 #define HULLS \
     "{\"panel\": \"rings\", \"reflection\": {\"wavelengths_nm\": [550]," \
@@ -97,9 +92,8 @@ static Kind kinds[] = {
     {"beam", "{\"emission\": {\"white\": \"emission/beam.csv\"}}", FIT_VERTEX, 0, NULL},
     {"anisotropic", ANISOTROPIC, FIT_VERTEX, 0, NULL},
     {"anisotropic haar", ANISOTROPIC, FIT_HAAR, 0, NULL},
-    {"surface", BRUSHED, FIT_VERTEX, 0, NULL}, /* in a frame of its own */
-    {"cells", CELLS, FIT_VERTEX, 0, NULL},     /* kept as it was measured */
-    {"hulls", HULLS, FIT_VERTEX, 0, NULL},     /* of samples that leave much out */
+    {"cells", CELLS, FIT_VERTEX, 0, NULL}, /* kept as it was measured */
+    {"hulls", HULLS, FIT_VERTEX, 0, NULL}, /* of samples that leave much out */
 };
 #define SLOW_SHARE 8 /* of forged ones, where opening takes tens of milliseconds */
 #define KIND_COUNT ((int)(sizeof kinds / sizeof *kinds))
@@ -131,28 +125,6 @@ static void write_beam(void) {
             fprintf(file, "%g,%g,%.6g,%.6g,%.6g\n", t, p, 0.95 * y, y, 1.09 * y);
         }
     assert_int_equal(fclose(file), 0);
-}
-
-/* Brushed along x: a lobe over facets' slopes, three times as wide across it. */
-static double grain(Vec3 light, Vec3 eye) {
-    double z = (double)(light.z + eye.z), x = (double)(light.x + eye.x) / z / 0.1;
-    double y = (double)(light.y + eye.y) / z / 0.3, bent = 1 + x * x + y * y;
-    return 1 / (z * z * bent * bent);
-}
-
-static void write_grain(void) {
-    for (int i = 20; i <= 50; i += 30)
-        for (int a = 0; a < 360; a += 90) {
-            const char *name = arena_format(&folder.arena, "grain/i%d_a%d.csv", i, a);
-            char text[32768];
-            size_t n = (size_t)snprintf(text, sizeof text, "theta,phi,550\n");
-            for (int t = 0; t <= 80; t += 8)
-                for (int p = 0; p < 360; p += t ? 12 : 360)
-                    n +=
-                        (size_t)snprintf(text + n, sizeof text - n, "%d,%d,%.5g\n", t, p,
-                                         grain(direction_deg(i, a), direction_deg(t, p + a + 180)));
-            fixture_file(&folder, name, text);
-        }
 }
 
 /* Light that ends between rings, at another theta each azimuth. */
@@ -228,7 +200,6 @@ static int start(void **state) {
     copy_azimuths();
     write_beam();
     assert_int_equal(mkdir(fixture_path(&folder, "grain"), 0700), 0);
-    write_grain();
     assert_int_equal(mkdir(fixture_path(&folder, "rings"), 0700), 0);
     write_rings();
     write_steps();
@@ -338,10 +309,9 @@ TEST(files_keep_the_version_that_older_programs_read) {
         PanelHeader header;
         const char *name = kinds[k].name;
         bool has_places = !strcmp(name, "spots") || !strcmp(name, "map");
-        uint32_t wanted = has_places                 ? PANEL_VERSION_PLACES
-                          : !strcmp(name, "zoned")   ? PANEL_VERSION_ZONES
-                          : !strcmp(name, "surface") ? PANEL_VERSION
-                                                     : PANEL_VERSION_PLAIN;
+        uint32_t wanted = has_places               ? PANEL_VERSION_PLACES
+                          : !strcmp(name, "zoned") ? PANEL_VERSION_ZONES
+                                                   : PANEL_VERSION_PLAIN;
         memcpy(&header, kinds[k].bytes, sizeof header);
         if (header.version != wanted) fail_msg("%s: version %u", name, header.version);
     }
@@ -354,7 +324,7 @@ TEST(a_version_that_the_contents_do_not_bear_out_is_refused) {
         uint32_t version;
         memcpy(copy, kinds[k].bytes, kinds[k].size);
         memcpy(&version, copy + offsetof(PanelHeader, version), sizeof version);
-        version = version == PANEL_VERSION ? PANEL_VERSION_PLAIN : PANEL_VERSION;
+        version = version == PANEL_VERSION_PLACES ? PANEL_VERSION_PLAIN : PANEL_VERSION_PLACES;
         memcpy(copy + offsetof(PanelHeader, version), &version, sizeof version);
         if (try_bytes(copy, kinds[k].size, &kinds[k]))
             fail_msg("%s: version %u was accepted", kinds[k].name, version);

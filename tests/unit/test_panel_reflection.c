@@ -17,7 +17,7 @@ static double hazy(double theta_i, double phi_i, double theta, double phi, doubl
            0.002;
 }
 
-/* The same, and a lobe of 3 degrees on it. */
+/* The same, and the mirror's image of 3 degrees on it. */
 #define LOBE_FWHM_DEG 3.0
 #define LOBE_SHARE 0.3 /* of Fresnel's reflectance */
 static double lobed(double theta_i, double phi_i, double theta, double phi, double nm) {
@@ -211,25 +211,17 @@ TEST(the_albedo_is_the_integral) {
     }
 }
 
-/* ---- bases along the wavelengths and on the hemisphere ----------------------------------- */
+/* ---- bases on the hemisphere -------------------------------------------------------------- */
 
-TEST(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound) {
+TEST(both_bases_hold_the_bound) {
     static const struct {
         const char *name;
         FitBasis basis;
-        bool has_wavelet;
-        WaveletKind wavelet;
         double most;
-    } CASES[] = {{"principal", FIT_VERTEX, false, WAVELET_HAAR, 0.0205},
-                 {"haar spectra", FIT_VERTEX, true, WAVELET_HAAR, 0.0205},
-                 {"cdf53 spectra", FIT_VERTEX, true, WAVELET_CDF53, 0.0205},
-                 {"cdf97 spectra", FIT_VERTEX, true, WAVELET_CDF97, 0.0205},
-                 {"haar tree", FIT_HAAR, false, WAVELET_HAAR, 0.25}};
+    } CASES[] = {{"vertex", FIT_VERTEX, 0.0205}, {"haar", FIT_HAAR, 0.25}};
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         FitOptions options = quick();
         options.basis = CASES[i].basis;
-        options.has_wavelet = CASES[i].has_wavelet;
-        options.wavelet = CASES[i].wavelet;
         ENDS_BY(fitted_end)
         Fitted f = fit_surface(
             hazy, (Grid){.incidences = 2, .phi_step = 12, .theta_step = 3, .wavelengths = 8},
@@ -240,29 +232,6 @@ TEST(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound) {
 }
 
 /* ---- the parts --------------------------------------------------------------------------- */
-
-static const json_t *part_at(const Fitted *f, size_t incidence) {
-    return json_array_get(json_at(f->fit.report, "reflection/mirror"), incidence);
-}
-
-TEST(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences) {
-    ENDS_BY(fitted_end)
-    Fitted f =
-        fit_surface(lobed, (Grid){.wavelengths = 3, .theta_step = 1, .phi_step = 3}, quick());
-    for (size_t i = 0; i < HAZY_INCIDENCES; i++) {
-        const json_t *part = part_at(&f, i);
-        double r = LOBE_SHARE * fresnel(cos(f.fit.set->incidence[i]));
-        assert_close(json_number_at(part, "lobe_fwhm_deg"), LOBE_FWHM_DEG, 0.01);
-        assert_close(json_number_at(part, "lobe"), r, 0.02);
-    }
-    for (double incidence = 12; incidence < 60; incidence += 15) {
-        Wavelengths w = even_wavelengths(400, 20);
-        Spectrum v =
-            panel_brdf(f.fit.panel, direction_deg(incidence, 0), direction_deg(incidence, 180), &w);
-        double theta = radians_from_degrees(incidence);
-        assert_close(v[2], lobed(theta, PI, theta, 0, 440), 0.015);
-    }
-}
 
 TEST(an_image_as_wide_as_the_instrument_becomes_the_mirror) {
     Wavelengths w = even_wavelengths(400, 20);
@@ -279,23 +248,6 @@ TEST(an_image_as_wide_as_the_instrument_becomes_the_mirror) {
                                 direction_deg(HAZY.incidence_deg[i], 180), &w);
         double theta = f.fit.set->incidence[i];
         assert_close(v[1], hazy(theta, PI, theta, 0, 420), 0.05);
-    }
-}
-
-TEST(a_lobe_becomes_the_mirror_only_when_asked) {
-    FitOptions options = quick();
-    Wavelengths w = even_wavelengths(400, 20);
-    options.lobe_is_mirror = true;
-    ENDS_BY(fitted_end)
-    Fitted f = fit_surface(
-        lobed, (Grid){.wavelengths = 1, .incidences = 2, .theta_step = 1, .phi_step = 3}, options);
-    for (int i = 0; i < 2; i++) {
-        double theta = f.fit.set->incidence[i];
-        assert_close(panel_mirror(f.fit.panel, (float)cos(theta), &w)[0],
-                     LOBE_SHARE * fresnel(cos(theta)), 0.02);
-        Spectrum v = panel_brdf(f.fit.panel, direction_deg(HAZY.incidence_deg[i], 0),
-                                direction_deg(HAZY.incidence_deg[i], 180), &w);
-        assert_close(v[0], hazy(theta, PI, theta, 0, 400), 0.05);
     }
 }
 

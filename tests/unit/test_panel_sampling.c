@@ -87,10 +87,7 @@ static void start_brushed(const FitOptions *options) {
     for (int a = 0; a < 8; a++) set->azimuth[a] = 2 * PI * a / 8;
     for (int t = 0; t < 32; t++)
         set->brdf[t] = brushed_table(set->incidence[t % 4], set->azimuth[t / 4], &brushed.arena);
-    FitOptions own = *options;
-    own.frame_exponent = 0; /* in the frame of its own axes */
-    fixture_fit(&brushed, &own);
-    assert_true(brushed.panel->reflection->frame != PANEL_FRAME_SPECULAR);
+    fixture_fit(&brushed, options);
 }
 
 static int start_panels(void **state) {
@@ -99,7 +96,6 @@ static int start_panels(void **state) {
                                          PROJECT_DIR "/assets/panels/oled_centre.panel"};
     FitOptions options = fit_options_default();
     options.level = 5;
-    options.frame_exponent = 2;
     options.basis = FIT_HAAR; /* fitted in no time; the shipped panels have the other one */
     options.force = true;     /* what its bound misses is another matter */
     fixture_start(&ips, FIXTURE_IPS, &options);

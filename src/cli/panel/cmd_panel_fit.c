@@ -29,10 +29,10 @@ static void add_usage(json_t *report) {
 typedef struct FitWords {
     Cli cli;
     const char *output, *root, *levels;
-    int basis, wavelet, incidence; /* places in the lists of the options */
+    int basis; /* place in the list of the option */
     long level;
-    double level_max, keep, max_error, error_floor, frame, instrument_fwhm_deg;
-    bool lobe_is_mirror, force;
+    double level_max, keep, max_error, error_floor, instrument_fwhm_deg;
+    bool force;
 } FitWords;
 
 static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err) {
@@ -64,20 +64,8 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
          "of an emission table's largest value: errors of what is less are relative to it "
          "(default 0.1)",
          &out->error_floor, 1e-4, 10},
-        {"--lobe-is-mirror", OPTION_FLAG, NULL,
-         "a narrow peak on the haze is the mirror's image as wide as the instrument, where the "
-         "set does not declare that width",
-         &out->lobe_is_mirror},
         {"--instrument-fwhm", OPTION_NUMBER, "DEG", INSTRUMENT_FWHM_HELP, &out->instrument_fwhm_deg,
          INSTRUMENT_FWHM_LEAST, INSTRUMENT_FWHM_MOST},
-        {"--wavelet", OPTION_CHOICE, "principal|haar|cdf53|cdf97",
-         "basis along the wavelengths: a few principal spectra, or a wavelet (default "
-         "principal)",
-         &out->wavelet},
-        {"--frame", OPTION_NUMBER, "K",
-         "specular frame's exponent, 1 to 3 (default: the least error)", &out->frame, 1, 3},
-        {"--incidence", OPTION_CHOICE, "cubic|linear",
-         "between incidences: four slices or two (default cubic)", &out->incidence},
         {"--force", OPTION_FLAG, NULL,
          "write the panel also where it is judged not usable; its report says so", &out->force},
     };
@@ -107,15 +95,10 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
 static FitOptions options_of(const FitWords *words) {
     FitOptions fit = fit_options_default();
     fit.level = (int)words->level;
-    fit.has_wavelet = words->wavelet > 0;
-    fit.wavelet = (WaveletKind)(words->wavelet > 0 ? words->wavelet - 1 : 0);
-    fit.frame_exponent = (float)words->frame;
-    fit.is_linear_in_incidence = words->incidence == 1;
     fit.progress = words->cli.progress;
     fit.threads = words->cli.threads;
     fit.basis = (FitBasis)words->basis;
     fit.force = words->force;
-    fit.lobe_is_mirror = words->lobe_is_mirror;
     if (words->max_error > 0) fit.bound = (float)words->max_error;
     if (words->error_floor > 0) fit.error_floor = 0.01f * (float)words->error_floor;
     fit.keep_share = (float)words->keep;

@@ -335,7 +335,7 @@ static void pack_tree(ReflectionResult *r, size_t file_size, Arena *arena) {
     const void *blob = r->model->tree;
     double values = 0;
     for (int t = 0; t < r->parts.tables; t++)
-        values += (double)r->parts.kept[t].rows * r->model->wavelengths;
+        values += (double)r->parts.haze[t].rows * r->model->wavelengths;
     if ((double)(file_size + REPORT_BYTES) > most_bytes(values) && vertex_can_pack(blob))
         r->packed = vertex_pack(blob, arena, &r->packed_size);
 }

@@ -4,9 +4,8 @@
  * Emission: the logarithm of what every table's X, Y, Z add to the black pattern, as a few
  * components over the tables fitted with each number's own noise; of the components a smooth
  * part (splines times harmonics) is taken out first, the rest is one vertex or Haar tree.
- * Reflection: the logarithm of f / F(theta_i) in the specular-following frame, few spectra (or
- * a 1-D wavelet along the wavelengths), all incidences in one tree; the mirror's image is taken
- * out first.
+ * Reflection: the logarithm of f / F(theta_i) in the specular-following frame, few spectra,
+ * all incidences in one tree; the mirror's image is taken out first.
  *
  * Memory   the arena's. Threads: one fit at a time per arena.
  * Fails    with the file that cannot be written; with ERROR_UNUSABLE, and the report, where

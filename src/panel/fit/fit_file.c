@@ -339,23 +339,14 @@ static bool write_zones(FitWriter *writer, const DimmingZones *zones) {
     return true;
 }
 
-/* A section of default values is left out. */
-static bool has_surface(const ReflectionResult *r) {
-    const PanelSurfaceStored *s = &r->model->surface.stored;
-    return s->frame != PANEL_FRAME_SPECULAR || s->beyond != PANEL_BEYOND_COSINES ||
-           s->mirror_index > 0;
-}
-
 static void write_reflection(FitWriter *writer, const ReflectionResult *r) {
     FitPiece section = {r->section.bytes, r->section.size};
     FitPiece tree = {r->model->tree, tree_size(r->model->tree)};
     if (r->packed) tree = (FitPiece){r->packed, r->packed_size};
     FitPiece sampling = {r->sampling, r->sampling_size};
-    FitPiece surface = {&r->model->surface.stored, sizeof r->model->surface.stored};
     write_section(writer, PANEL_REFLECTION, 0, &section, 1);
     write_section(writer, PANEL_REFLECTION_TREE, 0, &tree, 1);
     if (r->sampling) write_section(writer, PANEL_SAMPLING, 0, &sampling, 1);
-    if (has_surface(r)) write_section(writer, PANEL_SURFACE, 0, &surface, 1);
     FitPiece reach = {r->model->reach, sizeof *r->model->reach * (size_t)r->model->tables};
     if (r->model->has_reach) write_section(writer, PANEL_REACH, 0, &reach, 1);
 }
@@ -403,14 +394,12 @@ void *fit_file_bytes(const FitParts *parts, Arena *arena, size_t *size) {
     if (parts->emission) write_emission(&writer, parts);
     if (parts->reflection) write_reflection(&writer, parts->reflection);
     if (parts->emission) write_polarised(&writer, &parts->set->traits);
-    bool has_frame = parts->reflection && parts->reflection->model->surface.stored.frame;
     bool has_places = parts->places && fit_places_are_there(parts->places);
     if (has_places) write_places(&writer, parts->places);
     bool has_zones = parts->emission && write_zones(&writer, &parts->set->traits.zones);
     return finish(&writer,
                   has_zones    ? PANEL_VERSION_ZONES
                   : has_places ? PANEL_VERSION_PLACES
-                  : has_frame  ? PANEL_VERSION
                                : PANEL_VERSION_PLAIN,
                   size);
 }

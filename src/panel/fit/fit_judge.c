@@ -133,7 +133,7 @@ static void judge_zeros(Judge *judge, const FitParts *parts) {
     const ReflectionResult *r = parts->reflection;
     double values = 0;
     for (int t = 0; t < r->parts.tables; t++)
-        values += (double)r->parts.kept[t].rows * r->parts.kept[t].channels;
+        values += (double)r->parts.haze[t].rows * r->parts.haze[t].channels;
     double share = r->model->masked / fmax(1, values);
     JudgeGrade grade = judge_reason_grade(share, JUDGE_ZEROS_CARE, JUDGE_ZEROS_UNUSABLE);
     judge_reason_add(judge, grade,
@@ -366,7 +366,7 @@ static void judge_scattered(Judge *judge, const FitParts *parts) {
 
 /* Noise of a table's samples, relative, rms. */
 static double table_spread(const ReflectionParts *parts, int t, int wavelengths) {
-    const AngleTable *table = &parts->kept[t];
+    const AngleTable *table = &parts->haze[t];
     double squares = 0;
     int count = 0;
     for (int i = 0; i < table->rows; i++) {

@@ -203,7 +203,7 @@ typedef struct TableWork {
 
 static void add_deviation(TableWork *work, int t, int row, double found, double wanted) {
     const ReflectionResult *r = work->reflection;
-    double weight = table_row_weight(&r->parts.kept[t], row);
+    double weight = table_row_weight(&r->parts.haze[t], row);
     double noise = 5 * reflection_parts_noise(&r->parts, t, wanted);
     double miss = fabs(found - wanted) / wanted - noise;
     fit_table_add_error(&work->errors[t], found, wanted, wanted, weight);
@@ -213,7 +213,7 @@ static void add_deviation(TableWork *work, int t, int row, double found, double 
 static void measure_table(void *context, int t, int worker) {
     TableWork *work = context;
     const Measurement *set = work->set;
-    const AngleTable *table = &work->reflection->parts.kept[t];
+    const AngleTable *table = &work->reflection->parts.haze[t];
     double least = reflection_read_least(table), mirror = mirror_azimuth(set, t);
     Vec3 wi = reflection_model_light(set, t);
     (void)worker;
@@ -265,7 +265,7 @@ static void add_reflection_tables(const FitParts *parts, const Panel *panel, jso
     work.errors = ARENA_NEW(&scratch, FitErrors, r->parts.tables);
     parallel_for(parts->options->threads, r->parts.tables, measure_table, &work);
     for (int t = 0; t < r->parts.tables; t++) {
-        const AngleTable *from = &r->parts.kept[t];
+        const AngleTable *from = &r->parts.haze[t];
         FitTable one = {.name = from->name,
                         .text_bytes = from->text_bytes,
                         .float32_bytes =
@@ -298,7 +298,7 @@ static double reciprocity_defect(const Measurement *set, const Panel *panel) {
     return count > 0 ? sqrt(squares / count) : 0;
 }
 
-/* The three parts (and the lobe, where there is one) at every incidence, luminous. */
+/* The three parts at every incidence, luminous. */
 static json_t *parts_json(const FitParts *parts, const Panel *panel) {
     const ReflectionResult *r = parts->reflection;
     json_t *list = json_array();
@@ -306,60 +306,32 @@ static json_t *parts_json(const FitParts *parts, const Panel *panel) {
         double theta = parts->set->incidence[i];
         double haze = (double)panel_haze_albedo(panel, (float)cos_d(theta));
         double lambertian = r->section.lambertian_y[i];
-        json_t *one = json_pack(
-            "{s:f, s:f, s:f, s:f}", "incidence_deg", degrees_from_radians(theta),
-            "luminous_reflectance", r->parts.mirror_y[i], "haze",
-            fmax(0, haze - lambertian - r->parts.lobe_y[i]), "floor", fmin(haze, lambertian));
-        if (r->parts.has_lobe) {
-            json_object_set_new(one, "lobe", json_real(r->parts.lobe_y[i]));
-            json_object_set_new(one, "lobe_fwhm_deg",
-                                json_real(reflection_parts_fwhm_deg(&r->parts, i)));
-        }
+        json_t *one =
+            json_pack("{s:f, s:f, s:f, s:f}", "incidence_deg", degrees_from_radians(theta),
+                      "luminous_reflectance", r->parts.mirror_y[i], "haze",
+                      fmax(0, haze - lambertian), "floor", fmin(haze, lambertian));
         json_array_append_new(list, one);
     }
     return list;
 }
 
-/* How it is read; default values are left out. */
-static void add_surface(const PanelSurfaceStored *s, json_t *out) {
-    static const char *const frames[] = {"", "slopes", "direction cosines"};
-    if (s->frame != PANEL_FRAME_SPECULAR)
-        json_object_set_new(out, "frame", json_string(frames[s->frame]));
-    if (s->beyond == PANEL_BEYOND_SLOPES) {
-        json_object_set_new(out, "beyond", json_string("facets"));
-        json_object_set_new(out, "facet_index", json_real((double)s->refractive_index));
-        json_object_set_new(
-            out, "facet_alpha",
-            json_pack("[f, f]", sqrt((double)s->roughness[0]), sqrt((double)s->roughness[2])));
-    }
-    if (s->mirror_index > 0)
-        json_object_set_new(out, "mirror_index", json_real((double)s->mirror_index));
-}
-
 /* The parameters, and the parts at every incidence, as "reflection". */
 static void add_reflection(const FitParts *parts, const Panel *panel, double bound, json_t *out) {
-    static const char *const kinds[] = {"haar", "cdf53", "cdf97"};
     const ReflectionResult *r = parts->reflection;
     int last = parts->set->incidence_count - 1;
     json_object_set_new(
         out, "reflection",
         json_pack(
-            "{s:s, s:i, s:i, s:i, s:i, s:f, s:s, s:s, s:f, s:f, s:f, s:I, s:i, s:f, s:f, s:f, s:o}",
-            "basis", parts->options->basis == FIT_VERTEX ? "vertex" : "haar", "level",
+            "{s:s, s:i, s:i, s:i, s:i, s:f, s:f, s:f, s:f, s:I, s:i, s:f, s:f, s:f, s:o}", "basis",
+            parts->options->basis == FIT_VERTEX ? "vertex" : "haar", "level",
             r->model->lattice.level, "azimuths", parts->set->azimuth_count, "spectral_coefficients",
             r->model->coefficients, "components", r->model->components, "frame_exponent",
-            (double)r->model->k, "wavelet",
-            parts->options->has_wavelet ? kinds[parts->options->wavelet] : "principal",
-            "incidence_interpolation",
-            parts->options->is_linear_in_incidence ? "linear over two slices"
-                                                   : "cubic over four slices",
-            "tolerance", fit_required_bound(parts->options, r->model->bound), "bound", bound,
-            "largest_error_over_bound", r->worst, "bytes", (json_int_t)reflection_bytes(r),
-            "zeros_masked", r->model->masked, "reciprocity_defect",
+            (double)r->model->k, "tolerance", fit_required_bound(parts->options, r->model->bound),
+            "bound", bound, "largest_error_over_bound", r->worst, "bytes",
+            (json_int_t)reflection_bytes(r), "zeros_masked", r->model->masked, "reciprocity_defect",
             reciprocity_defect(parts->set, panel), "largest_albedo", r->section.largest_albedo,
             "extrapolated_beyond_deg", degrees_from_radians(parts->set->incidence[last]), "mirror",
             parts_json(parts, panel)));
-    add_surface(&r->model->surface.stored, json_object_get(out, "reflection"));
 }
 
 static json_t *flags_json(const EmissionFlags *flags, bool has_values) {

@@ -12,7 +12,6 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in place");
 
 #define PANEL_MAGIC "PHPANEL\n"
-#define PANEL_VERSION 4u        /* of files that a reader of version 3 would misread */
 #define PANEL_VERSION_PLACES 5u /* of files with several spots or a map: one of 4 would too */
 /* of files with local dimming: older ones would show the black that a full backlight leaks */
 #define PANEL_VERSION_ZONES 6u
@@ -43,7 +42,7 @@ typedef enum PanelSectionKind {
     PANEL_SAMPLING = 7,      /* a sampling tree, PanelSampling's counts and thetas */
     PANEL_REPORT_TABLES = 8, /* panel_report.h: the tables of the report, then the total;
                                 compressed maybe, which older readers call damaged */
-    PANEL_SURFACE = 9,       /* PanelSurfaceStored: how the reflection is read */
+                             /* 9 was how a reflection is read: passed over */
     PANEL_POLARISED = 10,    /* PanelPolarisedStored: of the emission; absent: unpolarised */
     PANEL_SPOTS = 11,        /* PanelSpotsHead and what follows it; absent: one everywhere */
     PANEL_SPOT_FILE = 12,    /* index 1 on: a panel file of its own, of one spot */
@@ -96,51 +95,27 @@ typedef struct PanelPrimariesHead {
  * incidence; table = azimuth * incidences + incidence. In the specular-following frame
  *     ln (f / F(theta_i)) at wavelength w = mean[table][w] + sum over k of basis[k][w] *
  *         sum over c of loading[table][k][c] * (the tree's component c),
- * F the unpolarised Fresnel reflectance. A narrow lobe stands on the haze where one was found:
- * reflectance R / F = exp(lobe), a Gaussian of lobe_sigma over the angle to the mirror
- * direction. 16-bit numbers are multiples of the scale that stands beside them. */
+ * F the unpolarised Fresnel reflectance.
+ * 16-bit numbers are multiples of the scale that stands beside them. */
 typedef struct PanelReflectionStored {
     uint16_t incidences, azimuths;     /* azimuths 1: isotropic, symmetric in y */
     uint16_t components, coefficients; /* of the tree; of spectra */
     uint16_t wavelengths;
-    uint16_t nodes; /* incidences from the last measured one to 90 degrees */
-    uint8_t is_cubic, has_mirror, has_lobe, reserved;
+    uint16_t nodes;                       /* incidences from the last measured one to 90 degrees */
+    uint8_t one, has_mirror, reserved[2]; /* one: 1; reserved: 0 */
     float frame_exponent, refractive_index;
-    float cone_cos; /* of the leaving directions */
-    float mean_scale, lobe_scale;
+    float cone_cos;           /* of the leaving directions */
+    float mean_scale, unused; /* unused: 0 */
     /* then, float: incidence[incidences], azimuth[azimuths], wavelength_nm[wavelengths],
-     *   node_theta[nodes], basis_scale[coefficients], loading_scale[components],
-     *   lobe_sigma[tables] (with a lobe only);
+     *   node_theta[nodes], basis_scale[coefficients], loading_scale[components];
      * then, 16 bits: mean[tables][wavelengths], lambertian[tables][wavelengths] (ln,
      *   mean_scale), basis[coefficients][wavelengths],
-     *   loading[tables][coefficients][components], lobe[tables][wavelengths] (with a lobe
-     *   only), and of 1/65535: albedo[tables][wavelengths] of haze and lobe,
+     *   loading[tables][coefficients][components],
+     *   and of 1/65535: albedo[tables][wavelengths] of the haze,
      *   mirror[incidences][wavelengths] (with a mirror only), held[nodes][wavelengths], by
      *   what the haze beyond the measured incidences is multiplied, and
      *   node_albedo[nodes][wavelengths] */
 } PanelReflectionStored;
-
-/* In which coordinates the tree is stored. */
-typedef enum PanelFrameKind {
-    PANEL_FRAME_SPECULAR = 0, /* specular_frame.h */
-    PANEL_FRAME_SLOPES = 1,   /* surface_frame.h, of slopes */
-    PANEL_FRAME_COSINES = 2   /* surface_frame.h, of direction cosines */
-} PanelFrameKind;
-
-/* The variables of the haze beyond the last measured incidence (panel_reference.h). */
-typedef enum PanelBeyondKind { PANEL_BEYOND_COSINES = 0, PANEL_BEYOND_SLOPES = 1 } PanelBeyondKind;
-
-/* PANEL_SURFACE; where the section is absent everything is 0 but the refractive index, which is
- * PanelReflectionStored's. A file with a frame has version PANEL_VERSION. In a frame other than
- * the specular-following one the tree's logarithms are of f over panel_reference.h's reference
- * instead of F(theta_i). */
-typedef struct PanelSurfaceStored {
-    uint8_t frame, beyond, reserved[2]; /* PanelFrameKind, PanelBeyondKind */
-    float axes[3], reach;               /* surface_frame.h: xx, xy, yy; with a frame only */
-    float roughness[3];                 /* squared GGX alphas, xx, xy, yy; of slopes beyond */
-    float refractive_index;             /* of slopes beyond, where there is no mirror part */
-    float mirror_index;                 /* of the mirror part beyond; 0: a straight line over F */
-} PanelSurfaceStored;
 
 /* PANEL_REACH: which directions a table's samples surround (panel_reach.h); it is there where
  * some table's do not surround the cone. */

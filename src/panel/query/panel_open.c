@@ -285,10 +285,8 @@ static bool finest_level(const PanelBytes *bytes, int *level) {
 
 /* The checksum does not cover the version: what stands in the file has to bear it out. */
 static bool check_version(const PanelBytes *bytes, const PanelHeader *header, const Panel *panel) {
-    bool has_frame = panel->reflection && panel->reflection->frame != PANEL_FRAME_SPECULAR;
     uint32_t wanted = panel->zones    ? PANEL_VERSION_ZONES
                       : panel->places ? PANEL_VERSION_PLACES
-                      : has_frame     ? PANEL_VERSION
                                       : PANEL_VERSION_PLAIN;
     if (header->version == wanted) return true;
     return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",

@@ -21,13 +21,11 @@ static bool check_counts(const PanelBytes *at, const PanelReflectionStored *s) {
         s->coefficients > PANEL_COEFFICIENTS_MAX || s->wavelengths < 1 ||
         s->wavelengths > PANEL_WAVELENGTHS_MAX || s->nodes > PANEL_NODES_MAX)
         return panel_refuse(at, "reflection", "a count is out of range");
-    if (s->is_cubic > 1 || s->has_mirror > 1 || s->has_lobe > 1)
-        return panel_refuse(at, "reflection", "a switch is neither 0 nor 1");
+    if (s->one != 1 || s->has_mirror > 1 || s->reserved[0] || s->reserved[1])
+        return panel_refuse(at, "reflection", "a switch is out of range");
     if (!(s->frame_exponent >= 1 && s->frame_exponent <= 4) ||
         !(s->refractive_index >= 1 && s->refractive_index <= 4) ||
-        !(s->cone_cos >= 0 && s->cone_cos <= 1) ||
-        !(s->mean_scale >= 0 && s->mean_scale <= 0.01f) ||
-        !(s->lobe_scale >= 0 && s->lobe_scale <= 0.01f))
+        !(s->cone_cos >= 0 && s->cone_cos <= 1) || !(s->mean_scale >= 0 && s->mean_scale <= 0.01f))
         return panel_refuse(at, "reflection",
                             "frame, refractive index, cone or scale out of "
                             "range");
@@ -54,34 +52,8 @@ static bool check_axes(const PanelBytes *at, const PanelReflectionStored *s,
         !in_range(from->node_theta, s->nodes, 0, 1.5709f))
         return panel_refuse(at, "reflection", "incidences beyond the measured do not rise");
     if (!in_range(from->basis_scale, s->coefficients, 0, 1e6f) ||
-        !in_range(from->loading_scale, s->components, 0, 1e6f) ||
-        (s->has_lobe &&
-         !in_range(from->lobe_sigma, (uint32_t)s->incidences * s->azimuths, 1e-4f, 1)))
-        return panel_refuse(at, "reflection", "a scale or width is out of range");
-    return true;
-}
-
-static bool is_positive(const float m[3]) {
-    return in_range(m, 3, -1e6f, 1e6f) && m[0] > 0 && m[2] > 0 && m[0] * m[2] - m[1] * m[1] > 0;
-}
-
-/* The section of the surface, or what its absence means. */
-static bool read_surface(const PanelBytes *at, const PanelReflectionStored *s,
-                         PanelSurfaceStored *out) {
-    *out = (PanelSurfaceStored){.refractive_index = s->refractive_index};
-    if (!at->data) return true;
-    if (at->size != sizeof *out) return panel_refuse(at, "surface", "has a wrong size");
-    memcpy(out, at->data, sizeof *out);
-    if (out->frame > PANEL_FRAME_COSINES || out->beyond > PANEL_BEYOND_SLOPES)
-        return panel_refuse(at, "surface", "a kind is out of range");
-    if (out->frame != PANEL_FRAME_SPECULAR &&
-        (!is_positive(out->axes) || !(out->reach >= 1e-3f && out->reach <= 1e6f)))
-        return panel_refuse(at, "surface", "axes or reach are out of range");
-    if (out->beyond == PANEL_BEYOND_SLOPES && !is_positive(out->roughness))
-        return panel_refuse(at, "surface", "the roughness is out of range");
-    if (!(out->refractive_index >= 1 && out->refractive_index <= 4) ||
-        !(out->mirror_index == 0 || (out->mirror_index >= 1.01f && out->mirror_index <= 4)))
-        return panel_refuse(at, "surface", "a refractive index is out of range");
+        !in_range(from->loading_scale, s->components, 0, 1e6f))
+        return panel_refuse(at, "reflection", "a scale is out of range");
     return true;
 }
 
@@ -123,8 +95,7 @@ static bool rows_are_level(const PanelReflection *r, const float *rows, uint32_t
 static bool is_grey(const PanelReflection *r) {
     return rows_are_level(r, r->mean, r->tables) && rows_are_level(r, r->basis, r->coefficients) &&
            rows_are_level(r, r->lambertian_log, r->tables) &&
-           rows_are_level(r, r->lobe, r->tables) && rows_are_level(r, r->held, r->nodes) &&
-           rows_are_level(r, r->mirror, PANEL_ANGLES);
+           rows_are_level(r, r->held, r->nodes) && rows_are_level(r, r->mirror, PANEL_ANGLES);
 }
 
 static void expand_basis(const PanelReflectionStored *s, const ReflectionLayout *from,
@@ -183,14 +154,14 @@ static void cubic_between(const PanelReflection *r, int i, float out[4][4]) {
     }
 }
 
-/* Adds the neighbours of an interval that are turned, or those that are not (2: all). */
-static void add_neighbours(const PanelReflection *r, int interval, int which, int *count,
+/* Adds the neighbours of an interval that are turned, or those that are not. */
+static void add_neighbours(const PanelReflection *r, int interval, bool turned, int *count,
                            PanelNeighbours *near) {
     for (int k = 0; k < PANEL_NEIGHBOURS; k++) {
         int step = interval - 1 + k;
         bool is_there = step >= 0 && step < (int)r->steps;
         bool is_turned = is_there && r->step[step].is_turned;
-        if (which != 2 && is_turned != which) continue;
+        if (is_turned != turned) continue;
         near->incidence[*count] = is_there ? r->step[step].incidence : 0;
         near->is_turned[*count] = is_turned;
         near->of[(*count)++] = k;
@@ -199,19 +170,17 @@ static void add_neighbours(const PanelReflection *r, int interval, int which, in
 
 static void find_neighbours(PanelReflection *r) {
     for (int i = 0; i < (int)r->steps; i++) {
-        PanelNeighbours *near = &r->neighbours[i];
         int count = 0;
-        bool turns = r->frame == PANEL_FRAME_SPECULAR;
-        add_neighbours(r, i, turns ? 0 : 2, &count, near);
-        near->straight = count;
-        if (turns) add_neighbours(r, i, 1, &count, near);
+        add_neighbours(r, i, false, &count, &r->neighbours[i]);
+        r->neighbours[i].straight = count;
+        add_neighbours(r, i, true, &count, &r->neighbours[i]);
     }
 }
 
 static void find_cubics(PanelReflection *r) {
     if (r->steps == 1) r->step_cubic[0][0][1] = 1;
     for (int i = 0; i + 1 < (int)r->steps; i++) {
-        if (r->is_cubic && r->steps >= 3) {
+        if (r->steps >= 3) {
             cubic_between(r, i, r->step_cubic[i]);
             continue;
         }
@@ -240,24 +209,13 @@ static double mirror_ratio(const PanelReflection *r, const ReflectionLayout *fro
     return fmin(most, fmax(value, 0.5 * fmin(ratio[0], ratio[1])));
 }
 
-/* Beyond the last incidence: a bare face with the index of the measured ones. */
-static double mirror_beyond(const PanelReflection *r, const ReflectionLayout *from,
-                            uint32_t wavelength, double cosine) {
-    double n = (double)r->mirror_index;
-    double last = fresnel_unpolarised_d(cos_d((double)r->last_theta), n);
-    return from->mirror[(r->incidences - 1) * r->wavelengths + wavelength] / 65535.0 *
-           fresnel_unpolarised_d(cosine, n) / last;
-}
-
 static void expand_mirror(const ReflectionLayout *from, PanelReflection *r, Arena *arena) {
     float *mirror = ARENA_NEW(arena, float, (size_t)PANEL_ANGLES * r->padded_wavelengths);
     for (uint32_t a = 0; a < PANEL_ANGLES; a++) {
-        double theta = a * 0.0087266462599716, cosine = cos_d(theta);
+        double cosine = cos_d(a * 0.0087266462599716);
         double f = fresnel_unpolarised_d(cosine, (double)r->refractive_index);
-        bool is_face = r->mirror_index > 0 && theta > (double)r->last_theta;
         for (uint32_t w = 0; w < r->wavelengths; w++)
-            mirror[a * r->padded_wavelengths + w] = (float)fmin(
-                1, is_face ? mirror_beyond(r, from, w, cosine) : f * mirror_ratio(r, from, w, f));
+            mirror[a * r->padded_wavelengths + w] = (float)fmin(1, f * mirror_ratio(r, from, w, f));
     }
     r->mirror = mirror;
 }
@@ -301,19 +259,8 @@ static void expand_albedo(const ReflectionLayout *from, PanelReflection *r) {
     }
 }
 
-static void expand_surface(const PanelSurfaceStored *from, PanelReflection *r) {
-    SurfaceAxes axes = {from->axes[0], from->axes[1], from->axes[2]};
-    r->frame = (PanelFrameKind)from->frame;
-    r->beyond = (PanelBeyondKind)from->beyond;
-    if (r->frame != PANEL_FRAME_SPECULAR)
-        r->surface = surface_frame(r->frame == PANEL_FRAME_COSINES, axes, from->reach);
-    r->roughness = (SurfaceAxes){from->roughness[0], from->roughness[1], from->roughness[2]};
-    r->beyond_index = from->refractive_index;
-    r->mirror_index = from->mirror_index;
-}
-
 static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionLayout *from,
-                               const PanelSurfaceStored *surface, Arena *arena) {
+                               Arena *arena) {
     PanelReflection *r = ARENA_NEW(arena, PanelReflection, 1);
     *r = (PanelReflection){.incidences = s->incidences,
                            .azimuths = s->azimuths,
@@ -324,9 +271,7 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
                            .wavelengths = s->wavelengths,
                            .padded_wavelengths = (s->wavelengths + 15u) / 16 * 16,
                            .nodes = s->nodes,
-                           .is_cubic = s->is_cubic,
                            .has_mirror = s->has_mirror,
-                           .has_lobe = s->has_lobe,
                            .frame_exponent = s->frame_exponent,
                            .refractive_index = s->refractive_index,
                            .cone_cos = s->cone_cos,
@@ -337,7 +282,6 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
     memcpy(r->node_theta, from->node_theta, sizeof(float) * s->nodes);
     name_steps(from, r);
     find_cubics(r);
-    expand_surface(surface, r);
     find_neighbours(r);
     sincos_turns(r->last_theta * (0.5f / PI_F), &r->last_sine, &r->last_cosine);
     r->last_fresnel = fresnel_unpolarised(r->last_cosine, r->refractive_index);
@@ -347,10 +291,6 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
     exponentiate(lambertian, r, r->tables);
     r->lambertian = lambertian;
     expand_basis(s, from, r, arena);
-    if (s->has_lobe) {
-        r->lobe = expand_rows(r, from->lobe, r->tables, s->lobe_scale, arena);
-        r->lobe_sigma = from->lobe_sigma;
-    }
     r->held = expand_shares(r, from->held, s->nodes, arena);
     if (s->has_mirror) expand_mirror(from, r, arena);
     expand_albedo(from, r);
@@ -431,14 +371,13 @@ static void index_wavelengths(Panel *panel) {
 bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesic *geodesic,
                              Arena *arena, Panel *panel) {
     ReflectionLayout from;
-    PanelSurfaceStored surface;
     const PanelBytes *at = &sections->numbers, *tree = &sections->tree;
     const PanelReflectionStored *s = (const PanelReflectionStored *)at->data;
     if (at->size < sizeof *s) return panel_refuse(at, "reflection", "is too short");
     if (!check_counts(at, s)) return false;
     if (reflection_layout(s, &from) != at->size)
         return panel_refuse(at, "reflection", "has another size than its counts say");
-    if (!check_axes(at, s, &from) || !read_surface(&sections->surface, s, &surface)) return false;
+    if (!check_axes(at, s, &from)) return false;
     size_t size = tree->size;
     const void *blob = vertex_is_packed(tree->data, size)
                            ? vertex_unpack_blob(tree->data, tree->size, arena, &size, at->err)
@@ -448,13 +387,11 @@ bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesi
     if (panel->reflection_tree.components != (int)s->components ||
         panel->reflection_tree.octants != (s->azimuths > 1 ? 4 : 2))
         return panel_refuse(at, "reflection", "does not fit its tree");
-    if (surface.frame != PANEL_FRAME_SPECULAR && s->azimuths < 2)
-        return panel_refuse(&sections->surface, "surface", "has axes without azimuths");
     if (sections->reach.data &&
         sections->reach.size != sizeof *panel->reflection->reach * s->incidences * s->azimuths)
         return panel_refuse(&sections->reach, "reach", "has another size than its counts say");
     tree_unpack(&panel->reflection_tree, arena);
-    PanelReflection *reflection = expand(s, &from, &surface, arena);
+    PanelReflection *reflection = expand(s, &from, arena);
     reflection->reach = (const PanelReachStored *)(const void *)sections->reach.data;
     panel->reflection = reflection;
     index_wavelengths(panel);
@@ -463,10 +400,9 @@ bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesi
 
 bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                            Panel *panel) {
-    PanelReflectionBytes sections = {.surface = {NULL, 0, bytes->name, bytes->err}};
-    bool found, has_surface, has_reach;
+    PanelReflectionBytes sections = {0};
+    bool found, has_reach;
     if (!panel_find_section(bytes, PANEL_REFLECTION, 0, &sections.numbers, &found) ||
-        !panel_find_section(bytes, PANEL_SURFACE, 0, &sections.surface, &has_surface) ||
         !panel_find_section(bytes, PANEL_REACH, 0, &sections.reach, &has_reach))
         return false;
     if (!found) return true;

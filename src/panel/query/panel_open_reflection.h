@@ -13,10 +13,10 @@
 bool panel_open_reflection(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                            Panel *panel);
 
-/* The sections of a reflection without its sampling; data of surface or reach NULL: there is
+/* The sections of a reflection without its sampling; data of reach NULL: there is
  * none. */
 typedef struct PanelReflectionBytes {
-    PanelBytes numbers, tree, surface, reach;
+    PanelBytes numbers, tree, reach;
 } PanelReflectionBytes;
 
 /* The reflection alone, into *panel. */

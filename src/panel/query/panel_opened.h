@@ -9,7 +9,6 @@
 
 #include "base/arena.h"
 #include "hemisphere/sampling/sampling_tree.h"
-#include "hemisphere/surface_frame.h"
 #include "hemisphere/tree.h"
 #include "panel/query/panel.h"
 #include "panel/shape/panel_beam.h"
@@ -60,7 +59,7 @@ typedef struct PanelIncidence {
 } PanelIncidence;
 
 /* Of an interval between incidences: which ones count, and which of the cubic's weights is
- * theirs. In the specular-following frame those that are not turned come first; one that is
+ * theirs. Those that are not turned come first; one that is
  * missing has a weight of 0. */
 #define PANEL_NEIGHBOURS 4
 typedef struct PanelNeighbours {
@@ -74,30 +73,23 @@ typedef struct PanelNeighbours {
 typedef struct PanelReflection {
     uint32_t incidences, azimuths, tables, components, coefficients, padded_coefficients;
     uint32_t wavelengths, padded_wavelengths, nodes, steps;
-    bool is_cubic, has_mirror, has_lobe;
+    bool has_mirror;
     bool is_grey; /* all wavelengths have the same numbers */
     float frame_exponent, refractive_index, cone_cos, cone_theta;
-    float last_theta;                           /* the last measured incidence, radians */
-    float last_sine, last_cosine, last_fresnel; /* of last_theta */
-    PanelFrameKind frame;
-    PanelBeyondKind beyond;
-    SurfaceFrame surface;             /* where frame is not the specular-following one */
-    SurfaceAxes roughness;            /* beyond: squared GGX alphas */
-    float beyond_index, mirror_index; /* mirror_index 0: a straight line over F */
+    float last_theta;                                     /* the last measured incidence, radians */
+    float last_sine, last_cosine, last_fresnel;           /* of last_theta */
     PanelIncidence step[PANEL_INCIDENCES_MAX + 2];        /* rising in theta */
     float step_cubic[PANEL_INCIDENCES_MAX + 2][4][4];     /* [step][power of u][neighbour] */
     PanelNeighbours neighbours[PANEL_INCIDENCES_MAX + 2]; /* of each step */
     float azimuth[PANEL_AZIMUTHS_MAX];
     float wavelength_nm[PANEL_WAVELENGTHS_MAX];
     float node_theta[PANEL_NODES_MAX];
-    float haze_albedo[PANEL_ANGLES]; /* luminous, lobe included */
+    float haze_albedo[PANEL_ANGLES]; /* luminous */
     const float *mean;               /* [tables][wavelengths] */
     const float *basis;              /* [coefficients][wavelengths] */
     const float *loading;        /* [tables][components][coefficients], more behind the last one */
     const float *lambertian;     /* [tables][wavelengths], sr^-1; */
     const float *lambertian_log; /* and its logarithm, for what lies between tables */
-    const float *lobe;           /* [tables][wavelengths], ln (R / F) */
-    const float *lobe_sigma;     /* [tables], radians */
     const float *held;           /* [nodes][wavelengths] */
     const float *mirror;         /* [PANEL_ANGLES][wavelengths] */
     const PanelReachStored *reach; /* [tables]; NULL: cone_theta is every table's */

@@ -10,14 +10,12 @@
 #include "panel/query/panel_components.h"
 #include "panel/query/panel_tables.h"
 #include "panel/query/panel_reach.h"
-#include "panel/query/panel_reference.h"
 #include "panel/query/panel_turn.h"
 #include "spectrum/fresnel.h"
 
 #define PADDED_MAX ((PANEL_WAVELENGTHS_MAX + 15) / 16 * 16)
 #define COEFFICIENTS_MAX ((PANEL_COEFFICIENTS_MAX + 3) / 4 * 4)
 #define COMPONENTS_MAX ((PANEL_REFLECTION_COMPONENTS_MAX + 3) / 4 * 4)
-#define LOBE_SIGMAS 6.5f   /* exp(-21): nothing beyond */
 #define LEAST_WEIGHT 1e-3f /* of a table that an answer rests on */
 #define SAME_ANGLE 2e-5f   /* radians */
 #define PASSAGE 0.035f     /* radians, over which exchanged directions take over */
@@ -185,36 +183,6 @@ static Spectrum reflection_logs(const Panel *panel, Vec3 stored, const PanelTabl
     return logs;
 }
 
-/* ---- the narrow lobe ------------------------------------------------------------------- */
-
-/* Squared angle between a local direction (light at azimuth 180) and the mirror direction; the
- * chord stands for the angle up to the third order, and the series adds the next one. */
-static float squared_angle(Vec3 local, float sin_theta, float cos_theta) {
-    float x = local.x - sin_theta, y = local.y, z = local.z - cos_theta;
-    float chord = x * x + y * y + z * z;
-    return chord * (1 + chord * (1.0f / 12));
-}
-
-static float mixed_sigma(const PanelReflection *r, const PanelTables *mix) {
-    float sum = 0;
-    for (int i = 0; i < mix->count; i++)
-        sum += mix->term[i].weight * r->lobe_sigma[mix->term[i].table];
-    return sum > 1e-4f ? sum : 1e-4f;
-}
-
-/* The lobe over F: R / F G(angle) / cos theta_i. */
-static Spectrum lobe_over_fresnel(const Panel *panel, const PanelTables *mix, Vec3 local, Vec3 wi,
-                                  const PanelLanes *lanes) {
-    const PanelReflection *r = panel->reflection;
-    float sine = safe_sqrtf(1 - wi.z * wi.z), sigma = mixed_sigma(r, mix);
-    float square = squared_angle(local, sine, wi.z), inverse = 1 / (sigma * sigma);
-    if (square * inverse > LOBE_SIGMAS * LOBE_SIGMAS) return spectrum_all(0);
-    Spectrum logs = mixed_at_lanes(r, mix, r->lobe, lanes);
-    float cosine = wi.z > 0.02f ? wi.z : 0.02f;
-    float shape = exp_f(-0.5f * square * inverse) * inverse / (2 * PI_F * cosine);
-    return spectrum_exp(logs) * spectrum_all(shape);
-}
-
 /* ---- beyond the last measured incidence ------------------------------------------------- */
 
 /* Where the last measured incidence is read for one beyond it, by the invariance of scatter
@@ -237,7 +205,7 @@ static Spectrum mirror_at(const Panel *panel, float cos_theta, const PanelLanes 
  * same), Fresnel's otherwise. Up to a constant. */
 static Spectrum gloss(const Panel *panel, float cosine, const PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
-    if (!r->has_mirror) return spectrum_all(fresnel_unpolarised(cosine, r->beyond_index));
+    if (!r->has_mirror) return spectrum_all(fresnel_unpolarised(cosine, r->refractive_index));
     if (!(cosine > 0)) return spectrum_all(1e-6f);
     return spectrum_max(mirror_at(panel, cosine, lanes), spectrum_all(1e-6f));
 }
@@ -264,53 +232,9 @@ typedef struct PanelPair {
     float theta; /* of wi */
 } PanelPair;
 
-static Vec3 stored_at(const PanelReflection *r, const PanelPair *pair) {
-    if (r->frame != PANEL_FRAME_SPECULAR)
-        return surface_frame_stored(&r->surface, pair->wi, pair->wo);
-    SpecularFrame frame = specular_frame(pair->theta, r->frame_exponent);
-    return specular_frame_stored(&frame, pair->local);
-}
-
-static float reference_at(const PanelReflection *r, const PanelPair *pair) {
-    if (r->frame != PANEL_FRAME_SPECULAR)
-        return panel_reference(r->frame, r->refractive_index, pair->wi, pair->wo);
-    return fresnel_unpolarised(pair->wi.z, r->refractive_index);
-}
-
-/* Where surfaces of facets are read: the same facet under light from the last incidence. What
- * comes to lie outside the measured cone is held at its edge, unless it lay there already. */
-static Vec3 same_facet(const PanelReflection *r, const PanelPair *pair, Vec3 last_light) {
-    float sine = safe_sqrtf(1 - pair->wi.z * pair->wi.z);
-    Vec3 d = surface_frame_same_facet(vec3(-sine, 0, pair->wi.z), pair->local, last_light);
-    float least = pair->local.z < r->cone_cos ? pair->local.z : r->cone_cos;
-    float across = safe_sqrtf(d.x * d.x + d.y * d.y);
-    if (d.z >= least || !(across > 0)) return d;
-    float scale = safe_sqrtf(1 - least * least) / across;
-    return vec3(d.x * scale, d.y * scale, least);
-}
-
-static PanelPair last_pair(const PanelReflection *r, const PanelPair *pair) {
-    Vec3 light = vec3(-r->last_sine, 0, r->last_cosine);
-    Vec3 from = r->beyond == PANEL_BEYOND_SLOPES
-                    ? same_facet(r, pair, light)
-                    : shifted(r, pair->local, safe_sqrtf(1 - pair->wi.z * pair->wi.z));
-    return (PanelPair){panel_turned_back(pair->wi, light), panel_turned_back(pair->wi, from), from,
-                       r->last_theta};
-}
-
-/* The haze's height over that where it was read. For fine roughness the root of the surface's
- * reflectances at theta_i and theta_o; for facets their reflectance and G / (cos cos). */
-static Spectrum haze_ratio(const Panel *panel, const PanelPair *now, const PanelPair *then,
-                           const PanelLanes *lanes) {
-    const PanelReflection *r = panel->reflection;
-    if (r->beyond != PANEL_BEYOND_SLOPES) {
-        Spectrum here = gloss(panel, now->wi.z, lanes) * gloss(panel, now->local.z, lanes);
-        return spectrum_root(here / (lanes->last_gloss * gloss(panel, then->local.z, lanes)));
-    }
-    float masking = panel_masking(r->roughness, now->wi, now->wo) /
-                    panel_masking(r->roughness, then->wi, then->wo);
-    return gloss(panel, panel_facet_cosine(now->wi, now->wo), lanes) /
-           gloss(panel, panel_facet_cosine(then->wi, then->wo), lanes) * spectrum_all(masking);
+static Vec3 stored_at(const PanelReflection *r, float theta, Vec3 local) {
+    SpecularFrame frame = specular_frame(theta, r->frame_exponent);
+    return specular_frame_stored(&frame, local);
 }
 
 /* The row of the table that counts most: at the last incidence weights that ought to be 0 may
@@ -322,22 +246,20 @@ static int main_row(const PanelReflection *r, const PanelTables *mix) {
     return mix->term[best].table * (int)r->padded_wavelengths;
 }
 
-/* The law: the haze moves and changes its height, the lambertian part stays. */
+/* The haze moves, and its height is as the root of the surface's reflectances at theta_i and
+ * theta_o; the lambertian part stays. */
 static Spectrum moved_haze(const Panel *panel, const PanelPair *pair, float light,
                            const PanelLanes *lanes) {
     const PanelReflection *r = panel->reflection;
-    PanelPair from = last_pair(r, pair);
+    Vec3 from = shifted(r, pair->local, safe_sqrtf(1 - pair->wi.z * pair->wi.z));
     PanelTables mix = panel_tables_last(r, light);
-    Spectrum logs = reflection_logs(panel, stored_at(r, &from), &mix, lanes);
-    Spectrum total = spectrum_exp(logs) * spectrum_all(reference_at(r, &from));
+    Spectrum logs = reflection_logs(panel, stored_at(r, r->last_theta, from), &mix, lanes);
+    Spectrum total = spectrum_exp(logs) * spectrum_all(r->last_fresnel);
+    Spectrum here = gloss(panel, pair->wi.z, lanes) * gloss(panel, pair->local.z, lanes);
+    Spectrum ratio = spectrum_root(here / (lanes->last_gloss * gloss(panel, from.z, lanes)));
     int row = main_row(r, &mix);
     Spectrum lambertian = spectrum_min(total, spread(r->lambertian + row, lanes));
-    Spectrum haze = (total - lambertian) * haze_ratio(panel, pair, &from, lanes) + lambertian;
-    if (r->has_lobe)
-        haze += lobe_over_fresnel(panel, &mix, pair->local, pair->wi, lanes) *
-                (gloss(panel, pair->wi.z, lanes) / lanes->last_gloss) *
-                spectrum_all(r->last_fresnel);
-    return haze;
+    return (total - lambertian) * ratio + lambertian;
 }
 
 /* How far wo lies inside the hulls of all tables that count under light from wi, which is no
@@ -448,14 +370,9 @@ Spectrum panel_brdf_at(const Panel *panel, Vec3 wo, Vec3 wi, const PanelLanes *l
     float light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
     if (pair.theta > r->last_theta) return brdf_beyond(panel, &pair, light, lanes);
     PanelTables mix = panel_tables_at(r, pair.theta, light);
-    Spectrum over = spectrum_exp(reflection_logs(panel, stored_at(r, &pair), &mix, lanes));
-    float reference = reference_at(r, &pair);
-    if (r->has_lobe) {
-        float fresnel = fresnel_unpolarised(wi.z, r->refractive_index);
-        over += lobe_over_fresnel(panel, &mix, pair.local, wi, lanes) *
-                spectrum_all(fresnel / reference);
-    }
-    return over * spectrum_all(reference);
+    Spectrum over =
+        spectrum_exp(reflection_logs(panel, stored_at(r, pair.theta, pair.local), &mix, lanes));
+    return over * spectrum_all(fresnel_unpolarised(wi.z, r->refractive_index));
 }
 
 Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths) {

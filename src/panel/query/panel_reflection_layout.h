@@ -12,12 +12,12 @@
 
 typedef struct ReflectionLayout {
     const float *incidence, *azimuth, *wavelength_nm, *node_theta;
-    const float *basis_scale, *loading_scale, *lobe_sigma;
-    const int16_t *mean, *lambertian, *basis, *loading, *lobe;
+    const float *basis_scale, *loading_scale;
+    const int16_t *mean, *lambertian, *basis, *loading;
     const uint16_t *albedo, *mirror, *held, *node_albedo;
 } ReflectionLayout;
 
-/* Fills in where everything stands (lobe and mirror NULL where there are none); the bytes of
+/* Fills in where everything stands (mirror NULL where there is none); the bytes of
  * the whole section. */
 static inline size_t reflection_layout(const PanelReflectionStored *s, ReflectionLayout *out) {
     size_t tables = (size_t)s->incidences * s->azimuths, row = s->wavelengths;
@@ -29,13 +29,11 @@ static inline size_t reflection_layout(const PanelReflectionStored *s, Reflectio
     out->node_theta = f, f += s->nodes;
     out->basis_scale = f, f += s->coefficients;
     out->loading_scale = f, f += s->components;
-    if (s->has_lobe) out->lobe_sigma = f, f += tables;
     const int16_t *i = (const int16_t *)f;
     out->mean = i, i += tables * row;
     out->lambertian = i, i += tables * row;
     out->basis = i, i += s->coefficients * row;
     out->loading = i, i += tables * s->coefficients * s->components;
-    if (s->has_lobe) out->lobe = i, i += tables * row;
     const uint16_t *u = (const uint16_t *)i;
     out->albedo = u, u += tables * row;
     if (s->has_mirror) out->mirror = u, u += s->incidences * row;

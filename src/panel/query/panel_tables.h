@@ -16,7 +16,7 @@ typedef struct PanelTablesTerm {
 } PanelTablesTerm;
 
 /* The first `straight` terms are read at the stored direction, the others at the direction
- * turned by 180 degrees (incidences from beyond the normal, in the specular-following frame).
+ * turned by 180 degrees (incidences from beyond the normal).
  */
 typedef struct PanelTables {
     int count, straight;
@@ -81,7 +81,7 @@ static inline PanelTablesCubic panel_tables_azimuth(const PanelReflection *r, fl
     return cubic;
 }
 
-/* Isotropic panels: a table for each incidence, always in the specular-following frame. Always
+/* Isotropic panels: a table for each incidence. Always
  * as many terms, those that are missing with a weight of 0: branches could not be predicted. */
 static inline PanelTables panel_tables_isotropic(const PanelReflection *r, float theta) {
     PanelTables mix;

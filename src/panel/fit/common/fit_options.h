@@ -10,7 +10,6 @@
 
 #include "base/arena.h"
 #include "base/progress.h"
-#include "hemisphere/wavelet1d.h"
 
 typedef enum FitBasis { FIT_VERTEX = 0, FIT_HAAR = 1 } FitBasis; /* on the hemisphere */
 
@@ -24,20 +23,13 @@ typedef struct FitOptions {
     float error_floor; /* share of an emission channel's largest value in a table: of what
                           is less, errors count relative to it */
     FitBasis basis;
-    bool has_wavelet; /* along the wavelengths; else a few principal spectra */
-    WaveletKind wavelet;
-    bool lobe_is_mirror;         /* a peak on the haze is the instrument's image of the mirror,
-                                    its width the instrument's, where that is not declared */
-    float frame_exponent;        /* k of the specular-following frame; 0: choose */
-    bool is_linear_in_incidence; /* over two slices instead of cubic over four */
-    bool force;                  /* a panel that is judged not usable is written all the same */
-    int threads;                 /* at least 1; the bytes do not depend on it */
+    bool force;  /* a panel that is judged not usable is written all the same */
+    int threads; /* at least 1; the bytes do not depend on it */
     ProgressMode progress;
 } FitOptions;
 
 static inline FitOptions fit_options_default(void) {
-    return (FitOptions){
-        .error_floor = 0.001f, .wavelet = WAVELET_CDF53, .threads = 1, .progress = PROGRESS_NONE};
+    return (FitOptions){.error_floor = 0.001f, .threads = 1, .progress = PROGRESS_NONE};
 }
 
 /* The bound that errors are held against. chosen: where the user requires none. */

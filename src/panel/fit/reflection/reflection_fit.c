@@ -13,10 +13,10 @@
 #include "hemisphere/vertex/vertex.h"
 #include "hemisphere/vertex/vertex_tree_build.h"
 #include "panel/fit/common/table_rows.h"
+#include "panel/fit/reflection/peak_window.h"
 #include "panel/fit/reflection/reflection_model.h"
 #include "panel/fit/reflection/reflection_read.h"
 #include "panel/fit/reflection/reflection_spectra.h"
-#include "panel/fit/reflection/reflection_surface.h"
 #include "panel/query/panel_reach.h"
 
 /* ---- the tree --------------------------------------------------------------------------- */
@@ -34,11 +34,7 @@ typedef struct ReflectionMisses {
 #define GUIDED_SHARE 0.6 /* of tables between whose rows no sample checks the tree */
 #define HELD_FROM 0.05f  /* radians behind their edge: triangles reach across it */
 #define HELD_ROOM 4.0    /* times the bound, for what is held outside of the samples */
-#define TIGHTER 0.6      /* a miss makes the places around it so much more precise */
 #define TIGHTEST 0.2     /* of the bound, beyond what the components leave out: rounding */
-#define ROUNDS 5
-/* one miss in fewer samples: a finer level is required, not smaller steps */
-#define HOPELESS 200
 #define ATTEMPTS 8
 #define LOOSER 1.3f
 #define CHUNK 256
@@ -80,8 +76,8 @@ static void start_tolerances(ReflectionModel *model) {
         ReflectionView view = reflection_view(model, t);
         for (int i = 0; i < model->places; i++) {
             const float *row = reflection_model_row(model, model->value, i, t);
-            Vec3 local = reflection_view_local(&view, model->direction[i]);
-            double f = exp_d((double)row[middle]) * reflection_view_reference(&view, local);
+            Vec3 local = specular_frame_outer(&view.frame, model->direction[i]);
+            double f = exp_d((double)row[middle]) * view.fresnel;
             double bound =
                 fmax(model->bound, 5 * reflection_parts_noise(model->parts, t, f)) * PLACE_SHARE;
             if (row[middle] > peak - 1 && !model->scatter[t]) bound *= PEAK_SHARE;
@@ -130,7 +126,7 @@ static bool build_haar(ReflectionModel *model, Error *err) {
                 scale[c] = fmaxf(
                     scale[c], fabsf(model->loading[i * n + c] * model->basis[i % m * w_count + w]));
     double numbers = 0;
-    for (int t = 0; t < model->tables; t++) numbers += (double)model->parts->kept[t].rows * w_count;
+    for (int t = 0; t < model->tables; t++) numbers += (double)model->parts->haze[t].rows * w_count;
     HaarTreeOptions options = {
         .shape = {model->lattice.level, model->lattice.octants, n, HAAR_AREA},
         .keep_share = fit_haar_share(model->options, numbers, model->places, n),
@@ -169,32 +165,23 @@ typedef struct SampleCheck {
 } SampleCheck;
 
 /* Error over bound of one row of a table. */
-static double row_error(const SampleCheck *check, int t, int row, const ReflectionView *view,
-                        Vec3 *stored) {
+static double row_error(const SampleCheck *check, int t, int row, const ReflectionView *view) {
     ReflectionModel *model = check->model;
-    const AngleTable *haze = &model->parts->haze[t], *kept = &model->parts->kept[t];
+    const AngleTable *haze = &model->parts->haze[t];
     float component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
-    Vec3 local = table_row_direction(haze, row);
-    double reference = reflection_view_reference(view, local), worst = 0;
-    *stored = reflection_view_stored(view, local);
-    tree_interpolate(&check->tree, *stored, component);
+    double worst = 0;
+    Vec3 stored = specular_frame_stored(&view->frame, table_row_direction(haze, row));
+    tree_interpolate(&check->tree, stored, component);
     reflection_spectra_logs(model, t, component, logs);
     for (int w = 0; w < model->wavelengths; w++) {
         size_t at = (size_t)row * (size_t)model->wavelengths + (size_t)w;
-        double f = (double)haze->value[at], all = fmax((double)kept->value[at], f);
+        double f = (double)haze->value[at];
         if (f < model->least_value[t]) continue;
-        double error = fabs(exp_d((double)logs[w]) * reference - f) / all;
-        double noise = reflection_parts_noise(model->parts, t, all);
+        double error = fabs(exp_d((double)logs[w]) * view->fresnel - f) / f;
+        double noise = reflection_parts_noise(model->parts, t, f);
         worst = fmax(worst, error / fmax(model->bound, 5 * noise));
     }
     return worst;
-}
-
-/* The places around a sample that was missed become more precise. */
-static void tighten(ReflectionModel *model, int table, Vec3 stored, float *wanted) {
-    VertexPoint at = vertex_find(model->geodesic, model->lattice, stored);
-    for (int k = 0; k < 3; k++)
-        wanted[(size_t)at.vertex[k] * (size_t)model->tables + (size_t)table] = 1;
 }
 
 static void check_chunk(void *context, int item, int worker) {
@@ -209,8 +196,7 @@ static void check_chunk(void *context, int item, int worker) {
     int end = begin + CHUNK < table->rows ? begin + CHUNK : table->rows;
     ReflectionMisses *part = &check->part[item];
     for (int i = begin; i < end; i++) {
-        Vec3 stored;
-        double error = row_error(check, t, i, &view, &stored);
+        double error = row_error(check, t, i, &view);
         part->samples++;
         part->worst = fmax(part->worst, error);
         part->misses += error > 1;
@@ -225,40 +211,6 @@ static void start_chunks(SampleCheck *check, Arena *arena) {
     }
     check->first[check->model->tables] = count;
     check->part = ARENA_NEW(arena, ReflectionMisses, count + 1);
-}
-
-/* Marks what has to be more precise. */
-static void mark_misses(SampleCheck *check, float *wanted) {
-    ReflectionModel *model = check->model;
-    for (int t = 0; t < model->tables; t++) {
-        ReflectionView view = reflection_view(model, t);
-        for (int c = check->first[t]; c < check->first[t + 1]; c++) {
-            if (!check->part[c].misses) continue;
-            int begin = (c - check->first[t]) * CHUNK, rows = model->parts->haze[t].rows;
-            for (int i = begin; i < begin + CHUNK && i < rows; i++) {
-                Vec3 stored;
-                if (row_error(check, t, i, &view, &stored) > 1) tighten(model, t, stored, wanted);
-            }
-        }
-    }
-}
-
-/* The tolerances of marked places shrink; false when none can shrink further. */
-static bool shrink(ReflectionModel *model, const float *wanted) {
-    size_t count = (size_t)model->places * (size_t)model->tables;
-    float logs[MEASUREMENT_WAVELENGTHS_MAX], least = (float)(TIGHTEST * model->bound);
-    bool any = false;
-    for (size_t i = 0; i < count; i++) {
-        if (wanted[i] == 0) continue;
-        int place = (int)(i / (size_t)model->tables), t = (int)(i % (size_t)model->tables);
-        place_logs(model, place, t, logs);
-        float lost = largest_difference(logs, reflection_model_row(model, model->value, place, t),
-                                        model->wavelengths);
-        float next = fmaxf(TIGHTER * model->tolerance[i], lost + least);
-        any |= next < 0.99f * model->tolerance[i];
-        model->tolerance[i] = fminf(next, model->tolerance[i]);
-    }
-    return any;
 }
 
 static bool check_samples(SampleCheck *check, ReflectionMisses *misses, Error *err) {
@@ -278,24 +230,12 @@ static bool check_samples(SampleCheck *check, ReflectionMisses *misses, Error *e
     return true;
 }
 
-/* The tree; what samples and places miss by is corrected as far as the level lets it be. */
 static bool reflection_tree_build(ReflectionModel *model, ReflectionMisses *misses, Error *err) {
     SampleCheck *check = ARENA_NEW(model->arena, SampleCheck, 1);
-    size_t count = (size_t)model->places * (size_t)model->tables;
     check->model = model;
     start_chunks(check, model->arena);
     start_tolerances(model);
-    for (int round = 0;; round++) {
-        if (!build_tree(model, err) || !check_samples(check, misses, err)) return false;
-        bool is_hopeless = !model->is_last && misses->misses > misses->samples / HOPELESS;
-        if (!misses->misses || round == ROUNDS || model->is_trial || is_hopeless ||
-            model->options->basis != FIT_VERTEX)
-            return true;
-        Arena scratch = *model->arena;
-        float *wanted = ARENA_NEW(&scratch, float, count);
-        mark_misses(check, wanted);
-        if (!shrink(model, wanted)) return true;
-    }
+    return build_tree(model, err) && check_samples(check, misses, err);
 }
 
 #define DEFAULT_BOUND 0.02
@@ -304,7 +244,7 @@ static bool reflection_tree_build(ReflectionModel *model, ReflectionMisses *miss
 #define FIRST_LEVEL 6
 #define LAST_LEVEL 9
 #define HELPED 0.8     /* a level that leaves more misses than this share did not help */
-#define NARROWEST 2.0f /* the largest frame exponent that is tried */
+#define NARROW_DEG 1.4 /* a peak of a smaller radius is narrow */
 #define PLACES_BYTES ((size_t)5 << 29) /* of values at most: memory is bounded */
 #define TRIAL_BYTES ((size_t)32 << 30) /* address space; pages cost nothing until touched */
 
@@ -323,60 +263,33 @@ static ReflectionModel *start_model(const Measurement *set, const FitOptions *op
                                .arena = arena,
                                .tables = parts->tables,
                                .wavelengths = set->wavelength_count,
-                               .bound = choose_bound(options, parts),
-                               .k = options->frame_exponent};
+                               .bound = choose_bound(options, parts)};
     model->lattice.octants = set->azimuth_count > 1 ? 4 : 2;
     return model;
 }
 
 /* ---- the frame --------------------------------------------------------------------------- */
 
-/* One frame exponent and how well it does at the first level. */
-typedef struct FrameTrial {
-    const ReflectionModel *model;
-    float exponent;
-    ReflectionMisses misses;
-    size_t bytes;
-    bool has_failed;
-    Error err;
-} FrameTrial;
-
-static void run_trial(void *context, int item, int worker) {
-    FrameTrial *trial = (FrameTrial *)context + item;
-    Arena arena = arena_reserve(TRIAL_BYTES);
-    ReflectionModel model = *trial->model;
-    FitOptions options = *model.options;
-    (void)worker;
-    options.threads = 1;
-    model.options = &options, model.arena = &arena, model.k = trial->exponent;
-    model.is_trial = true;
-    reflection_read_places(&model, FIRST_LEVEL);
-    reflection_spectra_choose(&model);
-    trial->has_failed = !reflection_tree_build(&model, &trial->misses, &trial->err);
-    if (!trial->has_failed) trial->bytes = tree_size(model.tree);
-    arena_release(&arena);
+/* How far a table's brightest row is from one that is half as bright, radians. */
+static double peak_radius(const AngleTable *table) {
+    int top = 0;
+    float nearest = -1;
+    for (int i = 1; i < table->rows; i++)
+        if (peak_window_row_mean(table, i) > peak_window_row_mean(table, top)) top = i;
+    Vec3 peak = table_row_direction(table, top);
+    double half = 0.5 * peak_window_row_mean(table, top);
+    for (int i = 0; i < table->rows; i++)
+        if (peak_window_row_mean(table, i) < half)
+            nearest = fmaxf(nearest, vec3_dot(peak, table_row_direction(table, i)));
+    return acos_d((double)nearest);
 }
 
-/* The frame exponent that leaves the fewest samples outside the bound, and of those that are
- * about as good the one with the smallest tree: wide haze likes 1, narrow peaks 2. */
-static bool choose_frame(ReflectionModel *model, Error *err) {
-    FrameTrial trials[3] = {{.model = model, .exponent = 1},
-                            {.model = model, .exponent = 1.5f},
-                            {.model = model, .exponent = NARROWEST}};
-    int best = 0;
-    if (model->k > 0) return true;
-    parallel_for(model->options->threads, 3, run_trial, trials);
-    for (int i = 0; i < 3; i++) {
-        if (trials[i].has_failed) {
-            *err = trials[i].err;
-            return false;
-        }
-        int room = trials[i].misses.samples / 5000;
-        int more = trials[i].misses.misses - trials[best].misses.misses;
-        if (more < -room || (more <= room && trials[i].bytes < trials[best].bytes)) best = i;
-    }
-    model->k = trials[best].exponent;
-    return true;
+/* Wide haze is smooth as it is; in the frame of a narrow peak vertices stand closer there. */
+static void choose_frame(ReflectionModel *model) {
+    double least = PI;
+    for (int t = 0; t < model->tables; t++)
+        least = fmin(least, peak_radius(&model->parts->haze[t]));
+    model->k = degrees_from_radians(least) < NARROW_DEG ? 2 : 1;
 }
 
 /* ---- the level --------------------------------------------------------------------------- */
@@ -396,7 +309,6 @@ static bool code_levels(ReflectionModel *model, ReflectionMisses *misses, Error 
         ReflectionModel before = *model;
         reflection_read_places(model, level);
         reflection_spectra_choose(model);
-        model->is_last = level == last;
         if (!reflection_tree_build(model, &now, err)) return false;
         if (level > first && now.misses > (int)(HELPED * misses->misses)) {
             *model = before;
@@ -436,26 +348,6 @@ static void note_outcome(const ReflectionModel *model, const ReflectionMisses *m
                  misses->misses, misses->samples, 100 * model->bound, misses->worst);
 }
 
-/* A peak that is missed at the finest level gets the frame that spreads it most. */
-static bool code_frames(ReflectionModel *model, ReflectionMisses *misses, Error *err) {
-    Arena before = *model->arena;
-    float chosen = model->k;
-    ReflectionMisses other;
-    if (!code_levels(model, misses, err)) return false;
-    if (!misses->misses || chosen >= NARROWEST || model->options->frame_exponent > 0 ||
-        model->surface.stored.frame != PANEL_FRAME_SPECULAR)
-        return true;
-    model->k = NARROWEST;
-    if (!code_levels(model, &other, err)) return false;
-    if (other.misses < misses->misses) {
-        *misses = other;
-        return true;
-    }
-    *model->arena = before;
-    model->k = chosen;
-    return code_levels(model, misses, err);
-}
-
 /* ---- what was left out ------------------------------------------------------------------- */
 
 typedef struct HeldOutPass {
@@ -486,11 +378,11 @@ bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *ar
     ReflectionMisses misses = {0};
     reflection_read_tables(model);
     model->bound = choose_bound(options, model->parts); /* scattered tables show noise now */
-    reflection_surface_choose(model, notes);
     HeldOutPass pass = {model, ARENA_NEW(arena, HeldOut, model->tables)};
     parallel_for(options->threads, model->tables, hold_out, &pass);
     reflection_held_out_peaks(model, pass.held_out);
-    if (!choose_frame(model, err) || !code_frames(model, &misses, err)) return false;
+    choose_frame(model);
+    if (!code_levels(model, &misses, err)) return false;
     parallel_for(options->threads, model->tables, look_between, &pass);
     out->held_out = pass.held_out;
     out->model = model;

@@ -280,10 +280,9 @@ typedef struct BetweenCheck {
 
 static double tree_log(const BetweenCheck *check, Vec3 local) {
     float component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
-    tree_interpolate(&check->tree, reflection_view_stored(&check->view, local), component);
+    tree_interpolate(&check->tree, specular_frame_stored(&check->view.frame, local), component);
     reflection_spectra_logs(check->model, check->table, component, logs);
-    return (double)logs[check->model->wavelengths / 2] +
-           log_d(reflection_view_reference(&check->view, local));
+    return (double)logs[check->model->wavelengths / 2] + log_d(check->view.fresnel);
 }
 
 static void compare_between(void *context, double theta, double phi) {

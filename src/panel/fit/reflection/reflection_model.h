@@ -3,27 +3,19 @@
  *
  * Places     where the stored functions are read: vertices of the lattice, or the centres of
  *            the triangles (Haar), in the specular-following frame (specular_frame.h).
- * Values     ln (f / reference), f without mirror and lobe; rows of `wavelengths` numbers. The
- *            reference is F(theta_i), or panel_reference.h's.
+ * Values     ln (f / F(theta_i)), f without mirror; rows of `wavelengths` numbers.
  * Threads    the steps use options->threads; results do not depend on how many.
  */
 #pragma once
 #include "base/mathd.h"
 #include "base/vec.h"
 #include "hemisphere/specular_frame.h"
-#include "hemisphere/surface_frame.h"
 #include "hemisphere/vertex/vertex_tree.h"
 #include "panel/fit/common/direction_grid.h"
 #include "panel/fit/common/scatter_surface.h"
 #include "panel/fit/reflection/reflection_parts.h"
 #include "panel/query/panel_file.h"
 #include "spectrum/wavelengths.h"
-
-/* How the haze is stored, and how it goes on beyond the last incidence. */
-typedef struct ReflectionSurface {
-    PanelSurfaceStored stored;
-    SurfaceFrame frame; /* of stored's axes; where it is not the specular-following one */
-} ReflectionSurface;
 
 /* How a table goes on between its rows where they are too far apart for the peak: like the haze
  * that was fitted under the mirror's image. What is read between rows is then the logarithm
@@ -42,9 +34,6 @@ typedef struct ReflectionModel {
     ReflectionParts *parts;
     Arena *arena;
     int tables, wavelengths;
-    bool is_trial; /* only to compare frames: nothing is corrected */
-    bool is_last;  /* no finer level follows: everything is tried */
-    ReflectionSurface surface;
     double bound;          /* relative error allowed at every sample, noise apart */
     float k;               /* of the frame */
     VertexLattice lattice; /* level and octants, of the triangles when Haar */
@@ -101,20 +90,10 @@ Wavelengths reflection_model_wavelengths(const Measurement *set, int first);
 
 /* ---- one table in the coordinates and over the reference in which its logarithm is stored  */
 
-/* "Local" is the table's frame: the mirror direction at azimuth 0. "Stored" is the tree's. */
+/* Outer directions are the table's: the mirror direction at azimuth 0. */
 typedef struct ReflectionView {
-    const ReflectionSurface *surface;
-    SpecularFrame specular;
-    Vec3 light;     /* in the display's frame */
+    SpecularFrame frame;
     double fresnel; /* F of its incidence */
 } ReflectionView;
 
 ReflectionView reflection_view(const ReflectionModel *model, int table);
-
-Vec3 reflection_view_stored(const ReflectionView *view, Vec3 local);
-
-/* The local direction of a stored one; where there is none above the horizon, one on it. */
-Vec3 reflection_view_local(const ReflectionView *view, Vec3 stored);
-
-/* The divisor of f at a local direction. */
-double reflection_view_reference(const ReflectionView *view, Vec3 local);

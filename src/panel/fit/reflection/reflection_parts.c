@@ -7,7 +7,6 @@
 #include "base/file.h"
 #include "base/mathd.h"
 #include "base/parallel.h"
-#include "base/sort.h"
 #include "base/units.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_peak.h"
@@ -22,10 +21,6 @@ double reflection_parts_most_noise(const ReflectionParts *parts) {
     double most = 0;
     for (int t = 0; t < parts->tables; t++) most = fmax(most, parts->noise[t]);
     return most;
-}
-
-double reflection_parts_fwhm_deg(const ReflectionParts *parts, int table) {
-    return degrees_from_radians(parts->lobe_sigma[table] * sqrt(8 * log_d(2)));
 }
 
 static void luminous_weights(const Measurement *set, double *luminous) {
@@ -114,30 +109,13 @@ static void note_specular(const Measurement *set, const ReflectionParts *out, Fi
         fit_note(notes, "%s", twice_text(&worst, notes->arena));
 }
 
-static void note_lobe(const Measurement *set, const ReflectionParts *out, FitNotes *notes) {
-    double least = 1e9, most = 0;
-    for (int t = 0; t < out->tables; t++) {
-        double fwhm = reflection_parts_fwhm_deg(out, t);
-        least = fmin(least, fwhm);
-        most = fmax(most, fwhm);
-    }
-    fit_note(notes,
-             "a peak of %.2f to %.2f deg full width stands on the haze and is kept as a "
-             "lobe of its own: luminous reflectance %.4f at %g deg%s",
-             least, most, out->lobe_y[0], degrees_from_radians(set->incidence[0]),
-             set->instrument_fwhm_deg > 0
-                 ? ""
-                 : "; if that is the instrument's own width, say "
-                   "so (--instrument-fwhm) and it becomes the mirror part");
-}
-
 /* ---- one table after the other ----------------------------------------------------------- */
 
 typedef struct PartsPass {
     const Measurement *set;
     ReflectionParts *out;
     AngleTable *table; /* of the next part */
-    bool *has_lobe, *is_apart;
+    bool *is_apart;
     Arena *arena; /* per table */
 } PartsPass;
 
@@ -210,16 +188,6 @@ static void find_mirror(void *context, int t, int worker) {
         &task, &pass->arena[t], &out->peak[t], &pass->table[t]);
 }
 
-static void find_lobe(void *context, int t, int worker) {
-    PartsPass *pass = context;
-    ReflectionLobe lobe = {.reflectance = row_of(pass->out->lobe, pass->set, t)};
-    (void)worker;
-    pass->has_lobe[t] =
-        reflection_peak_take_lobe(&pass->out->kept[t], incidence_of(pass->set, t),
-                                  pass->out->noise[t], &pass->arena[t], &lobe, &pass->table[t]);
-    pass->out->lobe_sigma[t] = lobe.fwhm / sqrt(8 * log_d(2));
-}
-
 /* Copies what the passes made into the fit's arena. */
 static void keep_table(AngleTable *to, const AngleTable *from, const AngleTable *before,
                        Arena *arena) {
@@ -243,43 +211,11 @@ static void separate_mirror(PartsPass *pass, int threads, Arena *arena) {
     ReflectionParts *out = pass->out;
     parallel_for(threads, out->tables, find_mirror, pass);
     for (int t = 0; t < out->tables; t++) {
-        keep_table(&out->kept[t], &pass->table[t], &pass->set->brdf[t], arena);
+        keep_table(&out->haze[t], &pass->table[t], &pass->set->brdf[t], arena);
         out->has_mirror |= luminous_mean(out, pass->set, out->reflectance, t) > 0;
         if (t < pass->set->incidence_count)
             out->mirror_y[t] = luminous_mean(out, pass->set, out->reflectance, t);
     }
-}
-
-/* A lobe is one only when all tables show it: between them it is interpolated. */
-static void separate_lobe(PartsPass *pass, int threads, Arena *arena) {
-    ReflectionParts *out = pass->out;
-    out->has_lobe = true;
-    parallel_for(threads, out->tables, find_lobe, pass);
-    for (int t = 0; t < out->tables; t++) out->has_lobe &= pass->has_lobe[t];
-    for (int t = 0; t < out->tables; t++) {
-        if (out->has_lobe) keep_table(&out->haze[t], &pass->table[t], &out->kept[t], arena);
-        else out->haze[t] = out->kept[t];
-        if (t < pass->set->incidence_count)
-            out->lobe_y[t] = luminous_mean(out, pass->set, out->lobe, t);
-    }
-}
-
-/* The user states that the lobe is the instrument's image of the mirror. */
-static void take_lobe_for_mirror(ReflectionParts *out) {
-    double *none = out->reflectance;
-    out->reflectance = out->lobe;
-    out->lobe = none;
-    out->has_mirror = true;
-    out->has_lobe = false;
-    for (int t = 0; t < out->tables; t++) out->kept[t] = out->haze[t];
-    memcpy(out->mirror_y, out->lobe_y, sizeof out->mirror_y);
-    memset(out->lobe_y, 0, sizeof out->lobe_y);
-}
-
-static double median_fwhm_deg(const ReflectionParts *out, Arena scratch) {
-    double *list = ARENA_NEW(&scratch, double, out->tables);
-    memcpy(list, out->lobe_sigma, sizeof *list * (size_t)out->tables);
-    return degrees_from_radians(sort_median(list, out->tables) * sqrt(8 * log_d(2)));
 }
 
 void reflection_parts_separate(const Measurement *set, const FitOptions *options, Arena *arena,
@@ -288,15 +224,11 @@ void reflection_parts_separate(const Measurement *set, const FitOptions *options
     size_t rows = (size_t)tables * (size_t)set->wavelength_count;
     PartsPass pass = {.set = set, .out = out};
     out->tables = tables;
-    out->kept = ARENA_NEW(arena, AngleTable, tables);
     out->haze = ARENA_NEW(arena, AngleTable, tables);
     out->noise = ARENA_NEW(arena, double, tables);
     out->dim_noise = ARENA_NEW(arena, double, tables);
     out->reflectance = ARENA_NEW(arena, double, rows);
-    out->lobe = ARENA_NEW(arena, double, rows);
-    out->lobe_sigma = ARENA_NEW(arena, double, tables);
     pass.table = ARENA_NEW(arena, AngleTable, tables);
-    pass.has_lobe = ARENA_NEW(arena, bool, tables);
     pass.is_apart = ARENA_NEW(arena, bool, tables);
     pass.arena = ARENA_NEW(arena, Arena, tables);
     luminous_weights(set, out->luminous);
@@ -306,17 +238,7 @@ void reflection_parts_separate(const Measurement *set, const FitOptions *options
     if (set->instrument_fwhm_deg > 0 || out->is_apart)
         out->peak = ARENA_NEW(arena, PeakMirror, tables);
     separate_mirror(&pass, options->threads, arena);
-    separate_lobe(&pass, options->threads, arena);
     for (int t = 0; t < tables; t++) arena_release(&pass.arena[t]);
-    if (out->has_lobe && options->lobe_is_mirror && !(set->instrument_fwhm_deg > 0)) {
-        take_lobe_for_mirror(out);
-        fit_note(notes,
-                 "as asked, the peak on the haze counts as the mirror's image: the "
-                 "instrument's width is then %.2f deg (an estimate, not declared)",
-                 median_fwhm_deg(out, *arena));
-    } else {
-        note_mirror(set, out, notes);
-    }
+    note_mirror(set, out, notes);
     if (set->specular && out->peak) note_specular(set, out, notes);
-    if (out->has_lobe) note_lobe(set, out, notes);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* reflection_parts.h -- the parts of a reflection: mirror, lobe, and what is left for the haze.
+/* reflection_parts.h -- the parts of a reflection: the mirror, and what is left for the haze.
  *
  * Tables   one a measured incidence and azimuth of the light: azimuth * incidences + incidence;
  *          rows over wavelengths.
@@ -14,17 +14,13 @@
 
 typedef struct ReflectionParts {
     int tables;
-    AngleTable *kept;                            /* what is left without the mirror */
-    AngleTable *haze;                            /* and without the lobe */
-    double *noise;                               /* relative, per table */
-    double *dim_noise;                           /* sr^-1, per table */
-    double *reflectance;                         /* of the mirror, [table][wavelength] */
-    double *lobe;                                /* the same of the lobe */
-    double *lobe_sigma;                          /* radians, per table */
-    double mirror_y[MEASUREMENT_INCIDENCES_MAX]; /* luminous, of the first azimuth */
-    double lobe_y[MEASUREMENT_INCIDENCES_MAX];
+    AngleTable *haze;                             /* what is left without the mirror */
+    double *noise;                                /* relative, per table */
+    double *dim_noise;                            /* sr^-1, per table */
+    double *reflectance;                          /* of the mirror, [table][wavelength] */
+    double mirror_y[MEASUREMENT_INCIDENCES_MAX];  /* luminous, of the first azimuth */
     double luminous[MEASUREMENT_WAVELENGTHS_MAX]; /* observer's weight, sum 1 */
-    bool has_mirror, has_lobe;
+    bool has_mirror;
     bool is_apart;    /* the mirror is the specular measurement's: the samples hold none */
     PeakMirror *peak; /* per table; NULL: the instrument's width is not declared, and the mirror
                          is not apart */
@@ -47,6 +43,3 @@ double reflection_parts_noise(const ReflectionParts *parts, int table, double f)
 
 /* That of the noisiest table. */
 double reflection_parts_most_noise(const ReflectionParts *parts);
-
-/* Full width at half of the lobe's maximum in a table, degrees. */
-double reflection_parts_fwhm_deg(const ReflectionParts *parts, int table);

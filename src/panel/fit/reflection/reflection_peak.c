@@ -11,13 +11,10 @@
 #include "spectrum/twice.h"
 
 #define WINDOW_FWHMS 6.0 /* rows nearer to the mirror direction than this are looked at */
-#define LOBE_FWHMS 3.0   /* the same for a lobe, whose haze need not follow the model so far */
 /* where haze is less than this of the peak, the fitted haze replaces what the subtraction leaves */
 #define CORE_SHARE 0.5
 #define CORE_FWHMS 1.6      /* and so near to the mirror direction anyway */
 #define LEAST_PEAK 0.05     /* times the haze under it: less is no image */
-#define LOBE_REST 0.006     /* relative, rms: a lobe explains the data this well, or it is none */
-#define LOBE_HEIGHT 1.0     /* times the haze under it, at least */
 #define WINDOW_STEPS 3.5    /* of the rows: as far a coarse table is looked at */
 #define NARROWEST_HAZE 0.05 /* times the instrument's width: a haze's, at least */
 #define WIDEST_HAZE 1.0     /* of direction cosines */
@@ -25,7 +22,6 @@
 #define ENOUGH 0.05         /* relative: as well as a panel should be known */
 #define CLOSE_ENOUGH 0.04   /* and so wide its range, since the model errs besides */
 #define LEAST_MIRROR 0.002  /* a smaller one need not be known better than this one */
-#define SEARCH_DEG 6.0      /* a lobe's top is nearer to the mirror direction than this */
 
 /* The peak of every wavelength out of `value`, its height by a model for the haze. */
 static void take_out(const PeakWindow *window, double fwhm, PeakModel model, double *reflectance,
@@ -341,95 +337,6 @@ void reflection_peak_take_mirror(const PeakTask *task, Arena *arena, PeakMirror 
     if (!take_far(&alone, arena, mirror, value)) mirror->source = PEAK_OPEN;
 }
 
-/* ---- a lobe ------------------------------------------------------------------------------ */
-
-static double row_angle(const AngleTable *slice, int row, double incidence) {
-    return peak_window_angle((double)slice->theta[row], (double)slice->phi[row], incidence);
-}
-
-/* Full width at half of the largest value near the mirror direction; 0: the largest value is
- * not there, or 0. By the outermost row above half of it, or the grid's step if that is
- * wider. */
-static double guess_width(const AngleTable *slice, double incidence) {
-    double top = 0, reach = radians_from_degrees(SEARCH_DEG), half = 0, nearest = 1;
-    for (int i = 0; i < slice->rows; i++) {
-        double angle = row_angle(slice, i, incidence);
-        if (angle < reach) top = fmax(top, peak_window_row_mean(slice, i));
-        if (angle > 1e-6) nearest = fmin(nearest, angle);
-    }
-    if (!(top > 0)) return 0;
-    for (int i = 0; i < slice->rows; i++) {
-        double angle = row_angle(slice, i, incidence);
-        if (angle < reach && peak_window_row_mean(slice, i) > 0.5 * top) half = fmax(half, angle);
-    }
-    return half > 0.8 * reach ? 0 : 2 * fmax(half, nearest);
-}
-
-/* The residual at a width, with the haze that suits it best. */
-static double rest_of_width(PeakWindow *window, double fwhm, double haze, PeakModel *model) {
-    peak_window_set_image(window, fwhm);
-    *model = peak_window_choose_haze(window, haze);
-    return peak_window_solve(window, -1, window->lambertian, model);
-}
-
-/* The width that leaves the least, by golden section over its logarithm. haze: begins there. */
-static double choose_width(PeakWindow *window, const double range[2], double haze,
-                           PeakModel *model) {
-    double low = log_d(range[0]), high = log_d(range[1]);
-    double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
-    double left = rest_of_width(window, exp_d(a), haze, model);
-    double right = rest_of_width(window, exp_d(b), haze, model);
-    for (int i = 0; i < 12; i++) {
-        if (left < right) {
-            high = b, b = a, right = left;
-            a = high - 0.618034 * (high - low);
-            left = rest_of_width(window, exp_d(a), haze, model);
-        } else {
-            low = a, a = b, left = right;
-            b = low + 0.618034 * (high - low);
-            right = rest_of_width(window, exp_d(b), haze, model);
-        }
-    }
-    rest_of_width(window, exp_d(0.5 * (low + high)), haze, model);
-    return exp_d(0.5 * (low + high));
-}
-
-/* rms of what the model leaves where the peak is the larger part, relative. */
-static double core_rest(const PeakWindow *window, const PeakModel *model) {
-    double squares = 0, count = 0;
-    for (int i = 0; i < window->count; i++) {
-        const PeakRow *spot = &window->row[i];
-        double haze = peak_model_haze(model, spot) + window->lambertian * spot->leaving;
-        double peak = model->r * spot->image;
-        if (peak < haze) continue;
-        double rest = (spot->mean - haze - peak) / (haze + peak);
-        squares += rest * rest;
-        count++;
-    }
-    return count > 2 ? sqrt(squares / count) : 1;
-}
-
-bool reflection_peak_take_lobe(const AngleTable *slice, double incidence, double noise,
-                               Arena *arena, ReflectionLobe *lobe, AngleTable *haze_table) {
-    double guess = guess_width(slice, incidence);
-    *haze_table = *slice;
-    if (!(guess > 0)) return false;
-    PeakWindow window = peak_window_collect(slice, incidence, LOBE_FWHMS * guess, arena);
-    if (window.count < 16) return false;
-    PeakModel model;
-    double fwhm = choose_width(&window, (double[2]){0.5 * guess, 2 * guess}, 2 * guess, &model);
-    double rest = peak_window_solve(&window, -1, window.lambertian, &model);
-    double most = LOBE_REST + 2 * noise;
-    double peak = 4 * log_d(2) / (PI * fwhm * fwhm * cos_d(incidence));
-    if (!(model.r * peak > LOBE_HEIGHT * (model.a + window.lambertian)) || rest > most ||
-        core_rest(&window, &model) > most)
-        return false;
-    window.stride = 1;
-    lobe->fwhm = fwhm;
-    take_out(&window, 0, model, lobe->reflectance, copy_values(slice, arena, haze_table));
-    return true;
-}
-
 /* ---- a mirror that the samples do not hold ----------------------------------------------- */
 
 #define WIDEST_IMAGE_DEG 2.0 /* of instruments that do not declare their width */
@@ -472,15 +379,6 @@ static double light_within(const PeakSample *sample, int count, double radius, d
     return sum;
 }
 
-/* A Gaussian on the haze, as narrow as an instrument's image. */
-static bool has_image(const PeakTask *task, double widest, Arena scratch) {
-    ReflectionLobe lobe = {.reflectance = ARENA_NEW(&scratch, double, task->slice->channels)};
-    AngleTable rest;
-    return reflection_peak_take_lobe(task->slice, task->incidence, task->noise, &scratch, &lobe,
-                                     &rest) &&
-           lobe.fwhm <= widest;
-}
-
 bool reflection_peak_is_apart(const PeakTask *task, Arena scratch) {
     PeakSample *sample = ARENA_NEW(&scratch, PeakSample, task->slice->rows);
     int count = collect_samples(task->slice, task->incidence, sample), half = 0;
@@ -488,7 +386,6 @@ bool reflection_peak_is_apart(const PeakTask *task, Arena scratch) {
     double widest =
         task->fwhm > 0 ? WIDTH_TIMES * task->fwhm : radians_from_degrees(WIDEST_IMAGE_DEG);
     if (!count) return true;
-    if (has_image(task, widest, scratch)) return false;
     while (half + 1 < count && sample[half].value > 0.5 * sample[0].value) half++;
     double sigma = fmin(fmax(2 * sample[half].angle, task->fwhm), widest) / sqrt(8 * log_d(2));
     double mirror =

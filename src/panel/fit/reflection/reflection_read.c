@@ -265,7 +265,7 @@ static void choose_guide(const DirectionGrid *grid, const float *cells, int chan
 /* The peak's model, where it is one that rows do determine. */
 static bool find_guide(const ReflectionModel *model, int table, ReflectionGuide *guide) {
     const PeakMirror *peak = model->parts->peak ? &model->parts->peak[table] : NULL;
-    if (!peak || !peak->range.has_model || model->parts->has_lobe || !(peak->model.a > 0) ||
+    if (!peak || !peak->range.has_model || !(peak->model.a > 0) ||
         peak->range.spread > GUIDE_SPREAD ||
         peak->rest > fmax(GUIDE_REST, 2 * model->parts->noise[table]))
         return false;
@@ -382,51 +382,26 @@ float reflection_read_logs(const ReflectionModel *model, int table, Vec3 outer, 
 
 /* ---- all places -------------------------------------------------------------------------- */
 
-/* One table at one place of the tree. */
-typedef struct TablePlace {
-    ReflectionView view;
-    Vec3 stored, local;
-    float beyond; /* radians: how far behind the last ring */
-} TablePlace;
-
-/* ln (f / reference) at a place. */
-static TablePlace read_stored(const ReflectionModel *model, int table, Vec3 stored, float *logs) {
-    TablePlace at = {reflection_view(model, table), stored, stored, 0};
-    at.local = reflection_view_local(&at.view, stored);
-    at.beyond = reflection_read_logs(model, table, at.local, logs);
-    float offset = (float)log_d(reflection_view_reference(&at.view, at.local));
-    for (int w = 0; w < model->wavelengths; w++) logs[w] -= offset;
-    return at;
-}
-
-/* The stored direction of the last ring at a place's azimuth. */
-static Vec3 ring_at(const TablePlace *at) {
-    double theta = acos_d(fmin(1, fmax(0, (double)at->local.z))) - (double)at->beyond;
-    double phi = atan2_d((double)at->local.y, (double)at->local.x);
-    return reflection_view_stored(&at->view, table_direction(theta, phi));
-}
-
-/* So far behind the last ring, as the tree sees it, that no triangle reaches back. */
-static bool is_far(const ReflectionModel *model, const TablePlace *at) {
-    float edge = EDGE_CELLS * 0.5f * PI_F / (float)(1 << model->lattice.level);
-    if (model->surface.stored.frame == PANEL_FRAME_SPECULAR || !(at->beyond > 0))
-        return at->beyond > edge;
-    Vec3 chord = vec3_sub(ring_at(at), at->stored);
-    return vec3_dot(chord, chord) > edge * edge;
-}
-
-static void read_place(ReflectionModel *model, int table, int place) {
+/* ln (f / F) of a table at a place. */
+static void read_place(ReflectionModel *model, const ReflectionView *view, int table, int place) {
     float *row = reflection_model_row(model, model->value, place, table);
-    TablePlace at = read_stored(model, table, model->direction[place], row);
-    model->is_free[(size_t)place * (size_t)model->tables + (size_t)table] = is_far(model, &at);
+    Vec3 outer = specular_frame_outer(&view->frame, model->direction[place]);
+    float beyond = reflection_read_logs(model, table, outer, row);
+    float offset = (float)log_d(view->fresnel);
+    for (int w = 0; w < model->wavelengths; w++) row[w] -= offset;
+    /* so far behind the last ring that no triangle reaches back */
+    float edge = EDGE_CELLS * 0.5f * PI_F / (float)(1 << model->lattice.level);
+    model->is_free[(size_t)place * (size_t)model->tables + (size_t)table] = beyond > edge;
 }
 
 static void read_chunk(void *context, int item, int worker) {
     ReflectionModel *model = context;
     int last = (item + 1) * CHUNK < model->places ? (item + 1) * CHUNK : model->places;
     (void)worker;
-    for (int t = 0; t < model->tables; t++)
-        for (int i = item * CHUNK; i < last; i++) read_place(model, t, i);
+    for (int t = 0; t < model->tables; t++) {
+        ReflectionView view = reflection_view(model, t);
+        for (int i = item * CHUNK; i < last; i++) read_place(model, &view, t, i);
+    }
 }
 
 void reflection_read_places(ReflectionModel *model, int level) {

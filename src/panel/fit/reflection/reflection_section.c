@@ -18,8 +18,7 @@
 #include "panel/query/panel_reflection_layout.h"
 
 #define INTEGRAL_ROOM 0.5 /* of the bound: what the integrals may move all values by */
-#define LOBE_SQUARE 42.25 /* of the distance over sigma: where queries end the lobe */
-#define ALBEDO_MOST 0.995 /* haze, lobe and mirror together */
+#define ALBEDO_MOST 0.995 /* haze and mirror together */
 #define ALBEDO_LEVEL 6
 #define LAMBERTIAN_QUANTILE 100 /* one row in so many is dimmer than the lambertian part */
 #define LAMBERTIAN_DEG 60.0     /* rows further from the normal do not count */
@@ -61,40 +60,7 @@ typedef struct IntegralPass {
     const ReflectionModel *model;
     Tree tree;
     double *change; /* tables x wavelengths, of the logarithm */
-    double *gain;   /* the same of the lobe, a factor */
 } IntegralPass;
-
-/* The lobe of reflectance 1 at a row, sr^-1. */
-static double lobe_shape(const ReflectionModel *model, int table, Vec3 d) {
-    double theta = reflection_model_incidence(model, table),
-           sigma = model->parts->lobe_sigma[table];
-    double x = (double)d.x - sin_d(theta), y = (double)d.y, z = (double)d.z - cos_d(theta);
-    double chord = x * x + y * y + z * z, square = chord * (1 + chord / 12) / (sigma * sigma);
-    if (square > LOBE_SQUARE) return 0;
-    return exp_d(-0.5 * square) / (2 * PI * sigma * sigma * cos_d(theta));
-}
-
-/* By what the lobe must be multiplied so that the sums of haze and lobe over the rows are those
- * of the table. */
-static void match_lobe(IntegralPass *pass, int t) {
-    const ReflectionModel *model = pass->model;
-    const AngleTable *kept = &model->parts->kept[t], *haze = &model->parts->haze[t];
-    double shape = 0, wanted[MEASUREMENT_WAVELENGTHS_MAX] = {0};
-    for (int i = 0; i < kept->rows; i++) {
-        double weight = table_row_weight(kept, i);
-        size_t at = (size_t)i * (size_t)model->wavelengths;
-        shape += weight * lobe_shape(model, t, table_row_direction(kept, i));
-        for (int w = 0; w < model->wavelengths; w++)
-            wanted[w] +=
-                weight * (double)(kept->value[at + (size_t)w] - haze->value[at + (size_t)w]);
-    }
-    for (int w = 0; w < model->wavelengths; w++) {
-        int i = t * model->wavelengths + w;
-        double lobe = shape * model->parts->lobe[i], room = INTEGRAL_ROOM * model->bound;
-        double gain = lobe > 0 ? wanted[w] / lobe : 1;
-        pass->gain[i] = fmax(1 - room, fmin(1 + room, gain));
-    }
-}
 
 /* The change of a table's means by which its rows add up to the same as the haze. */
 static void match_integrals(void *context, int t, int worker) {
@@ -109,16 +75,14 @@ static void match_integrals(void *context, int t, int worker) {
         float component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
         Vec3 d = table_row_direction(table, i);
         double weight = table_row_weight(table, i);
-        double reference = reflection_view_reference(&view, d);
-        tree_interpolate(&pass->tree, reflection_view_stored(&view, d), component);
+        tree_interpolate(&pass->tree, specular_frame_stored(&view.frame, d), component);
         reflection_spectra_logs(model, t, component, logs);
         for (int w = 0; w < model->wavelengths; w++) {
-            found[w] += weight * exp_d((double)logs[w]) * reference;
+            found[w] += weight * exp_d((double)logs[w]) * view.fresnel;
             wanted[w] +=
                 weight * (double)table->value[(size_t)i * (size_t)model->wavelengths + (size_t)w];
         }
     }
-    if (model->parts->has_lobe) match_lobe(pass, t);
     for (int w = 0; w < model->wavelengths; w++) {
         double change = wanted[w] > 0 && found[w] > 0 ? log_d(wanted[w] / found[w]) : 0;
         pass->change[t * model->wavelengths + w] = fmax(-room, fmin(room, change));
@@ -129,14 +93,10 @@ static bool settle_integrals(ReflectionModel *model, Error *err) {
     IntegralPass pass = {.model = model};
     int count = model->tables * model->wavelengths;
     pass.change = ARENA_NEW(model->arena, double, count);
-    pass.gain = ARENA_NEW(model->arena, double, count);
     if (!tree_open(model->tree, tree_size(model->tree), model->geodesic, &pass.tree, err))
         return error_prefix(err, "reflection");
     parallel_for(model->options->threads, model->tables, match_integrals, &pass);
-    for (int i = 0; i < count; i++) {
-        model->mean[i] += (float)pass.change[i];
-        if (model->parts->has_lobe) model->parts->lobe[i] *= pass.gain[i];
-    }
+    for (int i = 0; i < count; i++) model->mean[i] += (float)pass.change[i];
     return true;
 }
 
@@ -170,19 +130,6 @@ static void fill_lambertian(const ReflectionModel *model, const SectionDraft *se
 
 /* ---- the numbers of the fit -------------------------------------------------------------- */
 
-static double lobe_logarithm(const ReflectionModel *model, int table, int wavelength) {
-    double r = model->parts->lobe[table * model->wavelengths + wavelength];
-    return log_d(fmax(r, 1e-9) / reflection_model_fresnel(model, table));
-}
-
-static double largest_lobe(const ReflectionModel *model) {
-    double most = 1;
-    for (int t = 0; t < model->tables; t++)
-        for (int w = 0; w < model->wavelengths; w++)
-            most = fmax(most, fabs(lobe_logarithm(model, t, w)));
-    return most;
-}
-
 static PanelReflectionStored head_of(const ReflectionModel *model) {
     double edge = 0.5 * PI, most = 30;
     for (int t = 0; t < model->tables; t++)
@@ -194,14 +141,12 @@ static PanelReflectionStored head_of(const ReflectionModel *model) {
         .coefficients = (uint16_t)model->coefficients,
         .wavelengths = (uint16_t)model->wavelengths,
         .nodes = NODES,
-        .is_cubic = !model->options->is_linear_in_incidence,
+        .one = 1,
         .has_mirror = model->parts->has_mirror,
-        .has_lobe = model->parts->has_lobe,
         .frame_exponent = model->k,
         .refractive_index = (float)REFLECTION_REFRACTIVE_INDEX,
         .cone_cos = (float)fmax(0, cos_d(edge)),
-        .mean_scale = (float)fmax((double)model->mean_scale, most / 32767),
-        .lobe_scale = model->parts->has_lobe ? (float)(largest_lobe(model) / 32767) : 0};
+        .mean_scale = (float)fmax((double)model->mean_scale, most / 32767)};
 }
 
 static void fill_axes(const ReflectionModel *model, const SectionDraft *section) {
@@ -225,8 +170,6 @@ static void fill_axes(const ReflectionModel *model, const SectionDraft *section)
         floats(to->basis_scale)[k] = model->basis_scale[k];
     for (int c = 0; c < model->components; c++)
         floats(to->loading_scale)[c] = model->loading_scale[c];
-    for (int t = 0; t < model->tables && model->parts->has_lobe; t++)
-        floats(to->lobe_sigma)[t] = (float)model->parts->lobe_sigma[t];
 }
 
 static void fill_numbers(const ReflectionModel *model, const SectionDraft *section) {
@@ -240,9 +183,6 @@ static void fill_numbers(const ReflectionModel *model, const SectionDraft *secti
     for (int i = 0; i < model->tables * m * n; i++)
         shorts(to->loading)[i] =
             stepped((double)model->loading[i], (double)model->loading_scale[i % n]);
-    for (int i = 0; i < model->tables * wavelengths && model->parts->has_lobe; i++)
-        shorts(to->lobe)[i] = stepped(lobe_logarithm(model, i / wavelengths, i % wavelengths),
-                                      (double)section->stored->lobe_scale);
 }
 
 /* Mirror reflectance, of the azimuths the mean. */
@@ -262,11 +202,9 @@ static void fill_mirror(const ReflectionModel *model, const SectionDraft *sectio
 /* A query's view of the section as it stands. */
 static bool view_section(const ReflectionModel *model, const SectionDraft *section, Arena *arena,
                          Panel *panel, Error *err) {
-    const PanelSurfaceStored *surface = &model->surface.stored;
     PanelReflectionBytes sections = {
         {(const unsigned char *)section->stored, section->out->size, "panel", err},
         {model->tree, tree_size(model->tree), "panel", err},
-        {(const unsigned char *)surface, sizeof *surface, "panel", err},
         {NULL, 0, "panel", err}};
     if (model->has_reach)
         sections.reach.data = (const unsigned char *)model->reach,
@@ -332,7 +270,7 @@ static void take_brightest_side(const ReflectionModel *model, double *albedo) {
         first[i % row] = fmax(first[i % row], first[i]);
 }
 
-/* Directional-hemispherical reflectance of the haze without the lobe: tables, then nodes. */
+/* Directional-hemispherical reflectance of the haze: tables, then nodes. */
 static double *all_albedos(const ReflectionModel *model, const Panel *panel,
                            const SectionDraft *section, Arena *arena) {
     AlbedoPass pass = {.model = model, .panel = panel, .section = section};
@@ -350,23 +288,12 @@ static double *all_albedos(const ReflectionModel *model, const Panel *panel,
     return pass.albedo;
 }
 
-/* The lobe's reflectance at an item: its own, and beyond the last incidence like Fresnel's. */
-static double lobe_albedo(const ReflectionModel *model, const SectionDraft *section, int item,
-                          int w) {
-    int last = model->set->incidence_count - 1;
-    if (!model->parts->has_lobe) return 0;
-    if (item < model->tables) return model->parts->lobe[item * model->wavelengths + w];
-    double theta = (double)section->layout.node_theta[item - model->tables];
-    return model->parts->lobe[last * model->wavelengths + w] * reflection_fresnel(cos_d(theta)) /
-           reflection_model_fresnel(model, last);
-}
-
 static double mirror_albedo(const Panel *panel, const ReflectionModel *model, Vec3 light, int w) {
     Wavelengths wavelengths = reflection_model_wavelengths(model->set, w);
     return (double)panel_mirror(panel, light.z, &wavelengths)[0];
 }
 
-/* Writes albedos down, and holds haze, lobe and mirror at 1 in every table and node. */
+/* Writes albedos down, and holds haze and mirror at 1 in every table and node. */
 static void hold_energy(ReflectionModel *model, const Panel *panel, const SectionDraft *section,
                         const double *albedo) {
     const ReflectionLayout *to = &section->layout;
@@ -375,19 +302,15 @@ static void hold_energy(ReflectionModel *model, const Panel *panel, const Sectio
     for (int i = 0; i < (model->tables + NODES) * n; i++) {
         int item = i / n, w = i % n, node = i - model->tables * n;
         double mirror = mirror_albedo(panel, model, light_of(&where, item), w);
-        double lobe = lobe_albedo(model, section, item, w), haze = albedo[i];
-        double room = fmax(0.01, ALBEDO_MOST - mirror), both = haze + lobe;
-        double factor = both > room ? room / both : 1;
+        double haze = albedo[i], room = fmax(0.01, ALBEDO_MOST - mirror);
+        double factor = haze > room ? room / haze : 1;
         bool is_table = item < model->tables;
         if (is_table)
-            section->out->largest_albedo = fmax(section->out->largest_albedo, both + mirror);
-        if (is_table) shares(to->albedo)[i] = share(both * factor);
-        else shares(to->node_albedo)[node] = share(both * factor);
+            section->out->largest_albedo = fmax(section->out->largest_albedo, haze + mirror);
+        if (is_table) shares(to->albedo)[i] = share(haze * factor);
+        else shares(to->node_albedo)[node] = share(haze * factor);
         if (!is_table) shares(to->held)[node] = factor < 1 ? share(factor - 1e-5) : 65535;
-        else if (factor < 1) {
-            model->mean[i] += (float)log_d(factor);
-            if (model->parts->has_lobe) model->parts->lobe[i] *= factor;
-        }
+        else if (factor < 1) model->mean[i] += (float)log_d(factor);
     }
 }
 
@@ -396,10 +319,6 @@ static bool settle_energy(ReflectionModel *model, const SectionDraft *section, F
     Arena scratch = *model->arena;
     Panel panel = {0};
     if (!view_section(model, section, &scratch, &panel, err)) return false;
-    PanelReflection *without_lobe = ARENA_NEW(&scratch, PanelReflection, 1);
-    *without_lobe = *panel.reflection;
-    without_lobe->has_lobe = false;
-    panel.reflection = without_lobe;
     double *albedo = all_albedos(model, &panel, section, &scratch);
     hold_energy(model, &panel, section, albedo);
     if (section->out->largest_albedo > ALBEDO_MOST)

@@ -74,34 +74,6 @@ static void take_principal(ReflectionModel *model, const float *rows, int count,
         for (int w = 0; w < n; w++) model->basis[k * n + w] = p.loading[w * p.components + k];
 }
 
-/* The strongest wavelet coefficients, until what is left out is within the tolerance. */
-static void take_wavelets(ReflectionModel *model, float *rows, int count, double tolerance) {
-    int n = model->wavelengths, used = 0;
-    double energy[MEASUREMENT_WAVELENGTHS_MAX] = {0}, rest = 0;
-    float norm[MEASUREMENT_WAVELENGTHS_MAX];
-    WaveletKind kind = model->options->wavelet;
-    wavelet1d_norms(kind, n, norm);
-    for (int i = 0; i < count; i++) {
-        float *row = rows + (size_t)i * (size_t)n;
-        wavelet1d_forward(kind, row, n);
-        for (int w = 0; w < n; w++)
-            energy[w] += (double)(row[w] * norm[w]) * (double)(row[w] * norm[w]) / count;
-    }
-    for (int w = 0; w < n; w++) rest += energy[w];
-    while (used < n && used < PANEL_COEFFICIENTS_MAX) {
-        if (used > 0 && used % 4 == 0 && sqrt(fmax(0, rest) / n) <= tolerance) break;
-        int best = 0;
-        for (int w = 1; w < n; w++)
-            if (energy[w] > energy[best]) best = w;
-        float *row = model->basis + (size_t)used++ * (size_t)n;
-        row[best] = 1;
-        wavelet1d_inverse(kind, row, n);
-        rest -= energy[best];
-        energy[best] = -1;
-    }
-    model->coefficients = used;
-}
-
 static void round_basis(ReflectionModel *model) {
     int n = model->wavelengths;
     for (int k = 0; k < model->coefficients; k++) {
@@ -115,8 +87,7 @@ static void round_basis(ReflectionModel *model) {
 static void choose_basis(ReflectionModel *model, double tolerance, Arena scratch) {
     int count = chosen_places(model) * model->tables;
     float *rows = centred_rows(model, &scratch);
-    if (model->options->has_wavelet) take_wavelets(model, rows, count, tolerance);
-    else take_principal(model, rows, count, tolerance, scratch);
+    take_principal(model, rows, count, tolerance, scratch);
     round_basis(model);
 }
 
