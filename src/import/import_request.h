@@ -24,7 +24,7 @@ typedef void ImportStep(void *context, int done);
 
 /* Spectra of the primaries: a column of wavelengths, one each for red, green and blue, and one
  * for black if it was measured. Fails with the file, the line, what was found and required. */
-bool primaries_read(const char *file, const TextOptions *options, ImportSet *set, Error *err);
+bool primaries_read(const char *file, ImportSet *set, Error *err);
 
 typedef struct ImportRequest {
     TextOptions text;

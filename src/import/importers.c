@@ -15,8 +15,8 @@
 #define FORMATS_MAX 64
 
 const Importer *const importers[] = {
-    &importer_zemax,       &importer_speos, &importer_astm,     &importer_rgl,  &importer_merl,
-    &importer_spreadsheet, &importer_ies,   &importer_eulumdat, &importer_text, NULL,
+    &importer_zemax, &importer_speos,    &importer_astm, &importer_rgl, &importer_merl,
+    &importer_ies,   &importer_eulumdat, &importer_text, NULL,
 };
 
 /* ---- which importer ---------------------------------------------------------------------- */
@@ -90,6 +90,8 @@ bool import_file(const char *file, const ImportOptions *options, ImportSet *set,
         if (importers[i]->recognises(file, head, size))
             return importers[i]->read(file, options, set, err);
     }
-    return error_at(err, ERROR_INPUT, file, "",
-                    "is of no format that is known here — name one with --format");
+    return error_at(
+        err, ERROR_INPUT, file, "",
+        "is of no format that is known here — export a workbook's tables as CSV, or name "
+        "a format with --format");
 }

@@ -5,8 +5,7 @@
 #include "import/set/import.h"
 
 /* ---- scatter ----------------------------------------------------------------------------- */
-extern const Importer importer_zemax, importer_speos, importer_astm, importer_rgl, importer_merl,
-    importer_spreadsheet;
+extern const Importer importer_zemax, importer_speos, importer_astm, importer_rgl, importer_merl;
 
 /* ---- luminaires -------------------------------------------------------------------------- */
 extern const Importer importer_eulumdat, importer_ies;

@@ -93,6 +93,7 @@ const RemovedWord removed_words[] = {
     {"sky", "--dark", "figures are drawn for paper"},
     {"PARHELION_display", "subpixels", "leave it out: a display's light is even over a pixel"},
     {"measurement_set", "subpixels", "leave it out: a display's light is even over a pixel"},
+    {"spot", "position_mm", "divide it by size_mm: 'position' has the shares"},
     {"recipe", "subpixels", "leave it out: a display's light is even over a pixel"},
     {"--layer", "display.weber", "display.contrast less one"},
     {"--layer", "display.michelson", "by display.contrast C: (C - 1) / (C + 1)"},

@@ -274,7 +274,7 @@ def measure_foreign(bench):
 REAL = ("display", "bsdf", "photometry")
 TOLD = { # what files do not say themselves, by the ends of their names
     "viewing_angle_oled_phi0_90.csv": ["--role", "*=white"],
-    "BrownVinyl_TIS_validation.bsdf": ["--wavelength", "650"],
+    ".bsdf": ["--wavelength", "650"],
     "MAXWELL_measured_IESNA.ies": ["--area-mm", "300,300"],
 }
 

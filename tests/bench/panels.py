@@ -147,14 +147,7 @@ def reflection_table(folder, reflection, incidence, azimuth):
                   (f" at {azimuth:g}" if "incidence_phi_deg" in reflection else ""))
     pattern = reflection["files"].replace("{incidence}", f"{incidence:.10g}")
     pattern = pattern.replace("{azimuth}", f"{azimuth:.10g}")
-    if "{wavelength}" in pattern:
-        for nm in reflection["wavelengths_nm"]:
-            one = Table("", os.path.join(folder, pattern.replace("{wavelength}", f"{nm:.10g}")))
-            table.text_bytes += one.text_bytes
-            table.rows = [(t, p, old[2] + new) for (t, p, new), old in
-                          zip(one.rows, table.rows or [(0, 0, [])] * len(one.rows))]
-    else:
-        table.read(os.path.join(folder, pattern))
+    table.read(os.path.join(folder, pattern))
     table.incidence, table.azimuth = incidence, azimuth
     table.wavelengths = reflection["wavelengths_nm"]
     return table

@@ -151,9 +151,8 @@ void fuzz_import_text(const uint8_t *data, size_t size, Arena *arena) {
 void fuzz_primaries(const uint8_t *data, size_t size, Arena *arena) {
     Error err = {0};
     ImportSet set = import_set(arena);
-    TextOptions *options = ARENA_NEW(arena, TextOptions, 1);
     const char *path = fuzz_file("primaries.csv", data, size, arena);
-    if (!primaries_read(path, options, &set, &err)) {
+    if (!primaries_read(path, &set, &err)) {
         fuzz_claim_refusal(&err);
         return;
     }

@@ -66,7 +66,8 @@ def main():
     report = Report()
     program = os.path.abspath(sys.argv[1])
     real = (("display/viewing_angle_oled_phi0_90.csv", ["--role", "*=white"], BOUNDS),
-            ("bsdf/loft-rt300s/AnoBlackEC1onAlum.bsdf", [], (0.05, 0.02)))
+            ("bsdf/loft-rt300s/AnoBlackEC1onAlum.bsdf", ["--wavelength", "650"],
+             (0.05, 0.02)))
     with tempfile.TemporaryDirectory() as folder:
         check(report, program, folder, "simulated", simulated(program, folder), BOUNDS)
         for path, words, bounds in real:

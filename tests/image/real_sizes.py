@@ -19,8 +19,8 @@ MANY = 20000
 AT_650 = ["--wavelength", "650"]
 FILES = { # what a file does not say itself
     "display/viewing_angle_oled_phi0_90.csv": ["--role", "*=white"],
-    "bsdf/loft-rt300s/AnoBlackEC1onAlum.bsdf": [],
-    "bsdf/loft-rt300s/AnoBlackNiTEonINVAR.bsdf": [],
+    "bsdf/loft-rt300s/AnoBlackEC1onAlum.bsdf": AT_650,
+    "bsdf/loft-rt300s/AnoBlackNiTEonINVAR.bsdf": AT_650,
     "bsdf/loft-rt300s/BrownVinyl_TIS_validation.bsdf": AT_650,
     "bsdf/speos/L100_2.simplescattering": [],
     "bsdf/speos/R_test.anisotropicbsdf": [],

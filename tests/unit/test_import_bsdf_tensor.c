@@ -336,16 +336,4 @@ FIXTURE_TEST(merl_errors_name_the_byte) {
                          "a side is 65281 cells, required: 1 to 4096 (MERL: 90, 90, 180)");
 }
 
-/* ---- workbooks --------------------------------------------------------------------------- */
-
-FIXTURE_TEST(a_workbook_is_refused_with_what_to_give_instead) {
-    static const char magic[] = "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1 workbook";
-    assert_false(fixture_read(f, magic, sizeof magic, "spreadsheet"));
-    assert_string_equal(f->err.text, "is a workbook of a spreadsheet program — export its "
-                                     "tables as CSV; of a scatterometer (RT-300S) give the "
-                                     ".bsdf that was made from it");
-    assert_false(fixture_read_file(
-        f, shared_bsdf(f, "loft-rt300s/raw/NiTE_on_invar_v1o0A_20250915.xls"), "spreadsheet"));
-}
-
 TEST_PROGRAM(NULL, NULL)

@@ -7,7 +7,6 @@
 /* ---- Zemax ------------------------------------------------------------------------------- */
 
 #define ZEMAX_HEAD \
-    "#Measured at 633 nm\n" \
     "Source Measured\nSymmetry PlaneSymmetrical\nSpectralContent Monochrome\n" \
     "ScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 2\n20 40\n" \
     "ScatterAzimuth 3\n0 90 180\nScatterRadial 3\n0 10 60\n\nMonochrome\nDataBegin\n"
@@ -17,12 +16,11 @@
     "TIS 0.6\n19 11 12\n19 13 14\n19 15 16\nDataEnd\n"
 
 FIXTURE_TEST(zemax_angles_count_from_the_mirror_direction) {
-    f->options.wavelength_nm = 0;
+    f->options.wavelength_nm = 633;
     assert_reads(f, ZEMAX, "zemax");
     assert_int_equal(f->set.count, 2);
     const ImportTable *t = table_at(f, 40, 180);
     assert_close(t->wavelength_nm[0], 633, 1e-7);
-    assert_noted(f, "633 nm is read from the file's comments");
     /* The mirror direction is (40, 0); azimuth 0 leads towards the normal and beyond. */
     assert_near(value_at(t, 40, 0, 0), 19, 0);
     assert_near(value_at(t, 30, 0, 0), 11, 0);
@@ -37,23 +35,6 @@ FIXTURE_TEST(zemax_angles_count_from_the_mirror_direction) {
     /* Azimuth 180 and radial 60 lies under the horizon: the others are there. */
     assert_int_equal(t->rows, 1 + 4 + 3);
     assert_false(f->set.is_anisotropic);
-}
-
-FIXTURE_TEST(zemax_wavelength_stands_in_the_comments) {
-    static const char *const line[] = {"# laser, 532nm wide", "#Wavelength (nm) = 532.0"};
-    f->options.wavelength_nm = 0;
-    for (int i = 0; i < 2; i++) {
-        assert_reads(f,
-                     arena_format(&f->arena,
-                                  "%s\nSymmetry PlaneSymmetrical\n"
-                                  "SpectralContent Monochrome\nScatterType BRDF\n"
-                                  "SampleRotation 1\n0\nAngleOfIncidence 1\n30\n"
-                                  "ScatterAzimuth 1\n0\nScatterRadial 1\n10\nMonochrome\n"
-                                  "DataBegin\nTIS 0 7\nDataEnd\n",
-                                  line[i]),
-                     "zemax");
-        assert_close(f->set.table[0].wavelength_nm[0], 532, 1e-7);
-    }
 }
 
 FIXTURE_TEST(zemax_azimuth_runs_counter_clockwise) {
@@ -146,9 +127,9 @@ FIXTURE_TEST(zemax_zeros_are_directions_without_a_measurement) {
 FIXTURE_TEST(zemax_errors_name_the_line) {
     const Importer *z = &importer_zemax;
     assert_refused(f, ZEMAX_HEAD "TIS 0.5\n9 1 2\n9 x 4\n", z,
-                   "line 19: a value of the block is 'x', required: a number");
+                   "line 18: a value of the block is 'x', required: a number");
     assert_refused(f, ZEMAX_HEAD "TIS 0.5\n9 1 2\n9 3 4\n9 5 6\nDataEnd\n", z,
-                   "line 22: the file ends after 1 blocks, required: 2");
+                   "line 21: the file ends after 1 blocks, required: 2");
     assert_refused(f, "Symmetry Round\n", z,
                    "line 1: Symmetry is 'Round', required: "
                    "PlaneSymmetrical, Asymmetrical or ASymmetrical4D");
@@ -171,7 +152,7 @@ FIXTURE_TEST(zemax_prefixes_are_refused) {
 
 /* Values read off the file: line 39 is azimuth 0 of incidence 10, line 47 azimuth 80. */
 FIXTURE_TEST(a_real_black_coating_of_zemax_has_its_values) {
-    f->options.wavelength_nm = 0;
+    f->options.wavelength_nm = 650;
     const char *file = shared_bsdf(f, "loft-rt300s/AnoBlackEC1onAlum.bsdf");
     assert_true(fixture_read_file(f, file, "zemax"));
     assert_int_equal(f->set.count, 4);

@@ -88,7 +88,7 @@ LAB_TEST(headers_that_do_not_say_enough) {
 
 LAB_TEST(matrices_that_do_not_say_enough) {
     static const Refusal rows[] = {
-        {"L\n,0,30\n0,10,20\n60,10,30\n",
+        {"L\n-\\-,0,30\n0,10,20\n60,10,30\n",
          "white.csv: line 2: does not tell whether theta runs down or across — say --table "
          "theta-down or phi-down"},
         {"theta\\phi,0,120\n0,10,20\n60,10,30\n",

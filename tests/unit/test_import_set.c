@@ -148,16 +148,6 @@ LAB_TEST(what_a_set_needs_is_said) {
                      "depends on the azimuth is required at every incidence (2) and azimuth "
                      "(2) of the light — or say --isotropic when the azimuth makes no "
                      "difference");
-    lab->count = 0;
-    lab_declare(lab, "unit", "signal");
-    lab_write(lab, "i10.csv", BRDF);
-    lab_refused(lab, "i10.csv: holds signals, and no white reference was measured at incidence "
-                     "10 with the same channels — name one with --role FILE=reference:10, or "
-                     "one for all with --role FILE=reference");
-    lab_write(lab, "ref.csv", BRDF);
-    lab_role(lab, "ref.csv", "reference:30");
-    lab_refused(lab, "ref.csv: is a reference file, and no table has its channels and its "
-                     "light");
 }
 
 LAB_TEST(what_cannot_be_noise_below_zero_is_refused) {
@@ -398,8 +388,8 @@ LAB_TEST(spectra_go_into_the_set) {
     lab_write(lab, "black.csv", TABLE);
     int count = lab->count;
     lab_write(lab, "s.csv",
-              "# relative\nWavelength_nm;B;G;R\n380;0;0;0\n400;0,5;0;0\n"
-              "550;0;1;0\n620;0;0;0,25\n700;0;0;0\n");
+              "# relative\nWavelength_nm;B;G;R\n380;0;0;0\n400;0.5;0;0\n"
+              "550;0;1;0\n620;0;0;0.25\n700;0;0;0\n");
     lab->count = count;
     lab->request->primaries = arena_format(&lab->arena, "%s/s.csv", lab->folder);
     lab_import(lab);
@@ -408,16 +398,21 @@ LAB_TEST(spectra_go_into_the_set) {
     assert_near(set->spectrum[0][620 - SPECTRAL_FIRST_NM], 0.25, 1e-6);
     assert_near(set->spectrum[2][400 - SPECTRAL_FIRST_NM], 0.5, 1e-6);
     static const char *const wrong[][2] = {
-        {"nm,red,green\n400,1,2\n500,1,2\n", "s.csv: header line: has no columns of "
-                                             "wavelength, red, green and blue"},
+        {"nm,red,green\n400,1,2\n500,1,2\n", "s.csv: header line: has no column 'blue'"},
         {"nm,red,green,blue\n400,1,2,3\n390,1,2,3\n", "s.csv: line 3: wavelength 390 follows "
                                                       "400, required: rising wavelengths"},
-        {"nm,red,green,blue\n400,1,2,3\n500,1,2\n", "s.csv: line 3: has not the 4 cells of the "
-                                                    "header"},
-        {"nm,red,green,blue\n400,1,2,3\n500,1,2,x\n", "s.csv: line 3: holds 'x', required: a "
-                                                      "number"},
-        {"nm,red,green,blue\n.4,1,2,3\n.5,1,2,3\n", "s.csv: line 2: has a wavelength of 0.4, "
-                                                    "required: nanometres"},
+        {"nm,red,green,blue\n400,1,2,3\n500,1,2\n",
+         "s.csv: line 3: has fewer cells than the header's 4 "
+         "columns"},
+        {"nm,red,green,blue\n400,1,2,3\n500,1,2,x\n",
+         "s.csv: line 3: column 'blue' holds 'x', required: a "
+         "finite number"},
+        {"nm,red,green,blue\n.4,1,2,3\n.5,1,2,3\n", "s.csv: column 'red' goes from 0.4 to 0.5 nm "
+                                                    "and ends in light, required: 400 to 700 "
+                                                    "nm or beyond"},
+        {"nm,red,green,blue,note\n400,1,2,3,4\n", "s.csv: header line: has 5 columns, required: "
+                                                  "nm, red, green, blue and maybe black, each "
+                                                  "once"},
         {"nm,red,green,blue\n400,1,2,3\n", "s.csv: has 1 wavelengths, required: more"}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         lab_write(lab, "s.csv", wrong[i][0]);

@@ -67,12 +67,18 @@ LAB_TEST(encodings_are_found) {
     check_white(lab);
     import_white(lab, marked);
     check_white(lab);
-    for (int i = 0; i < 2; i++)
-        for (size_t mark = 0; mark <= 2; mark += 2) { /* with and without it */
-            lab_write_bytes(lab, "white.csv", wide[i] + mark, sizeof wide[i] - mark);
-            lab_import(lab);
-            check_white(lab);
-        }
+    for (int i = 0; i < 2; i++) {
+        lab_write_bytes(lab, "white.csv", wide[i], sizeof wide[i]);
+        lab_import(lab);
+        check_white(lab);
+        lab_write_bytes(lab, "white.csv", wide[i] + 2, sizeof wide[i] - 2); /* without its mark */
+        lab_refused(lab, "white.csv: holds zero bytes, as UTF-16 without its mark — say "
+                         "--encoding utf-16le or utf-16be");
+        lab_declare(lab, "encoding", i ? "utf-16be" : "utf-16le");
+        lab_import(lab);
+        check_white(lab);
+        lab->request->text.encoding = ENCODING_AUTO;
+    }
 }
 
 LAB_TEST(comments_and_lines_before_the_header_are_passed_over) {
@@ -82,9 +88,6 @@ LAB_TEST(comments_and_lines_before_the_header_are_passed_over) {
     lab_declare(lab, "comment", "REM");
     lab_declare(lab, "skip_lines", "2");
     import_white(lab, "1,2,3,4,5\n6,7,8,9,10\nREM 1,2\n" WHITE);
-    check_white(lab);
-    import_white(lab, "0,0\n1,1\n# theta, phi, X, Y, Z\n0,0,95,100,109\n30,0,85,90,98\n"
-                      "30,90,75,80,87\n30,180,65,70,76\n");
     check_white(lab);
 }
 
@@ -100,14 +103,6 @@ LAB_TEST(columns_stand_in_any_order_and_others_are_left) {
     import_white(lab, "0,0,7,95,100,109\n30,0,7,85,90,98\n30,90,7,75,80,87\n30,180,7,65,70,"
                       "76\n");
     check_white(lab);
-}
-
-LAB_TEST(incidence_is_the_viewing_angle_of_luminances) {
-    import_white(lab, "Incidence angle;Azimuth angle;X;Y;Z\n0;0;95;100;109\n30;0;85;90;98\n"
-                      "30;90;75;80;87\n30;180;65;70;76\n");
-    check_white(lab);
-    import_white(lab, "[L]\nIncidence\\Azimuth;0;40\n0;1;2\n30;3;4\n");
-    assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 40, 1), 4, 0);
 }
 
 /* CIE 15: X = Y x/y, Z = Y (1-x-y)/y; X = 9 Y u'/(4v'), Z = Y (12-3u'-20v')/(4v'). */
@@ -163,10 +158,11 @@ LAB_TEST(units_of_luminance_become_candela_a_square_metre) {
         assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1), 10 * cases[i].factor,
                      1e-9);
     }
-    import_white(lab, "theta;phi;L;u';v'\ndeg;deg;fL;;\n0;0;10;.2;.5\n5;0;9;.2;.5\n"
-                      "9;0;8;.2;.5\n");
-    assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1), 34.262590996, 1e-9);
-    import_white(lab, "[fL]\nNeigung;Azimut;L\n0\xC2\xB0;0\xC2\xB0;10\n5\xC2\xB0;0;9\n9;0;8\n");
+    lab_write(lab, "white.csv", "theta;phi;L\ndeg;deg;fL\n0;0;10\n5;0;9\n9;0;8\n");
+    lab_refused(lab, "white.csv: line 2: stands between the header and its numbers — leave it out "
+                     "with --comment, and say the units it may hold with --unit and --angle-unit");
+    import_white(lab,
+                 "Unit: fL\nInclination;Azimuth;L\n0\xC2\xB0;0\xC2\xB0;10\n5\xC2\xB0;0;9\n9;0;8\n");
     assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 0, 0, 1), 34.262590996, 1e-9);
     lab_declare(lab, "unit", "fL");
     import_white(lab, "theta,phi,L\n0,0,10\n5,0,9\n10,0,8\n");
@@ -195,15 +191,9 @@ LAB_TEST(azimuths_are_turned_to_the_viewers_right) {
 }
 
 LAB_TEST(a_file_says_its_own_azimuths_and_units) {
-    import_white(lab, "[Conoscope export]\nPanel;Type 7\nInstrument;Cone 88\n"
-                      "Date;2026-03-14 09:30\nOperator;A. Name\n"
-                      "Azimuth;0 = 12 o'clock; clockwise\nUnit;fL\n\n"
+    import_white(lab, "[Conoscope export]\nAzimuth;0 = 12 o'clock; clockwise\nUnit;fL\n\n"
                       "theta;phi;X;Y;Z\n0;0;1;2;3\n40;30;4;5;6\n40;60;7;8;9\n");
     assert_close(lab_value(lab_table(lab, IMPORT_WHITE, 255), 40, 60, 1), 5 * 3.4262590996, 1e-9);
-    assert_string_equal(lab->set.panel, "Type 7");
-    assert_string_equal(lab->set.instrument, "Cone 88");
-    assert_string_equal(lab->set.date, "2026-03-14 09:30");
-    assert_string_equal(lab->set.operator_name, "A. Name");
     assert_false(lab_noted(lab, "azimuth 0 is taken"));
     import_white(lab, "theta;phi;X;Y;Z\n0;0;1;2;3\n40;30;4;5;6\n40;60;7;8;9\n");
     assert_true(lab_noted(lab, "azimuth 0 is taken to point right"));
@@ -263,13 +253,14 @@ LAB_TEST(matrices_read_down_and_across) {
     assert_near(lab_value(white, 0, 0, 1), 10, 0);
 }
 
-LAB_TEST(a_matrix_without_names_is_told_by_its_range) {
+LAB_TEST(a_matrix_without_names_is_told_by_options) {
     lab_declare(lab, "quantity", "L");
+    lab_declare(lab, "table", "theta-down");
     import_white(lab, ",0,120,240\n0,10,10,10\n30,20,30,40\n");
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 240, 1), 40, 0);
+    lab_declare(lab, "table", "phi-down");
     import_white(lab, ",0,30\n0,10,20\n120,10,30\n240,10,40\n");
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 240, 1), 40, 0);
-    lab_declare(lab, "table", "phi-down");
     import_white(lab, "0,0,30\n0,10,20\n40,10,30\n80,10,40\n");
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 80, 1), 40, 0);
 }
@@ -289,9 +280,11 @@ LAB_TEST(a_matrix_may_have_horizontal_and_vertical_angles) {
 
 LAB_TEST(one_file_a_component_is_joined) {
     static const char matrix[] = "theta\\phi,0,120,240\n0,1,1,1\n30,2,3,4\n";
-    lab_write(lab, "white_255_X.csv", matrix);
-    lab_write(lab, "white_255_Y.csv", matrix);
+    lab_write(lab, "one.csv", matrix);
+    lab_write(lab, "two.csv", matrix);
     lab_write(lab, "tristimulus.csv", matrix);
+    lab_role(lab, "one.csv", "white:X");
+    lab_role(lab, "two.csv", "white:Y");
     lab_role(lab, "tri*.csv", "white:Z");
     lab_import(lab);
     assert_int_equal(lab->set.count, 1);
@@ -463,35 +456,6 @@ LAB_TEST(scatter_units_become_brdf) {
         lab_import(lab);
         assert_close(lab_value(lab_table(lab, IMPORT_REFLECTION, 20), 60, 0, 0), wanted[i], 1e-12);
     }
-}
-
-LAB_TEST(signals_are_divided_by_the_white_reference_without_the_dark) {
-    lab_declare(lab, "unit", "signal");
-    lab_declare(lab, "white_reflectance", "0.99");
-    lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,11\n30,0,21\n60,0,31\n70,0,5\n");
-    lab_write(lab, "spectralon.csv", "theta,phi,550nm\n60,0,101\n30,0,101\n0,0,101\n");
-    lab_write(lab, "cap.csv", "theta,phi,550nm\n0,0,1\n30,0,1\n60,0,1\n70,0,1\n");
-    lab_role(lab, "spectralon.csv", "reference");
-    lab_role(lab, "cap.csv", "dark");
-    lab_import(lab);
-    assert_int_equal(lab->set.count, 1);
-    const ImportTable *table = lab_table(lab, IMPORT_REFLECTION, 20);
-    assert_int_equal(table->rows, 3);
-    assert_close(lab_value(table, 30, 0, 0), 0.2 * 0.99 / 3.14159265358979323846, 1e-12);
-}
-
-LAB_TEST(one_reading_of_a_reference_serves_every_direction) {
-    lab_declare(lab, "unit", "signal");
-    lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,11\n30,0,21\n60,0,31\n");
-    lab_write(lab, "ref.csv", "theta,phi,550nm\n0,0,101\n");
-    lab_write(lab, "cap.csv", "theta,phi,550nm\n0,0,1\n");
-    lab_role(lab, "ref.csv", "reference:20");
-    lab_role(lab, "cap.csv", "dark");
-    lab_import(lab);
-    const ImportTable *table = lab_table(lab, IMPORT_REFLECTION, 20);
-    assert_int_equal(table->rows, 3);
-    assert_close(lab_value(table, 60, 0, 0), 0.3 / 3.14159265358979323846, 1e-12);
-    assert_true(lab_noted(lab, "ref.csv is one reading"));
 }
 
 LAB_TEST(azimuths_of_the_light_make_an_anisotropic_set) {

@@ -18,13 +18,13 @@ static LevelTable read_table(Arena *arena, const char *text) {
     return table;
 }
 
-ARENA_TEST(codes_shares_and_percent_are_one_table) {
+ARENA_TEST(codes_and_shares_are_one_table) {
     static const char *const same[] = {
         "level,luminance_cd_m2\n0,1\n51,3\n255,101\n",
         "# a comment\nCode;Y;x;y\n0;1;.3;.3\n51;3;.3;.3\n255;101;.3;.3\n",
         "grey level,Lv (cd/m2)\n1,101\n0.2,3\n0,1\n",
-        "\xEF\xBB\xBFinput_%\twhite\n100\t101\n0\t1\n\n20\t3\n",
-        "step,level,L_white,time_s\n0,0,1,9\n1,51,3,9\n2,255,101,9\n",
+        "\xEF\xBB\xBFgrey\twhite\n1\t101\n0\t1\n\n.2\t3\n",
+        "step,level,L,time_s\n0,0,1,9\n1,51,3,9\n2,255,101,9\n",
     };
     for (int i = 0; i < 5; i++) {
         LevelTable table = read_table(&arena, same[i]);
@@ -38,7 +38,7 @@ ARENA_TEST(codes_shares_and_percent_are_one_table) {
     }
 }
 
-/* 10, 12 and 16 bits, and a highest code that is stated; relative luminance of any name. */
+/* 10, 12 and 16 bits, and a highest code that is stated; luminance that ends at 1 is relative. */
 ARENA_TEST(codes_of_more_bits_and_relative_luminance_are_one_table) {
     static const struct {
         const char *text;
@@ -51,13 +51,9 @@ ARENA_TEST(codes_of_more_bits_and_relative_luminance_are_one_table) {
         {"code,L\n0,1\n13107,3\n65535,101\n", 0, false},
         {"code,L\n0,1\n200,3\n1000,101\n", 1000, false},
         {"level,L\n0,1\n0.2,3\n1,101\n", 1023, false}, /* shares stay shares */
-        {"level_%,L\n0,1\n20,3\n100,101\n", 1023, false},
-        {"code,relative\n0,1\n51,3\n255,101\n", 0, true},
-        {"code,Y (%)\n0,.990099\n51,2.970297\n255,100\n", 0, true},
-        {"code,normalised luminance\n0,.00990099\n51,.02970297\n255,1\n", 0, true},
+        {"code,relative\n0,.00990099\n51,.02970297\n255,1\n", 0, true},
         {"code,L\n0,.00990099\n51,.02970297\n255,1\n", 0, true},
-        {"code,L/Lmax\n0,1\n51,3\n255,101\n", 0, true},
-        {"code,rel_R,rel_G,rel_B\n0,.0294117647,.0294117647,.0294117647\n"
+        {"code,R,G,B\n0,.0294117647,.0294117647,.0294117647\n"
          "51,.0488235294,.0488235294,.0488235294\n255,1,1,1\n",
          0, true},
     };
@@ -68,7 +64,7 @@ ARENA_TEST(codes_of_more_bits_and_relative_luminance_are_one_table) {
         assert_done(level_table_read(path, same[i].level_max, &arena, &table, &err));
         assert_near(table.level[1], 51, 1e-5);
         assert_near(table.level[2], 255, 0);
-        assert_near(table.black_share, 1.0 / 101 - (i == 12) * (1.0 / 101 - 1.0 / 100), 1e-6);
+        assert_near(table.black_share, 1.0 / 101 - (i == 8) * (1.0 / 101 - 1.0 / 100), 1e-6);
         assert_near(table.curve[2].share[0], 0.02, 1e-5);
         assert_true(table.is_relative == same[i].is_relative);
         assert_int_equal(level_table_check_white(&table, 380, "white", why()), same[i].is_relative);
@@ -218,7 +214,7 @@ ARENA_TEST(bad_tables_are_refused_by_line_and_words) {
         {"level,L\n0,1\n1,70\n", "line 3", "highest level is 1, so the full level is unclear"},
         {"level,L\n0,1\n50,20\n100,70\n", "line 4", "full level is unclear"},
         {"level,L\n0,1\n512,20\n1000,70\n", "line 4", "full level is unclear"},
-        {"level_%,L\n0,1\n51,20\n255,70\n", "line 4", "up to 100 in a column with %"},
+        {"level_%,L\n0,1\n20,20\n100,70\n", "line 4", "up to 1 with levels between (shares)"},
         {"level,L\n0,1\n128,20\n128,20\n255,70\n", "line 4", "level 128 stands in line 3"},
         {"level,L\n0,1\n128,1\n255,1\n", "line 4", "full level has no more light than level 0"},
         {"level,L\n0,0\n255,0\n", "line 3", "full level has no more light than level 0"},

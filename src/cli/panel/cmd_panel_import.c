@@ -139,7 +139,7 @@ static int list_options(Words *words, Option *option, Arena *arena) {
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &words->root},
         {"--role", OPTION_TEXTS, "PATTERN=ROLE",
          "what files are: red:255, black, white, "
-         "brdf:INCIDENCE[:AZIMUTH[:NM]], dark, reference[:INCIDENCE], skip",
+         "brdf:INCIDENCE[:AZIMUTH[:NM]], skip",
          &words->roles},
         {"--skip", OPTION_TEXTS, "PATTERN", "files to leave out", &words->skip},
         {"--format", OPTION_TEXT, "NAME", "the files' format (default: found from each file)",

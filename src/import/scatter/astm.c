@@ -256,7 +256,7 @@ static const float *name_bands(const Astm *in, const ImportOptions *options, Imp
     if (in->nm) return in->nm;
     if (in->is_rgb) return scatter_rgb_bands(file, set);
     return in->is_xyz ? scatter_xyz(options, file, set)
-                      : scatter_wavelength(0, options, file, set, err);
+                      : scatter_wavelength(options, file, set, err);
 }
 
 static bool read_astm(const char *file, const ImportOptions *options, ImportSet *set, Error *err) {

@@ -132,10 +132,9 @@ const float *scatter_band(double nm, ImportSet *set) {
     return band;
 }
 
-const float *scatter_wavelength(double stated_nm, const ImportOptions *options, const char *file,
-                                ImportSet *set, Error *err) {
-    double nm = options->wavelength_nm > 0 ? options->wavelength_nm : stated_nm;
-    if (nm > 0) return scatter_band(nm, set);
+const float *scatter_wavelength(const ImportOptions *options, const char *file, ImportSet *set,
+                                Error *err) {
+    if (options->wavelength_nm > 0) return scatter_band(options->wavelength_nm, set);
     error_at(err, ERROR_INPUT, file, "",
              "does not say the wavelength of its values — give it "
              "as --wavelength NM");

@@ -54,10 +54,9 @@ bool scatter_add(ImportSet *set, const char *file, const ImportRows *rows, Scatt
 /* One band. */
 const float *scatter_band(double nm, ImportSet *set);
 
-/* --wavelength, else the one that the file states (0: none); or an error that requests it
- * (NULL). */
-const float *scatter_wavelength(double stated_nm, const ImportOptions *options, const char *file,
-                                ImportSet *set, Error *err);
+/* --wavelength; or an error that requests it (NULL). */
+const float *scatter_wavelength(const ImportOptions *options, const char *file, ImportSet *set,
+                                Error *err);
 
 /* Of X, Y and Z the photopic Y alone is taken, with a note, and stands at one wavelength, with
  * another; --wavelength wins. */

@@ -6,13 +6,11 @@
  * towards the normal, counter-clockwise as one looks down on the surface. Rows stand at the
  * file's own directions; those under the horizon are left out. A sample turned by S
  * counter-clockwise is the same as light that comes from 180 - S. */
-#include <ctype.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/count.h"
 #include "base/file.h"
-#include "base/number.h"
 #include "import/scatter/scan.h"
 #include "import/scatter/scatter.h"
 
@@ -177,55 +175,6 @@ static bool read_data(Zemax *in, Error *err) {
     return is_ended || scan_fail(&in->scan, err, "the file ends without DataEnd");
 }
 
-/* ---- the wavelength in the comments ------------------------------------------------------ */
-
-/* The number that ends before `stop` (blanks between allowed) and does not begin before
- * `begin`. */
-static bool number_before(const char *begin, const char *stop, double *out) {
-    char number[16];
-    while (stop > begin && stop[-1] == ' ') stop--;
-    const char *digit = stop;
-    while (digit > begin && (isdigit((unsigned char)digit[-1]) || digit[-1] == '.')) digit--;
-    size_t length = (size_t)(stop - digit);
-    if (!length || length >= sizeof number) return false;
-    memcpy(number, digit, length);
-    number[length] = 0;
-    return number_is(number, out);
-}
-
-/* The number after "(nm) =" or "(nm):". */
-static bool number_after(const char *text, const char *end, double *out) {
-    while (text < end && strchr(") =:\t", *text)) text++;
-    const char *stop = text;
-    while (stop < end && (isdigit((unsigned char)*stop) || *stop == '.')) stop++;
-    return number_before(text, stop, out);
-}
-
-/* "650 nm", "650nm" or "(nm) = 650" in a line that begins with #; 0: none. */
-static double comment_wavelength(const char *text, const char *end) {
-    for (const char *c = text; c + 1 < end; c++) {
-        bool is_longer = c + 2 < end && isalnum((unsigned char)c[2]);
-        if (c[0] != 'n' || c[1] != 'm' || is_longer) continue;
-        const char *line = c;
-        double nm;
-        while (line > text && line[-1] != '\n') line--;
-        if (*line != '#') continue;
-        if (!number_before(line, c, &nm) && !number_after(c + 2, end, &nm)) continue;
-        if (nm >= 100 && nm <= 20000) return nm;
-    }
-    return 0;
-}
-
-static const float *find_wavelength(const Zemax *in, const ImportOptions *options, ImportSet *set,
-                                    const char *text, Error *err) {
-    const char *file = in->scan.file;
-    if (in->is_xyz) return scatter_xyz(options, file, set);
-    double stated = comment_wavelength(text, in->scan.end);
-    if (!(options->wavelength_nm > 0) && stated > 0)
-        import_note(set, "%s: %g nm is read from the file's comments", path_name(file), stated);
-    return scatter_wavelength(stated, options, file, set, err);
-}
-
 /* ---- tables ------------------------------------------------------------------------------ */
 
 static void put_about_mirror(ImportRows *rows, double incidence_deg, double radial_deg,
@@ -285,11 +234,11 @@ static bool read_zemax(const char *file, const ImportOptions *options, ImportSet
     Zemax in = {.rotations = 0};
     const float *nm;
     if (!scan_open(file, set->arena, &in.scan, err)) return false;
-    const char *text = in.scan.next;
     for (bool done = false; !done;)
         if (!read_entry(&in, &done, err)) return false;
-    return check_header(&in, err) && read_data(&in, err) &&
-           (nm = find_wavelength(&in, options, set, text, err)) && add_tables(&in, nm, set, err);
+    if (!check_header(&in, err) || !read_data(&in, err)) return false;
+    nm = in.is_xyz ? scatter_xyz(options, file, set) : scatter_wavelength(options, file, set, err);
+    return nm && add_tables(&in, nm, set, err);
 }
 
 static bool is_zemax(const char *file, const char *head, size_t head_size) {

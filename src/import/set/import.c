@@ -9,8 +9,7 @@
 #include "base/file.h"
 
 const char *import_source_name(ImportSource source) {
-    static const char *const names[] = {"red",   "green",      "blue", "black",
-                                        "white", "reflection", "dark", "reference"};
+    static const char *const names[] = {"red", "green", "blue", "black", "white", "reflection"};
     return names[source];
 }
 
@@ -22,7 +21,6 @@ int import_word_find(const char *const *list, const char *word) {
 
 ImportSet import_set(Arena *arena) {
     return (ImportSet){.arena = arena,
-                       .white_reflectance = 1,
                        .inputs = {.arena = arena},
                        .table = ARENA_NEW(arena, ImportTable, IMPORT_TABLES_MAX)};
 }
@@ -111,9 +109,8 @@ bool import_add(ImportSet *set, const ImportTable *table, Error *err) {
         return error_at(err, ERROR_INPUT, table->file, "", "has no measured direction");
     if (table->rows > IMPORT_ROWS_MAX)
         return refuse(table, err, "the number of directions", table->rows, "at most 8000000");
-    bool is_light = table->source == IMPORT_REFLECTION || table->source == IMPORT_REFERENCE;
-    bool ok = is_light ? check_reflection(table, err)
-                       : table->source == IMPORT_DARK || check_emission(table, err);
+    bool ok = table->source == IMPORT_REFLECTION ? check_reflection(table, err)
+                                                 : check_emission(table, err);
     if (!ok || !check_directions(table, err)) return false;
     ImportTable *added = &set->table[set->count++];
     *added = *table; /* angles in steps that a file's name can hold */

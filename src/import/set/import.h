@@ -28,11 +28,8 @@ typedef enum ImportSource {
     IMPORT_GREEN,
     IMPORT_BLUE,
     IMPORT_BLACK,
-    IMPORT_WHITE,      /* emission: XYZ */
-    IMPORT_REFLECTION, /* a channel a wavelength */
-    /* for import_complete, which takes them out of the set: */
-    IMPORT_DARK,     /* what the instrument reads without light; subtracted from every table */
-    IMPORT_REFERENCE /* signal of a white reference of known reflectance: signals are divided */
+    IMPORT_WHITE,     /* emission: XYZ */
+    IMPORT_REFLECTION /* a channel a wavelength */
 } ImportSource;
 
 /* "red", "black", "reflection". */
@@ -51,9 +48,6 @@ typedef struct ImportTable {
                                           is luminance without colour */
     bool is_section;                   /* directions of one azimuth: sections of the same source
                                           or light are put together */
-    bool is_any_light;                 /* reference: serves every light */
-    bool is_signal;                    /* reflection, reference: no BRDF yet but a signal, to be
-                                          divided by the reference's */
     const float *wavelength_nm;        /* reflection: channels of them, rising. Tables of the same
                                           light and directions at other wavelengths are joined */
     const double *theta_deg, *phi_deg; /* rows; theta in [0, 90], any phi */
@@ -94,7 +88,6 @@ typedef struct ImportSet {
     double peaks_nm[3];             /* of their bands; 0: not stated */
     const char *panel, *instrument; /* names for the manifest; NULL: the file's */
     const char *date, *operator_name, *conditions; /* of the measurement; NULL: not stated */
-    double white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
     ImportSpectra spectra;
     double white_apart[2]; /* of a white beside primaries (panel/set/measured.h); 0, 0: none */
     const struct LevelTable *levels;      /* of white alone (panel/set/level_table.h); NULL: none */

@@ -94,7 +94,7 @@ static bool write_spectra(SetOutput *out) {
     if (!spectra->rows) return true;
     text_format(&text, "nm,red,green,blue%s\n", spectra->value[3] ? ",black" : "");
     for (int i = 0; i < spectra->rows; i++) {
-        text_format(&text, "%.9g", spectra->nm[i]);
+        text_format(&text, "%.7g", spectra->nm[i]); /* of a float */
         for (int p = 0; p < 4 && spectra->value[p]; p++) add_value(&text, spectra->value[p][i]);
         text_add(&text, "\n");
     }

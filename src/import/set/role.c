@@ -2,7 +2,6 @@
 #include "import/set/role.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,8 +20,7 @@ typedef struct RoleWord {
 static bool bad_role(const char *text, Error *err) {
     return error_set(err, ERROR_USAGE,
                      "the role '%s' is unknown, required: red, green or blue with :LEVEL, "
-                     "black, white, brdf:INCIDENCE[:AZIMUTH[:WAVELENGTH]], dark, "
-                     "reference[:INCIDENCE] or skip",
+                     "black, white, brdf:INCIDENCE[:AZIMUTH[:WAVELENGTH]] or skip",
                      text);
 }
 
@@ -73,8 +71,8 @@ static bool parse_pattern(const char *const *field, int count, double level_max,
 }
 
 bool role_parse(const char *text, double level_max, Role *out, Error *err) {
-    static const char *const names[] = {"red",  "green", "blue",     "black", "white",
-                                        "brdf", "dark",  "reference"}; /* as ImportSource */
+    static const char *const names[] = {"red",   "green", "blue",
+                                        "black", "white", "brdf"}; /* as ImportSource */
     char copy[128];
     const char *field[4] = {0};
     int count = cut_fields(text, copy, sizeof copy, field);
@@ -87,10 +85,8 @@ bool role_parse(const char *text, double level_max, Role *out, Error *err) {
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(field[0], names[i]) != 0) continue;
         role.source = (ImportSource)i;
-        bool is_light = role.source == IMPORT_REFLECTION || role.source == IMPORT_REFERENCE;
-        bool ok = role.source == IMPORT_DARK ? count == 1
-                  : is_light                 ? parse_light(field, count, &role)
-                                             : parse_pattern(field, count, level_max, &role);
+        bool ok = role.source == IMPORT_REFLECTION ? parse_light(field, count, &role)
+                                                   : parse_pattern(field, count, level_max, &role);
         if (!ok) return bad_role(text, err);
         *out = role;
         return true;
@@ -129,14 +125,10 @@ static int cut_words(const char *text, RoleWord *word) {
 
 /* The pattern that a word names; a single letter counts only before a number. */
 static int colour_of(const RoleWord *word, bool before_number) {
-    static const char *const words[5][5] = {{"red", "rot", "rouge", NULL},
-                                            {"green", "gruen", "gr\xC3\xBCn", "vert", NULL},
-                                            {"blue", "blau", "bleu", NULL},
-                                            {"black", "schwarz", "noir", NULL},
-                                            {"white", "weiss", "wei\xC3\x9F", "blanc", NULL}};
+    static const char *const words[5] = {"red", "green", "blue", "black", "white"};
     static const char letters[] = "rgbkw";
     for (int c = 0; c < 5; c++) {
-        if (import_word_find(words[c], word->text) >= 0) return c;
+        if (!strcmp(words[c], word->text)) return c;
         if (before_number && word->text[0] == letters[c] && !word->text[1]) return c;
     }
     return -1;
@@ -208,9 +200,6 @@ static void read_words(WordReader *in) {
                 in->role.has_level = true;
             }
         }
-        if (i && i + 1 == in->count && word->text[0] >= 'x' && word->text[0] <= 'z' &&
-            !word->text[1])
-            in->role.component = (char)toupper(word->text[0]);
     }
 }
 
@@ -223,7 +212,6 @@ Role role_from_words(const char *words, double level_max, bool *is_ambiguous) {
     role->is_known = in.colours + in.lights == 1;
     if (in.lights) {
         role->source = IMPORT_REFLECTION;
-        role->component = 0;
         return *role;
     }
     if (role->source == IMPORT_BLACK || !role->has_level) {
@@ -236,24 +224,4 @@ Role role_from_words(const char *words, double level_max, bool *is_ambiguous) {
     *is_ambiguous &= in.colours > 0;
     if (*is_ambiguous) role->is_known = false;
     return *role;
-}
-
-/* ---- names and agreement ----------------------------------------------------------------- */
-
-const char *role_text(const Role *role, Arena *arena) {
-    const char *name = import_source_name(role->source);
-    if (role->source == IMPORT_REFLECTION)
-        return arena_format(arena, "%s at incidence %g", name, role->incidence_deg);
-    if (role->source > IMPORT_BLUE) return name;
-    return arena_format(arena, "%s %g%s%.1s", name, role->level, role->component ? " " : "",
-                        &role->component);
-}
-
-bool role_agrees(const Role *a, const Role *b) {
-    if (a->source != b->source) return false;
-    if (a->has_incidence && b->has_incidence &&
-        fabs(a->incidence_deg - b->incidence_deg) > SAME_ANGLE_DEG)
-        return false;
-    if (a->has_level && b->has_level && a->level != b->level) return false;
-    return !a->component || !b->component || a->component == b->component;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* role.h -- what a file is in a measurement set: which primary at which level, which light.
  *
- * Stated by an option ("red:255", "brdf:20:90:550"), by words inside the file ("Sample;blue
- * 127") or by its name ("R_031.csv", "i10_w550.txt").
+ * Stated by an option ("red:255", "brdf:20:90:550") or by the file's name ("R_031.csv",
+ * "i10_w550.txt").
  *
  * Memory   none. Threads: no shared state.
  */
@@ -22,16 +22,10 @@ typedef struct Role {
     double wavelength_nm; /* 0: not stated */
 } Role;
 
-/* "red[:LEVEL[:X|Y|Z]]", "black", "white", "brdf:INCIDENCE[:AZIMUTH[:WAVELENGTH]]", "dark",
- * "reference[:INCIDENCE[:AZIMUTH[:WAVELENGTH]]]", "skip". Levels go up to level_max. */
+/* "red[:LEVEL[:X|Y|Z]]", "black", "white", "brdf:INCIDENCE[:AZIMUTH[:WAVELENGTH]]", "skip".
+ * Levels go up to level_max. */
 bool role_parse(const char *text, double level_max, Role *out, Error *err);
 
 /* Words and letters with numbers, in any case. Not known when nothing is found; *is_ambiguous
  * when more than one thing is. */
 Role role_from_words(const char *words, double level_max, bool *is_ambiguous);
-
-/* "red 127", "reflection at 20 degrees": for messages; from a static or the arena. */
-const char *role_text(const Role *role, Arena *arena);
-
-/* The same table of a set? Levels, incidence and component count where both have them. */
-bool role_agrees(const Role *a, const Role *b);

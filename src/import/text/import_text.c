@@ -78,9 +78,7 @@ static bool emission_channels(TextReader *in, TextChannels *out) {
 static float column_wavelength(const TextReader *in, int column) {
     double nm = in->raw->column[column].name.wavelength_nm;
     if (nm > 0) return (float)nm;
-    if (in->role.wavelength_nm > 0) return (float)in->role.wavelength_nm;
-    return (float)(in->metadata.wavelength_nm > 0 ? in->metadata.wavelength_nm
-                                                  : in->import->wavelength_nm);
+    return (float)(in->role.wavelength_nm > 0 ? in->role.wavelength_nm : in->import->wavelength_nm);
 }
 
 static bool reflection_channels(TextReader *in, TextChannels *out) {
@@ -210,13 +208,12 @@ static bool fill_table(TextReader *in, const TextChannels *channels, const RowGr
     if (beyond)
         import_note(in->set, "%s: %d of %d directions lie beyond 90 degrees and are left out",
                     path_name(in->file), beyond, count);
-    bool is_helper = table->source == IMPORT_DARK || table->source == IMPORT_REFERENCE;
-    if (table->rows < (is_helper ? 1 : DIRECTIONS_MIN))
+    if (table->rows < DIRECTIONS_MIN)
         return error_at(in->err, ERROR_INPUT, in->file, row_place(in, group[0].row),
                         "begins a table of %d measured direction%s, required: an angular "
                         "table of at least %d — leave the file out (--role FILE=skip) if it "
                         "is none",
-                        table->rows, table->rows == 1 ? "" : "s", is_helper ? 1 : DIRECTIONS_MIN);
+                        table->rows, table->rows == 1 ? "" : "s", DIRECTIONS_MIN);
     return import_add(in->set, table, in->err);
 }
 
@@ -293,7 +290,6 @@ static void light_of(const TextReader *in, const RowGroup *group, ImportTable *t
                              "direction: no azimuth of the light is stated (--light-azimuth)");
     }
     if (incidence < 0) azimuth += 180;
-    table->is_any_light = !has_column && !in->role.has_incidence;
     table->incidence_deg = fabs(incidence);
     table->incidence_phi_deg = fmod(azimuth, 360);
 }
@@ -322,7 +318,6 @@ static bool add_group(TextReader *in, const TextChannels *channels, const RowGro
             own->nm[0] = (float)group->key[2];
         }
         table.wavelength_nm = own->nm;
-        table.is_signal = in->unit == UNIT_SIGNAL;
     } else {
         emission_of(in, &role, channels, &table);
     }
@@ -351,18 +346,17 @@ static bool text_table_add(TextReader *in) {
 static bool fails_unstated(TextReader *in, bool is_ambiguous) {
     const char *wanted =
         in->is_reflection ? "brdf:INCIDENCE" : "red:255 (or green, blue, black, white)";
-    return error_at(
-        in->err, ERROR_INPUT, in->file, "", "%s %s — say it with --role %s=%s",
-        is_ambiguous ? "tells more than one" : "does not tell, by its contents or its name,",
-        in->is_reflection ? is_ambiguous ? "angle of incidence" : "the light's angle of incidence"
-        : is_ambiguous    ? "pattern"
-                          : "which pattern it shows",
-        path_name(in->file), wanted);
+    return error_at(in->err, ERROR_INPUT, in->file, "", "%s %s — say it with --role %s=%s",
+                    is_ambiguous ? "tells more than one" : "does not tell by its name",
+                    in->is_reflection
+                        ? is_ambiguous ? "angle of incidence" : "the light's angle of incidence"
+                    : is_ambiguous ? "pattern"
+                                   : "which pattern it shows",
+                    path_name(in->file), wanted);
 }
 
 static bool fits_kind(const TextReader *in, const Role *role) {
-    bool is_light = role->source == IMPORT_REFLECTION || role->source == IMPORT_REFERENCE;
-    return role->source == IMPORT_DARK || is_light == in->is_reflection;
+    return (role->source == IMPORT_REFLECTION) == in->is_reflection;
 }
 
 static bool role_from_option(TextReader *in, const char *text) {
@@ -387,52 +381,19 @@ static const char *name_without_ending(TextReader *in) {
     return arena_string(in->set->arena, name, length ? length : strlen(name));
 }
 
-/* The role of a reflection table whose own text states the incidence. */
-static Role stated_light(const TextReader *in) {
-    return (Role){.is_known = in->metadata.has_incidence,
-                  .source = IMPORT_REFLECTION,
-                  .has_incidence = in->metadata.has_incidence,
-                  .incidence_deg = in->metadata.incidence_deg,
-                  .wavelength_nm = in->metadata.wavelength_nm};
-}
-
-static bool fails_twice(TextReader *in, const Role *stated, const Role *named) {
-    Arena *arena = in->set->arena;
-    return error_at(in->err, ERROR_INPUT, in->file,
-                    in->metadata.words_line >= 0 ? text_place(in->metadata.words_line, arena) : "",
-                    "is %s by its contents and %s by its name — say which with --role %s=...",
-                    role_text(stated, arena), role_text(named, arena), path_name(in->file));
-}
-
+/* By --role, a column, or the file's name. */
 static bool find_role(TextReader *in) {
-    double most = text_options_level_max(in->options);
-    bool is_mixed[2] = {false, false};
-    bool by_column =
-        in->is_reflection ? in->column[QUANTITY_INCIDENCE] >= 0 : in->column[QUANTITY_CODE_R] >= 0;
+    bool is_mixed = false;
     const char *text = text_options_role(in->options, in->file);
     if (text) return role_from_option(in, text);
-    Role stated = in->is_reflection ? stated_light(in)
-                                    : role_from_words(in->metadata.words, most, &is_mixed[0]);
-    Role named = role_from_words(name_without_ending(in), most, &is_mixed[1]);
-    if (named.is_known && !fits_kind(in, &named)) named = (Role){.is_known = false};
-    in->role = stated.is_known ? stated : named;
-    if (by_column) {
+    in->role =
+        role_from_words(name_without_ending(in), text_options_level_max(in->options), &is_mixed);
+    if (in->role.is_known && !fits_kind(in, &in->role)) in->role = (Role){.is_known = false};
+    if (in->column[in->is_reflection ? QUANTITY_INCIDENCE : QUANTITY_CODE_R] >= 0) {
         in->role.source = IMPORT_REFLECTION;
         return true;
     }
-    if (stated.is_known && named.is_known && !role_agrees(&stated, &named))
-        return fails_twice(in, &stated, &named);
-    if (stated.is_known && named.is_known) { /* each may know what the other leaves open */
-        if (!stated.has_level && named.has_level) in->role.level = named.level;
-        if (!stated.component) in->role.component = named.component;
-        if (!stated.has_azimuth && named.has_azimuth) {
-            in->role.has_azimuth = true;
-            in->role.azimuth_deg = named.azimuth_deg;
-        }
-        if (!(stated.wavelength_nm > 0)) in->role.wavelength_nm = named.wavelength_nm;
-    }
-    bool is_ambiguous = is_mixed[0] || (!stated.is_known && is_mixed[1]);
-    return in->role.is_known || fails_unstated(in, is_ambiguous);
+    return in->role.is_known || fails_unstated(in, is_mixed);
 }
 
 /* ---- columns ----------------------------------------------------------------------------- */
@@ -443,15 +404,14 @@ static void index_columns(TextReader *in) {
         in->column[in->raw->column[c].name.quantity] = c;
 }
 
-/* A matrix without a label: --quantity names what it holds, or a component in role or name. */
+/* A matrix without a label: --quantity names what it holds, or a component in the role. */
 static bool name_unlabelled(TextReader *in) {
     int c = in->column[QUANTITY_NONE];
     if (c < 0) return true;
     ColumnName *name = &in->raw->column[c].name;
     const char *given = in->options->quantity, *role = text_options_role(in->options, in->file);
     double most = text_options_level_max(in->options);
-    bool is_mixed;
-    Role named = role_from_words(name_without_ending(in), most, &is_mixed);
+    Role named = {.is_known = false};
     if (role && !role_parse(role, most, &named, in->err)) return false;
     if (given) {
         *name = column_name((TextCell){given, (int)strlen(given)});
@@ -500,25 +460,7 @@ static bool find_kind(TextReader *in) {
                                                        : "no pair of angles");
 }
 
-static bool check_wavelength(TextReader *in) {
-    double given = in->import->wavelength_nm, stated = in->metadata.wavelength_nm;
-    if (given > 0 && stated > 0 && fabs(given - stated) > 1e-3)
-        return error_at(in->err, ERROR_INPUT, in->file, "",
-                        "says a wavelength of %g nm, and --wavelength says %g", stated, given);
-    return true;
-}
-
 /* ---- the importer ------------------------------------------------------------------------ */
-
-static void note_names(TextReader *in) {
-    if (!in->set->panel) in->set->panel = in->metadata.panel;
-    if (!in->set->instrument) in->set->instrument = in->metadata.instrument;
-    if (!in->set->date) in->set->date = in->metadata.date;
-    if (!in->set->operator_name) in->set->operator_name = in->metadata.operator_name;
-    if (in->metadata.unused_columns)
-        import_note(in->set, "%s: %d columns with other names are not used", path_name(in->file),
-                    in->metadata.unused_columns);
-}
 
 static bool read_text(const char *file, const ImportOptions *options, ImportSet *set, Error *err) {
     static const TextOptions nothing;
@@ -530,10 +472,11 @@ static bool read_text(const char *file, const ImportOptions *options, ImportSet 
                      .raw = ARENA_NEW(set->arena, NamedRows, 1)};
     if (!text_scan(file, in.options, set->arena, in.raw, &in.metadata, err)) return false;
     index_columns(&in);
-    if (!name_unlabelled(&in) || !find_kind(&in) || !check_wavelength(&in) || !find_role(&in) ||
-        !text_conventions_find(&in))
+    if (!name_unlabelled(&in) || !find_kind(&in) || !find_role(&in) || !text_conventions_find(&in))
         return false;
-    note_names(&in);
+    if (in.metadata.unused_columns)
+        import_note(set, "%s: %d columns with other names are not used", path_name(file),
+                    in.metadata.unused_columns);
     return text_table_add(&in);
 }
 

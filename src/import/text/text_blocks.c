@@ -6,12 +6,6 @@
 
 /* ---- labels ------------------------------------------------------------------------------ */
 
-static bool is_label_key(TextCell cell) {
-    static const char *const keys[] = {"component", "channel",     "data",  "quantity",
-                                       "value",     "tristimulus", "block", NULL};
-    return text_cell_find(keys, cell) >= 0;
-}
-
 static TextCell without_brackets(TextCell cell) {
     if (cell.length > 2 && cell.text[0] == '[' && cell.text[cell.length - 1] == ']')
         cell = (TextCell){cell.text + 1, cell.length - 2};
@@ -21,8 +15,8 @@ static TextCell without_brackets(TextCell cell) {
 
 bool text_blocks_label(TextBlocks *blocks, const TextCell *cell, int count) {
     while (count > 1 && !cell[count - 1].length) count--;
-    if (count > 2 || (count == 2 && !is_label_key(without_brackets(cell[0])))) return false;
-    TextCell text = without_brackets(cell[count - 1]);
+    if (count > 1) return false;
+    TextCell text = without_brackets(cell[0]);
     ColumnName name = column_name(text);
     if (name.quantity < QUANTITY_X) return false;
     blocks->label = name;
@@ -84,22 +78,7 @@ static void corner_names(const char *corner, ColumnName name[2]) {
     name[1] = column_name((TextCell){rest, (int)strlen(rest)});
 }
 
-static double largest_down(const TextBlock *block, int across) {
-    double most = 0;
-    for (int i = 0; i < block->down.count; i++)
-        most = fmax(most, fabs(block->down.cell[(size_t)i * (size_t)(across + 1)]));
-    return most;
-}
-
-static double largest_across(const TextBlock *block, int across) {
-    double most = 0;
-    for (int i = 0; i < across; i++) most = fmax(most, fabs(block->angle[i]));
-    return most;
-}
-
 static TableLayout corner_layout(const ColumnName name[2]) {
-    if (name[0].quantity == QUANTITY_INCIDENCE) return LAYOUT_THETA_DOWN;
-    if (name[1].quantity == QUANTITY_INCIDENCE) return LAYOUT_PHI_DOWN;
     if (name[0].quantity == QUANTITY_THETA || name[1].quantity == QUANTITY_PHI)
         return LAYOUT_THETA_DOWN;
     if (name[0].quantity == QUANTITY_PHI || name[1].quantity == QUANTITY_THETA)
@@ -117,17 +96,6 @@ static const char *name_of_down(TableLayout layout) {
     return names[layout];
 }
 
-/* An inclination does not exceed 90 degrees (1.6 radians are no more than that either). */
-static TableLayout find_layout(const TextBlocks *blocks, const ColumnName name[2]) {
-    const TextBlock *block = &blocks->block[0];
-    double down = largest_down(block, blocks->across);
-    double across = largest_across(block, blocks->across);
-    TableLayout layout = corner_layout(name);
-    if (layout != LAYOUT_AUTO) return layout;
-    if (across > 91 && down <= 91) return LAYOUT_THETA_DOWN;
-    return down > 91 && across <= 91 ? LAYOUT_PHI_DOWN : LAYOUT_AUTO;
-}
-
 static bool choose_layout(const TextBlocks *blocks, const ColumnName name[2], TableLayout *out,
                           Error *err) {
     const TextBlock *block = &blocks->block[0];
@@ -137,7 +105,7 @@ static bool choose_layout(const TextBlocks *blocks, const ColumnName name[2], Ta
         return error_at(err, ERROR_INPUT, blocks->text->file, at,
                         "the corner '%s' says that %s runs down, and --table says the other",
                         block->corner, name_of_down(found));
-    *out = given != LAYOUT_AUTO ? given : find_layout(blocks, name);
+    *out = given != LAYOUT_AUTO ? given : found;
     if (*out != LAYOUT_AUTO) return true;
     return error_at(err, ERROR_INPUT, blocks->text->file, at,
                     "does not tell whether theta runs down or across — say --table theta-down "

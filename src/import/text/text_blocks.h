@@ -28,7 +28,7 @@ typedef struct TextBlocks {
     const char *label_text;
 } TextBlocks;
 
-/* "[X]", "Luminance (cd/m2)", "Component;X": the label of the next block. */
+/* "[X]", "Luminance (cd/m2)": the label of the next block. */
 bool text_blocks_label(TextBlocks *blocks, const TextCell *cell, int count);
 
 /* A matrix begins: its corner and the angles across. */

@@ -30,16 +30,6 @@ static TextEncoding find_encoding(const unsigned char *bytes, size_t size, size_
     if (size >= 2 && bytes[0] == 0xFF && bytes[1] == 0xFE) return *mark = 2, ENCODING_UTF16LE;
     if (size >= 2 && bytes[0] == 0xFE && bytes[1] == 0xFF) return *mark = 2, ENCODING_UTF16BE;
     if (size >= 3 && !memcmp(bytes, "\xEF\xBB\xBF", 3)) return *mark = 3, ENCODING_UTF8;
-    size_t zeros[2] = {0, 0}, seen = size < 512 ? size : 512;
-    for (size_t i = 0; i < seen; i++) zeros[i & 1] += bytes[i] == 0;
-    if (zeros[1] > seen / 4 && !zeros[0]) return ENCODING_UTF16LE;
-    if (zeros[0] > seen / 4 && !zeros[1]) return ENCODING_UTF16BE;
-    unsigned code;
-    for (size_t i = 0; i < size;) {
-        int length = utf8_decode((const char *)bytes + i, size - i, &code);
-        if (!length) return ENCODING_LATIN1;
-        i += (size_t)length;
-    }
     return ENCODING_UTF8;
 }
 
@@ -112,6 +102,10 @@ bool text_file_decode(const char *file, FileBytes bytes, TextEncoding encoding, 
     TextFile text = {.file = file};
     TextEncoding found = find_encoding(bytes.data, bytes.size, &mark);
     if (encoding == ENCODING_AUTO) encoding = found;
+    if (encoding == ENCODING_UTF8 && memchr(bytes.data, 0, bytes.size < 512 ? bytes.size : 512))
+        return error_at(err, ERROR_INPUT, file, "",
+                        "holds zero bytes, as UTF-16 without its mark — say --encoding utf-16le "
+                        "or utf-16be");
     char *decoded = ARENA_NEW(arena, char, 2 * (bytes.size - mark) + 1);
     char *end = decode(bytes.data + mark, bytes.size - mark, encoding, decoded);
     if (!cut_lines(decoded, end, arena, &text, err)) return false;
@@ -181,14 +175,6 @@ int text_cells(TextLine line, char delimiter, TextCell *cell) {
     }
 }
 
-int text_cell_find(const char *const *list, TextCell cell) {
-    for (int i = 0; list[i]; i++)
-        if ((int)strlen(list[i]) == cell.length &&
-            !strncasecmp(list[i], cell.text, (size_t)cell.length))
-            return i;
-    return -1;
-}
-
 bool text_number(TextCell cell, char decimal, double *out) {
     char plain[CELL_DIGITS_MAX + 1];
     bool has_digit = false;
@@ -215,7 +201,10 @@ bool text_is_masked(TextCell cell) {
                                         "-1.#ind", "inf",  NULL};
     bool only_marks = true;
     for (int i = 0; i < cell.length; i++) only_marks &= strchr("-*?", cell.text[i]) != NULL;
-    return only_marks || text_cell_find(words, cell) >= 0;
+    for (int i = 0; words[i] && !only_marks; i++)
+        only_marks = (int)strlen(words[i]) == cell.length &&
+                     !strncasecmp(words[i], cell.text, (size_t)cell.length);
+    return only_marks;
 }
 
 /* ---- which delimiter, which decimal sign ------------------------------------------------- */

@@ -31,8 +31,8 @@ typedef struct TextFile {
     int count; /* line i is number i + 1 of the file */
 } TextFile;
 
-/* Reads and decodes to UTF-8: a byte order mark decides, then zero bytes at every second place
- * (UTF-16), then whether the bytes are UTF-8; else Latin-1. */
+/* Reads and decodes to UTF-8: a byte order mark tells UTF-16, else it is UTF-8, whose broken bytes
+ * count as Latin-1. */
 bool text_file_read(const char *file, TextEncoding encoding, Arena *arena, TextFile *out,
                     Error *err);
 
@@ -61,9 +61,6 @@ typedef struct TextCell {
 /* Cuts a line; at most TEXT_CELLS_MAX cells. An empty last cell behind a final delimiter
  * counts. Returns the number of cells, or -1 when there are too many. */
 int text_cells(TextLine line, char delimiter, TextCell *cell);
-
-/* Its place among words in any case, in a list that ends with NULL, or -1. */
-int text_cell_find(const char *const *list, TextCell cell);
 
 /* A decimal number and nothing else (but a degree sign), with this decimal sign. */
 bool text_number(TextCell cell, char decimal, double *out);

@@ -22,7 +22,7 @@ typedef struct Parts {
 /* One quantity or unit, and what files call it. */
 typedef struct WordMeaning {
     int meaning;
-    const char *word[18]; /* up to NULL */
+    const char *word[8]; /* up to NULL */
 } WordMeaning;
 
 /* 0: the word stands in no row. */
@@ -43,7 +43,6 @@ static const WordMeaning unit_names[] = {
     {UNIT_BRDF, {"1/sr", "sr-1", "/sr", "sr", "brdf", "bsdf"}},
     {UNIT_BRDF_COS, {"brdf*cos", "bsdf*cos", "brdfcos", "ccbrdf", "ccbsdf"}},
     {UNIT_FACTOR, {"brf", "factor", "radiancefactor", "reflectancefactor"}},
-    {UNIT_SIGNAL, {"signal", "counts"}},
 };
 
 ValueUnit value_unit(TextCell cell) {
@@ -64,14 +63,14 @@ ValueUnit value_unit(TextCell cell) {
 }
 
 const char *value_unit_name(ValueUnit unit) {
-    static const char *const names[] = {"not told", "cd/m2", "nit",      "fL",     "kcd/m2",
-                                        "cd/ft2",   "brdf",  "brdf-cos", "factor", "signal"};
+    static const char *const names[] = {"not told", "cd/m2", "nit",      "fL",    "kcd/m2",
+                                        "cd/ft2",   "brdf",  "brdf-cos", "factor"};
     return names[unit];
 }
 
 /* One foot-lambert is 1/pi candela a square foot, 3.4262591 cd m^-2. */
 double value_unit_cd_m2(ValueUnit unit) {
-    static const double factors[] = {0, 1, 1, 3.4262590996353905, 1000, 10.763910416709722, 0,
+    static const double factors[] = {0, 1, 1, 3.4262590996353905, 1000, 10.763910416709722,
                                      0, 0, 0};
     return factors[unit];
 }
@@ -145,26 +144,14 @@ static void split_unit(Parts *parts) {
 
 /* In any case, with blanks, underscores and hyphens left out. */
 static const WordMeaning loose_names[] = {
-    {QUANTITY_THETA,
-     {"theta", "inclination", "incl", "inclin", "polar", "polarangle", "zenith", "\xCE\xB8",
-      "thetao", "thetaout", "thetas", "thetar", "neigung", "inclinaison", "viewz", "viewtheta",
-      "thetaview"}},
-    {QUANTITY_PHI,
-     {"phi", "azimuth", "azim", "azimut", "azi", "az", "\xCF\x86", "\xCF\x95", "phio", "phiout",
-      "phis", "phir", "viewa", "viewphi", "phiview", "azimuthangle"}},
-    {QUANTITY_HORIZONTAL, {"thetah", "horizontal", "horizontalangle", "hangle"}},
-    {QUANTITY_VERTICAL, {"thetav", "vertical", "verticalangle", "vangle"}},
-    {QUANTITY_INCIDENCE,
-     {"thetai", "thetain", "incidence", "incidenceangle", "angleofincidence", "aoi", "thetainc",
-      "srcz"}},
-    {QUANTITY_LIGHT_PHI, {"phii", "phiin", "phiinc", "incidencephi", "incidenceazimuth", "srca"}},
-    {QUANTITY_WAVELENGTH, {"wavelength", "lambda", "wavelengthnm", "wl"}},
-    {QUANTITY_LUMINANCE, {"luminance", "lum", "lv", "leuchtdichte"}},
-    {QUANTITY_X, {"tristimulusx"}},
-    {QUANTITY_Y, {"tristimulusy"}},
-    {QUANTITY_Z, {"tristimulusz"}},
-    {QUANTITY_CHROMA_X, {"ciex"}},
-    {QUANTITY_CHROMA_Y, {"ciey"}},
+    {QUANTITY_THETA, {"theta", "inclination", "incl", "polar", "zenith", "thetaout", "thetas"}},
+    {QUANTITY_PHI, {"phi", "azimuth", "azim", "az", "phiout", "phis"}},
+    {QUANTITY_HORIZONTAL, {"thetah", "horizontal"}},
+    {QUANTITY_VERTICAL, {"thetav", "vertical"}},
+    {QUANTITY_INCIDENCE, {"thetai", "thetain", "incidence", "aoi"}},
+    {QUANTITY_LIGHT_PHI, {"phii", "phiin"}},
+    {QUANTITY_WAVELENGTH, {"wavelength", "lambda", "wavelengthnm"}},
+    {QUANTITY_LUMINANCE, {"luminance", "lv"}},
     {QUANTITY_REFLECTION, {"brdf", "bsdf", "brf", "reflectance", "reflectancefactor", "fr"}},
 };
 

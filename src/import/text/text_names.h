@@ -39,8 +39,7 @@ typedef enum ValueUnit {
     UNIT_CD_FT2,
     UNIT_BRDF,     /* sr^-1 */
     UNIT_BRDF_COS, /* sr^-1 times the cosine of the leaving angle */
-    UNIT_FACTOR,   /* reflectance or radiance factor: relative to a white Lambertian surface */
-    UNIT_SIGNAL    /* to be divided by a white reference's signal */
+    UNIT_FACTOR    /* reflectance or radiance factor: relative to a white Lambertian surface */
 } ValueUnit;
 
 typedef enum AngleUnit { ANGLE_AUTO, ANGLE_DEGREES, ANGLE_RADIANS } AngleUnit;

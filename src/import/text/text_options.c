@@ -26,7 +26,7 @@ const TextKey text_keys[] = {
     {"angle_unit", "deg|rad", "of all angles"},
     {"angles", "polar|projected|equidistant|north-polar|east-polar",
      "which two angles a direction has"},
-    {"unit", "cd/m2|nit|fL|kcd/m2|cd/ft2|brdf|brdf-cos|factor|signal", "of the values"},
+    {"unit", "cd/m2|nit|fL|kcd/m2|cd/ft2|brdf|brdf-cos|factor", "of the values"},
     {"azimuth_zero", "right|top|left|bottom|DEG", "where the file's azimuth 0 points"},
     {"azimuth_sense", "ccw|cw", "how its azimuths run"},
     {"azimuth_seen_from", "viewer|behind", "from which side left and right are meant"},

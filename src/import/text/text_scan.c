@@ -39,18 +39,6 @@ static KeyValue cut_key(TextLine line) {
     return pair;
 }
 
-static bool key_is(const KeyValue *pair, const char *const *names) {
-    return import_word_find(names, pair->key) >= 0;
-}
-
-/* The number at the value's beginning, with a decimal point or comma. */
-static bool value_number(const KeyValue *pair, double *out) {
-    char digits[32] = {0};
-    for (int i = 0; i < pair->value.length && i < 31; i++)
-        digits[i] = pair->value.text[i] == ',' ? '.' : pair->value.text[i];
-    return number_read(digits, out) && *out >= -1e6 && *out <= 1e6;
-}
-
 static void read_azimuth(TextMetadata *metadata, TextLine line, int index) {
     bool about = line_has(line, "azim") || line_has(line, "phi") || line_has(line, "clockwise") ||
                  line_has(line, "orientation");
@@ -74,18 +62,16 @@ static void read_azimuth(TextMetadata *metadata, TextLine line, int index) {
 }
 
 static void read_metadata_units(TextMetadata *metadata, const KeyValue *pair, int index) {
-    static const char *const unit_keys[] = {"unit",      "units",         "einheit",
-                                            "valueunit", "luminanceunit", NULL};
-    static const char *const angle_keys[] = {"angleunit", "angleunits", "angles",
-                                             "angle",     "winkel",     NULL};
-    if (key_is(pair, unit_keys) || !pair->key[0]) { /* or the unit alone */
+    static const char *const unit_keys[] = {"unit", "units", "valueunit", "luminanceunit", NULL};
+    static const char *const angle_keys[] = {"angleunit", "angleunits", "angles", "angle", NULL};
+    if (import_word_find(unit_keys, pair->key) >= 0) {
         ValueUnit unit = value_unit((TextCell){pair->value.text, pair->value.length});
         if (unit != UNIT_AUTO) {
             metadata->unit = unit;
             metadata->unit_line = index;
         }
     }
-    if (key_is(pair, angle_keys)) {
+    if (import_word_find(angle_keys, pair->key) >= 0) {
         AngleUnit unit = line_has(pair->value, "rad")   ? ANGLE_RADIANS
                          : line_has(pair->value, "deg") ? ANGLE_DEGREES
                                                         : ANGLE_AUTO;
@@ -96,64 +82,16 @@ static void read_metadata_units(TextMetadata *metadata, const KeyValue *pair, in
     }
 }
 
-static void read_pattern(TextMetadata *metadata, const KeyValue *pair, int index) {
-    static const char *const keys[] = {"sample",  "pattern", "testpattern", "colour",    "color",
-                                       "farbe",   "muster",  "stimulus",    "content",   "image",
-                                       "primary", "level",   "greylevel",   "graylevel", "grey",
-                                       "gray",    "code",    "rgb",         NULL};
-    if (!key_is(pair, keys)) return;
-    size_t length = strlen(metadata->words);
-    snprintf(metadata->words + length, sizeof metadata->words - length, "%s%.*s", length ? " " : "",
-             pair->value.length, pair->value.text);
-    metadata->words_line = index;
-}
-
-static void read_light(TextMetadata *metadata, const KeyValue *pair) {
-    static const char *const incidence[] = {
-        "incidence", "angleofincidence", "incidenceangle", "thetai",
-        "aoi",       "thetain",          "incidencedeg",   NULL};
-    static const char *const wavelength[] = {"wavelength", "wavelengthnm", "lambda", NULL};
-    double number;
-    if (key_is(pair, incidence) && value_number(pair, &number)) {
-        metadata->has_incidence = true;
-        metadata->incidence_deg = number;
-    }
-    if (key_is(pair, wavelength) && value_number(pair, &number) && number >= 100 && number <= 20000)
-        metadata->wavelength_nm = number;
-}
-
-static void read_names(TextMetadata *metadata, const KeyValue *pair, Arena *arena) {
-    static const char *const panel[] = {"panel", "display", "device", "dut", "model", NULL};
-    static const char *const instrument[] = {"instrument", "messger\xC3\xA4t", "conoscope", NULL};
-    static const char *const date[] = {"date", "datum", "measurementdate", "messdatum", NULL};
-    static const char *const person[] = {"operator", "bediener", "measuredby", NULL};
-    if (pair->value.length < 1 || pair->value.length > 200) return;
-    char *value = arena_string(arena, pair->value.text, (size_t)pair->value.length);
-    if (key_is(pair, panel) && !metadata->panel) metadata->panel = value;
-    if (key_is(pair, instrument) && !metadata->instrument) metadata->instrument = value;
-    if (key_is(pair, date) && !metadata->date) metadata->date = value;
-    if (key_is(pair, person) && !metadata->operator_name) metadata->operator_name = value;
-}
-
 static TextMetadata text_metadata(void) {
-    return (TextMetadata){.zero_line = -1,
-                          .sense_line = -1,
-                          .side_line = -1,
-                          .unit_line = -1,
-                          .angle_line = -1,
-                          .words_line = -1};
+    return (TextMetadata){
+        .zero_line = -1, .sense_line = -1, .side_line = -1, .unit_line = -1, .angle_line = -1};
 }
 
 /* Reads a line that is no row of numbers; its index is for messages. */
-static void text_metadata_read_line(TextMetadata *metadata, TextLine line, int index,
-                                    Arena *arena) {
+static void text_metadata_read_line(TextMetadata *metadata, TextLine line, int index) {
     KeyValue pair = cut_key(line);
     read_azimuth(metadata, line, index);
     read_metadata_units(metadata, &pair, index);
-    if (!pair.key[0]) return;
-    read_pattern(metadata, &pair, index);
-    read_light(metadata, &pair);
-    read_names(metadata, &pair, arena);
 }
 
 /* Where the reader is in the file. */
@@ -276,10 +214,7 @@ static bool add_column(TextScan *scan, ColumnName name, const char *text, int fr
 static bool has_direction(const TextCell *cell, int count) {
     bool seen[QUANTITY_COUNT] = {false};
     for (int i = 0; i < count; i++) seen[column_name(cell[i]).quantity] = true;
-    bool emission = false;
-    for (int q = QUANTITY_X; q <= QUANTITY_VPRIME; q++) emission |= seen[q];
-    bool has_theta = seen[QUANTITY_THETA] || (emission && seen[QUANTITY_INCIDENCE]);
-    return (has_theta && seen[QUANTITY_PHI]) ||
+    return (seen[QUANTITY_THETA] && seen[QUANTITY_PHI]) ||
            (seen[QUANTITY_HORIZONTAL] && seen[QUANTITY_VERTICAL]);
 }
 
@@ -292,20 +227,6 @@ static bool has_section(const TextCell *cell, int count) {
         has_value |= quantity >= QUANTITY_X;
     }
     return has_theta && has_value;
-}
-
-/* Fourier-optics instruments call theta the incidence; where luminances stand and no theta,
- * that is what is meant. */
-static void rename_incidence(NamedRows *table) {
-    NamedColumn *incidence = NULL;
-    bool emission = false, has_theta = false;
-    for (int c = 0; c < table->rows.width; c++) {
-        Quantity quantity = table->column[c].name.quantity;
-        emission |= quantity >= QUANTITY_X && quantity <= QUANTITY_VPRIME;
-        has_theta |= quantity == QUANTITY_THETA;
-        if (quantity == QUANTITY_INCIDENCE) incidence = &table->column[c];
-    }
-    if (incidence && emission && !has_theta) incidence->name.quantity = QUANTITY_THETA;
 }
 
 /* The cells of a header as columns; names that are not known are not used. */
@@ -329,7 +250,6 @@ static bool read_header(TextScan *scan, const TextCell *cell, int count, bool fr
         scan->metadata->unused_columns += name.quantity == QUANTITY_NONE;
         if (name.quantity != QUANTITY_NONE && !add_column(scan, name, text, i)) return false;
     }
-    rename_incidence(scan->table);
     scan->has_header = true;
     return true;
 }
@@ -359,18 +279,6 @@ static int comment_length(const TextScan *scan, TextLine line) {
         if (line.length >= length && !memcmp(line.text, begin, (size_t)length)) return length;
     }
     return 0;
-}
-
-/* A comment may hold the header: "# theta phi X Y Z". */
-static bool read_comment(TextScan *scan, TextLine line, int begin) {
-    while (begin < line.length && strchr("#!%/ \t", line.text[begin])) begin++;
-    TextLine rest = {line.text + begin, line.length - begin};
-    int count = text_cells(rest, scan->dialect.delimiter, scan->cell);
-    bool may_head = scan->state == STATE_BEFORE && !scan->options->columns && count > 2;
-    if (may_head && has_direction(scan->cell, count))
-        return read_header(scan, scan->cell, count, false);
-    text_metadata_read_line(scan->metadata, rest, scan->at, scan->arena);
-    return true;
 }
 
 /* The next line that holds something is a row of as many numbers: what stands above may be a
@@ -413,9 +321,7 @@ static bool numbers_without_names(TextScan *scan) {
 /* The first row of numbers: of which layout is it? */
 static bool begin_rows(TextScan *scan) {
     bool is_matrix = scan->options->layout >= LAYOUT_THETA_DOWN;
-    bool may_head = scan->options->layout != LAYOUT_LIST && !scan->options->columns;
     if (is_matrix && scan->count > 1) return begin_block(scan);
-    if (may_head && is_matrix_head(scan)) return begin_block(scan); /* an empty corner */
     if (scan->has_header && !scan->blocks.count) {
         scan->state = STATE_LIST;
         return add_list_row(scan);
@@ -441,26 +347,6 @@ static bool add_block_row(TextScan *scan) {
     return true;
 }
 
-/* A line of units under the header: "deg;deg;fL;fL;fL". False: it is none. */
-static bool read_units(TextScan *scan) {
-    int known = 0, filled = 0;
-    for (int i = 0; i < scan->count; i++) {
-        const char *text =
-            arena_string(scan->arena, scan->cell[i].text, (size_t)scan->cell[i].length);
-        known += angle_unit(text) != ANGLE_AUTO || value_unit(scan->cell[i]) != UNIT_AUTO;
-        filled += *text != 0;
-    }
-    if (scan->count != scan->header_cells || !known || 2 * known < filled) return false;
-    for (int c = 0; c < scan->table->rows.width; c++) {
-        NamedColumn *column = &scan->table->column[c];
-        TextCell cell = scan->cell[column->from];
-        const char *text = arena_string(scan->arena, cell.text, (size_t)cell.length);
-        if (column->name.angle == ANGLE_AUTO) column->name.angle = angle_unit(text);
-        if (column->name.unit == UNIT_AUTO) column->name.unit = value_unit(cell);
-    }
-    return true;
-}
-
 /* A row may also hold text, in columns that are not used. */
 static bool begins_row(const TextScan *scan) {
     int first = scan->has_header && scan->state != STATE_BLOCK ? scan->table->column[0].from : 0;
@@ -480,7 +366,6 @@ static bool read_text_line(TextScan *scan, TextLine line) {
         if (begins_with_number) return add_block_row(scan);
         scan->state = STATE_BEFORE;
     }
-    if (scan->state == STATE_BEFORE && scan->has_header && read_units(scan)) return true;
     bool is_open = scan->state == STATE_BEFORE && !scan->options->columns;
     if (is_open && is_matrix_head(scan) && scan->options->layout != LAYOUT_LIST)
         return begin_block(scan);
@@ -489,14 +374,18 @@ static bool read_text_line(TextScan *scan, TextLine line) {
     if (is_open && !scan->blocks.count && is_header)
         return read_header(scan, scan->cell, scan->count, false);
     if (is_open && text_blocks_label(&scan->blocks, scan->cell, scan->count)) return true;
-    text_metadata_read_line(scan->metadata, line, scan->at, scan->arena);
+    if (is_open && scan->has_header && !scan->blocks.count && scan->count == scan->header_cells)
+        return bad_line(scan, "stands between the header and its numbers — leave it out with "
+                              "--comment, and say the units it may hold with --unit and "
+                              "--angle-unit");
+    text_metadata_read_line(scan->metadata, line, scan->at);
     return true;
 }
 
 static bool read_row(TextScan *scan) {
     switch (scan->state) {
     case STATE_LIST: return add_list_row(scan);
-    case STATE_BLOCK: return is_matrix_head(scan) ? begin_block(scan) : add_block_row(scan);
+    case STATE_BLOCK: return add_block_row(scan);
     case STATE_BEFORE: return begin_rows(scan);
     case STATE_DONE: break;
     }
@@ -506,7 +395,11 @@ static bool read_row(TextScan *scan) {
 static bool read_line(TextScan *scan) {
     TextLine line = scan->text->line[scan->at];
     int comment = comment_length(scan, line);
-    if (comment) return read_comment(scan, line, comment);
+    if (comment) {
+        TextLine rest = {line.text + comment, line.length - comment};
+        text_metadata_read_line(scan->metadata, rest, scan->at);
+        return true;
+    }
     scan->count = text_cells(line, scan->dialect.delimiter, scan->cell);
     if (scan->count < 0) return bad_line(scan, "has more than %d cells", TEXT_CELLS_MAX);
     bool is_empty = true;

@@ -19,12 +19,6 @@ typedef struct TextMetadata {
     int unit_line;
     AngleUnit angle;
     int angle_line;
-    double wavelength_nm; /* 0: not there */
-    bool has_incidence;
-    double incidence_deg;
-    char words[256]; /* of pattern, colour and level */
-    int words_line;
-    const char *panel, *instrument, *date, *operator_name; /* NULL: not there */
     int unused_columns;
 } TextMetadata;
 

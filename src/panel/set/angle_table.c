@@ -244,44 +244,24 @@ static bool reject_other_columns(const CsvTable *csv, const char *const *wanted,
     return true;
 }
 
-/* X and Z from luminance and chromaticity; a row without light may have any chromaticity. */
-static bool xyz_from_yxy(const RawTable *raw, float *value, int line, Arena *arena, Error *err) {
-    float y_cd_m2 = value[0], x = value[1], y = value[2];
-    if (!(x >= 0) || !(y >= 0) || !(x + y <= 1) || (y == 0 && y_cd_m2 != 0)) {
-        return error_at(err, ERROR_INPUT, raw->file, place_of(line, arena),
-                        "chromaticity is x %g, y %g, required: a point of the CIE 1931 diagram",
-                        (double)x, (double)y);
-    }
-    float scale = y > 0 ? y_cd_m2 / y : 0;
-    value[0] = scale * x;
-    value[1] = y_cd_m2;
-    value[2] = scale * (1 - x - y);
-    return true;
-}
-
 /* Address space for the text of one file and its numbers; given back when they are sorted. */
 #define SCRATCH_BYTES ((size_t)64 << 30)
 
 static bool read_xyz(const char *file, const char *name, Arena *scratch, RawTable *out,
                      Error *err) {
     static const char *const xyz[] = {"theta", "phi", "X", "Y", "Z"};
-    static const char *const yxy[] = {"theta", "phi", "Y", "x", "y"};
     CsvTable csv;
     RawTable raw;
     if (!csv_table_read(file, scratch, &csv, err)) return false;
-    bool is_yxy = csv_table_column(&csv, "x") >= 0 && csv_table_column(&csv, "X") < 0;
-    const char *const *wanted = is_yxy ? yxy : xyz;
-    if (!start_rows(&csv, name, scratch, &raw, err) || !reject_other_columns(&csv, wanted, 5, err))
+    if (!start_rows(&csv, name, scratch, &raw, err) || !reject_other_columns(&csv, xyz, 5, err))
         return false;
     float *value = ARENA_NEW(scratch, float, 3 * (size_t)csv.rows);
     for (int j = 0; j < 3; j++) {
-        int column = csv_table_column(&csv, wanted[2 + j]);
-        if (column < 0) return missing_column(&csv, wanted[2 + j], err);
+        int column = csv_table_column(&csv, xyz[2 + j]);
+        if (column < 0) return missing_column(&csv, xyz[2 + j], err);
         for (int i = 0; i < csv.rows; i++)
             value[3 * i + j] = csv.cell[(size_t)i * (size_t)csv.columns + (size_t)column];
     }
-    for (int i = 0; i < csv.rows && is_yxy; i++)
-        if (!xyz_from_yxy(&raw, value + 3 * i, csv.line[i], scratch, err)) return false;
     raw.value = value;
     raw.channels = 3;
     raw.is_emission = true;
@@ -366,52 +346,6 @@ bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int cou
               finish_table(&raw, brdf_noise, arena, out, err);
     arena_release(&scratch);
     return ok;
-}
-
-/* ---- polar grids --------------------------------------------------------------------- */
-
-static bool same_grid(const CsvTable *a, const CsvTable *b, Error *err) {
-    bool same = a->columns == b->columns && a->rows == b->rows;
-    for (int c = 1; same && c < a->columns; c++) same = !strcmp(a->name[c], b->name[c]);
-    for (int i = 0; same && i < a->rows; i++)
-        same = a->cell[(size_t)(i * a->columns)] == b->cell[(size_t)(i * b->columns)];
-    return same || error_at(err, ERROR_INPUT, b->file, "",
-                            "has other angles than %s, required: one grid for X, Y and Z", a->file);
-}
-
-static bool grid_azimuth(const CsvTable *csv, int column, float *phi_deg, Error *err) {
-    const char *after = number_read_float(csv->name[column], phi_deg);
-    return (after && !*after) ||
-           error_at(err, ERROR_INPUT, csv->file, "header line",
-                    "column '%s' is no azimuth, required: phi in degrees", csv->name[column]);
-}
-
-bool angle_table_read_grid(const char *const files[3], const char *name, Arena *arena,
-                           AngleTable *out, Error *err) {
-    CsvTable csv[3];
-    for (int j = 0; j < 3; j++)
-        if (!csv_table_read(files[j], arena, &csv[j], err) ||
-            (j && !same_grid(&csv[0], &csv[j], err)))
-            return false;
-    int across = csv[0].columns - 1, cells = csv[0].rows * across;
-    RawTable raw = {.file = csv[0].file,
-                    .name = name,
-                    .rows = cells,
-                    .channels = 3,
-                    .is_emission = true,
-                    .row = ARENA_NEW(arena, Row, cells),
-                    .bytes = csv[0].bytes + csv[1].bytes + csv[2].bytes};
-    float *value = ARENA_NEW(arena, float, 3 * (size_t)cells);
-    for (int i = 0; i < cells; i++) {
-        int row = i / across, column = i % across + 1;
-        size_t at = (size_t)row * (size_t)csv[0].columns;
-        float phi_deg;
-        if (!grid_azimuth(&csv[0], column, &phi_deg, err)) return false;
-        raw.row[i] = (Row){csv[0].cell[at], phi_deg, csv[0].line[row], i};
-        for (int j = 0; j < 3; j++) value[3 * i + j] = csv[j].cell[at + (size_t)column];
-    }
-    raw.value = value;
-    return finish_table(&raw, emission_noise, arena, out, err);
 }
 
 bool angle_table_same_rows(const AngleTable *a, const AngleTable *b) {

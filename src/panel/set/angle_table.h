@@ -35,13 +35,9 @@ typedef struct AngleTable {
     const AngleOutlier *pole_outlier;
 } AngleTable;
 
-/* Columns theta, phi and X, Y, Z (or Y, x, y), or a polar grid's three files. */
+/* Columns theta, phi and X, Y, Z. */
 bool angle_table_read_xyz(const char *file, const char *name, Arena *arena, AngleTable *out,
                           Error *err);
-
-/* One file a component, theta down and phi across. */
-bool angle_table_read_grid(const char *const files[3], const char *name, Arena *arena,
-                           AngleTable *out, Error *err);
 
 /* Columns theta, phi and one a wavelength ("brdf" when there is but one); without a name. */
 bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int count, Arena *arena,

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/set/level_table.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,74 +26,28 @@ typedef enum Place {
 
 typedef struct Columns {
     int at[PLACE_COUNT];
-    bool is_percent;  /* of the levels */
-    bool is_relative; /* luminance, by a column's name */
 } Columns;
-
-typedef struct PlaceWord {
-    const char *word;
-    Place place;
-    bool has_case; /* y is a chromaticity, Y a luminance */
-} PlaceWord;
-
-static const PlaceWord words[] = {
-    {"level", PLACE_LEVEL, false}, {"code", PLACE_LEVEL, false},    {"grey", PLACE_LEVEL, false},
-    {"gray", PLACE_LEVEL, false},  {"input", PLACE_LEVEL, false},   {"signal", PLACE_LEVEL, false},
-    {"drive", PLACE_LEVEL, false}, {"digital", PLACE_LEVEL, false}, {"red", PLACE_RED, false},
-    {"r", PLACE_RED, false},       {"green", PLACE_GREEN, false},   {"g", PLACE_GREEN, false},
-    {"blue", PLACE_BLUE, false},   {"b", PLACE_BLUE, false},        {"white", PLACE_WHITE, false},
-    {"w", PLACE_WHITE, false},
-};
-
-/* Words that a colour may follow: "luminance", "L_red". */
-static const PlaceWord luminance_words[] = {
-    {"luminance", PLACE_WHITE, false}, {"lum", PLACE_WHITE, false},
-    {"lv", PLACE_WHITE, false},        {"l", PLACE_WHITE, false},
-    {"Y", PLACE_WHITE, true},          {"relative", PLACE_WHITE, false},
-    {"rel", PLACE_WHITE, false},       {"normalised", PLACE_WHITE, false},
-    {"norm", PLACE_WHITE, false},      {"normalized", PLACE_WHITE, false},
-};
 
 /* ---- columns ---------------------------------------------------------------------------- */
 
-/* The next run of letters at or behind *at; its length, 0 at the end. */
-static int next_word(const char **at) {
-    int length = 0;
-    while (**at && !isalpha((unsigned char)**at)) (*at)++;
-    while (isalpha((unsigned char)(*at)[length])) length++;
-    return length;
-}
-
-static bool is_word(const PlaceWord *known, const char *word, int length) {
-    return (int)strlen(known->word) == length &&
-           !(known->has_case ? strncmp(known->word, word, (size_t)length)
-                             : strncasecmp(known->word, word, (size_t)length));
-}
-
-static int place_of(const PlaceWord *known, int count, const char *word, int length) {
-    for (int i = 0; i < count; i++)
-        if (is_word(&known[i], word, length)) return (int)known[i].place;
-    return -1;
-}
-
-/* The Place of a column of that name, "Luminance of red" or "relative L_red"; -1: none. */
+/* The Place of a column, by its name up to a unit: "luminance_cd_m2", "L (cd/m2)"; -1: none. */
 static int column_place(const char *name) {
-    int found = -1, length;
-    for (; (length = next_word(&name)) > 0; name += length) {
-        int place = place_of(words, COUNT_OF(words), name, length);
-        if (place >= 0) return found < 0 || place > PLACE_LEVEL ? place : found;
-        if (place_of(luminance_words, COUNT_OF(luminance_words), name, length) < 0) break;
-        found = PLACE_WHITE;
-    }
-    return found;
-}
-
-/* A share of full level: "Y (%)", "relative luminance", "L/Lmax". */
-static bool says_relative(const char *name) {
-    static const char *const says[] = {"%", "percent", "rel", "norm", "/lmax", "/ymax"};
-    for (int i = 0; i < COUNT_OF(says); i++)
-        if (strcasestr(name, says[i])) return true;
-    return false;
+    static const struct {
+        const char *word;
+        Place place;
+    } words[] = {{"level", PLACE_LEVEL},     {"code", PLACE_LEVEL},  {"grey", PLACE_LEVEL},
+                 {"gray", PLACE_LEVEL},      {"red", PLACE_RED},     {"r", PLACE_RED},
+                 {"green", PLACE_GREEN},     {"g", PLACE_GREEN},     {"blue", PLACE_BLUE},
+                 {"b", PLACE_BLUE},          {"white", PLACE_WHITE}, {"w", PLACE_WHITE},
+                 {"luminance", PLACE_WHITE}, {"l", PLACE_WHITE},     {"lv", PLACE_WHITE},
+                 {"relative", PLACE_WHITE}};
+    if (!strncasecmp(name, "relative_", 9)) name += 9; /* as level_table_text writes them */
+    size_t length = strcspn(name, " _([/");
+    if (!strcmp(name, "Y")) return PLACE_WHITE; /* y is a chromaticity */
+    for (int i = 0; i < COUNT_OF(words); i++)
+        if (strlen(words[i].word) == length && !strncasecmp(words[i].word, name, length))
+            return (int)words[i].place;
+    return -1;
 }
 
 static bool has_primary(const Columns *columns, bool all) {
@@ -125,9 +78,6 @@ static bool find_columns(const CsvTable *csv, Columns *out, Error *err) {
         return error_at(err, ERROR_INPUT, csv->file, "header line",
                         "has no column of luminance, required: 'luminance' or 'white', or "
                         "'red', 'green' and 'blue' (cd/m2)");
-    out->is_percent = strchr(csv->name[out->at[PLACE_LEVEL]], '%') != NULL;
-    for (int p = PLACE_RED; p < PLACE_COUNT; p++)
-        out->is_relative |= out->at[p] >= 0 && says_relative(csv->name[out->at[p]]);
     return true;
 }
 
@@ -155,15 +105,13 @@ static bool has_between(const LevelRow *row, int count) {
 
 /* The level that is full, or 0 with an error. Levels 0 and 1 alone may be codes or shares.
  * level_max: the highest code (0: that of 8, 10, 12 or 16 bits). */
-static double full_level(const CsvTable *csv, const Columns *columns, const LevelRow *row,
-                         double level_max, Error *err) {
+static double full_level(const CsvTable *csv, const LevelRow *row, double level_max, Error *err) {
     static const double codes[] = {255, 1023, 4095, 65535};
     const LevelRow *last = row + csv->rows - 1;
     double most = last->level;
-    if (columns->is_percent && most == 100) return 100;
-    if (!columns->is_percent && most == 1 && has_between(row, csv->rows)) return 1;
-    if (!columns->is_percent && level_max > 0 && most == level_max) return most;
-    for (int i = 0; i < COUNT_OF(codes) && !columns->is_percent && !(level_max > 0); i++)
+    if (most == 1 && has_between(row, csv->rows)) return 1;
+    if (level_max > 0 && most == level_max) return most;
+    for (int i = 0; i < COUNT_OF(codes) && !(level_max > 0); i++)
         if (most == codes[i]) return most;
     char where[32];
     snprintf(where, sizeof where, "line %d", csv->line[last->row]);
@@ -175,9 +123,8 @@ static double full_level(const CsvTable *csv, const Columns *columns, const Leve
     else
         error_at(err, ERROR_INPUT, csv->file, where,
                  "the highest level is %g, so the full "
-                 "level is %s: required are rows up to 255, 1023, 4095 or 65535 (codes), up to "
-                 "1 with levels between (shares), or up to 100 in a column with %% in its "
-                 "name; --level-max N states another highest code",
+                 "level is %s: required are rows up to 255, 1023, 4095 or 65535 (codes), or up to "
+                 "1 with levels between (shares); --level-max N states another highest code",
                  most, most == 1 || most == 100 || most > 255 ? "unclear" : "not there");
     return 0;
 }
@@ -295,7 +242,7 @@ static double black_share_of(const LevelTable *table) {
     return 1 / (parts - 2);
 }
 
-/* Values that all end at 1 are relative, whatever their columns are called. */
+/* Values that all end at 1 are relative. */
 static bool ends_at_one(const LevelTable *table) {
     int last = table->rows - 1;
     for (int p = 0; p < 3 && !table->has_white; p++)
@@ -322,7 +269,7 @@ static bool take_columns(const CsvTable *csv, const Columns *columns, const Leve
         }
         out->white_cd_m2[i] -= black * 2 / 3;
     }
-    out->is_relative = columns->is_relative || ends_at_one(out);
+    out->is_relative = ends_at_one(out);
     out->black_share = black_share_of(out);
     return true;
 }
@@ -341,7 +288,7 @@ static void take_curves(LevelTable *table, Arena scratch) {
 bool level_table_read(const char *file, double level_max, Arena *arena, LevelTable *out,
                       Error *err) {
     CsvTable csv;
-    Columns columns = {.is_percent = false};
+    Columns columns;
     LevelTable table = {.file = arena_string(arena, file, strlen(file))};
     if (!csv_table_read(table.file, arena, &csv, err) || !find_columns(&csv, &columns, err))
         return false;
@@ -350,8 +297,7 @@ bool level_table_read(const char *file, double level_max, Arena *arena, LevelTab
         row[i] = (LevelRow){cell_of(&csv, i, columns.at[PLACE_LEVEL]), i};
     qsort(row, (size_t)csv.rows, sizeof *row, by_level);
     double full = 0;
-    if (!check_levels(&csv, row, err) ||
-        !((full = full_level(&csv, &columns, row, level_max, err)) > 0))
+    if (!check_levels(&csv, row, err) || !((full = full_level(&csv, row, level_max, err)) > 0))
         return false;
     table.rows = csv.rows;
     table.level = ARENA_NEW(arena, double, csv.rows);

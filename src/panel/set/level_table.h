@@ -2,13 +2,12 @@
 /* level_table.h -- a measured gamma table: the luminance on the axis at grey levels, read and
  * checked, as level curves of the primaries.
  *
- * A text table (text/csv_table.h): a column of levels (level, code, grey, gray, input, signal,
- * drive, digital) and columns of luminance: white (W, Y, L, Lv, luminance), or red, green
- * and blue (R, G, B; each shown alone), or all four. Units behind a name, in brackets or after
- * '_', are passed over but for % of a level. Luminance is in cd/m2, or relative to full level
- * where a column's name says so (%, percent, relative, normalised, /Lmax) or all end at 1.
- * Other columns are left. Levels run to the highest code (as stated; else 255, 1023, 4095 or
- * 65535), to 1 (shares), or to 100 in a column whose name has a %.
+ * A text table (text/csv_table.h): a column of levels (level, code, grey, gray) and columns of
+ * luminance: white (W, Y, L, Lv, luminance, relative), or red, green and blue (R, G, B; each
+ * shown alone), or all four. Units behind a name, in brackets or after '_', are passed over.
+ * Luminance is in cd/m2, or relative to full level where all columns end at 1. Other columns are
+ * left. Levels run to the highest code (as stated; else 255, 1023, 4095 or 65535) or to 1
+ * (shares).
  *
  * Rows may fall below others, or below zero, by LEVEL_NOISE_SHARE (of neighbours,
  * LEVEL_NOISE_NEAR) of the others or LEVEL_NOISE_FULL of full level, whichever is more: an

@@ -12,24 +12,8 @@
 
 /* ---- emission ---------------------------------------------------------------------------- */
 
-#define OWNER ManifestTable
-static const RecordRow GRID[] = {PATH("X", MUST | RECORD_FILLED, file[0], NULL),
-                                 PATH("Y", MUST | RECORD_FILLED, file[1], NULL),
-                                 PATH("Z", MUST | RECORD_FILLED, file[2], NULL),
-                                 {0}};
-static const RecordFormat grid_format = {"grid", sizeof(OWNER), GRID,
-                                         .doc = "A polar grid, one file a component."};
-static const RecordRow TABLE_FORMS[] = {
-    PATH("a table's path", RECORD_FILLED, file[0], "A table's path relative to the manifest."),
-    {"an object with X, Y and Z paths", RECORD_OBJECT, .of = &grid_format},
-    {0}};
-#undef OWNER
-
-#define TABLE(key, member, words) \
-    {key, RECORD_EITHER, RECORD_AT(OWNER, member), .forms = TABLE_FORMS, .doc = words}
-
 #define OWNER ManifestLevel
-static const RecordRow LEVEL_TABLE = TABLE("table", table, NULL);
+static const RecordRow LEVEL_TABLE = PATH("table", RECORD_FILLED, table, NULL);
 #undef OWNER
 
 static bool check_level(const JsonView *view, void *item, Error *err) {
@@ -53,11 +37,11 @@ static const RecordFormat level_format = {"level", sizeof(ManifestLevel), .check
      .doc = "Grey level (above 0, up to 255) to the table of it."}
 
 static const RecordRow EMISSION[] = {
-    TABLE("black", black, NULL),
+    PATH("black", RECORD_FILLED, black, NULL),
     LEVELS("red", 0),
     LEVELS("green", 1),
     LEVELS("blue", 2),
-    TABLE("white", white, NULL),
+    PATH("white", RECORD_FILLED, white, NULL),
     PATH("levels", RECORD_FILLED, levels,
          "Of white alone: path of a gamma table, level and luminance (or red, green, blue) in "
          "cd/m2 on the axis, black in it."),
@@ -142,8 +126,7 @@ static const RecordRow REFLECTION[] = {
     FIGURES("incidence_phi_deg", 0, azimuth_deg, azimuth_count, 2, 72, 0, 359.999,
             "Azimuths of the light, rising, degrees: of an anisotropic panel only."),
     TEXT("files", MUST, files,
-         "Path of a table with {incidence}, {azimuth} and {wavelength} for the numbers of the "
-         "lists above."),
+         "Path of a table with {incidence} and {azimuth} for the numbers of the lists above."),
     {"specular", RECORD_EITHER, RECORD_AT(OWNER, specular), .forms = specular_forms,
      .doc = "Table of the specular reflectance: incidence, wavelength, reflectance."},
     LIST("gloss", 0, gloss, gloss_count, 1, GLOSS_METERS, gloss_format,
@@ -199,54 +182,23 @@ static const RecordFormat reflection_format = {
 
 #define OWNER ManifestSpot
 static const RecordRow SPOT[] = {
-    VECTOR("position", RECORD_OPEN, position, 2, 0, 1,
+    VECTOR("position", MUST, position, 2, 0, 1,
            "Shares of width and height, right and down from the upper left corner."),
-    VECTOR("position_mm", 0, position_mm, 2, 0, 1e5, "The same in mm; needs size_mm."),
     PARTS,
     {0}};
 #undef OWNER
 
-static void start_spot(void *item) {
-    *(ManifestSpot *)item = (ManifestSpot){.position_mm = {-1, -1}};
-}
-
-static bool check_position(const JsonView *view, ManifestSpot *spot, Error *err) {
-    const double *size_mm = ((const Manifest *)view->whole)->set.size_mm;
-    bool is_mm = record_has(view, "position_mm");
-    if (is_mm == record_has(view, "position"))
-        return error_at(err, ERROR_INPUT, view->file, view->path,
-                        is_mm ? "has both 'position' and 'position_mm', required: one of them"
-                              : "key 'position' is missing (or 'position_mm')");
-    if (is_mm && !(size_mm[0] > 0 && size_mm[1] > 0))
-        return record_fails(view, "position_mm", err,
-                            "is there, but the manifest has no 'size_mm'");
-    for (int k = 0; k < 2 && is_mm; k++) {
-        if (spot->position_mm[k] > size_mm[k])
-            return record_fails(view, "position_mm", err,
-                                "is %g, required: 0 to %g mm, the active area",
-                                spot->position_mm[k], size_mm[k]);
-        spot->position[k] = spot->position_mm[k] / size_mm[k];
-    }
-    return true;
-}
-
 static bool check_spot(const JsonView *view, void *item, Error *err) {
     ManifestSpot *spot = item;
     spot->path = view->path;
-    return check_position(view, spot, err) &&
-           (spot->emission.is_there || spot->reflection.is_there ||
-            error_at(err, ERROR_INPUT, view->file, view->path,
-                     "has neither 'emission' nor 'reflection'"));
+    return spot->emission.is_there || spot->reflection.is_there ||
+           error_at(err, ERROR_INPUT, view->file, view->path,
+                    "has neither 'emission' nor 'reflection'");
 }
 
 static const RecordFormat spot_format = {
-    "spot",
-    sizeof(ManifestSpot),
-    SPOT,
-    start_spot,
-    check_spot,
-    .rules = "{'oneOf': [{'required': ['position']}, {'required': ['position_mm']}], "
-             "'anyOf': [{'required': ['emission']}, {'required': ['reflection']}]}"};
+    "spot", sizeof(ManifestSpot), SPOT, .check = check_spot,
+    .rules = "{'anyOf': [{'required': ['emission']}, {'required': ['reflection']}]}"};
 
 /* What a spot lacks the manifest has; no two are at one place. */
 static bool check_spots(const JsonView *root, const Manifest *m, Error *err) {

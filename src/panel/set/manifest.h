@@ -10,20 +10,15 @@
 #include "panel/set/measured.h"
 #include "record/record.h"
 
-/* A table of all directions, or a polar grid of each component. */
-typedef struct ManifestTable {
-    const char *file[3]; /* [1] is NULL: of a table; [0] as well: there is none */
-} ManifestTable;
-
 typedef struct ManifestLevel {
     const char *name; /* "255" */
-    ManifestTable table;
+    const char *table;
     double level;
 } ManifestLevel;
 
 typedef struct ManifestEmission {
     bool is_there;
-    ManifestTable black, white;
+    const char *black, *white; /* tables; NULL: there is none */
     ManifestLevel *primary[3]; /* red, green, blue: levels, rising */
     int level_count[3];
     const char *levels; /* of white: a gamma table; NULL: none */
@@ -34,7 +29,7 @@ typedef struct ManifestReflection {
     const char *path;
     const double *wavelength_nm, *incidence_deg, *azimuth_deg; /* each rising */
     int wavelength_count, incidence_count, azimuth_count;      /* 0: isotropic */
-    const char *files; /* a pattern with {incidence}, {azimuth}, {wavelength} */
+    const char *files; /* a pattern with {incidence}, {azimuth} */
     SpecularFile specular;
     const GlossReading *gloss;
     int gloss_count;
@@ -42,8 +37,7 @@ typedef struct ManifestReflection {
 
 typedef struct ManifestSpot {
     const char *path;
-    double position[2];    /* shares, right and down from the upper left corner */
-    double position_mm[2]; /* below 0: position is given */
+    double position[2]; /* shares, right and down from the upper left corner */
     ManifestEmission emission;
     ManifestReflection reflection;
 } ManifestSpot;

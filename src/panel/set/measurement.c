@@ -165,19 +165,13 @@ static double white_split(const AngleTable *white, const LevelTable *levels, Are
     return inside ? 0 : white_miss(brightest_row(white));
 }
 
-static bool read_table(const ManifestTable *from, const char *name, Arena *arena, AngleTable *out,
-                       Error *err) {
-    return from->file[1] ? angle_table_read_grid(from->file, name, arena, out, err)
-                         : angle_table_read_xyz(from->file[0], name, arena, out, err);
-}
-
 static bool read_primary(const ManifestEmission *from, int index, Arena *arena,
                          MeasuredPrimary *out, Error *err) {
     const ManifestLevel *levels = from->primary[index];
     out->level_count = from->level_count[index];
     for (int i = 0; i < out->level_count; i++) {
         const char *name = arena_format(arena, "%s %03g", primary_names[index], levels[i].level);
-        if (!read_table(&levels[i].table, name, arena, &out->table[i], err)) return false;
+        if (!angle_table_read_xyz(levels[i].table, name, arena, &out->table[i], err)) return false;
         out->level[i] = levels[i].level;
     }
     return true;
@@ -230,12 +224,12 @@ bool measurement_read_levels(Measurement *set, const char *file, double level_ma
 static bool read_emission(const ManifestEmission *from, Arena *arena, Measurement *out,
                           Error *err) {
     if (!from->is_there) return true; /* a surface that only reflects */
-    if (from->white.file[0]) {
-        if (!read_table(&from->white, "white", arena, &out->white, err)) return false;
+    if (from->white) {
+        if (!angle_table_read_xyz(from->white, "white", arena, &out->white, err)) return false;
         split_white(NULL, arena, out);
         return !from->levels || measurement_read_levels(out, from->levels, 0, arena, err);
     }
-    if (!read_table(&from->black, "black", arena, &out->black, err)) return false;
+    if (!angle_table_read_xyz(from->black, "black", arena, &out->black, err)) return false;
     out->has_black = true;
     for (int p = 0; p < 3; p++)
         if (!read_primary(from, p, arena, &out->primary[p], err)) return false;
@@ -244,18 +238,17 @@ static bool read_emission(const ManifestEmission *from, Arena *arena, Measuremen
 
 /* ---- reflection ------------------------------------------------------------------------ */
 
-/* Numbers in a file's name; nm negative: all wavelengths in one file. */
+/* Numbers in a file's name, degrees. */
 typedef struct SlicePlace {
-    double incidence, azimuth, nm; /* degrees, degrees, nm */
+    double incidence, azimuth;
 } SlicePlace;
 
-/* The pattern with {incidence}, {azimuth} and {wavelength} replaced. */
+/* The pattern with {incidence} and {azimuth} replaced. */
 static const char *fill_pattern(const char *pattern, SlicePlace place, Arena *arena) {
     const struct {
         const char *word;
         double value;
-    } known[] = {
-        {"{incidence}", place.incidence}, {"{azimuth}", place.azimuth}, {"{wavelength}", place.nm}};
+    } known[] = {{"{incidence}", place.incidence}, {"{azimuth}", place.azimuth}};
     const char *text = "";
     while (*pattern) {
         int k = 0;
@@ -270,37 +263,6 @@ static const char *fill_pattern(const char *pattern, SlicePlace place, Arena *ar
     return text;
 }
 
-/* One file a wavelength becomes one table. */
-static bool join_wavelengths(const JsonView *view, const char *pattern, SlicePlace place,
-                             const Measurement *set, AngleTable *out, Error *err) {
-    Arena *arena = view->arena;
-    float *value = NULL;
-    size_t count = (size_t)set->wavelength_count;
-    for (size_t w = 0; w < count; w++) {
-        AngleTable one;
-        place.nm = (double)set->wavelength_nm[w];
-        const char *file;
-        if (!json_view_file(view, "files", fill_pattern(pattern, place, arena), &file, err) ||
-            !angle_table_read_brdf(file, &set->wavelength_nm[w], 1, arena, &one, err))
-            return false;
-        if (!w) {
-            *out = one;
-            out->text_bytes = 0;
-            value = ARENA_NEW(arena, float, count *(size_t)one.rows);
-        } else if (!angle_table_same_rows(out, &one)) {
-            return error_at(err, ERROR_INPUT, file, "",
-                            "has other directions than the table "
-                            "of %g nm, required: the same at every wavelength",
-                            (double)set->wavelength_nm[0]);
-        }
-        out->text_bytes += one.text_bytes;
-        for (size_t i = 0; i < (size_t)one.rows; i++) value[i * count + w] = one.value[i];
-    }
-    out->value = value;
-    out->channels = set->wavelength_count;
-    return true;
-}
-
 static double whole_degrees(double radians) {
     return round(degrees_from_radians(radians) * 1e9) / 1e9;
 }
@@ -310,18 +272,14 @@ static bool read_slice(const JsonView *view, const char *pattern, int index, Mea
     Arena *arena = view->arena;
     AngleTable *table = &out->brdf[index];
     SlicePlace place = {whole_degrees(out->incidence[index % out->incidence_count]),
-                        whole_degrees(out->azimuth[index / out->incidence_count]), -1};
+                        whole_degrees(out->azimuth[index / out->incidence_count])};
     const char *name =
         out->azimuth_count > 1
             ? arena_format(arena, "brdf %g deg, light from %g deg", place.incidence, place.azimuth)
             : arena_format(arena, "brdf %g deg", place.incidence);
     const char *file;
-    if (!json_view_file(view, "files", fill_pattern(pattern, place, arena), &file, err))
-        return false;
-    if (strstr(pattern, "{wavelength}")
-            ? !join_wavelengths(view, pattern, place, out, table, err)
-            : !angle_table_read_brdf(file, out->wavelength_nm, out->wavelength_count, arena, table,
-                                     err))
+    if (!json_view_file(view, "files", fill_pattern(pattern, place, arena), &file, err) ||
+        !angle_table_read_brdf(file, out->wavelength_nm, out->wavelength_count, arena, table, err))
         return false;
     table->name = name;
     return true;

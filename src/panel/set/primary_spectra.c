@@ -2,12 +2,11 @@
 #include "panel/set/primary_spectra.h"
 
 #include <math.h>
+#include <strings.h>
 
-#include "base/count.h"
 #include "panel/set/angle_table.h"
 #include "panel/shape/spectral_warp.h"
 #include "spectrum/curve.h"
-#include "text/csv_table.h"
 
 #define NOISE_MOST 0.02 /* below zero, of a column's largest */
 
@@ -29,13 +28,40 @@ static void resample_spectrum(const CsvTable *csv, int nm_column, int column, fl
     }
 }
 
-static bool check_spectra(const CsvTable *csv, int nm_column, Arena *arena, Error *err) {
-    for (int i = 0; i < csv->rows; i++) {
-        const float *row = csv->cell + (size_t)i * (size_t)csv->columns;
-        if (i && !(row[nm_column] > row[nm_column - csv->columns]))
-            return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, i, arena),
-                            "wavelength %g follows %g, required: rising wavelengths",
-                            (double)row[nm_column], (double)row[nm_column - csv->columns]);
+/* The column of a primary's or the wavelength's name, in any case; -1: none. */
+static int column_of(const CsvTable *csv, int which) {
+    static const char *const names[PRIMARY_COLUMNS][3] = {{"nm", "wavelength", "wavelength_nm"},
+                                                          {"red", "R", "red"},
+                                                          {"green", "G", "green"},
+                                                          {"blue", "B", "blue"},
+                                                          {"black", "K", "black"}};
+    for (int c = 0; c < csv->columns; c++)
+        for (int k = 0; k < 3; k++)
+            if (!strcasecmp(csv->name[c], names[which][k])) return c;
+    return -1;
+}
+
+bool primary_columns_read(const char *file, Arena *arena, CsvTable *csv,
+                          int column[PRIMARY_COLUMNS], Error *err) {
+    static const char *const names[] = {"nm", "red", "green", "blue"};
+    if (!csv_table_read(file, arena, csv, err)) return false;
+    int found = 0;
+    for (int k = 0; k < PRIMARY_COLUMNS; k++) {
+        column[k] = column_of(csv, k);
+        found += column[k] >= 0;
+        if (column[k] < 0 && k < 4)
+            return error_at(err, ERROR_INPUT, file, "header line", "has no column '%s'", names[k]);
+    }
+    if (found < csv->columns)
+        return error_at(err, ERROR_INPUT, file, "header line",
+                        "has %d columns, required: nm, red, green, blue and maybe black, each once",
+                        csv->columns);
+    for (int i = 1; i < csv->rows; i++) {
+        const float *nm = csv->cell + (size_t)i * (size_t)csv->columns + column[0];
+        if (!(*nm > nm[-csv->columns]))
+            return error_at(err, ERROR_INPUT, file, csv_table_place(csv, i, arena),
+                            "wavelength %g follows %g, required: rising wavelengths", (double)*nm,
+                            (double)nm[-csv->columns]);
     }
     return true;
 }
@@ -82,19 +108,12 @@ static bool spectrum_has_light(const float *spectrum) {
 
 bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPECTRAL_COUNT],
                           double *beyond, Error *err) {
-    static const char *const known[] = {"nm", "red", "green", "blue", "black"};
     CsvTable csv;
-    if (!csv_table_read(file, arena, &csv, err)) return false;
-    if (!csv_table_check_columns(&csv, known, COUNT_OF(known), err)) return false;
-    int nm = csv_table_column(&csv, "nm");
-    for (int i = 0; i < 4; i++)
-        if (csv_table_column(&csv, known[i]) < 0)
-            return error_at(err, ERROR_INPUT, file, "header line", "has no column '%s'", known[i]);
-    if (!check_spectra(&csv, nm, arena, err)) return false;
+    int column[PRIMARY_COLUMNS];
+    if (!primary_columns_read(file, arena, &csv, column, err)) return false;
     for (int p = 0; p < 3; p++) {
-        int column = csv_table_column(&csv, primary_names[p]);
-        if (!check_light(&csv, nm, column, *arena, beyond, err)) return false;
-        resample_spectrum(&csv, nm, column, spectrum[p]);
+        if (!check_light(&csv, column[0], column[1 + p], *arena, beyond, err)) return false;
+        resample_spectrum(&csv, column[0], column[1 + p], spectrum[p]);
         if (!spectrum_has_light(spectrum[p]))
             return error_at(err, ERROR_INPUT, file, "",
                             "column '%s' holds no light between "

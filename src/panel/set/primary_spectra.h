@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "panel/set/measured.h"
 #include "spectrum/twice.h"
+#include "text/csv_table.h"
 
 /* One primary's column; nm rising. */
 typedef struct PrimaryColumn {
@@ -22,7 +23,13 @@ typedef struct PrimaryColumn {
  * where light was not measured (spectrum/curve.h). */
 bool primary_spectrum_reaches(const PrimaryColumn *column, double *beyond, Error *err);
 
-/* Columns nm, red, green, blue and maybe black: linear between the measured wavelengths, 0
+/* Columns of wavelength (nm, wavelength, wavelength_nm), red, green, blue (R, G, B) and maybe black
+ * (K; else -1), in any case and order; wavelengths rise. */
+#define PRIMARY_COLUMNS 5
+bool primary_columns_read(const char *file, Arena *arena, CsvTable *csv,
+                          int column[PRIMARY_COLUMNS], Error *err);
+
+/* Of such a table's primaries: linear between the measured wavelengths, 0
  * outside; every nm from SPECTRAL_FIRST_NM. *beyond, 0 before: as above, of all. */
 bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPECTRAL_COUNT],
                           double *beyond, Error *err);
