@@ -6,14 +6,17 @@ build wrote says the same, to the last printed figure, when the other build read
 import argparse
 import csv
 import html
+import html.parser
 import json
 import math
 import os
 import pty
 import re
+import struct
 import subprocess
 import sys
 import tempfile
+from xml.etree import ElementTree
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
@@ -277,8 +280,6 @@ def check_places(report, commands, panel):
         drawn = json.loads(commands.text("plot", path, "--kind", "uniformity", "-o",
                                          commands.file(name), "--json"))
         report.claim(drawn["picture"]["figures"] == 2, f"{name} has {drawn}")
-    fails(report, commands.run("plot", panel, "--kind", "uniformity", "-o",
-                               commands.file("none.svg")), 3, "the same everywhere")
     fails(report, commands.run("eval", path, "--theta", "0", "--rgb", "1,1,1", "--at", "0,2"),
           2, "--at")
     with open(commands.file("batch.csv"), "w") as out:
@@ -364,7 +365,7 @@ def check_verdict(report, commands, panel):
                  "the report hides the verdict")
 
 
-WHITE, BLACK, ALBEDO = 400.0, 0.8, 0.06
+NAME, WHITE, BLACK, ALBEDO = "<b> Lambert & co", 400.0, 0.8, 0.06
 INCIDENCES = [10, 20, 30, 40, 50, 60, 70, 80, 88]  # beyond the last it is extrapolated
 
 
@@ -387,12 +388,86 @@ def make_lambertian(commands, name):
         write_rows(os.path.join(folder, f"i{incidence}.csv"), "theta,phi,brdf",
                    [(t, p, ALBEDO / math.pi) for t, p in angles])
     with open(os.path.join(folder, "M.json"), "w") as out:
-        json.dump({"emission": {"white": "white.csv", "levels": "levels.csv"},
+        json.dump({"panel": NAME, "emission": {"white": "white.csv", "levels": "levels.csv"},
                    "reflection": {"wavelengths_nm": [555], "incidence_deg": INCIDENCES,
                                   "files": "i{incidence}.csv"}}, out)
     panel = commands.file(name + ".panel")
     commands.text("fit", os.path.join(folder, "M.json"), "-o", panel, "--quiet")
     return panel
+
+
+class Nesting(html.parser.HTMLParser):
+    """Whether tags close in their order."""
+    EMPTY = ("meta", "img", "br", "link")
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.count, self.wrong = [], 0, []
+
+    def handle_starttag(self, tag, attrs):
+        self.count += 1
+        if tag not in self.EMPTY:
+            self.open.append(tag)
+        for key, value in attrs:
+            if key in ("src", "href") and not value.startswith("data:image/svg+xml;base64,"):
+                self.wrong.append(f"{tag} {key}={value}")
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(tag)
+
+
+def check_page(report, page):
+    """It stands alone, and names are no markup."""
+    with open(page, encoding="utf-8") as file:
+        text = file.read()
+    nesting = Nesting()
+    nesting.feed(text)
+    report.claim(nesting.count > 500 and not nesting.open and not nesting.wrong
+                 and "@import" not in text, f"{nesting.count} tags, {nesting.wrong[:3]}")
+    report.claim(html.escape(NAME) in text and NAME not in text, "the name is not escaped")
+    report.claim("nearly constant" in text, "a constant map does not say so")
+
+
+KINDS = ("all", "luminance", "contrast", "colour-shift", "sections", "chromaticity", "grey-levels",
+         "brdf", "reflectance", "fit")
+
+
+def check_pictures(report, commands, panel):
+    """Every kind is a whole SVG, a PNG twice as large; what cannot be drawn is one line, and
+    leaves nothing."""
+    measured = ("--measured", commands.file("set", "MANIFEST.json"))
+    svg, png = commands.file("p.svg"), commands.file("p.png")
+    for kind in KINDS:
+        commands.text("plot", panel, "-o", svg, "--kind", kind, *measured)
+        root = ElementTree.parse(svg).getroot()
+        report.claim(root.tag.endswith("svg") and len(list(root.iter())) > 50, f"{kind}: {root}")
+    commands.text("plot", panel, "-o", png, "--kind", KINDS[-1], *measured)
+    with open(png, "rb") as file:
+        size = struct.unpack(">8x8xII", file.read(24))
+    report.claim([f"{side / 2:g}px" for side in size] == [root.get("width"), root.get("height")],
+                 f"a PNG of {size} beside {root.attrib}")
+    os.remove(svg)
+    white, grey = commands.file("white.csv"), commands.file("paper.panel")
+    write_rows(white, "theta,phi,X,Y,Z", ((t, 0, 95, 100 - t, 108) for t in range(0, 61, 20)))
+    commands.text("fit", white, "-o", white + ".panel", "--quiet")
+    paper = lambertian_set(commands, "paper", 0.5)
+    commands.text("fit", paper, "-o", grey, "--quiet")
+    commands.text("plot", grey, "-o", png, "--measured", paper)
+    for status, path, target, options, words in (
+            (2, panel, svg, ("--kind", "luminanz"), ("luminanz", "contrast")),
+            (2, panel, svg, ("--kind", "fit"), ("--measured MANIFEST.json",)),
+            (2, panel, commands.file("e.pdf"), (), (".svg or .png",)),
+            (3, panel, svg, ("--kind", "uniformity"), ("the same everywhere",)),
+            (3, white + ".panel", svg, ("--kind", "brdf"), ("no reflection data", "--kind brdf")),
+            (3, white + ".panel", svg, ("--kind", "contrast"), ("its black emits nothing",)),
+            (3, white + ".panel", svg, ("--kind", "grey-levels"), ("one level",)),
+            (3, grey, svg, ("--kind", "sections"), ("no emission data", "--kind sections")),
+            (3, commands.file("none.panel"), svg, (), ("none.panel",)),
+            (4, panel, commands.file("none", "x.svg"), (), ("x.svg",))):
+        fails(report, commands.run("plot", path, "-o", target, *options), status, *words)
+    fails(report, commands.run("plot", panel), 2, "wants -o X.svg")
+    report.claim(not os.path.exists(svg), "what cannot be drawn left a file")
 
 
 def check_light(report, commands, _):
@@ -412,8 +487,7 @@ def check_light(report, commands, _):
             wanted = (WHITE + reflected) / (BLACK + reflected)
             report.claim(abs(row["contrast"] / wanted - 1) < 0.01,
                          f"{lux} lx: {row['contrast']} instead of {wanted}")
-    with open(page) as file:
-        report.claim("nearly constant" in file.read(), "a constant map does not say so")
+    check_page(report, page)
     for option, value, words in (
             ("--ambient", "-3", "above 0"), ("--ambient", "1,", "required"),
             ("--ambient", "5;6", "no comma"), ("--ambient", "", "required"),
@@ -562,7 +636,7 @@ def main():
         panel = commands.make("small.panel")
         for check in (check_grids, check_batch, check_levels, check_places,
                       check_traits, check_verdict, check_display,
-                      check_light):
+                      check_light, check_pictures):
             try:
                 check(report, commands, panel)
             except (ValueError, KeyError, IndexError) as error:

@@ -110,7 +110,7 @@ EXERCISES = {
           "    chart->caption = \"White's luminance.\";\n    plot_add(charts, chart);\n}\n\n"),
          ("src/plot/panel/emission_charts.c", "    if (plot_wants(kind, PLOT_CONTRAST))",
           "    if (plot_wants(kind, PLOT_SECTIONS)) add_white(charts, data);\n")],
-        ["test_plot_files"], ["test_plot_files"]),
+        ["test_panel_report"], ["test_panel_report"]),
     # The width of a symbol's strokes.
     "stroke_arcmin": Exercise(
         "A figure of a case", 7, {},
