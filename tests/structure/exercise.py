@@ -108,8 +108,8 @@ EXERCISES = {
           "    for (int deg = 0; deg <= 80; deg++)\n"
           "        chart_point(chart, deg, white_at(s, radians_from_degrees(deg), 0));\n"
           "    chart->caption = \"White's luminance.\";\n    plot_add(charts, chart);\n}\n\n"),
-         ("src/plot/panel/emission_charts.c", "    if (plot_wants(kind, PLOT_CONTRAST))",
-          "    if (plot_wants(kind, PLOT_SECTIONS)) add_white(charts, data);\n")],
+         ("src/plot/panel/emission_charts.c", "if (plot_wants(kind, PLOT_CONTRAST))",
+          "if (plot_wants(kind, PLOT_SECTIONS)) add_white(charts, data);\n    ")],
         ["test_panel_report"], ["test_panel_report"]),
     # The width of a symbol's strokes.
     "stroke_arcmin": Exercise(
