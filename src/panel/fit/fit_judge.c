@@ -445,25 +445,6 @@ static void judge_peak(Judge *judge, const EmissionTree *tree) {
                      judge_rounded(judge, 100 * p->estimate), 100 * JUDGE_GAP_CARE, 0.5 * step);
 }
 
-/* Compares the panel with the fitted haze between the tables' rows. */
-static void judge_between(Judge *judge, const FitParts *parts) {
-    const ReflectionResult *r = parts->reflection;
-    const Measurement *set = parts->set;
-    int worst = 0;
-    for (int t = 1; t < r->parts.tables; t++)
-        if (r->held_out[t].between > r->held_out[worst].between) worst = t;
-    if (!(r->held_out[worst].between > JUDGE_HELD_OUT_CARE)) return;
-    judge_reason_add(judge, JUDGE_CARE,
-                     JUDGE_COARSE
-                     "between the samples near the mirror "
-                     "direction the panel differs from the fitted haze by %.2g %% (light from "
-                     "%.4g degrees), required: at most %.0f %%: measure the BRDF in finer "
-                     "steps there, or ask for a smaller bound (--max-error)",
-                     100 * r->held_out[worst].between,
-                     degrees_from_radians(set->incidence[worst % set->incidence_count]),
-                     100 * JUDGE_HELD_OUT_CARE);
-}
-
 static void judge_reach(Judge *judge, const FitParts *parts) {
     const Measurement *set = parts->set;
     const ReflectionParts *of = &parts->reflection->parts;
@@ -471,7 +452,6 @@ static void judge_reach(Judge *judge, const FitParts *parts) {
     judge_specular(judge, parts);
     judge_held_out(judge, parts);
     judge_scattered(judge, parts);
-    judge_between(judge, parts);
     if (!of->peak) return;
     for (int t = 0; t < of->tables; t++) {
         double incidence = set->incidence[t % set->incidence_count];

@@ -363,14 +363,6 @@ static void hold_out(void *context, int t, int worker) {
     arena_release(&arena);
 }
 
-static void look_between(void *context, int t, int worker) {
-    HeldOutPass *pass = context;
-    Arena arena = arena_reserve(TRIAL_BYTES);
-    (void)worker;
-    pass->held_out[t].between = reflection_held_out_between(pass->model, t, arena);
-    arena_release(&arena);
-}
-
 bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *arena,
                     FitNotes *notes, ReflectionResult *out, Error *err) {
     reflection_parts_separate(set, options, arena, notes, &out->parts);
@@ -383,7 +375,6 @@ bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *ar
     reflection_held_out_peaks(model, pass.held_out);
     choose_frame(model);
     if (!code_levels(model, &misses, err)) return false;
-    parallel_for(options->threads, model->tables, look_between, &pass);
     out->held_out = pass.held_out;
     out->model = model;
     out->worst = misses.worst;

@@ -6,11 +6,8 @@
 #include "base/mathd.h"
 #include "base/sort.h"
 #include "base/units.h"
-#include "hemisphere/tree/tree_open.h"
-#include "hemisphere/tree/tree_query.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_read.h"
-#include "panel/fit/reflection/reflection_spectra.h"
 
 #define NEAR_DEG 15.0  /* rows nearer to the mirror direction than this */
 #define NEAR_STEPS 2.0 /* or than so many steps */
@@ -265,46 +262,4 @@ HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scrat
     }
     out.estimate = out.error / (is_guided(&thinned) ? 1 : CUBIC_ORDER);
     return out;
-}
-
-/* ---- the tree between rows --------------------------------------------------------------- */
-
-/* A table beside the tree. */
-typedef struct BetweenCheck {
-    const ReflectionModel *model;
-    int table;
-    ReflectionView view;
-    Tree tree;
-    double worst;
-} BetweenCheck;
-
-static double tree_log(const BetweenCheck *check, Vec3 local) {
-    float component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
-    tree_interpolate(&check->tree, specular_frame_stored(&check->view.frame, local), component);
-    reflection_spectra_logs(check->model, check->table, component, logs);
-    return (double)logs[check->model->wavelengths / 2] + log_d(check->view.fresnel);
-}
-
-static void compare_between(void *context, double theta, double phi) {
-    BetweenCheck *check = context;
-    const ReflectionModel *model = check->model;
-    const ReflectionGuide *guide = &model->guide[check->table];
-    float logs[MEASUREMENT_WAVELENGTHS_MAX];
-    Vec3 local = table_direction(theta, phi);
-    if (peak_window_angle(theta, phi, guide->incidence) > guide->reach) return;
-    if (reflection_read_logs(model, check->table, local, logs) > 0) return;
-    double difference = tree_log(check, local) - (double)logs[model->wavelengths / 2];
-    check->worst = fmax(check->worst, fabs(exp_d(fmin(5, difference)) - 1));
-}
-
-double reflection_held_out_between(const ReflectionModel *model, int table, Arena scratch) {
-    BetweenCheck check = {.model = model, .table = table, .view = reflection_view(model, table)};
-    const Geodesic *geodesic = geodesic_create(model->lattice.level, &scratch);
-    Error err;
-    if (!model->guide[table].is_used ||
-        !tree_open(model->tree, tree_size(model->tree), geodesic, &check.tree, &err))
-        return 0;
-    compare_between(&check, model->guide[table].incidence, 0);
-    reflection_read_halfway(&model->grid[table], compare_between, &check);
-    return check.worst;
 }

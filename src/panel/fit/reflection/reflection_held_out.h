@@ -18,7 +18,6 @@
 typedef struct HeldOut {
     double error;      /* relative, beside the noise, of rows left out */
     double estimate;   /* between the rows with none left out */
-    double between;    /* of the tree halfway between rows, relative */
     double theta, phi; /* radians, in the table's frame */
     bool is_scattered; /* no grid: none of the above, but gaps */
     ScatterGaps gaps;
@@ -29,9 +28,3 @@ HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scrat
 
 /* What one table's samples show in the mirror direction may lie in another one's gap there. */
 void reflection_held_out_peaks(const ReflectionModel *model, HeldOut *held_out);
-
-/* At samples the coder sees what the tree misses; between the rows of a coarse table only this
- * does: it compares the tree with reading the table (and its guide), near the mirror direction,
- * halfway between rows. The largest relative difference of a table with a guide, in the middle
- * wavelength; 0 without one: rows are close enough there. */
-double reflection_held_out_between(const ReflectionModel *model, int table, Arena scratch);

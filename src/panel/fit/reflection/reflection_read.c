@@ -209,18 +209,6 @@ double reflection_guide_log(const ReflectionGuide *guide, double theta, double p
     return log_d(haze + guide->lambertian);
 }
 
-void reflection_read_halfway(const DirectionGrid *grid, ReflectionBetween *visit, void *context) {
-    for (int i = 0; i + 1 < grid->thetas; i++)
-        for (int k = 0; k < grid->phis; k++) {
-            double theta = (double)grid->theta[i], phi = (double)grid->phi[k], turn = phi;
-            double outer = 0.5 * (theta + (double)grid->theta[i + 1]);
-            if (k + 1 < grid->phis) turn = 0.5 * (phi + (double)grid->phi[k + 1]);
-            visit(context, outer, phi);
-            visit(context, theta, turn);
-            visit(context, outer, turn);
-        }
-}
-
 /* A direction between cells; the middle channel is what is compared there. */
 typedef struct GuideCheck {
     const DirectionGrid *grid;
@@ -230,8 +218,7 @@ typedef struct GuideCheck {
 } GuideCheck;
 
 /* Both ways of reading, from the same cells. */
-static void compare_at(void *context, double theta, double phi) {
-    const GuideCheck *at = context;
+static void compare_at(const GuideCheck *at, double theta, double phi) {
     const DirectionGrid *grid = at->grid;
     GridTaps taps;
     double plain = 0, rest = 0;
@@ -250,12 +237,20 @@ static void compare_at(void *context, double theta, double phi) {
     at->guide->miss = fmax(at->guide->miss, fabs(exp_d(fmin(5, plain - guided)) - 1));
 }
 
-/* Compares reading between the cells, which hold logarithms, with and without the guide, and
- * decides; the middle channel is compared. */
+/* Compares reading halfway between neighbouring rings and azimuths, from cells that hold
+ * logarithms, with and without the guide, and decides; the middle channel is compared. */
 static void choose_guide(const DirectionGrid *grid, const float *cells, int channels,
                          ReflectionGuide *guide) {
     GuideCheck at = {grid, cells, channels, guide};
-    reflection_read_halfway(grid, compare_at, &at);
+    for (int i = 0; i + 1 < grid->thetas; i++)
+        for (int k = 0; k < grid->phis; k++) {
+            double theta = (double)grid->theta[i], phi = (double)grid->phi[k], turn = phi;
+            double outer = 0.5 * (theta + (double)grid->theta[i + 1]);
+            if (k + 1 < grid->phis) turn = 0.5 * (phi + (double)grid->phi[k + 1]);
+            compare_at(&at, outer, phi);
+            compare_at(&at, theta, turn);
+            compare_at(&at, outer, turn);
+        }
     guide->is_used = guide->miss > GUIDE_MISS;
 }
 

@@ -19,11 +19,5 @@ void reflection_read_places(ReflectionModel *model, int level);
  * them. sr^-1 */
 double reflection_read_least(const AngleTable *table);
 
-/* A direction between the rows of a grid, radians. */
-typedef void ReflectionBetween(void *context, double theta, double phi);
-
-/* Visits what lies halfway between neighbouring rings and azimuths. */
-void reflection_read_halfway(const DirectionGrid *grid, ReflectionBetween *visit, void *context);
-
 /* ln of a guide, in a table's frame. */
 double reflection_guide_log(const ReflectionGuide *guide, double theta, double phi);
