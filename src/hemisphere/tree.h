@@ -5,8 +5,9 @@
  * tree_open and tree_query.h take either; the blob's magic number distinguishes them. Here is
  * what both are made of; haar/haar_tree.h and vertex/vertex_tree_build.h make them.
  *
- * A tree is one blob: little-endian, offsets instead of pointers, to be stored in a file,
- * mapped and queried in place (tree_query.h). A Haar row is the detail of one child
+ * A tree is one blob, little-endian, to be stored in a file. tree_open makes of it what
+ * queries read (tree_query.h): of a Haar tree views into the blob, of a vertex tree rows in
+ * the arena. A Haar row is the detail of one child
  * (haar/haar.h): `components` numbers.
  *
  * Blob      TreeHeader | octant means, float32 | scales, float32 (integer rows only) | nodes
@@ -65,28 +66,21 @@ typedef struct TreeNode {
 
 typedef enum TreeBasis { TREE_HAAR = 0, TREE_VERTEX = 1 } TreeBasis;
 
-/* A checked blob, ready for queries. Plain views into the blob and the geodesic. */
+/* A checked blob, ready for queries. */
 typedef struct Tree {
     const Geodesic *geodesic;
     TreeBasis basis;
     int level, octants, components;
 
     /* Vertex trees only (vertex_tree.h). */
-    int base_level, level_count, depth_level, plane_level;
-    uint32_t base_bytes; /* of a base row */
-    float base_factor;   /* 2^base_exponent */
-    const float *scale;  /* of each component */
+    int base_level, level_count, plane_level;
+    float base_factor;  /* 2^base_exponent */
+    const float *scale; /* of each component, `stride` of them */
     const struct VertexLevel *levels;
-    const struct VertexFormat *formats;
-    const uint32_t *words;
-    const uint16_t *ranks;
-    const uint8_t *depths, *block_formats;
-    const uint64_t *blocks;
-    const uint8_t *details; /* all rows */
-    uint32_t block_count;
-    const int16_t *unpacked;       /* the same rows (vertex_unpack.h), or NULL */
-    const uint32_t *unpacked_rows; /* each block's first one */
-    int unpacked_stride;           /* numbers from row to row, a multiple of 8 */
+    const struct VertexBlock *blocks; /* the first is empty */
+    const uint8_t *depths;            /* levels with details around each cell of a depth level */
+    const int16_t *numbers;           /* rows: of the base, then of the blocks */
+    int stride;                       /* numbers from row to row, a multiple of 8 */
 
     /* Haar trees only. */
     const TreeNode *nodes;
@@ -103,9 +97,8 @@ typedef struct Tree {
  * more that is written before it is known whether it is kept. */
 #define TREE_MAX_TAPS (3 * 11 * GEODESIC_MAX_LEVEL + 1)
 
-/* A value as a weighted sum of a tree's octant means and rows. For a vertex tree the rows are
- * places in bytes (indices, where the tree is unpacked), levels are formats, and weights hold
- * the powers of two that integers are multiplied by. */
+/* A value as a weighted sum of a tree's octant means and rows. Of a vertex tree there are no
+ * levels, and weights hold the powers of two that integers are multiplied by. */
 typedef struct TreeTaps {
     int count;
     float mean_weight[4]; /* of the octant means */

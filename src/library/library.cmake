@@ -12,9 +12,9 @@ set(panel_library_sources src/library/parhelion_panel.c src/library/open_panel.c
   src/base/sort.c src/print/print.c src/print/printable.c src/print/utf8.c
   src/spectrum/spectral_table.c src/spectrum/wavelengths.c
   src/hemisphere/geodesic.c src/hemisphere/specular_frame.c
-  src/hemisphere/vertex/vertex.c src/hemisphere/vertex/vertex_open.c
-  src/hemisphere/vertex/vertex_pack.c src/hemisphere/vertex/vertex_query.c
-  src/hemisphere/vertex/vertex_tree_write.c src/hemisphere/vertex/vertex_unpack.c
+  src/hemisphere/vertex/vertex.c src/hemisphere/vertex/vertex_code.c
+  src/hemisphere/vertex/vertex_dense.c src/hemisphere/vertex/vertex_open.c
+  src/hemisphere/vertex/vertex_query.c
   src/hemisphere/tree/tree_open.c src/hemisphere/tree/tree_query.c
   src/hemisphere/tree/tree_stop.c src/hemisphere/tree/tree_sum.c
   src/hemisphere/sampling/sampling_tree.c src/hemisphere/sampling/sampling_tree_build.c
@@ -25,8 +25,7 @@ foreach(file components emission grid info open open_emission open_reflection
     place reflection sampling section zones)
   list(APPEND panel_library_sources src/panel/query/panel_${file}.c)
 endforeach()
-list(APPEND panel_library_sources src/panel/query/sampling_make.c
-  src/panel/zones/dimming_zones.c)
+list(APPEND panel_library_sources src/panel/zones/dimming_zones.c)
 
 add_library(parhelion_panel SHARED ${panel_library_sources})
 set_target_properties(parhelion_panel PROPERTIES OUTPUT_NAME parhelion-panel

@@ -17,7 +17,7 @@ def sections_of(data):
     if data[:8] != b"PHPANEL\n":
         raise ValueError("no panel file")
     version, flags, _, size, count, _ = struct.unpack_from("<IIQQII", data, 8)
-    if version not in (3, 4, 5, 6) or flags or size != len(data):
+    if version != 7 or flags or size != len(data):
         raise ValueError("a panel file that this page does not tell of")
     found = {}
     for i in range(count):
@@ -274,11 +274,9 @@ class Panel:
                    for reflection, weight in self.reflecting(place))
 
     def pdf(self, wo, wi, place=(0.5, 0.5)):
-        """(density, margin) as Reflection.pdf has it; None: a panel without a tree counts."""
+        """(density, margin) as Reflection.pdf has it."""
         out, margin = 0.0, 1.0
         for reflection, weight in self.reflecting(place):
             answer = reflection.pdf(wo, wi)
-            if answer is None:
-                return None
             out, margin = out + weight * answer[0], min(margin, answer[1])
         return out, margin

@@ -151,13 +151,11 @@ class Reflection:
         return smooth(min(before, self.room(wi, wo))) * smooth(polar(wi) - self.last)
 
     def read_sampling(self, data):
-        self.sampling = None
-        if data:
-            self.sampling = SamplingTree(data)
-            s = Bytes(data)
-            s.at = (self.sampling.size + 3) // 4 * 4
-            count, self.viewer_azimuths = s.take("H", 2)
-            self.viewer_theta = s.take("f", count)
+        self.sampling = SamplingTree(data)
+        s = Bytes(data)
+        s.at = (self.sampling.size + 3) // 4 * 4
+        count, self.viewer_azimuths = s.take("H", 2)
+        self.viewer_theta = s.take("f", count)
 
     def name_steps(self):
         """(theta, incidence, is from the other side), rising."""
@@ -352,9 +350,7 @@ class Reflection:
         return f, [p * b for p, b in zip(own, factor)]
 
     def pdf(self, wo, wi):
-        """(density, how near the edge of a cell it is read); None: the file has no tree."""
-        if not self.sampling:
-            return None
+        """(density, how near the edge of a cell it is read)."""
         if not (wo[2] > 0 and wi[2] > 0):
             return 0.0, 1.0
         theta, n = polar(wo), len(self.viewer_theta)

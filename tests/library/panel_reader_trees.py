@@ -101,7 +101,7 @@ def lattice_corners(level, n):
 
 
 def open_tree(data):
-    kind = {b"VRTX": VertexTree, b"VRTP": PackedTree, b"HAAR": HaarTree, b"GRID": Cells}
+    kind = {b"VRTX": VertexTree, b"HAAR": HaarTree, b"GRID": Cells}
     return kind[data[:4]](data)
 
 
@@ -137,67 +137,94 @@ class Cells:
 # ---- VRTX ----------------------------------------------------------------------------------
 
 
+class BitReader:
+    def __init__(self, data):
+        self.data, self.at, self.range = data, 4, 2 ** 32 - 1
+        self.low, self.chances = int.from_bytes(data[:4], "big"), {}
+
+    def bit(self, *context):
+        zero, seen = self.chances.get(context, (32768, 0))
+        bound = self.range // 65536 * zero
+        bit = int(self.low >= bound)
+        self.low -= bound * bit
+        self.range = self.range - bound if bit else bound
+        while self.range < 2 ** 24:
+            byte = self.data[self.at] if self.at < len(self.data) else 0
+            self.low, self.range, self.at = 256 * self.low + byte, 256 * self.range, self.at + 1
+        zero += int(2 * ((0 if bit else 65536) - zero) / (2 * seen + 3))
+        self.chances[context] = min(65280, max(256, zero)), min(29, seen + 1)
+        return bit
+
+    def number(self, kind, near, others):
+        size, digits, out = min(2, (abs(near) + 1) // 2), 1, 1
+        if not self.bit(kind, "more", size, others):
+            return 0
+        while digits < 16 and self.bit(kind, "longer", size, digits):
+            digits += 1
+        for place in reversed(range(digits - 1)):
+            out = 2 * out + self.bit(kind, "digit", place, place == digits - 2)
+        sign = (near > 0) - (near < 0)
+        return -out if self.bit(kind, "sign", sign) else out
+
+
 class VertexTree:
     def __init__(self, data):
         section = Bytes(data)
         section.at = 4
         version, self.count = section.take("H", 2)
-        assert version == 1
-        section.take("Q")
-        self.lattice, self.octants, self.base, levels, depth, formats = section.take("B", 6)
-        exponent, _ = section.take("b"), section.take("B")
-        words, blocks = section.take("H", 2)
-        row_bytes = section.take("I")
+        assert version == 2 and section.take("Q") == len(data)
+        self.lattice, self.octants, self.base, levels = section.take("B", 4)
+        rows, exponent = section.take("I"), section.take("b")
+        section.at = 32
         self.scale = section.take("f", self.count)
-        heads = [(section.take("h", 2), section.take("B", 3), section.take("b"),
-                  section.take("H", 2), section.take("I")) for _ in range(levels)]
-        directory = section.take("I", words)
-        self.formats = rows_of(section.take("B", 4 * formats), 4)
-        section.take("H", words)
-        section.take("B", self.octants * 4 ** depth // 2)
-        block_formats = section.take("B", blocks)
-        section.at = (section.at + 7) // 8 * 8
-        bits = section.take("Q", blocks)
-        self.rows = data[section.at:section.at + row_bytes]
-        self.finest = self.base + levels
-        self.values = {}
-        self.read_base(2.0 ** exponent)
-        self.details = [self.read_level(head, directory, bits, block_formats)
-                        for head in heads]
+        exponents = section.take("b", levels)
+        self.finest, self.values = self.base + levels, {}
+        self.bits, self.stored = BitReader(data[section.at:]), set()
+        before = [0] * self.count
+        for i, j in self.points(self.base):
+            change = self.numbers(None, [0] * self.count)
+            before = [p + q for p, q in zip(before, change)]
+            self.values[self.base, i, j] = self.scaled(before, exponent)
+            self.mark(self.base, i, j)
+        self.details = [self.read_details(self.base + k, exponents[k]) for k in range(levels)]
+        assert len(self.stored) == rows
 
-    def row(self, at, format_, factor):
-        integers = [0] * self.count
-        for plane, size in enumerate(self.formats[format_]):
-            for i in range(size):
-                byte = self.rows[at + i]
-                for k, four in ((2 * i, byte & 15), (2 * i + 1, byte >> 4)):
-                    if k < self.count:
-                        integers[k] += 16 ** plane * (four - 16 if four > 7 else four)
-            at += size
-        return [n * scale * factor for n, scale in zip(integers, self.scale)]
+    def points(self, level):
+        n = 2 ** level
+        return ((i, j) for j in range(0 if self.octants == 2 else -n, n + 1)
+                for i in range(abs(j) - n, n - abs(j) + 1))
 
-    def read_base(self, factor):
-        n, at = 2 ** self.base, 0
-        for j in range(0 if self.octants == 2 else -n, n + 1):
-            for i in range(abs(j) - n, n - abs(j) + 1):
-                self.values[self.base, i, j] = self.row(at, 0, factor)
-                at += sum(self.formats[0])
+    def mark(self, level, i, j):
+        self.stored.add((i << self.lattice - level, j << self.lattice - level))
 
-    def read_level(self, head, directory, bits, block_formats):
-        """{(column, row, edge): detail} of a level of the file."""
-        (x, y), (width, height, shift), exponent, (word, block), byte = head
-        found = {}
-        for at in range(width * height):
-            if not directory[word + at // 32] >> at % 32 & 1:
+    def has(self, level, i, j):
+        j = abs(j) if self.octants == 2 else j
+        return (i << self.lattice - level, j << self.lattice - level) in self.stored
+
+    def scaled(self, integers, exponent):
+        return [n * scale * 2.0 ** exponent for n, scale in zip(integers, self.scale)]
+
+    def numbers(self, level, near):
+        row = []
+        for k in range(self.count):
+            row.append(self.bits.number((level, k), near[k], any(row)))
+        return row
+
+    def read_details(self, level, exponent):
+        found, near, last = {}, [0] * self.count, (0, 0)
+        for i, j in self.points(level + 1):
+            if i % 2 == 0 and j % 2 == 0:
                 continue
-            start = byte + ((bits[block] >> 48) << shift)
-            for bit in range(48):
-                if bits[block] >> bit & 1:
-                    row, column, edge = bit // 12, bit % 12 // 3, bit % 3
-                    key = (x + at % width * 4 + column, y + at // width * 4 + row, edge)
-                    found[key] = self.row(start, block_formats[block], 2.0 ** exponent)
-                    start += sum(self.formats[block_formats[block]])
-            block += 1
+            edge = 2 if i % 2 and j % 2 else j % 2
+            s = (1 if (i < 0) == (j < 0) else -1) if edge == 2 else 1
+            ends = ((i - i % 2, j + s * (j % 2)), (i + i % 2, j - s * (j % 2)))
+            count = sum(self.has(level + 1, p, q) for p, q in ends)
+            bit = self.bits.bit(level, "stored", edge, count, last)
+            last = last[1], bit
+            if bit:
+                near = self.numbers(level, near)
+                self.mark(level + 1, i, j)
+                found[i // 2, j // 2, edge] = self.scaled(near, exponent)
         return found
 
     def vertex(self, level, i, j):
@@ -238,100 +265,6 @@ class VertexTree:
         rows = [(w, self.vertex(self.finest, sx * p, sy * q)) for p, q, w in corners]
         (a, p), (b, q), (c, r) = rows
         return [a * f + b * g + c * h for f, g, h in zip(p, q, r)]
-
-
-# ---- VRTP ----------------------------------------------------------------------------------
-
-
-class BitReader:
-    def __init__(self, data):
-        self.data, self.at, self.range = data, 4, 2 ** 32 - 1
-        self.low, self.chances = int.from_bytes(data[:4], "big"), {}
-
-    def bit(self, *context):
-        zero, seen = self.chances.get(context, (32768, 0))
-        bound = self.range // 65536 * zero
-        bit = int(self.low >= bound)
-        self.low -= bound * bit
-        self.range = self.range - bound if bit else bound
-        while self.range < 2 ** 24:
-            byte = self.data[self.at] if self.at < len(self.data) else 0
-            self.low, self.range, self.at = 256 * self.low + byte, 256 * self.range, self.at + 1
-        zero += int(2 * ((0 if bit else 65536) - zero) / (2 * seen + 3))
-        self.chances[context] = min(65280, max(256, zero)), min(29, seen + 1)
-        return bit
-
-    def number(self, kind, near, others):
-        size, digits, out = min(2, (abs(near) + 1) // 2), 1, 1
-        if not self.bit(kind, "more", size, others):
-            return 0
-        while digits < 16 and self.bit(kind, "longer", size, digits):
-            digits += 1
-        for place in reversed(range(digits - 1)):
-            out = 2 * out + self.bit(kind, "digit", place, place == digits - 2)
-        sign = (near > 0) - (near < 0)
-        return -out if self.bit(kind, "sign", sign) else out
-
-
-class PackedTree(VertexTree):
-    def __init__(self, data):
-        section = Bytes(data)
-        section.at = 6
-        self.count = section.take("H")
-        section.take("Q")
-        self.lattice, self.octants, self.base, levels = section.take("B", 4)
-        section.at = 22
-        exponent = section.take("b")
-        section.at = 32
-        self.scale = section.take("f", self.count)
-        exponents = section.take("b", levels)
-        self.finest, self.values = self.base + levels, {}
-        self.bits, self.stored = BitReader(data[section.at:]), set()
-        before = [0] * self.count
-        for i, j in self.points(self.base):
-            change = self.numbers(None, [0] * self.count)
-            before = [p + q for p, q in zip(before, change)]
-            self.values[self.base, i, j] = self.scaled(before, exponent)
-            self.mark(self.base, i, j)
-        self.details = [self.read_details(self.base + k, exponents[k]) for k in range(levels)]
-
-    def points(self, level):
-        n = 2 ** level
-        return ((i, j) for j in range(0 if self.octants == 2 else -n, n + 1)
-                for i in range(abs(j) - n, n - abs(j) + 1))
-
-    def mark(self, level, i, j):
-        self.stored.add((i << self.lattice - level, j << self.lattice - level))
-
-    def has(self, level, i, j):
-        j = abs(j) if self.octants == 2 else j
-        return (i << self.lattice - level, j << self.lattice - level) in self.stored
-
-    def scaled(self, integers, exponent):
-        return [n * scale * 2.0 ** exponent for n, scale in zip(integers, self.scale)]
-
-    def numbers(self, level, near):
-        row = []
-        for k in range(self.count):
-            row.append(self.bits.number((level, k), near[k], any(row)))
-        return row
-
-    def read_details(self, level, exponent):
-        found, near, last = {}, [0] * self.count, (0, 0)
-        for i, j in self.points(level + 1):
-            if i % 2 == 0 and j % 2 == 0:
-                continue
-            edge = 2 if i % 2 and j % 2 else j % 2
-            s = (1 if (i < 0) == (j < 0) else -1) if edge == 2 else 1
-            ends = ((i - i % 2, j + s * (j % 2)), (i + i % 2, j - s * (j % 2)))
-            count = sum(self.has(level + 1, p, q) for p, q in ends)
-            bit = self.bits.bit(level, "stored", edge, count, last)
-            last = last[1], bit
-            if bit:
-                near = self.numbers(level, near)
-                self.mark(level + 1, i, j)
-                found[i // 2, j // 2, edge] = self.scaled(near, exponent)
-        return found
 
 
 # ---- HAAR ----------------------------------------------------------------------------------

@@ -85,15 +85,17 @@ static inline Tree build_and_open(Fixture *f, const HaarTreeOptions *options, co
     Tree tree;
     Error err;
     if (!haar_tree_build(options, leaves, &f->arena, &blob, report, &err)) fail_msg("%s", err.text);
-    if (!tree_open(blob, tree_size(blob), f->geodesic, &tree, &err)) fail_msg("%s", err.text);
+    if (!tree_open(blob, tree_size(blob), f->geodesic, &f->arena, &tree, &err))
+        fail_msg("%s", err.text);
     return tree;
 }
 
 static inline void assert_tree_refused(const Fixture *f, const void *blob, size_t size,
                                        const char *text) {
     Tree tree;
+    Arena arena = f->arena;
     Error err = {0};
-    assert_false(tree_open(blob, size, f->geodesic, &tree, &err));
+    assert_false(tree_open(blob, size, f->geodesic, &arena, &tree, &err));
     assert_non_null(strstr(err.text, text));
 }
 

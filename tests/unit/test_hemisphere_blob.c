@@ -24,8 +24,9 @@ static void try_tree(const Fixture *f, const char *blob, size_t size, int *opene
     Tree tree;
     Error err = {0};
     memcpy(copy, blob, size);
-    if (tree_open(copy, size, f->geodesic, &tree, &err)) {
-        query_everything(&tree, f->arena);
+    Arena arena = f->arena;
+    if (tree_open(copy, size, f->geodesic, &arena, &tree, &err)) {
+        query_everything(&tree, arena);
         (*opened)++;
     } else {
         assert_true(err.text[0] != 0);
@@ -92,7 +93,7 @@ HEMISPHERE_TEST(a_bad_header_is_named) {
     char *copy = arena_alloc(&f->arena, 1, 16, size + 8);
     assert_tree_refused(f, (const char *)blob + 4, size, "multiple of 8");
     assert_tree_refused(f, blob, 20, "number of bytes is 20");
-    assert_fails(tree_open(blob, size, geodesic_create(2, &f->arena), &tree, &err),
+    assert_fails(tree_open(blob, size, geodesic_create(2, &f->arena), &f->arena, &tree, &err),
                  "level of the geodesic is 2, required: 3");
     memcpy(copy, blob, size);
     copy[0] ^= 1;

@@ -4,9 +4,7 @@
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_sum.h"
 #include "hemisphere/vertex/vertex_open.h"
-#include "hemisphere/vertex/vertex_pack.h"
 #include "hemisphere/vertex/vertex_tree_build.h"
-#include "hemisphere/vertex/vertex_unpack.h"
 #include "hemisphere_fixture.h"
 
 #include "hemisphere/vertex/vertex.h"
@@ -133,7 +131,7 @@ static Tree build_example(Fixture *f, const Example *e, const float **values, Tr
     Tree tree;
     assert_done(vertex_tree_build(&options, *values, &f->arena, &blob, report, &err));
     assert_int_equal(report->bytes, tree_size(blob));
-    assert_done(tree_open(blob, tree_size(blob), f->geodesic, &tree, &err));
+    assert_done(tree_open(blob, tree_size(blob), f->geodesic, &f->arena, &tree, &err));
     return tree;
 }
 
@@ -148,9 +146,9 @@ static const Example EXAMPLES[] = {
 /* Base vertices and details of an opened tree. */
 static uint32_t stored_in(const Tree *tree) {
     uint32_t sum = vertex_count((VertexLattice){tree->base_level, tree->octants});
-    const VertexHeader *header = (const void *)((const char *)tree->scale - sizeof *header);
-    for (int b = 0; b < header->block_count; b++)
-        sum += vertex_count_bits(tree->blocks[b] << (64 - VERTEX_BLOCK_BITS));
+    for (int l = 0; l < tree->level_count; l++)
+        for (uint32_t b = 0; b < tree->levels[l].width * tree->levels[l].height; b++)
+            sum += vertex_count_bits(tree->blocks[tree->levels[l].block[b]].bits);
     return sum;
 }
 
@@ -260,8 +258,7 @@ HEMISPHERE_TEST(ranges_of_components_are_parts_of_the_whole) {
     const float *values;
     TreeReport report;
     uint32_t seed = 17;
-    Tree tree = build_example(f, &e, &values, &report), unpacked = tree;
-    vertex_tree_unpack(&unpacked, &f->arena);
+    Tree tree = build_example(f, &e, &values, &report);
     for (int q = 0; q < 2000; q++) {
         TreeTaps taps;
         float all[40], part[40];
@@ -272,31 +269,6 @@ HEMISPHERE_TEST(ranges_of_components_are_parts_of_the_whole) {
         tree_sum(&tree, &taps, 0, 40, all);
         tree_sum(&tree, &taps, first, count, part);
         assert_memory_equal(part, all + first, (size_t)count * sizeof *part);
-        tree_walk_interpolated(&unpacked, d, &taps);
-        tree_sum(&unpacked, &taps, first, count, part);
-        assert_memory_equal(part, all + first, (size_t)count * sizeof *part);
-    }
-}
-
-/* Unpacked, a tree's rows are other bytes and the same numbers: all components, parts of them.
- * 3 and 13 components end within eight, 40 behind 32. */
-HEMISPHERE_TEST(unpacked_trees_answer_with_the_same_bits) {
-    const Example examples[] = {
-        {{5, 2}, 3, PEAKED, 0.01f}, {{6, 4}, 13, NOISE, 0.05f}, {{4, 4}, 40, NOISE, 0.02f}};
-    for (int e = 0; e < 3; e++) {
-        const float *values;
-        TreeReport report;
-        uint32_t seed = 23;
-        Tree tree = build_example(f, &examples[e], &values, &report), unpacked = tree;
-        vertex_tree_unpack(&unpacked, &f->arena);
-        assert_non_null(unpacked.unpacked);
-        for (int q = 0; q < 4000; q++) {
-            Vec3 d = random_direction(&seed);
-            float a[40], b[40];
-            tree_interpolate(&tree, d, a);
-            tree_interpolate(&unpacked, d, b);
-            assert_memory_equal(a, b, (size_t)tree.components * sizeof *a);
-        }
     }
 }
 
@@ -411,7 +383,7 @@ HEMISPHERE_TEST(every_prefix_is_refused) {
         for (size_t size = 0; size < tree_size(blob); size++) {
             void *copy = exact_copy(blob, size);
             Tree tree;
-            assert_fails(tree_open(copy, size, f->geodesic, &tree, &err), "");
+            assert_fails(tree_open(copy, size, f->geodesic, &f->arena, &tree, &err), "");
             free(copy);
         }
     }
@@ -426,19 +398,15 @@ HEMISPHERE_TEST(mutated_blobs_are_refused_or_harmless) {
         for (int m = 0; m < 8000; m++) {
             Tree tree;
             Error err;
-            float out[TREE_MAX_COMPONENTS], same[TREE_MAX_COMPONENTS];
+            float out[TREE_MAX_COMPONENTS];
             memcpy(copy, blob, size);
             mutate(copy, size, &seed);
-            if (!tree_open(copy, size, f->geodesic, &tree, &err)) continue;
-            opened++;
             Arena scratch = f->arena;
-            Tree unpacked = tree;
-            vertex_tree_unpack(&unpacked, &scratch);
+            if (!tree_open(copy, size, f->geodesic, &scratch, &tree, &err)) continue;
+            opened++;
             for (int q = 0; q < 8; q++) {
                 Vec3 d = random_direction(&seed);
                 tree_interpolate(&tree, d, out);
-                tree_interpolate(&unpacked, d, same);
-                assert_memory_equal(same, out, (size_t)tree.components * sizeof *out);
                 for (int c = 0; c < tree.components; c++) assert_true(isfinite(out[c]));
             }
         }
@@ -454,42 +422,16 @@ HEMISPHERE_TEST(a_bad_header_is_named) {
     char *copy = exact_copy(blob, size);
     Tree tree;
     ((VertexHeader *)(void *)copy)->version = 7;
-    assert_tree_refused(f, copy, size, "version is 7, required: 1");
+    assert_tree_refused(f, copy, size, "version is 7, required: 2");
     memcpy(copy, blob, size);
     ((VertexHeader *)(void *)copy)->octants = 3;
     assert_tree_refused(f, copy, size, "octant count is 3, required: 4");
-    assert_fails(tree_open(blob, size, geodesic_create(3, &f->arena), &tree, &err),
+    assert_fails(tree_open(blob, size, geodesic_create(3, &f->arena), &f->arena, &tree, &err),
                  "level of the geodesic is 3, required: 4");
     memcpy(copy, blob, size);
     ((float *)(void *)(copy + sizeof(VertexHeader)))[2] = NAN;
     assert_tree_refused(f, copy, size, "scale 2 is nan");
     free(copy);
-}
-
-/* Packed and unpacked, every blob keeps its bytes; damaged bits are refused or make a tree. */
-HEMISPHERE_TEST(packed_trees_keep_their_bytes) {
-    for (size_t e = 0; e < sizeof EXAMPLES / sizeof *EXAMPLES; e++) {
-        Tree tree;
-        Error err;
-        const void *blob = example_blob(f, &EXAMPLES[e]);
-        Arena scratch = f->arena;
-        if (!vertex_can_pack(blob)) continue;
-        size_t size, back;
-        uint8_t *packed = (uint8_t *)vertex_pack(blob, &scratch, &size);
-        const void *same = vertex_unpack_blob(packed, size, &scratch, &back, &err);
-        assert_non_null(same);
-        assert_int_equal(back, tree_size(blob));
-        assert_memory_equal(same, blob, back);
-        if (back > 4096) assert_true(size < back);
-        for (size_t i = 0; i < size; i += size / 40 + 1) {
-            Arena inner = scratch;
-            size_t left = i % 2 ? size : size - i;
-            packed[i] ^= (uint8_t)(1 + i % 255);
-            const void *other = vertex_unpack_blob(packed, left, &inner, &back, &err);
-            if (other) (void)tree_open(other, back, f->geodesic, &tree, &err);
-            packed[i] ^= (uint8_t)(1 + i % 255);
-        }
-    }
 }
 
 TEST_PROGRAM(NULL, NULL)

@@ -411,33 +411,4 @@ TEST(a_smooth_part_comes_back_as_it_was_packed) {
         assert_false(panel_spline_open(bytes, cut, 5, &arena, &stored, &used) && used == size);
 }
 
-TEST(stated_figures_are_never_rounded_down) {
-    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 20);
-    json_auto_t *tables = json_array();
-    for (int i = 0; i < 50; i++)
-        json_array_append_new(tables,
-                              json_pack("{s:s, s:f, s:I, s:f}", "name", "red 031", "max_error",
-                                        0.001 * i + 0.00012345, "source_bytes_float32",
-                                        (json_int_t)(977 * i), "bytes", 12.5 * i + 1));
-    const void *bytes;
-    size_t size = panel_report_pack_tables(tables, false, &arena, &bytes);
-    json_auto_t *back = panel_report_open_tables(bytes, size);
-    assert_non_null(back);
-    for (size_t i = 0; i < 50; i++) {
-        json_t *a = json_array_get(tables, i), *b = json_array_get(back, i);
-        double was = json_number_at(a, "max_error"), is = json_number_at(b, "max_error");
-        assert_true(is >= was * (1 - 1e-7) && is <= was * 1.01);
-        assert_true(json_equal(json_object_get(a, "source_bytes_float32"),
-                               json_object_get(b, "source_bytes_float32")));
-        assert_non_null(json_object_get(b, "ratio"));
-    }
-    for (size_t cut = 0; cut < size; cut++) assert_null(panel_report_open_tables(bytes, cut));
-    const void *fewer;
-    size_t packed = panel_report_pack_tables(tables, true, &arena, &fewer);
-    json_auto_t *again = panel_report_open_tables(fewer, packed);
-    assert_true(packed > 0 && 2 * packed < size);
-    assert_true(json_equal(back, again));
-    for (size_t cut = 0; cut < packed; cut++) assert_null(panel_report_open_tables(fewer, cut));
-}
-
 TEST_PROGRAM(start_all, end_all)

@@ -15,7 +15,7 @@
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_sampling.h"
-#include "panel/query/sampling_make.h"
+#include "panel/fit/sampling_make.h"
 #include "shaders/display.h"
 
 typedef struct Case {
@@ -456,76 +456,7 @@ static void expect_forged_is_refused(const Fixture *of, bool is_emptied, const c
 /* Nothing of a reflection without its sampling: the file would light a scene wrongly. */
 TEST(a_panel_without_its_sampling_is_refused) {
     expect_forged_is_refused(&ips, false, "without its sampling tree");
-}
-
-/* What opening makes of an isotropic reflection draws as what fitting stores. */
-TEST(several_tables_are_sampled_without_a_byte_of_the_file) {
-    Arena scratch = ips.arena;
-    Panel *panel;
-    assert_done(panel_open(forged(&ips, true, &scratch), &scratch, &panel, &err));
-    const PanelSampling *made = &panel->sampling, *stored = &ips.panel->sampling;
-    assert_int_equal(made->incidences, stored->incidences);
-    for (int i = 0; i < made->incidences; i++) assert_true(made->theta[i] == stored->theta[i]);
-    for (int k = 0; k < 8; k++)
-        assert_true(density_integral(panel, radians_from_degrees(0.5 + 11 * k), 0) ==
-                    density_integral(ips.panel, radians_from_degrees(0.5 + 11 * k), 0));
-}
-
-/* The samples of several azimuths leave no room for their sampling: opening makes a coarse one,
- * which draws as if its bytes stood in the file. What is cut is refused. */
-TEST(several_azimuths_are_sampled_without_a_byte_of_the_file) {
-    Arena scratch = brushed.arena;
-    Panel stored = *brushed.panel, *none;
-    SamplingSection made;
-    assert_true(stored.size <= 32 * (28 * 60 + 1) * sizeof(float) / 10);
-    assert_done(sampling_make(brushed.panel, true, &scratch, &made, &err) &&
-                sampling_tree_open(made.bytes, made.size,
-                                   geodesic_create(SAMPLING_MADE_LEVEL, &scratch), &scratch,
-                                   &stored.sampling.tree, &err));
-    assert_true(made.azimuths > 1 && made.azimuths == stored.sampling.azimuths);
-    assert_int_equal(made.incidences, stored.sampling.incidences);
-    uint32_t random = 7;
-    for (int k = 0; k < 400; k++) {
-        float u[3], pdf[2];
-        Vec3 wo = direction_deg(0.2 * k, 31 * k), wi[2];
-        for (int j = 0; j < 3; j++) u[j] = (float)steady_random(&random);
-        bool drawn = panel_sample(brushed.panel, wo, u, &wi[0], &pdf[0]);
-        assert_true(drawn == panel_sample(&stored, wo, u, &wi[1], &pdf[1]));
-        if (!drawn) continue;
-        assert_memory_equal(&wi[0], &wi[1], sizeof wi[0]);
-        assert_true(pdf[0] == pdf[1] && panel_pdf(&stored, wo, wi[0]) > 0);
-    }
-    FileBytes bytes = read_bytes(brushed.panel_path, &scratch);
-    for (size_t cut = 0; cut < bytes.size; cut++) {
-        Arena left = scratch;
-        assert_fails_as(panel_open_memory(bytes.data, cut, "cut", &left, &none, &err), ERROR_INPUT,
-                        "");
-        assert_null(strchr(why()->text, '\n'));
-    }
-}
-
-/* A file of one table holds no sampling; opening makes what fitting would have stored. */
-TEST(one_table_is_sampled_without_a_byte_of_the_file) {
-    FitOptions options = fit_options_default();
-    ENDS_BY(fixture_end) Fixture one;
-    fixture_folder(&one);
-    Measurement *set = one.set = ARENA_NEW(&one.arena, Measurement, 1);
-    *set = *brushed.set;
-    set->incidence_count = set->azimuth_count = 1;
-    set->incidence[0] = radians_from_degrees(23);
-    set->brdf = ARENA_NEW(&one.arena, AngleTable, 1);
-    set->brdf[0] = brushed_table(set->incidence[0], PI, &one.arena);
-    options.level = 5;
-    fixture_fit(&one, &options);
-    assert_true(one.panel->size < 4096);
-    assert_true(one.panel->sampling.incidences > 1);
-    for (int k = 0; k < 8; k++)
-        assert_near(density_integral(one.panel, radians_from_degrees(0.5 + 11 * k), 0), 1, 1e-3);
-    SamplingSection made[2];
-    for (int i = 0; i < 2; i++)
-        assert_done(sampling_make(one.panel, false, &one.arena, &made[i], &err));
-    assert_int_equal(made[0].size, made[1].size);
-    assert_memory_equal(made[0].bytes, made[1].bytes, made[0].size);
+    expect_forged_is_refused(&ips, true, "sampling");
 }
 
 TEST_PROGRAM(start_panels, end_panels)

@@ -39,13 +39,6 @@ static Panel *fitted(const char *manifest, FileBytes *bytes) {
     return panel;
 }
 
-/* The bytes lie at any address. */
-static uint32_t version_of(FileBytes bytes) {
-    PanelHeader header;
-    memcpy(&header, bytes.data, sizeof header);
-    return header.version;
-}
-
 /* ---- whole ------------------------------------------------------------------------------- */
 
 TEST(zones_are_kept_and_cost_nothing_where_there_are_none) {
@@ -57,8 +50,6 @@ TEST(zones_are_kept_and_cost_nothing_where_there_are_none) {
     assert_true(zones->sigma_mm == 7.5 && zones->size_mm[0] == 320 && zones->size_mm[1] == 180);
     assert_true(zones->rule == ZONES_MAXIMUM && zones->least == 0 && !zones->drive.rows);
     assert_in(some.size, none.size + 1, none.size + 64); /* place and section */
-    assert_int_equal(version_of(none), PANEL_VERSION_PLAIN);
-    assert_int_equal(version_of(some), PANEL_VERSION_ZONES);
 }
 
 TEST(tables_and_rules_come_back) {
@@ -253,12 +244,6 @@ TEST(versions_fit_what_is_there) {
     unsigned char *copy = copy_of(&bytes, PANEL_ZONES, &toc);
     copy[toc->offset] = 2;
     assert_non_null(strstr(refusal_of(copy, bytes.size), "version 2, known: 1"));
-    copy = copy_of(&bytes, PANEL_ZONES, &toc);
-    ((PanelHeader *)copy)->version = PANEL_VERSION_PLAIN;
-    assert_non_null(strstr(refusal_of(copy, bytes.size), "has version 3, required: 6"));
-    copy = copy_of(&bytes, PANEL_ZONES, &toc);
-    toc->kind = 999; /* as if there were none */
-    assert_non_null(strstr(refusal_of(copy, bytes.size), "has version 6, required: 3"));
     copy = copy_of(&bytes, PANEL_EMISSION, &toc);
     toc->kind = 999;
     assert_non_null(strstr(refusal_of(copy, bytes.size), "stand without an emission"));

@@ -16,12 +16,13 @@ typedef struct Example {
     VertexLattice lattice;
     int components;
     float tolerance;
-    bool is_unpacked;
 } Example;
 
 static const Example EXAMPLES[] = {
-    {{6, 4}, 3, 0.002f, false}, {{6, 4}, 3, 0.002f, true}, {{5, 2}, 11, 0.01f, false},
-    {{5, 2}, 11, 0.01f, true},  {{0, 4}, 1, 0.01f, false}, {{6, 2}, 1, 1e-4f, true},
+    {{6, 4}, 3, 0.002f},
+    {{5, 2}, 11, 0.01f},
+    {{0, 4}, 1, 0.01f},
+    {{6, 2}, 1, 1e-4f},
 };
 #define EXAMPLE_COUNT ((int)(sizeof EXAMPLES / sizeof *EXAMPLES))
 
@@ -44,9 +45,7 @@ static Tree build(const Example *e, Fixture *f) {
     const void *blob;
     Tree tree;
     assert_done(vertex_tree_build(&options, values, &f->arena, &blob, &report, &err));
-    assert_done(tree_open(blob, tree_size(blob), f->geodesic, &tree, &err));
-    if (e->is_unpacked) tree_unpack(&tree, &f->arena);
-    assert_true(e->is_unpacked == (tree.unpacked != NULL));
+    assert_done(tree_open(blob, tree_size(blob), f->geodesic, &f->arena, &tree, &err));
     return tree;
 }
 

@@ -5,8 +5,6 @@
 
 #include "hemisphere/tree.h"
 #include "hemisphere/vertex/vertex_open.h"
-#include "hemisphere/vertex/vertex_pack.h"
-#include "hemisphere/vertex/vertex_unpack.h"
 #include "hemisphere/vertex/vertex_tree.h"
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "blobs are little-endian in place");
@@ -14,7 +12,7 @@ _Static_assert(sizeof(TreeHeader) == 56 && sizeof(TreeNode) == 8, "the blob's la
 
 size_t tree_size(const void *blob) {
     uint32_t magic = *(const uint32_t *)blob;
-    if (magic == VERTEX_MAGIC || magic == VERTEX_PACKED) return ((const VertexHeader *)blob)->size;
+    if (magic == VERTEX_MAGIC) return ((const VertexHeader *)blob)->size;
     return ((const TreeHeader *)blob)->size;
 }
 
@@ -142,11 +140,12 @@ static Tree view(const char *blob, const Geodesic *geodesic) {
                   .byte_row = h->row_count};
 }
 
-bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out, Error *err) {
+bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Arena *arena, Tree *out,
+               Error *err) {
     if ((uintptr_t)blob % 8 != 0)
         return error_set(err, ERROR_INPUT, "tree: stands at an address that is no multiple of 8");
     if (size >= sizeof(uint32_t) && *(const uint32_t *)blob == VERTEX_MAGIC)
-        return vertex_tree_open(blob, size, geodesic, out, err);
+        return vertex_tree_open(blob, size, geodesic, arena, out, err);
     if (size < sizeof(TreeHeader))
         return refuse(err, "number of bytes", (double)size, sizeof(TreeHeader));
     const TreeHeader *header = blob;
@@ -159,8 +158,4 @@ bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *ou
         return false;
     *out = tree;
     return true;
-}
-
-void tree_unpack(Tree *tree, Arena *arena) {
-    if (tree->basis == TREE_VERTEX) vertex_tree_unpack(tree, arena);
 }

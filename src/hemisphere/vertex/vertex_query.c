@@ -10,16 +10,15 @@ static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps) {
     VertexLattice lattice = {tree->base_level, tree->octants};
     VertexPoint point = map_point(lattice, place);
     for (int i = 0; i < 3; i++) {
-        taps->row[i] = point.vertex[i] * (tree->unpacked ? 1 : tree->base_bytes);
+        taps->row[i] = point.vertex[i];
         taps->weight[i] = point.weight[i] * tree->base_factor;
-        taps->level[i] = 0;
     }
     taps->count = 3;
 }
 
 /* ---- one level of details ----------------------------------------------------------------
  *
- * Cells are counted from the window's first one, so that whole blocks are multiples of 4. */
+ * Cells are counted from the level's first one, so that whole blocks are multiples of 4. */
 
 /* The three edges of the triangle that holds a place: their cells, and their hat functions'
  * weights there. The edge along x and the diagonal lie in column x, the edge along y and the
@@ -49,7 +48,7 @@ static inline Edges edges_at(const VertexLevel *level, VertexPlace place, int nu
     int upper = u + v > 1;
     u = fabsf((float)upper - u); /* either half is as likely: no branch */
     v = fabsf((float)upper - v);
-    float w = 1 - u - v, factor = float_from_bits((uint32_t)(127 + level->exponent) << 23);
+    float w = 1 - u - v, factor = level->factor;
     int mx = -(int)(place.octant & 1), my = -(int)(place.octant >> 1);
     uint32_t column = (uint32_t)((cx ^ mx) - level->x), row = (uint32_t)((cy ^ my) - level->y);
     uint32_t line_x = (uint32_t)(((cx + upper) ^ mx) - mx - level->x);
@@ -59,53 +58,29 @@ static inline Edges edges_at(const VertexLevel *level, VertexPlace place, int nu
                    {hat(u, w, v) * factor, hat(v, w, u) * factor, hat(u, v, w) * factor}};
 }
 
-#define NO_BLOCK UINT32_MAX
-
-/* The block of a cell of the window. */
-static inline uint32_t find_block(const Tree *tree, const VertexLevel *level, uint32_t x,
-                                  uint32_t y) {
+/* The block of a cell; outside of the lattice the one that is empty. */
+static inline const VertexBlock *find_block(const Tree *tree, const VertexLevel *level, uint32_t x,
+                                            uint32_t y) {
     uint32_t bx = x / VERTEX_BLOCK_SIDE, by = y / VERTEX_BLOCK_SIDE;
-    if (bx >= level->width || by >= level->height) return NO_BLOCK;
-    uint32_t at = by * level->width + bx, index = level->first_word + at / 32;
-    uint32_t word = tree->words[index], below = 1u << at % 32;
-    if (!(word & below)) return NO_BLOCK;
-    return level->first_block + tree->ranks[index] + vertex_count_bits(word & (below - 1));
-}
-
-/* Common to all taps of a block. */
-typedef struct Block {
-    uint64_t bits;
-    uint32_t first, row_bytes; /* byte of the first row; of an unpacked tree index, and 1 */
-    uint8_t format;
-} Block;
-
-static inline Block open_block(const Tree *tree, const VertexLevel *level, uint32_t index) {
-    uint64_t bits = tree->blocks[index];
-    if (tree->unpacked) return (Block){bits, tree->unpacked_rows[index], 1, 0};
-    uint8_t format = tree->block_formats[index];
-    uint32_t start = (uint32_t)(bits >> VERTEX_BLOCK_BITS) << level->shift;
-    return (Block){bits, level->first_byte + start, vertex_format_bytes(tree->formats[format]),
-                   format};
+    if (bx >= level->width || by >= level->height) return tree->blocks;
+    return tree->blocks + level->block[by * level->width + bx];
 }
 
 /* Writes a tap for edge i, and counts it if there is such a detail: that cannot be predicted,
  * so there is no branch. */
-static inline void put_detail(const Block *block, const Edges *e, uint32_t i, TreeTaps *taps) {
+static inline void put_detail(const VertexBlock *block, const Edges *e, uint32_t i,
+                              TreeTaps *taps) {
     uint32_t bit = e->y[i] % VERTEX_BLOCK_SIDE * 12 + e->x[i] % VERTEX_BLOCK_SIDE * 3 + i;
-    uint32_t row = vertex_count_bits(block->bits & ((1ull << bit) - 1));
     int at = taps->count;
-    taps->row[at] = block->first + row * block->row_bytes;
+    taps->row[at] = block->first + vertex_count_bits(block->bits & ((1ull << bit) - 1));
     taps->weight[at] = e->weight[i];
-    taps->level[at] = block->format;
     taps->count = at + (int)((uint32_t)(block->bits >> bit) & (uint32_t)(e->weight[i] > 0));
 }
 
 static inline void put_in(const Tree *tree, const VertexLevel *level, const Edges *e, uint32_t i,
                           TreeTaps *taps) {
-    uint32_t index = find_block(tree, level, e->x[i], e->y[i]);
-    if (index == NO_BLOCK) return;
-    Block block = open_block(tree, level, index);
-    put_detail(&block, e, i, taps);
+    const VertexBlock *block = find_block(tree, level, e->x[i], e->y[i]);
+    if (block->bits) put_detail(block, e, i, taps);
 }
 
 /* Mostly the three edges are in one block. Written out, so that they stay in registers. */
@@ -113,12 +88,11 @@ static inline void put_level(const Tree *tree, const VertexLevel *level, VertexP
                              int number, TreeTaps *taps) {
     Edges e = edges_at(level, place, number);
     if (((e.x[0] ^ e.x[1]) | (e.y[0] ^ e.y[1])) < VERTEX_BLOCK_SIDE) {
-        uint32_t index = find_block(tree, level, e.x[0], e.y[1]);
-        if (index == NO_BLOCK) return;
-        Block block = open_block(tree, level, index);
-        put_detail(&block, &e, 0, taps);
-        put_detail(&block, &e, 1, taps);
-        put_detail(&block, &e, 2, taps);
+        const VertexBlock *block = find_block(tree, level, e.x[0], e.y[1]);
+        if (!block->bits) return;
+        put_detail(block, &e, 0, taps);
+        put_detail(block, &e, 1, taps);
+        put_detail(block, &e, 2, taps);
     } else {
         put_in(tree, level, &e, 0, taps);
         put_in(tree, level, &e, 1, taps);
@@ -130,13 +104,13 @@ static inline void put_level(const Tree *tree, const VertexLevel *level, VertexP
 
 /* How many levels have details around a place. */
 static inline int depth_at(const Tree *tree, VertexPlace place) {
-    int side = 1 << tree->depth_level;
+    int side = 1 << VERTEX_DEPTH_LEVEL;
     int x = (int)(place.x * (float)side), y = (int)(place.y * (float)side);
     x = x < side ? x : side - 1;
     y = y < side ? y : side - 1;
     int cx = x ^ -(int)(place.octant & 1), cy = y ^ -(int)(place.octant >> 1);
     uint32_t at = (uint32_t)((cy + (tree->octants / 4) * side) * 2 * side + cx + side);
-    return tree->depths[at / 2] >> at % 2 * 4 & 15;
+    return tree->depths[at];
 }
 
 static inline void walk(const Tree *tree, VertexPlace place, TreeTaps *taps) {
@@ -160,72 +134,7 @@ void vertex_tree_walk(const Tree *tree, Vec3 direction, TreeTaps *taps) {
 
 /* ---- sums -------------------------------------------------------------------------------- */
 
-typedef uint16_t UShort8 __attribute__((vector_size(16)));
-typedef uint64_t ULong2 __attribute__((vector_size(16)));
-
-/* A load of 8 bytes from KEEP_BYTES + 8 - n keeps n of 8 bytes. */
-static const uint8_t KEEP_BYTES[16] = {255, 255, 255, 255, 255, 255, 255, 255};
-
-/* `wanted` (4 or 8) bytes of a plane of `pairs` bytes from byte `skip` on, 0 beyond its end;
- * each holds two components. Returns signed 4 bits in the upper halves of bytes, in order of
- * components. */
-static inline Byte16 load_plane(const uint8_t *from, int pairs, int skip, int wanted) {
-    uint64_t bits = 0, keep;
-    int there = pairs > skip + 8 ? 8 : pairs > skip ? pairs - skip : 0;
-    memcpy(&bits, from + (there ? skip : 0), (size_t)wanted);
-    memcpy(&keep, KEEP_BYTES + 8 - there, 8);
-    bits &= keep;
-    UShort8 odd = (UShort8)(ULong2){bits, 0}, even = odd << 4;
-    Byte16 upper = {-16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16, -16};
-    return (Byte16)__builtin_shufflevector((Byte16)even & upper, (Byte16)odd & upper, 0, 16, 1, 17,
-                                           2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
-}
-
-/* Adds 16^plane times signed 4 bits, which stand in the upper halves of bytes. */
-static inline void add_plane(Byte16 digits, int plane, Short8 *low, Short8 *high) {
-    *low += plane < 3 ? lower_bytes(digits) >> (12 - 4 * plane) : lower_bytes(digits);
-    *high += plane < 3 ? upper_bytes(digits) >> (12 - 4 * plane) : upper_bytes(digits);
-}
-
-/* sum += weight * the 4 * quads components of a row from byte `skip` of its planes on. quads is
- * 2 or 4, a constant where inlined. */
-static inline void add_row(const uint8_t *from, VertexFormat format, int skip, Float4 weight,
-                           int quads, Float4 *sum) {
-    Short8 low = {0}, high = {0};
-    int wanted = 2 * quads;
-    add_plane(load_plane(from, format.pairs[0], skip, wanted), 0, &low, &high);
-    if (format.pairs[1]) {
-        from += format.pairs[0];
-        add_plane(load_plane(from, format.pairs[1], skip, wanted), 1, &low, &high);
-    }
-    if (format.pairs[2]) {
-        from += format.pairs[1];
-        add_plane(load_plane(from, format.pairs[2], skip, wanted), 2, &low, &high);
-        from += format.pairs[2];
-        add_plane(load_plane(from, format.pairs[3], skip, wanted), 3, &low, &high);
-    }
-    sum[0] += weight * lower_shorts(low, 16);
-    sum[1] += weight * upper_shorts(low, 16);
-    if (quads < 4) return;
-    sum[2] += weight * lower_shorts(high, 16);
-    sum[3] += weight * upper_shorts(high, 16);
-}
-
-/* 4 * quads components from 8 * eighth on. */
-static inline void sum_quads(const Tree *tree, const TreeTaps *taps, int eighth, int quads,
-                             Float4 *sum) {
-    for (int q = 0; q < quads; q++) sum[q] = all_lanes(0);
-    for (int t = 0; t < taps->count; t++)
-        add_row(tree->details + taps->row[t], tree->formats[taps->level[t]], 4 * eighth,
-                all_lanes(taps->weight[t]), quads, sum);
-    for (int q = 0; q < quads; q++) {
-        Float4 scale;
-        memcpy(&scale, tree->scale + 8 * eighth + 4 * q, sizeof scale);
-        sum[q] *= scale;
-    }
-}
-
-/* Adds weight times eight numbers of an unpacked row. */
+/* Adds weight times eight numbers of a row. */
 #ifdef __AVX2__
 typedef struct Eight {
     Float8 all;
@@ -248,8 +157,8 @@ static inline void add_eight(Short8 numbers, float weight, Eight *sum) {
 /* 8 * eighths components, a constant where inlined, from `first` on. */
 static inline void sum_eighths(const Tree *tree, const TreeTaps *taps, int first, int eighths,
                                float *out) {
-    const int16_t *rows = tree->unpacked + first;
-    size_t stride = (size_t)tree->unpacked_stride;
+    const int16_t *rows = tree->numbers + first;
+    size_t stride = (size_t)tree->stride;
     Eight sum[4] = {0};
     for (int t = 0; t < taps->count; t++) {
         const int16_t *row = rows + taps->row[t] * stride;
@@ -273,7 +182,7 @@ static inline void sum_eighths(const Tree *tree, const TreeTaps *taps, int first
 }
 
 /* The last few of eight one by one. */
-static void sum_unpacked(const Tree *tree, const TreeTaps *taps, int first, int count, float *out) {
+void vertex_tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out) {
     float last[8];
     int i = 0, skipped = first % 8;
     if (skipped) {
@@ -285,17 +194,4 @@ static void sum_unpacked(const Tree *tree, const TreeTaps *taps, int first, int 
     if (i >= count) return;
     sum_eighths(tree, taps, first + i, 1, last);
     for (int k = 0; i + k < count; k++) out[i + k] = last[k];
-}
-
-void vertex_tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out) {
-    if (tree->unpacked) {
-        sum_unpacked(tree, taps, first, count, out);
-        return;
-    }
-    Float4 sum[TREE_MAX_COMPONENTS / 4 + 4];
-    int start = first / 8, end = (first + count + 7) / 8, at = start;
-    for (; at + 2 <= end; at += 2) sum_quads(tree, taps, at, 4, sum + 2 * (at - start));
-    if (at < end) sum_quads(tree, taps, at, 2, sum + 2 * (at - start));
-    memcpy(out, (const float *)(const void *)sum + (first - 8 * start),
-           (size_t)count * sizeof *out);
 }

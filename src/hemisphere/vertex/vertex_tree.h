@@ -18,69 +18,67 @@
 
 /* ---- the blob ----------------------------------------------------------------------------
  *
- * VertexHeader | scale, float32, one a component | VertexLevel, one a level of details |
- * directory words, uint32 | VertexFormat | directory ranks, uint16 | depths, 4 bits each |
- * formats of blocks, uint8 | zeros to a multiple of 8 | blocks, uint64 | rows |
- * VERTEX_TAIL zeros and zeros to a multiple of 8.
+ * VertexHeader | scale, float32, one a component | exponent, int8, one a level of details |
+ * coded bits, zeros to a multiple of 8.
  *
- * Base      the values of all vertices of base_level, the first rows, in order of
- *           vertex_index, in format 0; times scale * 2^base_exponent.
+ * Base      the values of all vertices of base_level, in order of vertex_index: integers times
+ *           scale * 2^base_exponent.
  * Levels    l = 0, 1, ...: details of the vertices that are new on edges of level
- *           i = base_level + l. A new vertex (x, y), in steps of level i + 1, belongs to the
- *           cell (floor(x/2), floor(y/2)), as one of its three edges: 0 along x (y even), 1
- *           along y (x even), 2 the diagonal. 4 x 4 cells are a block: bit 12 row + 3 column +
- *           edge is set where there is a detail. The upper 16 bits, times 2^shift bytes after
- *           the level's first, are where the block's rows start; they follow in order of the
- *           bits. A directory word has a bit for each of 32 blocks of the level's window, row
- *           by row, that is not empty; its rank counts the level's blocks before the word.
- * Rows      of integers, times scale * 2^exponent. An integer is the sum of 16^p times the
- *           signed 4 bits of plane p = 0..3; plane p of a row has `pairs[p]` bytes, the first
- *           components in order, two a byte, the even one in the low bits; other components
- *           have 0 there. Most details are a few steps in the first components.
- * Depths    for each cell of depth_level, how many levels have details whose hat
- *           reaches into it: where queries stop.
+ *           base_level + l: integers times scale * 2^exponent.
+ * Bits      of an arithmetic coder, each with a probability that follows the bits before it in
+ *           the same context (vertex_code.c): the base's integers less those before them, row
+ *           by row; then for every edge of every level whether it has a detail, and its
+ *           integers. Most details are a few steps in the first components.
  */
 #define VERTEX_MAGIC 0x58545256u /* "VRTX" */
-#define VERTEX_VERSION 1u
-#define VERTEX_MAX_DEPTH_LEVEL 4
+#define VERTEX_VERSION 2u
 #define VERTEX_MAX_BASE_LEVEL 4
-#define VERTEX_BLOCK_SIDE 4 /* cells */
-#define VERTEX_BLOCK_BITS 48
-#define VERTEX_PLANES 4
-#define VERTEX_LEAST (-30000) /* integers that planes can hold */
+#define VERTEX_LEAST (-30000) /* integers that are stored */
 #define VERTEX_MOST 30000
-#define VERTEX_TAIL 16 /* bytes that a query may read beyond a row */
 #define VERTEX_MAX_SCALE 1e20f
 #define VERTEX_MAX_EXPONENT 24
-#define VERTEX_MAX_SHIFT 8
 
 typedef struct VertexHeader {
     uint32_t magic;
     uint16_t version, components;
     uint64_t size; /* bytes of the whole blob */
-    uint8_t level, octants, base_level, level_count, depth_level, format_count;
+    uint8_t level, octants, base_level, level_count;
+    uint32_t row_count; /* of the base and all details */
     int8_t base_exponent;
-    uint8_t zero;
-    uint16_t word_count, block_count; /* of all levels */
-    uint32_t row_bytes;               /* of the base and all levels */
+    uint8_t zero[7];
 } VertexHeader;
 
+/* Bytes in front of the coded bits. */
+static inline size_t vertex_front_bytes(const VertexHeader *h) {
+    return sizeof *h + sizeof(float) * h->components + h->level_count;
+}
+
+/* ---- what queries read (vertex_open.c makes it) -------------------------------------------
+ *
+ * A new vertex (x, y) of a level, in steps of half its cells, belongs to the cell (floor(x/2),
+ * floor(y/2)), as one of its three edges: 0 along x (y even), 1 along y (x even), 2 the
+ * diagonal. 4 x 4 cells are a block: bit 12 row + 3 column + edge is set where there is a
+ * detail; rows of a block follow each other in order of the bits. */
+#define VERTEX_BLOCK_SIDE 4 /* cells */
+#define VERTEX_BLOCK_BITS 48
+#define VERTEX_DEPTH_LEVEL 4
+#define VERTEX_LINE_BYTES 64 /* rows of 32 numbers touch one */
+
+typedef struct VertexBlock {
+    uint64_t bits;
+    uint32_t first; /* row */
+} VertexBlock;
+
 typedef struct VertexLevel {
-    int16_t x, y;          /* first cell of the window */
-    uint8_t width, height; /* of the window in blocks */
-    uint8_t shift;
-    int8_t exponent;
-    uint16_t first_word, first_block;
-    uint32_t first_byte; /* of the level's rows */
+    const uint16_t *block;  /* of each 4 x 4 cells, row by row; 0: one without a detail */
+    int x, y;               /* the first cell */
+    uint32_t width, height; /* in blocks */
+    float factor;           /* 2^exponent */
 } VertexLevel;
 
-/* How a row is packed: bytes of each plane, never more than of the plane before. */
-typedef struct VertexFormat {
-    uint8_t pairs[VERTEX_PLANES];
-} VertexFormat;
-
-static inline uint32_t vertex_format_bytes(VertexFormat f) {
-    return (uint32_t)f.pairs[0] + f.pairs[1] + f.pairs[2] + f.pairs[3];
+/* Cells of the depth level: of the square around the lattice's plane, or of its half. */
+static inline size_t vertex_depth_cells(int octants) {
+    return (size_t)octants << 2 * VERTEX_DEPTH_LEVEL;
 }
 
 /* Bits that are set; exact whether the instruction set counts them or not. */

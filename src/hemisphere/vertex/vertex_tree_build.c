@@ -8,8 +8,8 @@
 #include "base/mathd.h"
 #include "hemisphere/vertex/vertex.h"
 #include "hemisphere/vertex/vertex_choose.h"
+#include "hemisphere/vertex/vertex_code.h"
 #include "hemisphere/vertex/vertex_open.h"
-#include "hemisphere/vertex/vertex_tree_write.h"
 
 /* ---- the closed loop --------------------------------------------------------------------- */
 
@@ -247,7 +247,7 @@ static uint32_t count_wrong(Coder *c, const Trial *best, float *rebuilt, uint32_
     uint32_t count = 0;
     Tree tree;
     Error err;
-    if (!vertex_tree_open(best->blob, best->size, geodesic, &tree, &err)) abort();
+    if (!vertex_tree_open(best->blob, best->size, geodesic, &scratch, &tree, &err)) abort();
     vertex_tree_expand(&tree, rebuilt);
     for (uint32_t v = 0; v < vertex_count(lattice); v++) {
         if (c->options->accepts(c->options->context, v, rebuilt + v * (size_t)c->code.components))
@@ -276,7 +276,7 @@ static bool try_coding(Coder *c, int base_level, float coarseness, Trial *best, 
     }
     if (!code_base(c, err) || !code_levels(c, scratch, err)) return false;
     size_t size;
-    const void *blob = vertex_code_write(&c->code, &scratch, &size);
+    const void *blob = vertex_encode(&c->code, &scratch, &size);
     if (best->size != 0 && size >= best->size) return true;
     best->size = size;
     best->stored = count_stored(c);

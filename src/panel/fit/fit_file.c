@@ -10,6 +10,7 @@
 #include "hemisphere/tree/tree_open.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_place.h"
+#include "panel/query/panel_report.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -319,8 +320,8 @@ static int put_pairs(const ZoneTable *table, float *out) {
     return table->rows;
 }
 
-static bool write_zones(FitWriter *writer, const DimmingZones *zones) {
-    if (!zones->count[0]) return false;
+static void write_zones(FitWriter *writer, const DimmingZones *zones) {
+    if (!zones->count[0]) return;
     float pairs[2][2 * ZONE_ROWS_MAX];
     PanelZonesStored stored = {.version = PANEL_ZONES_VERSION,
                                .columns = (uint16_t)zones->count[0],
@@ -336,13 +337,11 @@ static bool write_zones(FitWriter *writer, const DimmingZones *zones) {
                           {pairs[0], 2 * sizeof(float) * stored.spread_rows},
                           {pairs[1], 2 * sizeof(float) * stored.drive_rows}};
     write_section(writer, PANEL_ZONES, 0, pieces, 3);
-    return true;
 }
 
 static void write_reflection(FitWriter *writer, const ReflectionResult *r) {
     FitPiece section = {r->section.bytes, r->section.size};
     FitPiece tree = {r->model->tree, tree_size(r->model->tree)};
-    if (r->packed) tree = (FitPiece){r->packed, r->packed_size};
     FitPiece sampling = {r->sampling, r->sampling_size};
     write_section(writer, PANEL_REFLECTION, 0, &section, 1);
     write_section(writer, PANEL_REFLECTION_TREE, 0, &tree, 1);
@@ -366,13 +365,13 @@ static void write_places(FitWriter *writer, const FitPlaces *places) {
 }
 
 /* Header and table of contents in front of the sections. */
-static void *finish(FitWriter *writer, uint32_t version, size_t *size) {
+static void *finish(FitWriter *writer, size_t *size) {
     size_t toc = writer->count * sizeof *writer->section;
     size_t front = rounded(sizeof(PanelHeader) + toc);
     unsigned char *bytes = arena_alloc(writer->arena, 1, 64, front + writer->size);
     for (uint32_t i = 0; i < writer->count; i++) writer->section[i].offset += front;
     PanelHeader header = {.magic = PANEL_MAGIC,
-                          .version = version,
+                          .version = PANEL_VERSION,
                           .size = front + writer->size,
                           .section_count = writer->count};
     memcpy(bytes, &header, sizeof header);
@@ -385,28 +384,33 @@ static void *finish(FitWriter *writer, uint32_t version, size_t *size) {
     return bytes;
 }
 
-void *fit_file_bytes(const FitParts *parts, Arena *arena, size_t *size) {
+static void *file_bytes(const FitParts *parts, FitPiece report, Arena *arena, size_t *size) {
     FitWriter writer = {.arena = arena};
-    FitPiece text = {"{}", 2}, tables = {parts->tables, parts->tables_size};
-    if (parts->meta) text = (FitPiece){parts->meta, parts->meta_size};
-    write_section(&writer, PANEL_META, 0, &text, 1);
-    if (parts->tables) write_section(&writer, PANEL_REPORT_TABLES, 0, &tables, 1);
+    write_section(&writer, PANEL_META, 0, &report, 1);
     if (parts->emission) write_emission(&writer, parts);
     if (parts->reflection) write_reflection(&writer, parts->reflection);
     if (parts->emission) write_polarised(&writer, &parts->set->traits);
-    bool has_places = parts->places && fit_places_are_there(parts->places);
-    if (has_places) write_places(&writer, parts->places);
-    bool has_zones = parts->emission && write_zones(&writer, &parts->set->traits.zones);
-    return finish(&writer,
-                  has_zones    ? PANEL_VERSION_ZONES
-                  : has_places ? PANEL_VERSION_PLACES
-                               : PANEL_VERSION_PLAIN,
-                  size);
+    if (parts->places && fit_places_are_there(parts->places)) write_places(&writer, parts->places);
+    if (parts->emission) write_zones(&writer, &parts->set->traits.zones);
+    return finish(&writer, size);
 }
 
-Panel *fit_file_open(const FitParts *parts, const char *path, Arena *arena, size_t *size,
-                     Error *err) {
+void *fit_file_bytes(const FitParts *parts, json_t *report, Arena *arena, size_t *size) {
+    json_t *stored = json_copy(report);
+    FitPiece packed = {0};
+    json_object_del(stored, "outliers");
+    json_object_del(stored, "holes");
+    packed.size = panel_report_pack(stored, arena, &packed.data);
+    json_decref(stored);
+    if (!packed.size) return NULL;
+    void *bytes = file_bytes(parts, packed, arena, size);
+    panel_report_add_sizes(report, *size - (parts->places ? fit_places_bytes(parts->places) : 0));
+    return bytes;
+}
+
+Panel *fit_file_open(const FitParts *parts, const char *path, Arena *arena, Error *err) {
     Panel *panel;
-    void *bytes = fit_file_bytes(parts, arena, size);
-    return panel_from_bytes(bytes, *size, path, arena, &panel, err) ? panel : NULL;
+    size_t size;
+    void *bytes = file_bytes(parts, (FitPiece){"{}", 2}, arena, &size);
+    return panel_from_bytes(bytes, size, path, arena, &panel, err) ? panel : NULL;
 }

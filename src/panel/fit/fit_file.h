@@ -63,19 +63,14 @@ typedef struct FitParts {
     const char *spectra_assumed;        /* in words; NULL: they were measured */
     const ReflectionResult *reflection; /* NULL: none */
     FitNotes *notes;
-    int notes_before_reflection;
-    bool saves;              /* the tables of the report are compressed */
     const FitPlaces *places; /* NULL: one panel everywhere */
     const json_t *spots;     /* its panels' entries in the report; NULL: none */
-    const void *tables;      /* of the report, packed (panel_report.h); NULL: not yet */
-    size_t tables_size;
-    const void *meta; /* the report, packed; NULL: not yet */
-    size_t meta_size;
 } FitParts;
 
-/* The file's bytes; *size bytes in the arena, aligned to 64. */
-void *fit_file_bytes(const FitParts *parts, Arena *arena, size_t *size);
+/* The file's bytes with a report, into which its sizes go; lists of single samples stay out of
+ * the file. *size bytes in the arena, aligned to 64; NULL: memory is out. */
+void *fit_file_bytes(const FitParts *parts, json_t *report, Arena *arena, size_t *size);
 
-/* The panel that these bytes will be; NULL: failed. path: what messages call it. */
-Panel *fit_file_open(const FitParts *parts, const char *path, Arena *arena, size_t *size,
-                     Error *err);
+/* The panel that these bytes will be, without a report; NULL: failed. path: what messages call
+ * it. */
+Panel *fit_file_open(const FitParts *parts, const char *path, Arena *arena, Error *err);

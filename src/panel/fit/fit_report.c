@@ -377,18 +377,10 @@ static uint64_t source_hash(const Measurement *set) {
     return XXH3_64bits_digest(&hash);
 }
 
-FitTable fit_report_errors(const FitParts *parts, const Panel *panel, json_t *tables) {
-    FitTable total = {.name = "total"};
-    FitDeviations all = {0};
-    if (parts->emission) add_emission_tables(parts, panel, tables, &total, &all.emission);
-    if (parts->reflection) add_reflection_tables(parts, panel, tables, &total, &all.reflection);
-    return total;
-}
-
-json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t file_bytes) {
+json_t *fit_report_measure(const FitParts *parts, const Panel *panel) {
     const Measurement *set = parts->set;
     json_t *tables = json_array();
-    FitTable total = {.name = "total", .bytes = (double)file_bytes};
+    FitTable total = {.name = "total"};
     FitDeviations all = {0};
     char hash[32];
     json_t *out = json_pack("{s:s, s:s, s:s*, s:s*, s:s*, s:s, s:s, s:[f,f], s:[f,f], s:s}",

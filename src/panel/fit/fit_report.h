@@ -11,8 +11,6 @@
 #include "panel/fit/fit_table.h"
 #include "panel/query/panel.h"
 
-/* Compares the panel with the tables; a new JSON document. */
-json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t file_bytes);
-
-/* The tables' rows alone, into a list, and their total. */
-FitTable fit_report_errors(const FitParts *parts, const Panel *panel, json_t *tables);
+/* Compares the panel with the tables; a new JSON document, still without the file's size
+ * (panel_report_add_sizes). */
+json_t *fit_report_measure(const FitParts *parts, const Panel *panel);

@@ -43,33 +43,18 @@ void fit_table_finish(const FitErrors *errors, FitTable *out) {
     out->outlier_error = errors->outlier_max;
 }
 
-static double ratio_of(double bytes, double stored) {
-    return stored > 0 ? bytes / stored : 0;
-}
-
 json_t *fit_table_json(const FitTable *t) {
     json_t *out =
-        json_pack("{s:s, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "name", t->name,
+        json_pack("{s:s, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "name", t->name,
                   "source_bytes_text", (json_int_t)t->text_bytes, "source_bytes_float32",
                   (json_int_t)t->float32_bytes, "stored_values", t->stored_values, "bytes",
-                  t->bytes, "ratio", ratio_of((double)t->float32_bytes, t->bytes), "ratio_text",
-                  ratio_of((double)t->text_bytes, t->bytes), "max_error", t->max_error, "rms_error",
-                  t->rms_error, "integral_error", t->integral_error, "noise", t->noise,
-                  "extrapolated_share", t->extrapolated);
+                  t->bytes, "max_error", t->max_error, "rms_error", t->rms_error, "integral_error",
+                  t->integral_error, "noise", t->noise, "extrapolated_share", t->extrapolated);
     if (t->outliers > 0) {
         json_object_set_new(out, "outliers", json_integer((json_int_t)t->outliers));
         json_object_set_new(out, "outliers_max_error", json_real(t->outlier_error));
     }
     return out;
-}
-
-void fit_table_set_file_size(json_t *total, size_t file_bytes) {
-    double bytes = (double)file_bytes;
-    double binary = json_number_value(json_object_get(total, "source_bytes_float32"));
-    double text = json_number_value(json_object_get(total, "source_bytes_text"));
-    json_object_set_new(total, "bytes", json_real(bytes));
-    json_object_set_new(total, "ratio", json_real(ratio_of(binary, bytes)));
-    json_object_set_new(total, "ratio_text", json_real(ratio_of(text, bytes)));
 }
 
 void fit_table_append(json_t *tables, FitTable *total, const FitTable *one) {

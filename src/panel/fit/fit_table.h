@@ -38,6 +38,3 @@ json_t *fit_table_json(const FitTable *table);
 
 /* One more row of the report, and into its total. */
 void fit_table_append(json_t *tables, FitTable *total, const FitTable *one);
-
-/* Puts the file's size into the report's total. */
-void fit_table_set_file_size(json_t *total, size_t file_bytes);

@@ -12,11 +12,8 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in place");
 
 #define PANEL_MAGIC "PHPANEL\n"
-#define PANEL_VERSION_PLACES 5u /* of files with several spots or a map: one of 4 would too */
-/* of files with local dimming: older ones would show the black that a full backlight leaks */
-#define PANEL_VERSION_ZONES 6u
-#define PANEL_VERSION_PLAIN 3u /* of all others, so that it can read them */
-#define PANEL_ALIGN 8          /* of sections, bytes */
+#define PANEL_VERSION 7u
+#define PANEL_ALIGN 8 /* of sections, bytes */
 #define PANEL_SECTIONS_MAX 64
 #define PANEL_LEVELS_MAX 64
 #define PANEL_SLICES_MAX 40
@@ -33,26 +30,20 @@ typedef struct PanelHeader {
 } PanelHeader;
 
 typedef enum PanelSectionKind {
-    PANEL_META = 1,     /* panel_report.h: names, source, what was chosen, notes */
+    PANEL_META = 1,     /* panel_report.h: names, source, what was chosen, notes, errors */
     PANEL_EMISSION = 2, /* PanelEmissionHead and what follows it */
     PANEL_EMISSION_TREE = 3,
     PANEL_PRIMARIES = 4,  /* PanelPrimariesHead, spectra */
     PANEL_REFLECTION = 5, /* PanelReflectionStored and what follows it */
     PANEL_REFLECTION_TREE = 6,
-    PANEL_SAMPLING = 7,      /* a sampling tree, PanelSampling's counts and thetas */
-    PANEL_REPORT_TABLES = 8, /* panel_report.h: the tables of the report, then the total;
-                                compressed maybe, which older readers call damaged */
-                             /* 9 was how a reflection is read: passed over */
-    PANEL_POLARISED = 10,    /* PanelPolarisedStored: of the emission; absent: unpolarised */
-    PANEL_SPOTS = 11,        /* PanelSpotsHead and what follows it; absent: one everywhere */
-    PANEL_SPOT_FILE = 12,    /* index 1 on: a panel file of its own, of one spot */
-    PANEL_MAP = 13,          /* PanelMapHead and what follows it */
-                             /* 14 was how pixels are divided: passed over */
-    PANEL_REACH = 15,        /* PanelReachStored[tables]; absent: the cone of all tables */
-    PANEL_ZONES = 16,        /* PanelZonesStored and what follows it; absent: one backlight,
-                                always full */
-    PANEL_STATES = 17        /* several states of a display, once written: refused (18 held
-                                their files) */
+    PANEL_SAMPLING = 7,   /* a sampling tree, PanelSampling's counts and thetas */
+    PANEL_POLARISED = 10, /* PanelPolarisedStored: of the emission; absent: unpolarised */
+    PANEL_SPOTS = 11,     /* PanelSpotsHead and what follows it; absent: one everywhere */
+    PANEL_SPOT_FILE = 12, /* index 1 on: a panel file of its own, of one spot */
+    PANEL_MAP = 13,       /* PanelMapHead and what follows it */
+    PANEL_REACH = 15,     /* PanelReachStored[tables]; absent: the cone of all tables */
+    PANEL_ZONES = 16      /* PanelZonesStored and what follows it; absent: one backlight,
+                             always full */
 } PanelSectionKind;
 
 typedef struct PanelSection {
@@ -187,9 +178,7 @@ typedef struct PanelMapHead {
 #define PANEL_INCIDENCES_MAX 32
 
 /* PANEL_SAMPLING: a sampling tree, at the next multiple of four bytes uint16 incidences and
- * azimuths, then float theta[incidences]; or nothing: opening the file makes it from the
- * reflection (sampling_make.h), of an isotropic one the same bytes. Readers that make none of
- * several azimuths refuse the file. */
+ * azimuths, then float theta[incidences]. */
 static inline size_t panel_sampling_tree_bytes(size_t tree) {
     return (tree + 3) / 4 * 4;
 }

@@ -7,7 +7,7 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "hemisphere/vertex/vertex.h"
-#include "hemisphere/vertex/vertex_unpack.h"
+#include "hemisphere/vertex/vertex_dense.h"
 #include "panel/query/panel_components.h"
 #include "panel/shape/least_squares.h"
 

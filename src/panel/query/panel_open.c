@@ -15,7 +15,6 @@
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_section.h"
 #include "panel/query/panel_zones.h"
-#include "panel/query/sampling_make.h"
 
 /* ---- places ----------------------------------------------------------------------------- */
 
@@ -136,9 +135,10 @@ static bool read_map(const PanelBytes *bytes, const PanelBytes *section, Arena *
     return true;
 }
 
-/* The spots and the map; *out NULL: the file has neither. The panels of the spots are still to
- * be opened: panel [0] is the file's own. */
-static bool panel_read_places(const PanelBytes *bytes, Arena *arena, PanelPlaces **out) {
+/* The spots and the map, and their bytes; *out NULL: the file has neither. The panels of the
+ * spots are still to be opened: panel [0] is the file's own. */
+static bool panel_read_places(const PanelBytes *bytes, Arena *arena, PanelPlaces **out,
+                              size_t *size) {
     PanelBytes spots, map;
     bool has_spots, has_map;
     *out = NULL;
@@ -153,6 +153,7 @@ static bool panel_read_places(const PanelBytes *bytes, Arena *arena, PanelPlaces
         return false;
     if (!places->spots && !places->map)
         return panel_refuse(bytes, "spots", "has neither spots nor a map");
+    *size = spots.size + (has_map ? map.size : 0);
     *out = places;
     return true;
 }
@@ -275,24 +276,11 @@ static bool finest_level(const PanelBytes *bytes, int *level) {
             if (!found) break;
             if (kinds[k] == PANEL_SAMPLING && at.size >= sizeof(SamplingHeader))
                 one = ((const SamplingHeader *)at.data)->level;
-            else if (kinds[k] == PANEL_SAMPLING) one = SAMPLING_MADE_LEVEL;
-            else if (kinds[k] != PANEL_SAMPLING && at.size >= sizeof(TreeHeader))
-                one = ((const TreeHeader *)at.data)->level;
+            else if (kinds[k] != PANEL_SAMPLING && at.size > offsetof(TreeHeader, level))
+                one = ((const TreeHeader *)at.data)->level; /* where vertex trees have it too */
             *level = one > *level ? one : *level;
         }
     return *level <= GEODESIC_MAX_LEVEL || panel_refuse(bytes, "trees", "are too deep");
-}
-
-/* The checksum does not cover the version: what stands in the file has to bear it out. */
-static bool check_version(const PanelBytes *bytes, const PanelHeader *header, const Panel *panel) {
-    uint32_t wanted = panel->zones    ? PANEL_VERSION_ZONES
-                      : panel->places ? PANEL_VERSION_PLACES
-                                      : PANEL_VERSION_PLAIN;
-    if (header->version == wanted) return true;
-    return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
-                    "has version %u, required: %u for what the file holds; it is damaged: fit "
-                    "the panel again",
-                    header->version, wanted);
 }
 
 /* The angle is held in its range: what is stored rounds to float. */
@@ -314,21 +302,18 @@ static bool open_polarised(const PanelBytes *bytes, Panel *panel) {
 }
 
 /* All of a file but its places and the warps. */
-static bool open_one(const PanelBytes *bytes, Arena *arena, PanelHeader *header, Panel **out) {
-    PanelBytes meta, figures = {0};
+static bool open_one(const PanelBytes *bytes, Arena *arena, Panel **out) {
+    PanelHeader header;
+    PanelBytes meta;
     int level;
-    bool has_figures;
-    if (!panel_check_header(bytes, header) || !finest_level(bytes, &level) ||
-        !panel_need_section(bytes, PANEL_META, 0, &meta) ||
-        !panel_find_section(bytes, PANEL_REPORT_TABLES, 0, &figures, &has_figures))
+    if (!panel_check_header(bytes, &header) || !finest_level(bytes, &level) ||
+        !panel_need_section(bytes, PANEL_META, 0, &meta))
         return false;
     const Geodesic *geodesic = geodesic_create(level, arena);
     Panel *panel = ARENA_NEW(arena, Panel, 1);
-    panel->size = bytes->size;
-    panel->meta = (const char *)meta.data;
+    panel->size = panel->own_size = bytes->size;
+    panel->meta = meta.data;
     panel->meta_size = meta.size;
-    panel->figures = has_figures ? figures.data : NULL;
-    panel->figures_size = figures.size;
     if (!panel_open_emission(bytes, geodesic, arena, panel) ||
         !panel_open_reflection(bytes, geodesic, arena, panel) || !open_polarised(bytes, panel) ||
         !panel_open_zones(bytes, arena, panel))
@@ -346,14 +331,14 @@ static bool check_sampling(const PanelBytes *bytes, const Panel *panel) {
 }
 
 /* A spot's panel is a file in the file, of one place. */
-static bool open_spot(const PanelBytes *bytes, int index, Arena *arena, const Panel **out) {
+static bool open_spot(const PanelBytes *bytes, int index, Arena *arena, const Panel **out,
+                      size_t *size) {
     PanelBytes at, inner;
-    PanelHeader header;
     Panel *panel;
     bool has_spots, has_map;
     if (!panel_need_section(bytes, PANEL_SPOT_FILE, (uint32_t)index, &at)) return false;
-    if (!open_one(&at, arena, &header, &panel) || !check_version(&at, &header, panel) ||
-        !check_sampling(&at, panel) ||
+    *size = at.size;
+    if (!open_one(&at, arena, &panel) || !check_sampling(&at, panel) ||
         !panel_find_section(&at, PANEL_SPOTS, 0, &inner, &has_spots) ||
         !panel_find_section(&at, PANEL_MAP, 0, &inner, &has_map))
         return error_prefix(bytes->err, "a spot's own file") && false;
@@ -365,36 +350,26 @@ static bool open_spot(const PanelBytes *bytes, int index, Arena *arena, const Pa
 
 static bool open_places(const PanelBytes *bytes, Arena *arena, Panel *panel) {
     PanelPlaces *places;
-    if (!panel_read_places(bytes, arena, &places)) return false;
+    size_t size;
+    if (!panel_read_places(bytes, arena, &places, &size)) return false;
     if (!places) return true;
+    panel->own_size -= size;
     places->panel[0] = panel;
-    for (int k = 1; k < places->panels; k++)
-        if (!open_spot(bytes, k, arena, &places->panel[k])) return false;
+    for (int k = 1; k < places->panels; k++) {
+        if (!open_spot(bytes, k, arena, &places->panel[k], &size)) return false;
+        panel->own_size -= size;
+    }
     if (!panel_finish_places(bytes, arena, places)) return false;
     for (int k = 1; k < places->panels; k++) panel_open_warps((Panel *)places->panel[k]);
     panel->places = places;
     return true;
 }
 
-/* Read as its first state alone it would answer for a display that nobody chose. */
-static bool refuse_states(const PanelBytes *bytes) {
-    PanelBytes at;
-    bool found;
-    return panel_find_section(bytes, PANEL_STATES, 0, &at, &found) &&
-           (!found || error_at(bytes->err, ERROR_INPUT, bytes->name, "",
-                               "has several states of a display, which are no longer read; "
-                               "required: a panel file of each (`panel fit`), chosen by "
-                               "`--panel NAME=FILE`"));
-}
-
 bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *arena, Panel **out,
                       Error *err) {
     PanelBytes bytes = {data, size, name, err};
-    PanelHeader header;
     Panel *panel;
-    if (!open_one(&bytes, arena, &header, &panel) || !refuse_states(&bytes) ||
-        !open_places(&bytes, arena, panel) || !check_version(&bytes, &header, panel))
-        return false;
+    if (!open_one(&bytes, arena, &panel) || !open_places(&bytes, arena, panel)) return false;
     panel_open_warps(panel);
     *out = panel;
     return true;

@@ -384,9 +384,7 @@ static void black_spectrum(const Panel *panel, PanelPrimaries *out) {
 static bool open_tree(const PanelBytes *at, const Geodesic *geodesic, const PanelEmission *e,
                       Arena *arena, Tree *out) {
     if (!panel_grid_is(at->data, at->size)) {
-        if (!tree_open(at->data, at->size, geodesic, out, at->err)) return false;
-        tree_unpack(out, arena);
-        return true;
+        return tree_open(at->data, at->size, geodesic, arena, out, at->err);
     }
     return panel_grid_expand(at->data, at->size, e, geodesic, arena, out) ||
            error_set(at->err, ERROR_INPUT, "a number of its cells is out of range");

@@ -8,9 +8,7 @@
 #include "base/units.h"
 #include "hemisphere/sampling/sampling_tree_build.h"
 #include "hemisphere/tree/tree_open.h"
-#include "hemisphere/vertex/vertex_pack.h"
 #include "panel/query/panel_reflection_layout.h"
-#include "panel/query/sampling_make.h"
 #include "spectrum/fresnel.h"
 
 static bool check_counts(const PanelBytes *at, const PanelReflectionStored *s) {
@@ -316,16 +314,6 @@ static bool check_thetas(const PanelBytes *at, const PanelSampling *s) {
            panel_refuse(at, "sampling", "incidences do not rise");
 }
 
-/* Makes the section that the file omits. */
-static bool make_section(const Panel *panel, Arena *arena, PanelBytes *at) {
-    SamplingSection made;
-    if (!sampling_make(panel, panel->reflection->azimuths > 1, arena, &made, at->err))
-        return error_in_file(at->err, at->name);
-    at->data = made.bytes;
-    at->size = made.size;
-    return true;
-}
-
 /* The sampling tree, expanded into the arena; a file without one leaves the panel as it is.
  * The reflection is there. */
 static bool open_sampling(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
@@ -335,7 +323,6 @@ static bool open_sampling(const PanelBytes *bytes, const Geodesic *geodesic, Are
     uint16_t counts[2];
     if (!panel_find_section(bytes, PANEL_SAMPLING, 0, &at, &found)) return false;
     if (!found) return true;
-    if (at.size == 0 && !make_section(panel, arena, &at)) return false;
     PanelSampling s = {0};
     if (!sampling_tree_open(at.data, at.size, geodesic, arena, &s.tree, bytes->err))
         return error_prefix(bytes->err, "sampling") || error_in_file(bytes->err, bytes->name);
@@ -378,11 +365,7 @@ bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesi
     if (reflection_layout(s, &from) != at->size)
         return panel_refuse(at, "reflection", "has another size than its counts say");
     if (!check_axes(at, s, &from)) return false;
-    size_t size = tree->size;
-    const void *blob = vertex_is_packed(tree->data, size)
-                           ? vertex_unpack_blob(tree->data, tree->size, arena, &size, at->err)
-                           : tree->data;
-    if (!blob || !tree_open(blob, size, geodesic, &panel->reflection_tree, at->err))
+    if (!tree_open(tree->data, tree->size, geodesic, arena, &panel->reflection_tree, at->err))
         return error_prefix(at->err, "reflection tree") || error_in_file(at->err, at->name);
     if (panel->reflection_tree.components != (int)s->components ||
         panel->reflection_tree.octants != (s->azimuths > 1 ? 4 : 2))
@@ -390,7 +373,6 @@ bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesi
     if (sections->reach.data &&
         sections->reach.size != sizeof *panel->reflection->reach * s->incidences * s->azimuths)
         return panel_refuse(&sections->reach, "reach", "has another size than its counts say");
-    tree_unpack(&panel->reflection_tree, arena);
     PanelReflection *reflection = expand(s, &from, arena);
     reflection->reach = (const PanelReachStored *)(const void *)sections->reach.data;
     panel->reflection = reflection;

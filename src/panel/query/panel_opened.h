@@ -128,12 +128,10 @@ typedef struct PanelPlaces {
 } PanelPlaces;
 
 struct Panel {
-    Arena copy; /* of the file; empty where the bytes belong to somebody else */
-    size_t size;
-    const char *meta;
+    Arena copy;            /* of the file; empty where the bytes belong to somebody else */
+    size_t size, own_size; /* of the file; without its spots and map */
+    const void *meta;
     size_t meta_size;
-    const void *figures; /* NULL: none */
-    size_t figures_size;
     const PanelEmission *emission; /* NULL: emits nothing */
     Tree emission_tree;
     const PanelPrimaries *primaries;   /* with emission */

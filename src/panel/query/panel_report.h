@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* panel_report.h -- what a fit found, as a panel file keeps it: JSON without default values,
- * and its tables in a few bytes a number.
+/* panel_report.h -- what a fit found, as a panel file keeps it: JSON in UTF-8, a zlib stream
+ * (RFC 1950). Numbers have 5 digits. What follows from the size of the file is not stored: of
+ * "total" the "bytes", of every table "ratio" and "ratio_text".
  *
- * Stored     uint16 rows, uint8 columns | per column: uint8 kind, uint8 length, its key | per
- *            row: uint8 length, its name | numbers row by row: kind 'i' uint32, 'f' float32,
- *            'h' the upper half of a float32, rounded away from 0 (so that a stated error is
- *            never too small). A number that is absent is NaN, an absent integer UINT32_MAX.
- *            "ratio" and "ratio_text" follow from the bytes and are not stored.
+ * Memory   the caller's to release (json_decref), or the arena's. Threads: pure functions.
  */
 #pragma once
 #include <jansson.h>
@@ -15,19 +12,12 @@
 #include "base/error.h"
 #include "panel/query/panel.h"
 
-/* tables: objects of a "name" and numbers. Returns the size of *bytes in the arena; 0: memory
- * is out. is_compressed: as the report's text is; its first two bytes are no count of rows. */
-size_t panel_report_pack_tables(const json_t *tables, bool is_compressed, Arena *arena,
-                                const void **bytes);
+/* Returns the size of *bytes in the arena; 0: memory is out. */
+size_t panel_report_pack(const json_t *report, Arena *arena, const void **bytes);
 
-/* A new array of such objects; NULL: the bytes are damaged. */
-json_t *panel_report_open_tables(const void *bytes, size_t size);
-
-/* What a file keeps of a report without its tables, which it changes: JSON text, compressed as
- * zlib does with panel_words.txt as its dictionary (other words need more bytes; a changed
- * dictionary makes written files unreadable). Returns the size of *bytes in the arena; 0:
- * memory is out. */
-size_t panel_report_pack(json_t *report, Arena *arena, const void **bytes);
-
-/* The report inside a panel file; the caller's to release. */
+/* The report inside a panel file. Fails (ERROR_INPUT) where it is damaged. */
 bool panel_report(const Panel *panel, json_t **report, Error *err);
+
+/* Puts a file's size, without its spots and map, into a report's "total", and into every table
+ * the source's bytes over the panel's. */
+void panel_report_add_sizes(json_t *report, size_t file_bytes);

@@ -26,12 +26,11 @@ bool panel_check_header(const PanelBytes *bytes, PanelHeader *header) {
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "",
                         "is no panel file, required: one that `panel fit` wrote");
     memcpy(header, bytes->data, sizeof *header);
-    if (header->version < PANEL_VERSION_PLAIN || header->version > PANEL_VERSION_ZONES ||
-        header->flags)
+    if (header->version != PANEL_VERSION || header->flags)
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
-                        "has version %u, required: %u to %u: fit the panel "
-                        "again",
-                        header->version, PANEL_VERSION_PLAIN, PANEL_VERSION_ZONES);
+                        "has version %u, required: %u: fit its measurement set or recipe again "
+                        "(`panel fit` of this program)",
+                        header->version, PANEL_VERSION);
     if (header->size != bytes->size)
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
                         "has %zu bytes, required: %llu: the file is cut or grown", bytes->size,

@@ -370,7 +370,7 @@ static bool code_once(EmissionCoder *coder, Arena *arena, EmissionTree *out, Tre
     VertexTreeOptions options = {coder->lattice, model->rank->components, accepts, coder,
                                  model->step,    coder->threads};
     return (vertex_tree_build(&options, coder->value, arena, &out->bytes, &out->report, err) &&
-            tree_open(out->bytes, tree_size(out->bytes), coder->geodesic, tree, err)) ||
+            tree_open(out->bytes, tree_size(out->bytes), coder->geodesic, arena, tree, err)) ||
            error_prefix(err, "emission");
 }
 

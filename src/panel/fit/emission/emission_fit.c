@@ -317,7 +317,7 @@ static bool emission_gaps_find(const EmissionModel *model, const EmissionTree *t
         log[i] = (float)log_of(&read, s->total[i * s->channels + read.channel]);
     read.surface = scatter_surface_make(s->master, false, log, 1, &scratch);
     if (!tree_open(tree->bytes, tree_size(tree->bytes), geodesic_create(tree->level, &scratch),
-                   &read.tree, err))
+                   &scratch, &read.tree, err))
         return false;
     ScatterAsked asked = {read.surface, read_gap, &read};
     *out = scatter_gaps_find(&asked, scratch);
@@ -347,25 +347,6 @@ bool emission_fit(const Measurement *set, const FitOptions *options, Arena *aren
     out->section = write_section(model, arena, &out->section_size);
     out->model = model;
     return true;
-}
-
-bool emission_fit_scale(EmissionResult *e, const double *integral_error, Arena *arena) {
-    EmissionModel *model = ARENA_NEW(arena, EmissionModel, 1);
-    EmissionRank *rank = ARENA_NEW(arena, EmissionRank, 1);
-    bool any = false;
-    *model = *e->model;
-    *rank = *model->rank;
-    rank->mean = ARENA_NEW(arena, float, model->samples->channels);
-    for (int c = 0; c < model->samples->channels; c++) {
-        float step = -(float)log_d(1 + fmax(-0.5, integral_error[c / 3]));
-        rank->mean[c] = ldexpf((float)rounded_to(model->rank->mean[c] + step, PANEL_MEAN_BITS),
-                               -PANEL_MEAN_BITS);
-        any |= rank->mean[c] != model->rank->mean[c];
-    }
-    model->rank = rank;
-    e->model = model;
-    e->section = write_section(model, arena, &e->section_size);
-    return any;
 }
 
 /* ---- the primaries' section -------------------------------------------------------------- */

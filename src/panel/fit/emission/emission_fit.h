@@ -42,7 +42,3 @@ void emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *aren
 
 bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena, FitNotes *notes,
                   EmissionResult *out, Error *err);
-
-/* The tables' light less their integrals' errors (relative, signed), as far as means can be
- * stored; the model is a copy. False: no mean changes. */
-bool emission_fit_scale(EmissionResult *emission, const double *integral_error, Arena *arena);

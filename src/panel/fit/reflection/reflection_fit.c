@@ -216,7 +216,7 @@ static void start_chunks(SampleCheck *check, Arena *arena) {
 static bool check_samples(SampleCheck *check, ReflectionMisses *misses, Error *err) {
     ReflectionModel *model = check->model;
     const void *blob = model->tree;
-    if (!tree_open(blob, tree_size(blob), model->geodesic, &check->tree, err))
+    if (!tree_open(blob, tree_size(blob), model->geodesic, model->arena, &check->tree, err))
         return error_prefix(err, "reflection");
     int chunks = check->first[model->tables];
     memset(check->part, 0, sizeof *check->part * (size_t)chunks);

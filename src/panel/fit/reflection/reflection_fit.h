@@ -17,8 +17,6 @@ typedef struct ReflectionResult {
     ReflectionSection section;
     const void *sampling; /* the section's bytes; NULL: not yet built */
     size_t sampling_size;
-    const void *packed; /* the tree, vertex_pack.h; NULL: it is stored as it is */
-    size_t packed_size;
     const HeldOut *held_out; /* per table */
     double worst;            /* largest error over the bound */
 } ReflectionResult;

@@ -93,7 +93,8 @@ static bool settle_integrals(ReflectionModel *model, Error *err) {
     IntegralPass pass = {.model = model};
     int count = model->tables * model->wavelengths;
     pass.change = ARENA_NEW(model->arena, double, count);
-    if (!tree_open(model->tree, tree_size(model->tree), model->geodesic, &pass.tree, err))
+    if (!tree_open(model->tree, tree_size(model->tree), model->geodesic, model->arena, &pass.tree,
+                   err))
         return error_prefix(err, "reflection");
     parallel_for(model->options->threads, model->tables, match_integrals, &pass);
     for (int i = 0; i < count; i++) model->mean[i] += (float)pass.change[i];

@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* sampling_make.h -- the sampling section that follows from queries of a panel's reflection: at
- * which incidences and azimuths a tree of directions is required, and the tree. Private to
- * src/panel.
+ * which incidences and azimuths a tree of directions is required, and the tree.
  *
- * The same bytes on every machine. Some milliseconds for each incidence and azimuth. Where the
- * section would be too much of the file it is made when the file is opened: of several azimuths
- * a coarse one, whose weights vary by some percent more, in a fifth of the time.
+ * The same bytes on every machine. Some milliseconds for each incidence and azimuth.
  * Memory    the section's bytes in the arena.
  * Fails     as sampling_tree_build.
  */
@@ -17,8 +14,6 @@
 #include "base/error.h"
 #include "panel/query/panel.h"
 
-#define SAMPLING_MADE_LEVEL 6
-
 typedef struct SamplingSection {
     const void *bytes;
     size_t size;
@@ -26,5 +21,4 @@ typedef struct SamplingSection {
 } SamplingSection;
 
 /* panel: its reflection can be queried, its sampling need not be there. */
-bool sampling_make(const Panel *panel, bool is_coarse, Arena *arena, SamplingSection *out,
-                   Error *err);
+bool sampling_make(const Panel *panel, Arena *arena, SamplingSection *out, Error *err);
