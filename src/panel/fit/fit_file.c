@@ -93,7 +93,8 @@ void fit_places_plan(const Measurement *set, Arena *arena, FitPlaces *out) {
     if (!out->panels) out->spots = 0; /* all are the same: one panel everywhere */
 }
 
-size_t fit_places_bytes(const FitPlaces *places) {
+/* Bytes of the sections in the file. */
+static size_t places_bytes(const FitPlaces *places) {
     size_t bytes = fit_places_are_there(places) ? sizeof(PanelSpotsHead) : 0;
     bytes += (size_t)places->spots * sizeof(PanelSpotStored) + places->map_size;
     for (int k = 0; k < places->panels; k++) bytes += places->sizes[k];
@@ -404,7 +405,7 @@ void *fit_file_bytes(const FitParts *parts, json_t *report, Arena *arena, size_t
     json_decref(stored);
     if (!packed.size) return NULL;
     void *bytes = file_bytes(parts, packed, arena, size);
-    panel_report_add_sizes(report, *size - (parts->places ? fit_places_bytes(parts->places) : 0));
+    panel_report_add_sizes(report, *size - (parts->places ? places_bytes(parts->places) : 0));
     return bytes;
 }
 

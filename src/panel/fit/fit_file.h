@@ -45,9 +45,6 @@ static inline bool fit_places_are_there(const FitPlaces *places) {
     return places->spots || places->map;
 }
 
-/* Bytes of the sections in the file. */
-size_t fit_places_bytes(const FitPlaces *places);
-
 /* Makes the map's section. panel: of the file as it is without the map; it takes out what a
  * camera that stands at one point saw under an angle. Fails, naming the map's file, where it is
  * dark at a place that was measured. */
