@@ -357,6 +357,28 @@ TEST(a_brushed_surface_is_told_between_azimuths) {
     }
 }
 
+static bool is_told_of_azimuths(const Fitted *f) {
+    size_t i;
+    json_t *reason;
+    json_array_foreach(json_object_get(f->fit.report, "reasons"), i,
+                       reason) if (strstr(json_string_value(reason),
+                                          "each azimuth of the light left out")) return true;
+    return false;
+}
+
+TEST(azimuths_of_the_light_too_far_apart_are_told) {
+    for (int azimuths = 4; azimuths <= 32; azimuths += 28) {
+        Grid grid = {.wavelengths = 1,
+                     .azimuths = azimuths,
+                     .incidences = 2,
+                     .theta_step = 3,
+                     .phi_step = 9,
+                     .theta_max = 81};
+        ENDS_BY(fitted_end) Fitted f = fit_surface(brushed, grid, quick());
+        assert_int_equal(is_told_of_azimuths(&f), azimuths == 4);
+    }
+}
+
 TEST(an_isotropic_surface_stored_with_azimuths_answers_the_same) {
     ENDS_BY(fitted_end)
     Fitted f = fit_surface(hazy, (Grid){.wavelengths = 1, .azimuths = 4, .incidences = 3}, quick());

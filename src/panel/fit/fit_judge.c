@@ -445,6 +445,21 @@ static void judge_peak(Judge *judge, const EmissionTree *tree) {
                      judge_rounded(judge, 100 * p->estimate), 100 * JUDGE_GAP_CARE, 0.5 * step);
 }
 
+/* With none left out the steps of the light's azimuth are half as wide: as judge_left_out. */
+static void judge_light_azimuths(Judge *judge, const FitParts *parts) {
+    double missed = reflection_held_out_azimuths(parts->reflection->model);
+    double estimate = missed / (missed > 0.5 ? 2 : 4);
+    if (!(estimate > JUDGE_HELD_OUT_CARE)) return;
+    judge_reason_add(judge, JUDGE_CARE,
+                     JUDGE_COARSE
+                     "reflection: each azimuth of the light left out, its neighbours miss %s %% "
+                     "of what is sent back: with all of them, %.3g degrees apart, the panel may "
+                     "miss by %s %% between them, required <= %.0f %%: measure at more azimuths "
+                     "of the light",
+                     judge_rounded(judge, 100 * missed), 360.0 / parts->set->azimuth_count,
+                     judge_rounded(judge, 100 * estimate), 100 * JUDGE_HELD_OUT_CARE);
+}
+
 static void judge_reach(Judge *judge, const FitParts *parts) {
     const Measurement *set = parts->set;
     const ReflectionParts *of = &parts->reflection->parts;
@@ -452,6 +467,7 @@ static void judge_reach(Judge *judge, const FitParts *parts) {
     judge_specular(judge, parts);
     judge_held_out(judge, parts);
     judge_scattered(judge, parts);
+    judge_light_azimuths(judge, parts);
     if (!of->peak) return;
     for (int t = 0; t < of->tables; t++) {
         double incidence = set->incidence[t % set->incidence_count];

@@ -263,3 +263,35 @@ HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scrat
     out.estimate = out.error / (is_guided(&thinned) ? 1 : CUBIC_ORDER);
     return out;
 }
+
+/* ---- azimuths of the light --------------------------------------------------------------- */
+
+#define TABLES_ENOUGH 48
+
+/* The light that a table's two neighbours in azimuth miss of it, a share of its own. In the
+ * specular-following frame tables of one incidence are mixed at the same direction. */
+static double azimuth_missed(const ReflectionModel *model, int table) {
+    int n = model->set->incidence_count, m = model->set->azimuth_count;
+    int around[2] = {(table + n) % (n * m), (table + n * (m - 1)) % (n * m)};
+    const AngleTable *rows = &model->parts->haze[table];
+    int middle = model->wavelengths / 2;
+    double missed = 0, sum = 0;
+    for (int i = 0; i < rows->rows; i++) {
+        float logs[2][MEASUREMENT_WAVELENGTHS_MAX];
+        double weight = table_row_weight(rows, i), value = (double)middle_value(rows, i);
+        for (int k = 0; k < 2; k++)
+            reflection_read_logs(model, around[k], table_row_direction(rows, i), logs[k]);
+        double told = exp_d(0.5 * ((double)logs[0][middle] + (double)logs[1][middle]));
+        missed += weight * fabs(told - value);
+        sum += weight * value;
+    }
+    return sum > 0 ? missed / sum : 0;
+}
+
+double reflection_held_out_azimuths(const ReflectionModel *model) {
+    double worst = 0;
+    if (model->set->azimuth_count < 2) return 0;
+    for (int t = 0; t < model->tables; t += 1 + model->tables / TABLES_ENOUGH)
+        worst = fmax(worst, azimuth_missed(model, t));
+    return worst;
+}

@@ -28,3 +28,7 @@ HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scrat
 
 /* What one table's samples show in the mirror direction may lie in another one's gap there. */
 void reflection_held_out_peaks(const ReflectionModel *model, HeldOut *held_out);
+
+/* The largest share of a table's light that its two neighbours in the light's azimuth miss, so
+ * that it is interpolated over twice the step; 0 of an isotropic set. */
+double reflection_held_out_azimuths(const ReflectionModel *model);
