@@ -21,17 +21,10 @@
 #define AZIMUTHS_LEAST 8
 #define PROBES 3 /* azimuths at which incidences are chosen */
 #define AZIMUTHS_MAX 32
-
-/* How much work a tree is. */
-typedef struct SamplingDetail {
-    int probe_level; /* at which incidences and azimuths are chosen */
-    int level;       /* of the tree */
-    int intervals;   /* of incidences, at most */
-    double between;  /* variance of the weights half way between two of them, the more */
-} SamplingDetail;
-
-/* Functions of several azimuths are many: theirs are coarser, by some percent of the weights. */
-static const SamplingDetail isotropic = {5, 6, 16, 0.004}, anisotropic = {4, 5, 8, 0.016};
+#define INTERVALS 16  /* of incidences, at most */
+#define PROBE_LEVEL 5 /* at which incidences and azimuths are chosen */
+#define LEVEL 6       /* of the tree */
+#define BETWEEN 0.004 /* variance of the weights half way between two of them, the more */
 
 /* Places of the stored frame, and the weights of the lanes. */
 typedef struct SamplingWork {
@@ -39,7 +32,6 @@ typedef struct SamplingWork {
     int level, octants, leaves, azimuths, incidences;
     Vec3 *stored;
     double *area;
-    const SamplingDetail *detail;
     PanelLanes lanes;
     double luminous[SPECTRUM_LANES];
     double theta[INCIDENCES_MAX];
@@ -141,7 +133,7 @@ static void divide(SamplingWork *work, Interval all, int room, Arena scratch) {
         worst = fmax(worst, mixed_variance(work, at_middle + from, all.function[0] + from,
                                            all.function[1] + from));
     }
-    if (worst > work->detail->between && room > 1) {
+    if (worst > BETWEEN && room > 1) {
         Interval low = {{all.theta[0], middle}, {all.function[0], at_middle}};
         Interval high = {{middle, all.theta[1]}, {at_middle, all.function[1]}};
         divide(work, low, room / 2, scratch);
@@ -156,7 +148,7 @@ static void choose_incidences(SamplingWork *work, Arena scratch) {
     Interval all = {{first, last},
                     {read_probes(work, first, &scratch), read_probes(work, last, &scratch)}};
     work->theta[work->incidences++] = first;
-    divide(work, all, work->detail->intervals, scratch);
+    divide(work, all, INTERVALS, scratch);
 }
 
 /* Azimuths evenly, so many that half way between two of them is drawn well by these. */
@@ -175,7 +167,7 @@ static void choose_azimuths(SamplingWork *work, Arena scratch) {
             }
         for (int at = half; at < COUNT_OF(read); at += 2 * half)
             worst = fmax(worst, mixed_variance(work, read[at], read[at - half], read[at + half]));
-        if (worst <= work->detail->between) return;
+        if (worst <= BETWEEN) return;
     }
 }
 
@@ -197,22 +189,21 @@ static void write_section(const SamplingWork *work, const void *tree, Arena *are
 }
 
 bool sampling_make(const Panel *panel, Arena *arena, SamplingSection *out, Error *err) {
-    SamplingWork work = {.panel = panel,
-                         .detail = panel->reflection->azimuths > 1 ? &anisotropic : &isotropic};
+    SamplingWork work = {.panel = panel};
     Arena scratch = *arena;
     const void *tree;
     choose_lanes(&work);
-    choose_places(&work, work.detail->probe_level, &scratch);
+    choose_places(&work, PROBE_LEVEL, &scratch);
     choose_incidences(&work, scratch);
     choose_azimuths(&work, scratch);
-    choose_places(&work, work.detail->level, &scratch);
+    choose_places(&work, LEVEL, &scratch);
     int functions = work.incidences * work.azimuths;
     float *integrals = ARENA_NEW(&scratch, float, (size_t)functions *(size_t)work.leaves);
     for (int i = 0; i < functions; i++)
         read_function(&work, work.theta[i % work.incidences],
                       2 * PI * (i / work.incidences) / work.azimuths,
                       integrals + (size_t)i * (size_t)work.leaves);
-    SamplingOptions options = {.level = work.detail->level,
+    SamplingOptions options = {.level = LEVEL,
                                .octants = work.octants,
                                .functions = functions,
                                .cells = CELLS * work.octants / 2,
