@@ -18,10 +18,10 @@ set(panel_library_sources src/library/parhelion_panel.c src/library/open_panel.c
   src/hemisphere/tree/tree_open.c src/hemisphere/tree/tree_query.c
   src/hemisphere/tree/tree_stop.c src/hemisphere/tree/tree_sum.c
   src/hemisphere/sampling/sampling_tree.c src/hemisphere/sampling/sampling_tree_build.c
-  src/panel/shape/least_squares.c src/panel/shape/panel_beam.c src/panel/shape/panel_levels.c
-  src/panel/shape/panel_profiles.c src/panel/shape/panel_spline.c
+  src/panel/shape/least_squares.c src/panel/shape/panel_levels.c
+  src/panel/shape/panel_spline.c
   src/panel/shape/spectral_warp.c src/panel/shape/spot_ground.c)
-foreach(file components emission grid info open open_emission open_reflection
+foreach(file components emission info open open_emission open_reflection
     place reflection sampling section zones)
   list(APPEND panel_library_sources src/panel/query/panel_${file}.c)
 endforeach()

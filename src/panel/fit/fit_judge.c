@@ -405,47 +405,8 @@ static void judge_spread(Judge *judge, const FitParts *parts) {
                      100 * JUDGE_SPREAD_CARE);
 }
 
-#define SHARED 0.5 /* of the azimuths: fewer see what they miss, as a lobe that is narrow */
-
-/* With none left out the gaps are half as wide. A pattern that neighbours nearly resolve is
- * then missed by a quarter, one that they do not by a half: tests/image/foreign_layouts.py. */
-static void judge_left_out(Judge *judge, const EmissionTree *tree) {
-    const PanelFollowing *f = &tree->edges.following;
-    double apart = degrees_from_radians((double)tree->edges.grid.widest_gap);
-    bool is_unresolved = tree->edges.are_there || f->missed > 0.5 || f->shared < SHARED;
-    double estimate = f->missed / (is_unresolved ? 2 : 4);
-    if (!tree->has_grid || !(f->missed > 0)) return;
-    json_object_set_new(judge->figures, "azimuth_left_out_missed", json_real(f->missed));
-    if (!(estimate > JUDGE_HELD_OUT_CARE)) return;
-    judge_reason_add(judge, JUDGE_CARE,
-                     JUDGE_COARSE
-                     "emission: each azimuth left out, its "
-                     "neighbours miss %s %% of its light: with all of them, up to %.3g degrees "
-                     "apart, the panel may miss by %s %% between them, required <= %.0f %%: "
-                     "measure every %.3g degrees or closer",
-                     judge_rounded(judge, 100 * f->missed), apart,
-                     judge_rounded(judge, 100 * estimate), 100 * JUDGE_HELD_OUT_CARE, 0.5 * apart);
-}
-
-/* A peak or a hole that one sample of a grid shows. */
-static void judge_peak(Judge *judge, const EmissionTree *tree) {
-    const EmissionPeak *p = &tree->edges.peak;
-    double step = degrees_from_radians(p->step);
-    if (!tree->has_grid) return;
-    add_figure(judge, "emission_peak_error", p->estimate);
-    if (!(p->estimate > JUDGE_GAP_CARE)) return;
-    judge_reason_add(judge, JUDGE_CARE,
-                     JUDGE_COARSE
-                     "emission: one sample alone shows a peak "
-                     "or a hole at theta %.4g, phi %.4g: its neighbours, %.3g degrees of %s "
-                     "apart, miss it by %s %%, and between them the panel may miss by %s %%, "
-                     "required <= %.0f %%: measure every %.3g degrees there",
-                     degrees_from_radians(p->theta), degrees_from_radians(p->phi), step,
-                     p->is_azimuth ? "azimuth" : "theta", judge_rounded(judge, 100 * p->missed),
-                     judge_rounded(judge, 100 * p->estimate), 100 * JUDGE_GAP_CARE, 0.5 * step);
-}
-
-/* With none left out the steps of the light's azimuth are half as wide: as judge_left_out. */
+/* With none left out the steps of the light's azimuth are half as wide. A pattern that neighbours
+ * nearly resolve is then missed by a quarter, one that they do not by a half. */
 static void judge_light_azimuths(Judge *judge, const FitParts *parts) {
     double missed = reflection_held_out_azimuths(parts->reflection->model);
     double estimate = missed / (missed > 0.5 ? 2 : 4);
@@ -515,10 +476,7 @@ void fit_judge(const FitParts *parts, const FitDeviations *all, const FitTable *
     if (parts->emission) {
         judge_set_levels(&judge, parts->set);
         judge_outliers(&judge, parts);
-        judge_left_out(&judge, &parts->emission->tree);
-        judge_peak(&judge, &parts->emission->tree);
-        if (!parts->emission->tree.has_grid)
-            judge_gaps(&judge, "emission_between_samples", "emission", &parts->emission->gaps);
+        judge_gaps(&judge, "emission_between_samples", "emission", &parts->emission->gaps);
     }
     if (parts->reflection) {
         judge_albedo(&judge, parts);

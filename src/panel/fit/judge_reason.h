@@ -108,10 +108,10 @@ JudgeGrade judge_reason_grade(double value, double care, double unusable);
  * left out: the limit for mirror and haze too. */
 #define JUDGE_HELD_OUT_CARE 0.05
 
-/* The same between scattered samples, in the one direction that is worst, where two standard
- * deviations are estimated: at 10 % one ring layout in three would be a false alarm
- * (tests/image/foreign_layouts.py). Of the light the limit of samples left out. So it is beside
- * a sample of a grid that alone shows a peak. */
+/* The same between samples of an emission, or scattered ones of a reflection, in the one
+ * direction that is worst, where two standard deviations are estimated: at 10 % one ring layout
+ * in three would be a false alarm (tests/image/foreign_layouts.py). Of the light the limit of
+ * samples left out. */
 #define JUDGE_GAP_CARE 0.15
 
 /* Noise of scattered samples, rms: laboratories' gonioreflectometers repeat within

@@ -38,35 +38,12 @@ void panel_components_add_spline(const PanelSpline *spline, Vec3 d, float log_co
     }
 }
 
-float panel_components_beam_place(const PanelBeam *beam, Vec3 direction) {
-    Vec3 v = vec3_sub(direction, beam->centre); /* a cosine near 1 would be too coarse */
-    float along = vec3_dot(beam->narrow, v);
-    float squares = vec3_dot(v, v) + along * along;
-    return log_f(1 + squares * beam->core_squares) * (1 / PANEL_BEAM_STEP);
-}
-
-void panel_components_add_beam(const PanelBeam *beam, Vec3 direction, float *out) {
-    float at = panel_components_beam_place(beam, direction), weight[4];
-    if (!(at >= 0 && at < (float)beam->knots)) return;
-    int knot = (int)at, stride = beam->stride;
-    if (knot > beam->knots - 1) knot = beam->knots - 1;
-    const float *row = beam->coefficient + knot * stride;
-    panel_beam_weights(at - (float)knot, weight);
-    for (int k = 0; k < stride; k += 4)
-        *(PanelFloat4 *)(out + k) += *(const PanelFloat4 *)(row + k) * weight[0] +
-                                     *(const PanelFloat4 *)(row + stride + k) * weight[1] +
-                                     *(const PanelFloat4 *)(row + 2 * stride + k) * weight[2] +
-                                     *(const PanelFloat4 *)(row + 3 * stride + k) * weight[3];
-}
-
 float panel_components(const Panel *panel, Vec3 direction, float *components) {
     const PanelEmission *e = panel->emission;
     for (int k = e->components & ~3; k < e->stride; k++) components[k] = 0;
     tree_interpolate(&panel->emission_tree, direction, components);
     float log_cos = log_f(clampf(direction.z, PANEL_LEAST_COS, 1));
     panel_components_add_spline(&e->spline, direction, log_cos, components);
-    for (int b = 0; b < e->beams; b++)
-        panel_components_add_beam(&e->beam[b], direction, components);
     return e->cosine_power * log_cos;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* panel_components.h -- the components of an emission at a direction: the tree's, the spline's
- * and the beams'; and the light that they make. Private to src/panel.
+/* panel_components.h -- the components of an emission at a direction: the tree's and the
+ * spline's; and the light that they make. Private to src/panel.
  *
  * Threads  pure functions of a constant Panel. HOT: no allocation, no libm.
  */
@@ -19,12 +19,6 @@ float panel_components(const Panel *panel, Vec3 direction, float *components);
 void panel_components_add_spline(const PanelSpline *spline, Vec3 direction, float log_cos,
                                  float *out);
 #define PANEL_LEAST_COS 1e-4f
-
-/* u in knots at a direction; a beam ends at `knots`. */
-float panel_components_beam_place(const PanelBeam *beam, Vec3 direction);
-
-/* Adds a beam's components to out (stride floats). */
-void panel_components_add_beam(const PanelBeam *beam, Vec3 direction, float *out);
 
 /* ---- the four sources of a panel's light: red, green, blue and black --------------------- */
 

@@ -55,17 +55,16 @@ typedef struct PanelSection {
 /* Natural logarithms of tristimulus values in cd m^-2. A channel is one of X, Y, Z of one
  * table: red's levels rising, then green's, blue's, then (if any) the black pattern's. At a
  * direction, ln E[channel] = mean[channel] + cosine_power ln cos theta + sum over components of
- * loading[channel][component] * (spline + tree's + beams' component). E is what a level adds
+ * loading[channel][component] * (spline + tree's component). E is what a level adds
  * to the black pattern, or the black pattern itself.
  *
  * Section   PanelEmissionHead | uint16 level[tables without black], 1/256 of a code | int16
  *           mean[channels], 2^-PANEL_MEAN_BITS | uint8 exponent[components], the step of
  *           loadings is 2^-exponent | uint8 width[components], 1 or 2 bytes | loadings,
  *           component by component, [channels] of that width, all 2-byte ones first | the
- *           spline as panel_spline.h has it | the beams as panel_beam.h has them. Readers that
- *           know of no beams refuse a section that goes on behind its spline. */
+ *           spline as panel_spline.h has it. */
 typedef struct PanelEmissionHead {
-    uint8_t components, has_black, level_count[3], beams, reserved[2];
+    uint8_t components, has_black, level_count[3], reserved[3];
     float cone_cos;    /* cos of the last measured theta */
     float level_power; /* exponent of the level curve where only one level is known */
     float cosine_power;

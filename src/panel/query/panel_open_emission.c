@@ -9,7 +9,6 @@
 #include "hemisphere/tree/tree_open.h"
 #include "panel/query/panel_components.h"
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_grid.h"
 #include "panel/shape/panel_levels.h"
 
 _Static_assert(sizeof(PanelEmissionHead) == 20, "the file's layout");
@@ -80,8 +79,7 @@ static bool read_head(const PanelBytes *at, Rest *rest, PanelEmission *e) {
                          .cone_cos = head.cone_cos,
                          .level_power = head.level_power,
                          .cosine_power = head.cosine_power,
-                         .channels = head.has_black ? 3 : 0,
-                         .beams = head.beams};
+                         .channels = head.has_black ? 3 : 0};
     for (int p = 0; p < 3; p++) {
         e->level_count[p] = head.level_count[p];
         e->channels += 3 * e->level_count[p];
@@ -90,7 +88,6 @@ static bool read_head(const PanelBytes *at, Rest *rest, PanelEmission *e) {
     }
     if (head.has_black > 1 || e->components < 1 || e->components > PANEL_COMPONENTS_MAX)
         return panel_refuse(at, "emission", "component count out of range");
-    if (e->beams > PANEL_BEAMS_MAX) return panel_refuse(at, "emission", "beam count out of range");
     if (!(e->cone_cos >= 0 && e->cone_cos <= 1) || !(e->level_power > 0 && e->level_power < 10) ||
         !(e->cosine_power >= 0 && e->cosine_power < 10))
         return panel_refuse(at, "emission", "cone or level power out of range");
@@ -113,21 +110,11 @@ static bool take_spline(Rest *rest, PanelEmission *e, Arena *arena) {
     return true;
 }
 
-static bool take_beams(Rest *rest, PanelEmission *e, Arena *arena) {
-    for (int b = 0; b < e->beams; b++) {
-        size_t used = 0;
-        if (!panel_beam_open(rest->at, rest->size, e->components, arena, &e->beam[b], &used))
-            return false;
-        rest->at += used, rest->size -= used;
-    }
-    return true;
-}
-
 static bool read_section(const PanelBytes *at, Arena *arena, PanelEmission *e) {
     Rest rest = {at->data, at->size};
     if (!read_head(at, &rest, e)) return false;
     if (!take_levels(&rest, e) || !take_means(&rest, e, arena) || !take_loadings(&rest, e, arena) ||
-        !take_spline(&rest, e, arena) || !take_beams(&rest, e, arena) || rest.size != 0)
+        !take_spline(&rest, e, arena) || rest.size != 0)
         return panel_refuse(at, "emission", "has another size than its counts say");
     return check_levels(at, e);
 }
@@ -184,15 +171,11 @@ static void expand_codes(PanelEmission *e, Arena *arena) {
 
 #define MEAN_LEVEL 5 /* of the triangles that a mean is taken over */
 
-/* ln E of the channels at a direction; with_beams: a beam may lie between the directions of a
- * coarse grid, and is then left out. */
-static void channel_logs(const Panel *panel, Vec3 direction, bool with_beams, float *logs) {
+/* ln E of the channels at a direction. */
+static void channel_logs(const Panel *panel, Vec3 direction, float *logs) {
     const PanelEmission *e = panel->emission;
-    float components[PANEL_COMPONENTS_MAX], beams[PANEL_COMPONENTS_MAX] = {0};
+    float components[PANEL_COMPONENTS_MAX];
     float fall = panel_components(panel, direction, components);
-    for (int b = 0; b < e->beams && !with_beams; b++)
-        panel_components_add_beam(&e->beam[b], direction, beams);
-    for (int k = 0; k < e->components && e->beams && !with_beams; k++) components[k] -= beams[k];
     for (int c = 0; c < e->channels; c++) {
         logs[c] = fall + e->mean[c];
         for (int k = 0; k < e->components; k++)
@@ -257,71 +240,21 @@ static bool means_fit(const PanelEmission *e) {
     return e->black_mean_y >= 0 && e->black_mean_y <= MEAN_Y_MAX;
 }
 
-#define BEAM_RADII 160
-#define BEAM_TURNS 32
-
-/* No other beam is nearer: each one's light is taken on its own rings. */
-static bool is_nearest(const PanelEmission *e, int beam, Vec3 d) {
-    float own = panel_components_beam_place(&e->beam[beam], d);
-    for (int b = 0; b < e->beams; b++) {
-        float other = panel_components_beam_place(&e->beam[b], d);
-        if (other < own || (other == own && b < beam)) return false;
-    }
-    return true;
-}
-
-/* Adds a beam's light at one direction of w steradians. */
-static void add_beam_direction(const Panel *panel, Vec3 d, double w, float *logs, double *light) {
-    const PanelEmission *e = panel->emission;
-    for (int with = 0; with < 2; with++) { /* with the beams last: the logarithms stay */
-        channel_logs(panel, d, with, logs);
-        for (int c = 1; c < e->channels; c += 3)
-            light[c / 3] += (with ? w : -w) * (double)d.z * (double)exp_f(logs[c]);
-    }
-}
-
-/* Adds a beam's light over the hemisphere, on rings around its centre: even in the profile's
- * own variable; a ring's area is pi times the change of the chord's square. */
-static void add_beam_light(const Panel *panel, int beam, float *logs, Clouds *clouds,
-                           double *light) {
-    const PanelEmission *e = panel->emission;
-    const PanelBeam *b = &e->beam[beam];
-    Frame frame = frame_from_z(b->centre);
-    double step = (double)PANEL_BEAM_STEP * b->knots / BEAM_RADII, inner = 0;
-    double core = (double)b->core * (double)b->core;
-    for (int ring = 0; ring < BEAM_RADII; ring++) {
-        double outer = core * (exp_d(step * (ring + 1)) - 1), mid = 0.5 * (inner + outer);
-        double area = PI * (outer - inner), across = sqrt(fmax(0, mid * (1 - 0.25 * mid)));
-        if (mid > 2) return;
-        for (int i = 0; i < BEAM_TURNS; i++) {
-            double turn = 2 * PI * (i + 0.5) / BEAM_TURNS;
-            Vec3 d =
-                frame_to_world(&frame, vec3((float)(across * cos_d(turn)),
-                                            (float)(across * sin_d(turn)), (float)(1 - 0.5 * mid)));
-            if (d.z <= 0 || !is_nearest(e, beam, d)) continue;
-            add_beam_direction(panel, d, area / BEAM_TURNS, logs, light);
-            if (d.z >= e->cone_cos && i % 4 == 0) add_colours(e, logs, clouds);
-        }
-        inner = outer;
-    }
-}
-
 /* Means over the hemisphere, and where the colours lie. */
 static void survey(Panel *panel, PanelEmission *e, Arena *arena, PanelPrimaries *primaries) {
     int directions = (int)geodesic_count(MEAN_LEVEL);
     float *logs = ARENA_NEW(arena, float, e->channels);
     double *mean_y = ARENA_NEW(arena, double, e->channels / 3), weight = 0;
     Clouds clouds = {.count = {0}};
-    start_clouds(e, directions + e->beams * BEAM_RADII * BEAM_TURNS / 4, arena, &clouds);
+    start_clouds(e, directions, arena, &clouds);
     for (int i = 0; i < directions; i++) {
         Vec3 d = geodesic_center(MEAN_LEVEL, (uint32_t)i);
         double w = geodesic_area(MEAN_LEVEL, (uint32_t)i) * (double)d.z;
-        channel_logs(panel, d, false, logs);
+        channel_logs(panel, d, logs);
         weight += w;
         for (int c = 1; c < e->channels; c += 3) mean_y[c / 3] += w * (double)exp_f(logs[c]);
         if (d.z >= e->cone_cos) add_colours(e, logs, &clouds);
     }
-    for (int b = 0; b < e->beams; b++) add_beam_light(panel, b, logs, &clouds, mean_y);
     for (int t = 0; t < e->channels / 3; t++) mean_y[t] /= weight;
     spread_means(e, mean_y);
     for (int p = 0; p < 4; p++)
@@ -380,16 +313,6 @@ static void black_spectrum(const Panel *panel, PanelPrimaries *out) {
         memcpy(out->spectrum[3], out->spectrum[1], sizeof out->spectrum[3]);
 }
 
-/* The tree itself, or cells that become one. */
-static bool open_tree(const PanelBytes *at, const Geodesic *geodesic, const PanelEmission *e,
-                      Arena *arena, Tree *out) {
-    if (!panel_grid_is(at->data, at->size)) {
-        return tree_open(at->data, at->size, geodesic, arena, out, at->err);
-    }
-    return panel_grid_expand(at->data, at->size, e, geodesic, arena, out) ||
-           error_set(at->err, ERROR_INPUT, "a number of its cells is out of range");
-}
-
 bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                          Panel *panel) {
     PanelBytes at, tree, spectra;
@@ -402,7 +325,7 @@ bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Aren
     PanelEmission *e = ARENA_NEW(arena, PanelEmission, 1);
     PanelPrimaries *primaries = ARENA_NEW(arena, PanelPrimaries, 1);
     if (!read_section(&at, arena, e) || !read_spectra(&spectra, arena, primaries)) return false;
-    if (!open_tree(&tree, geodesic, e, arena, &panel->emission_tree))
+    if (!tree_open(tree.data, tree.size, geodesic, arena, &panel->emission_tree, tree.err))
         return error_prefix(bytes->err, "emission tree") || error_in_file(bytes->err, bytes->name);
     if (panel->emission_tree.components != e->components || panel->emission_tree.octants != 4)
         return panel_refuse(&at, "emission", "does not fit its tree");

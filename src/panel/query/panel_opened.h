@@ -11,7 +11,6 @@
 #include "hemisphere/sampling/sampling_tree.h"
 #include "hemisphere/tree.h"
 #include "panel/query/panel.h"
-#include "panel/shape/panel_beam.h"
 #include "panel/query/panel_file.h"
 #include "panel/shape/panel_spline.h"
 #include "panel/shape/spot_ground.h"
@@ -30,8 +29,6 @@ typedef struct PanelEmission {
     float level[3][PANEL_LEVELS_MAX];
     const float *mean, *loading; /* channels, channels x components */
     PanelSpline spline;
-    int beams;
-    PanelBeam beam[PANEL_BEAMS_MAX];
     /* Rows of a source: for code 1 .. 255 the mean of ln X, ln Y, ln Z (and a padding number),
      * then so many for every component. Row 0 is the change with ln code below code 1. */
     const float *code_rows[3];

@@ -9,15 +9,14 @@
 #include "hemisphere/tree/tree_open.h"
 #include "panel/fit/common/scatter_gaps.h"
 #include "panel/fit/common/table_rows.h"
-#include "panel/fit/emission/emission_beam.h"
-#include "panel/fit/emission/emission_coder.h"
 #include "panel/query/panel_file.h"
 #include "panel/set/primary_bands.h"
 #include "panel/set/primary_spectra.h"
 #include "panel/shape/spectral_warp.h"
 
-#define TOLERANCE 0.0025 /* relative, where the noise does not allow more */
-#define SIGMAS 4.0       /* of the noise that the components have left */
+/* Relative. Conoscopes repeat within 1 to 2 %; what is left of the noise is in the surface
+ * through the samples already. */
+#define TOLERANCE 0.008
 
 /* ---- what is known of the tables -------------------------------------------------------- */
 
@@ -55,7 +54,7 @@ static void survey_tables(const Measurement *set, Arena *arena, EmissionResult *
     for (int i = 0; (table = emission_samples_table(set, out->has_black, i).table); i++) {
         out->table_count = i + 1;
         out->noise[i] = emission_samples_noise(table, 1, *arena);
-        for (int j = 0; j < 3; j++) out->dim[i][j] = table_noise_dim(table, j, *arena);
+        for (int j = 0; j < 3; j++) out->dim[i][j] = emission_samples_dim(table, j, *arena);
         out->outlier[i] = ARENA_NEW(arena, uint8_t, table->rows);
         out->outlier_count +=
             emission_outliers_find(table, out->outlier[i], &out->outliers, *arena);
@@ -138,7 +137,6 @@ static PanelEmissionHead section_head(const EmissionModel *model) {
     const EmissionSamples *s = model->samples;
     PanelEmissionHead head = {.components = (uint8_t)model->rank->components,
                               .has_black = s->black >= 0,
-                              .beams = (uint8_t)model->beams,
                               .cone_cos = fmaxf(0, (float)cos_d(s->cone)),
                               .level_power = 2.2f,
                               .cosine_power = model->rank->cosine_power};
@@ -166,7 +164,6 @@ static const void *write_section(const EmissionModel *model, Arena *arena, size_
     size_t channels = (size_t)model->samples->channels;
     size_t most = sizeof(PanelEmissionHead) + 4 * channels +
                   (size_t)model->rank->components * (2 + 2 * channels) + model->spline_size;
-    for (int b = 0; b < model->beams; b++) most += model->beam[b].size;
     unsigned char *bytes = ARENA_NEW(arena, unsigned char, most), *at = bytes;
     PanelEmissionHead head = section_head(model);
     put(&at, &head, sizeof head);
@@ -177,7 +174,6 @@ static const void *write_section(const EmissionModel *model, Arena *arena, size_
     }
     put_loadings(&at, model);
     put(&at, model->spline_bytes, model->spline_size);
-    for (int b = 0; b < model->beams; b++) put(&at, model->beam[b].bytes, model->beam[b].size);
     *size = (size_t)(at - bytes);
     return bytes;
 }
@@ -198,24 +194,6 @@ static void find_score_noise(EmissionModel *model, Arena *arena) {
                                         : table_noise_plain(&table, k, *arena));
 }
 
-/* Noise of a channel due to the scores' noise; the median of all. */
-static double channel_noise(const EmissionModel *model, Arena scratch) {
-    const EmissionRank *rank = model->rank;
-    int n = rank->components, channels = model->samples->channels;
-    double *list = ARENA_NEW(&scratch, double, channels);
-    for (int c = 0; c < channels; c++) {
-        for (int k = 0; k < n; k++)
-            list[c] += pow_d((double)rank->loading[c * n + k] * (double)model->score_noise[k], 2);
-        list[c] = sqrt(list[c]);
-    }
-    return sort_median(list, channels);
-}
-
-static double choose_tolerance(const EmissionModel *model, const FitOptions *options) {
-    if (options->bound > 0) return (double)options->bound;
-    return fmax(TOLERANCE, SIGMAS * model->noise);
-}
-
 /* Rounding steps of the components: together they may cost a sixth of the tolerance. */
 static void choose_steps(EmissionModel *model, Arena *arena) {
     const EmissionRank *rank = model->rank;
@@ -229,15 +207,15 @@ static void choose_steps(EmissionModel *model, Arena *arena) {
     }
 }
 
-/* A logarithm follows darkness without end: nothing goes below this share of the floor. A
- * smooth surface pays for depth, one with edges does not. */
-#define HELD 0.01
-#define HELD_EDGED 0.0015
+/* A logarithm follows darkness without end: nothing goes below this share of the floor. */
+#define HELD 0.003
 
-static void gather(EmissionModel *model, const Measurement *set, const EmissionResult *out,
-                   EmissionSamples *samples, Arena *arena) {
-    emission_samples_gather(set, out->has_black, out->outlier, arena, samples);
-    emission_rank_find(samples, arena, model->rank);
+/* Of any table of a primary: black has none where there are none in light. */
+static bool has_edges(const Measurement *set, Arena scratch) {
+    EmissionTable one;
+    for (int i = 0; (one = emission_samples_table(set, false, i)).table; i++)
+        if (emission_samples_have_edges(one.table, scratch)) return true;
+    return false;
 }
 
 static bool build_model(const Measurement *set, const FitOptions *options, Arena *arena,
@@ -251,16 +229,15 @@ static bool build_model(const Measurement *set, const FitOptions *options, Arena
                              .rank = rank,
                              .dim = (const double(*)[3])out->dim,
                              .tolerance = samples->tolerance};
-    gather(model, set, out, samples, arena);
-    if (emission_edges_are_there(model, *arena)) {
-        samples->held_share = HELD_EDGED;
-        gather(model, set, out, samples, arena);
-    }
+    emission_samples_gather(set, out->has_black, out->outlier, arena, samples);
+    emission_rank_find(samples, arena, rank);
     model->is_scattered = emission_samples_are_scattered(samples->master, *arena);
+    model->has_edges = has_edges(set, *arena);
     emission_samples_note(samples, *arena, notes);
+    if (model->has_edges)
+        fit_note(notes, "the light ends sharply: between samples it is interpolated as it is, "
+                        "not as its logarithm");
     find_score_noise(model, arena);
-    model->noise = channel_noise(model, *arena);
-    model->tolerance = choose_tolerance(model, options);
     round_model(model);
     choose_steps(model, arena);
     return emission_model_fit_smooth(model, arena);
@@ -268,7 +245,7 @@ static bool build_model(const Measurement *set, const FitOptions *options, Arena
 
 /* ---- holes in the data ------------------------------------------------------------------ */
 
-/* What a panel may miss of an emission between samples that are no grid.
+/* What a panel may miss of an emission between samples.
  *
  * Of the brightest channel. */
 
@@ -287,7 +264,7 @@ static double log_of(const LightRead *read, float value) {
 static double read_gap(void *context, Vec3 at, double *off) {
     const LightRead *read = context;
     float components[PANEL_COMPONENTS_MAX], log;
-    emission_coder_components(read->model, &read->tree, at, components);
+    emission_tree_components(read->model, &read->tree, at, components);
     emission_model_totals(read->model, components, at, read->total);
     scatter_surface_read(read->surface, at, &log);
     double panel = log_of(read, read->total[read->channel]);
@@ -337,10 +314,7 @@ bool emission_fit(const Measurement *set, const FitOptions *options, Arena *aren
     if (!build_model(set, options, arena, notes, out, model))
         return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
     if (!emission_tree_build(model, options, arena, &out->tree, err)) return false;
-    if (!out->tree.has_grid && !emission_gaps_find(model, &out->tree, *arena, &out->gaps, err))
-        return false;
-    emission_beam_note(model, notes);
-    if (out->tree.has_grid) emission_edges_note(&out->tree.edges, notes);
+    if (!emission_gaps_find(model, &out->tree, *arena, &out->gaps, err)) return false;
     if (out->tree.missed)
         fit_note(notes, "emission: %d of %d directions miss %.2g%% beyond 5 sigma of noise",
                  out->tree.missed, model->samples->rows, 100 * model->tolerance);

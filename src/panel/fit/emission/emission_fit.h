@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* emission_fit.h -- from the tables of an emission to the sections of a panel file.
  *
- * Samples at common directions -> few components for all tables -> smooth part and beams ->
- * tree of the rest.
+ * Samples at common directions -> few components for all tables -> smooth part -> tree of
+ * the rest.
  * Memory   the arena's. Threads: options->threads; the bytes do not depend on how many.
  * Fails    when smooth part or tree cannot be stored (ERROR_INPUT).
  */
@@ -15,7 +15,7 @@ typedef struct EmissionResult {
     const void *section; /* as in the file */
     size_t section_size;
     EmissionTree tree;
-    ScatterGaps gaps;           /* of samples that are no grid */
+    ScatterGaps gaps;           /* between the samples */
     const EmissionModel *model; /* in the end */
     int table_count;
     bool has_black;

@@ -14,22 +14,9 @@
 
 #define SURFACE_LEVEL 5 /* of the lattice at which a surface through scattered rows is read */
 
-static void add_beams(const EmissionModel *model, Vec3 direction, float *components) {
-    for (int b = 0; b < model->beams; b++)
-        panel_components_add_beam(&model->beam[b].view, direction, components);
-}
-
 void emission_model_add_smooth(const EmissionModel *model, Vec3 d, float *components) {
     panel_components_add_spline(&model->spline, d, log_f(clampf(d.z, PANEL_LEAST_COS, 1)),
                                 components);
-    add_beams(model, d, components);
-}
-
-void emission_model_bare_scores(const EmissionModel *model, int row, float *out) {
-    size_t n = (size_t)model->rank->components;
-    memset(out, 0, sizeof *out * PANEL_COMPONENTS_MAX);
-    add_beams(model, model->samples->direction[row], out);
-    for (size_t k = 0; k < n; k++) out[k] = model->rank->score[(size_t)row * n + k] - out[k];
 }
 
 void emission_model_totals(const EmissionModel *model, const float *components, Vec3 direction,
@@ -178,10 +165,9 @@ static void add_rows(Normal *normal, const EmissionModel *model) {
     const EmissionSamples *s = model->samples;
     for (int i = 0; i < s->rows; i++) {
         Taps taps;
-        float score[PANEL_COMPONENTS_MAX];
         find_taps(normal->term, normal->terms, s->direction[i], &taps);
-        emission_model_bare_scores(model, i, score);
-        add_sample(normal, &taps, score, (double)model->rank->belief[i] * s->area[i]);
+        add_sample(normal, &taps, model->rank->score + i * normal->components,
+                   (double)model->rank->belief[i] * s->area[i]);
     }
 }
 
@@ -191,15 +177,9 @@ static void add_surface(Normal *normal, const EmissionModel *model, Arena scratc
     const EmissionSamples *s = model->samples;
     VertexLattice lattice = {SURFACE_LEVEL, 4};
     size_t n = (size_t)normal->components, count = vertex_count(lattice);
-    float *scores = ARENA_NEW(&scratch, float, n *(size_t)s->rows);
     Vec3 *at = ARENA_NEW(&scratch, Vec3, count);
-    for (int i = 0; i < s->rows; i++) {
-        float score[PANEL_COMPONENTS_MAX];
-        emission_model_bare_scores(model, i, score);
-        memcpy(scores + (size_t)i * n, score, n * sizeof *score);
-    }
     const ScatterSurface *surface =
-        scatter_surface_make(s->master, false, scores, (int)n, &scratch);
+        scatter_surface_make(s->master, false, model->rank->score, (int)n, &scratch);
     vertex_directions(lattice, at);
     for (size_t v = 0; v < count; v++) {
         Taps taps;
@@ -216,6 +196,7 @@ bool emission_model_fit_smooth(EmissionModel *model, Arena *arena) {
     const EmissionRank *rank = model->rank;
     uint8_t term[PANEL_SPLINE_TERMS_MAX];
     int terms = choose_terms(samples->azimuths, term), components = rank->components;
+    if (model->has_edges) terms = 1;
     Arena scratch = arena_reserve((size_t)64 << 20);
     Normal normal = {terms * PANEL_SPLINE_NUMBERS, components, NULL, NULL, 0, term, terms};
     size_t unknowns = (size_t)normal.unknowns;
@@ -224,18 +205,11 @@ bool emission_model_fit_smooth(EmissionModel *model, Arena *arena) {
     if (model->is_scattered) add_surface(&normal, model, scratch);
     else add_rows(&normal, model);
     float *numbers = ARENA_NEW(&scratch, float, unknowns *(size_t)components);
-    for (int k = 0; k < components; k++) solve_component(&normal, k, model, numbers, scratch);
+    for (int k = 0; k < components && !model->has_edges; k++)
+        solve_component(&normal, k, model, numbers, scratch);
     drop_small_blocks(numbers, terms, components, model->step);
     PanelSplineNumbers all = {term, terms, components, numbers, model->step};
     bool ok = keep_smooth(model, &all, arena);
     arena_release(&scratch);
     return ok;
-}
-
-bool emission_model_clear_smooth(EmissionModel *model, Arena *arena) {
-    uint8_t term = 0;
-    int components = model->rank->components;
-    float *numbers = ARENA_NEW(arena, float, components *PANEL_SPLINE_NUMBERS);
-    PanelSplineNumbers none = {&term, 1, components, numbers, model->step};
-    return keep_smooth(model, &none, arena);
 }

@@ -435,7 +435,7 @@ void emission_rank_find(const EmissionSamples *s, Arena *arena, EmissionRank *ou
         principal_components(logs, start_weights(s, &scratch), weight,
                              (PrincipalShape){s->rows, s->channels, most, 0}, &scratch);
     int best = 0, least = INT32_MAX;
-    for (int n = most < 3 ? most : 3; n <= most; n++) {
+    for (int n = 1; n <= most; n++) {
         int missed = try_components(&work, &start, n, weight);
         if (missed < least) least = missed, best = n;
         if (is_enough(s, out, missed)) break;
@@ -445,19 +445,4 @@ void emission_rank_find(const EmissionSamples *s, Arena *arena, EmissionRank *ou
         }
     }
     settle_belief(s, out, scratch);
-}
-
-#define FREE_PRIOR 1e-4
-#define FREE_PASSES 6
-
-void emission_rank_free_scores(const EmissionSamples *s, Vec3 centre, double chord, Arena scratch,
-                               EmissionRank *rank) {
-    int missed;
-    RankWork work = {s, rank, ARENA_NEW(&scratch, float, s->channels)};
-    for (int i = 0; i < s->rows; i++) {
-        Vec3 v = vec3_sub(s->direction[i], centre);
-        double prior = (double)vec3_dot(v, v) > chord * chord ? 1 : FREE_PRIOR;
-        for (int pass = 0; pass < FREE_PASSES; pass++) improve_row(&work, i, prior);
-    }
-    rank->worst = worst_rest(&work, &missed);
 }

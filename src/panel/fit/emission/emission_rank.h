@@ -21,11 +21,6 @@ typedef struct EmissionRank {
 
 void emission_rank_find(const EmissionSamples *samples, Arena *arena, EmissionRank *out);
 
-/* Scores anew; of rows within a chord of a direction for what they measure alone: those of a
- * narrow beam are far above the variance that the rank expects. */
-void emission_rank_free_scores(const EmissionSamples *samples, Vec3 centre, double chord,
-                               Arena scratch, EmissionRank *rank);
-
 /* ln E of all channels from components; fall included. */
 void emission_rank_logs(const EmissionRank *rank, int channels, const float *components, float fall,
                         float *logs);

@@ -80,10 +80,62 @@ bool emission_samples_are_scattered(const AngleTable *table, Arena scratch) {
     return grid.is_scattered;
 }
 
+/* ---- edges ------------------------------------------------------------------------------ */
+
+#define JUMP 8.0f /* ratio of neighbours that no smooth lamp has, */
+#define STEEPER \
+    3.0f           /* than the intervals beside it: the flank of a narrow beam is as steep, but \
+                      so are its neighbours */
+#define SEEN 0.05f /* of the largest light */
+#define DARKNESS 1e-3f /* of the largest light: darkness below it is all the same */
+
+/* Of four samples in a row: do the middle ones jump, and is there light? */
+static bool jumps(const float at[4]) {
+    float before = fabsf(at[1] - at[0]), here = fabsf(at[2] - at[1]), behind = fabsf(at[3] - at[2]);
+    return fmaxf(at[1], at[2]) > log_f(SEEN) && here > log_f(JUMP) &&
+           here > STEEPER * fmaxf(before, behind);
+}
+
+/* ln of the light of a ring at an azimuth; a ring before the first lies across the pole, one
+ * behind the last is as it. */
+static float cell_log(const DirectionGrid *g, const float *cell, int ring, int azimuth) {
+    int n = g->phis, first = g->has_pole;
+    if (ring < 0) ring = first - 1 - ring, azimuth += n / 2;
+    if (ring >= g->thetas) ring = g->thetas - 1;
+    return cell[ring * n + (azimuth % n + n) % n];
+}
+
+bool emission_samples_have_edges(const AngleTable *table, Arena scratch) {
+    DirectionGrid grid;
+    direction_grid_build(table, false, &scratch, &grid);
+    int rings = grid.thetas, n = grid.phis;
+    float *cell = direction_grid_cells(&grid, table->value, 3, &scratch), most = 1e-30f;
+    if (grid.is_scattered || rings < 3) return false;
+    for (int i = 0; i < rings * n; i++) most = fmaxf(most, cell[3 * i + 1]);
+    for (int i = 0; i < rings * n; i++)
+        cell[i] = log_f(fmaxf(0, cell[3 * i + 1]) / most + DARKNESS);
+    for (int i = 0; i < rings * n; i++) {
+        int ring = i / n, a = i % n;
+        float out[4], turn[4];
+        for (int k = 0; k < 4; k++) {
+            out[k] = cell_log(&grid, cell, ring + k - 1, a);
+            turn[k] = cell_log(&grid, cell, ring, a + k - 1);
+        }
+        if (jumps(out) || (n >= 4 && jumps(turn))) return true;
+    }
+    return false;
+}
+
 double emission_samples_noise(const AngleTable *table, int channel, Arena scratch) {
+    if (emission_samples_have_edges(table, scratch)) return 0;
     return emission_samples_are_scattered(table, scratch)
                ? scatter_surface_table_noise(table, channel, true, scratch)
                : table_noise_relative(table, channel, scratch);
+}
+
+double emission_samples_dim(const AngleTable *table, int channel, Arena scratch) {
+    return emission_samples_have_edges(table, scratch) ? 0
+                                                       : table_noise_dim(table, channel, scratch);
 }
 
 static TableNoise table_noise(const AngleTable *table, const double floor[3], Arena scratch) {
@@ -91,7 +143,7 @@ static TableNoise table_noise(const AngleTable *table, const double floor[3], Ar
     for (int j = 0; j < 3; j++) {
         noise.floor[j] = floor[j];
         noise.relative[j] = emission_samples_noise(table, j, scratch);
-        noise.dim[j] = table_noise_dim(table, j, scratch);
+        noise.dim[j] = emission_samples_dim(table, j, scratch);
     }
     return noise;
 }

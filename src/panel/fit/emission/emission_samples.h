@@ -48,8 +48,15 @@ EmissionTable emission_samples_table(const Measurement *set, bool has_black, int
 /* Have a table's rows no grid's order? */
 bool emission_samples_are_scattered(const AngleTable *table, Arena scratch);
 
-/* A channel's relative noise, of a grid or of scattered rows. */
+/* Does Y jump between two samples of a grid, as no smooth lamp does? */
+bool emission_samples_have_edges(const AngleTable *table, Arena scratch);
+
+/* A channel's relative noise, of a grid or of scattered rows. 0 where there are edges, which
+ * look like noise. */
 double emission_samples_noise(const AngleTable *table, int channel, Arena scratch);
+
+/* Its noise where there is no light, cd m^-2; likewise. */
+double emission_samples_dim(const AngleTable *table, int channel, Arena scratch);
 
 /* The least value that errors of a table's channel are relative to: a share of its largest
  * value in rows that outlier (NULL: none) does not mark. */

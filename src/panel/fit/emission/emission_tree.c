@@ -1,295 +1,396 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How an emission is kept: a smooth part, beams and a tree of what they leave; or its cells. */
 #include "panel/fit/emission/emission_tree.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/mathd.h"
+#include "base/mathf.h"
 #include "base/units.h"
+#include "hemisphere/haar/haar_tree.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
-#include "panel/fit/emission/emission_beam.h"
-#include "panel/fit/emission/emission_coder.h"
+#include "hemisphere/vertex/vertex.h"
+#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/vertex/vertex_tree_build.h"
+#include "panel/fit/common/direction_grid.h"
+#include "panel/fit/common/scatter_surface.h"
+#include "panel/fit/emission/emission_between.h"
 
-#define BEAM_GATE 0.02   /* relative error of triangles that makes worth looking for a beam */
-#define BEAM_WORTH 0.7   /* and that must go down so far */
-#define NO_NOISE 0.02    /* of the tolerance: beams then keep it without pardon for noise */
-#define BEAM_ENOUGH 0.25 /* of the tolerance: no other reach is tried */
+#define LEVEL_MOST 9
+#define SWEEPS 20          /* corrections of vertices by the samples around */
+#define LEAST_WEIGHT 0.05f /* of the samples around a vertex */
+#define SWEPT 0.4          /* of the tolerance: nearer samples are not corrected */
+#define SWEPT_SIGMAS 1.0f  /* of noise besides */
+#define PARDON \
+    5.0f /* sigmas of noise that a coded sample may miss by besides; none where \
+            there are edges, which look like noise */
+#define BETWEEN_SAMPLES 1.0f /* tolerances that a vertex may miss by where no sample is missed */
+#define ENOUGH 1.0             /* tolerances: finer triangles are not tried */
+#define FINER 0.8            /* what finer triangles must leave of the largest miss */
 
-/* ---- edges ------------------------------------------------------------------------------ */
+/* Where a tree is coded and what it is held to. */
+typedef struct Coder {
+    const EmissionModel *model;
+    const Geodesic *geodesic;
+    VertexLattice lattice;
+    uint32_t vertices;
+    Vec3 *direction;   /* of vertices */
+    float *smooth;     /* vertices x stride: the spline there */
+    float *value;      /* vertices x components: the rest */
+    float *wanted;     /* vertices x channels: M in cd m^-2 */
+    float *limit;      /* vertices: relative; INFINITY: anything will do */
+    float *least;      /* channels: errors count relative to no less than this */
+    float *work;       /* channels */
+    VertexPoint *near; /* rows: the triangle around */
+    double uncoded;    /* largest relative error of a row before coding, beside its noise */
+    int threads;
+} Coder;
 
-#define CELLS_A_STEP 3.0 /* triangles between two rings */
-#define EDGED_TOLERANCE 0.01
-#define FINER 0.8 /* what a finer level must leave */
+/* The rest at the samples: scores less the smooth part; and what it is read from between them:
+ * the cells of a grid, else a surface for each component. */
+typedef struct Rest {
+    float *value; /* rows x components */
+    float low[PANEL_COMPONENTS_MAX], high[PANEL_COMPONENTS_MAX];
+    DirectionGrid grid;
+    const float *cell;
+    const ScatterSurface *surface[PANEL_COMPONENTS_MAX];
+} Rest;
 
-static int edge_level(const EmissionSamples *s, const FitOptions *options) {
-    int level = 5;
-    if (options->level) return options->level;
-    while (level < EMISSION_LEVEL_MOST - 1 &&
-           degrees_from_radians(emission_coder_cell(level)) > s->step_deg / CELLS_A_STEP)
-        level++;
-    return level;
+/* About how wide a triangle of a level is, radians. */
+static double cell_width(int level) {
+    return PI / 2 / (1 << level);
 }
 
-/* Few rings with an edge look like noise: it does not count beyond a per cent. */
-static void hold_tolerance(EmissionModel *model) {
-    double most = fmax(EDGED_TOLERANCE, model->samples->tolerance);
-    for (int k = 0; k < model->rank->components && model->tolerance > most; k++)
-        model->step[k] *= (float)(most / model->tolerance);
-    model->tolerance = fmin(model->tolerance, most);
-}
-
-/* The measured directions as cells, and the tree that a panel makes of them. */
-typedef struct KeptCells {
-    const void *bytes;
-    Tree tree;
-    double error; /* the largest of a row's */
-    int missed;   /* rows beyond the tolerance */
-} KeptCells;
-
-static bool make_cells(EmissionCoder *coder, const EmissionEdges *edges, int level, Arena *arena,
-                       KeptCells *out, Error *err) {
-    const EmissionModel *model = coder->model;
-    const EmissionRank *rank = model->rank;
-    PanelEmission as_read = {.components = rank->components,
-                             .mean = rank->mean,
-                             .channels = model->samples->channels,
-                             .loading = rank->loading,
-                             .cosine_power = rank->cosine_power,
-                             .has_black = model->samples->black >= 0};
-    PanelGridCells cells = emission_edges_cells(edges, model, level);
-    *out = (KeptCells){.bytes = panel_grid_pack(&cells, arena)};
-    if (!panel_grid_expand(out->bytes, tree_size(out->bytes), &as_read, coder->geodesic, arena,
-                           &out->tree))
-        return error_set(err, ERROR_INPUT, "emission: the measured cells cannot be stored");
-    for (int i = 0; i < model->samples->rows; i++) {
-        float components[PANEL_COMPONENTS_MAX];
-        emission_coder_components(model, &out->tree, model->samples->direction[i], components);
-        double miss = (double)emission_coder_excess(coder, i, components, 5);
-        out->error = fmax(out->error, miss);
-        out->missed += miss > model->tolerance;
+static Rest find_rest(const EmissionModel *model, Arena *arena) {
+    const EmissionSamples *s = model->samples;
+    int n = model->rank->components;
+    Rest rest = {.value = ARENA_NEW(arena, float, s->rows *n)};
+    float *one = ARENA_NEW(arena, float, s->rows);
+    for (int i = 0; i < s->rows; i++) {
+        float components[PANEL_COMPONENTS_MAX] = {0};
+        emission_model_add_smooth(model, s->direction[i], components);
+        for (int k = 0; k < n; k++)
+            rest.value[i * n + k] = model->rank->score[i * n + k] - components[k];
     }
-    return true;
+    for (int k = 0; k < n; k++) {
+        rest.low[k] = INFINITY, rest.high[k] = -INFINITY;
+        for (int i = 0; i < s->rows; i++) {
+            one[i] = rest.value[i * n + k];
+            rest.low[k] = fminf(rest.low[k], one[i]);
+            rest.high[k] = fmaxf(rest.high[k], one[i]);
+        }
+        if (model->is_scattered)
+            rest.surface[k] = scatter_surface_make(s->master, false, one, 1, arena);
+    }
+    direction_grid_build(s->master, false, arena, &rest.grid);
+    rest.cell = direction_grid_cells(&rest.grid, rest.value, n, arena);
+    return rest;
 }
 
-/* A coder that errors of cells are found by, without vertices. */
-static EmissionCoder make_judge(EmissionModel *model, const EmissionEdges *edges, Arena *arena) {
-    EmissionCoder coder = {.model = model,
-                           .pardon = 5,
-                           .geodesic = geodesic_create(VERTEX_PLANE_LEVEL, arena),
-                           .least = ARENA_NEW(arena, float, model->samples->channels),
-                           .work = ARENA_NEW(arena, float, model->samples->channels)};
-    emission_coder_least(model, coder.least);
+/* ---- values at vertices ----------------------------------------------------------------- */
+
+/* What cells or surfaces say; beyond the cone what they say at its edge. What nothing measures
+ * cannot run away. */
+static void read_rest(Coder *coder, const Rest *rest) {
+    const EmissionSamples *s = coder->model->samples;
+    size_t n = (size_t)coder->model->rank->components;
+    double low = cos_d(s->cone), across = sin_d(s->cone);
+    for (uint32_t v = 0; v < coder->vertices; v++) {
+        Vec3 d = coder->direction[v];
+        double r = sqrt((double)(d.x * d.x + d.y * d.y));
+        if ((double)d.z < low)
+            d = vec3((float)(d.x * across / r), (float)(d.y * across / r), (float)low);
+        float *to = coder->value + v * n;
+        if (!coder->model->is_scattered) {
+            GridTaps taps;
+            direction_grid_taps(&rest->grid, acos_f(fminf(1, d.z)), atan2_f(d.y, d.x), &taps);
+            direction_grid_read(&taps, rest->cell, (int)n, to);
+        }
+        for (size_t k = 0; k < n; k++) {
+            if (coder->model->is_scattered) scatter_surface_read(rest->surface[k], d, &to[k]);
+            to[k] = clampf(to[k], rest->low[k], rest->high[k]);
+        }
+    }
+}
+
+/* The largest relative error of a row's channels, beyond so many sigmas of noise. */
+static float row_excess(const Coder *coder, int row, const float *components, float sigmas) {
+    const EmissionSamples *s = coder->model->samples;
+    float excess = 0;
+    emission_model_totals(coder->model, components, s->direction[row], coder->work);
+    for (int c = 0; c < s->channels; c++) {
+        size_t number = (size_t)row * (size_t)s->channels + (size_t)c;
+        float m = s->total[number], sigma = s->sigma[number];
+        if (isinf(sigma)) continue;
+        float miss = fabsf(coder->work[c] - m) - sigmas * sigma;
+        excess = fmaxf(excess, miss / fmaxf(m, coder->least[c]));
+    }
+    return excess;
+}
+
+/* Adds the values at a point to components. */
+static void add_values(const Coder *coder, const VertexPoint *at, float *components) {
+    uint32_t n = (uint32_t)coder->model->rank->components;
+    for (int q = 0; q < 3; q++)
+        for (uint32_t k = 0; k < n; k++)
+            components[k] += at->weight[q] * coder->value[at->vertex[q] * n + k];
+}
+
+/* What vertex values leave of a row before they are coded. */
+static double uncoded_error(const Coder *coder, int row, float sigmas) {
+    float components[PANEL_COMPONENTS_MAX] = {0};
+    emission_model_add_smooth(coder->model, coder->model->samples->direction[row], components);
+    add_values(coder, &coder->near[row], components);
+    return (double)row_excess(coder, row, components, sigmas);
+}
+
+/* A row's share in the correction of its three vertices, if triangles miss it. */
+static void add_correction(const Coder *coder, const Rest *rest, int row, float *sum) {
+    const VertexPoint *at = &coder->near[row];
+    size_t n = (size_t)coder->model->rank->components;
+    bool is_missed = uncoded_error(coder, row, SWEPT_SIGMAS) > SWEPT * coder->model->tolerance;
+    for (int q = 0; q < 3; q++) sum[at->vertex[q] * (n + 1) + n] += at->weight[q];
+    for (size_t k = 0; k < n && is_missed; k++) {
+        float miss = rest->value[(size_t)row * n + k];
+        for (int q = 0; q < 3; q++) miss -= at->weight[q] * coder->value[at->vertex[q] * n + k];
+        for (int q = 0; q < 3; q++) sum[at->vertex[q] * (n + 1) + k] += at->weight[q] * miss;
+    }
+}
+
+/* Where the surface bends faster than triangles can, or jumps, vertices go beside it until
+ * triangles meet the samples: all rows at once, a vertex by the mean of those around (SIRT;
+ * Gilbert, J. Theor. Biol. 36, 1972). */
+static void sweep(Coder *coder, const Rest *rest, Arena scratch) {
+    size_t n = (size_t)coder->model->rank->components;
+    size_t numbers = (size_t)coder->vertices * (n + 1);
+    float *sum = ARENA_NEW(&scratch, float, numbers);
+    for (int round = 0; round < SWEEPS; round++) {
+        memset(sum, 0, numbers * sizeof *sum);
+        for (int i = 0; i < coder->model->samples->rows; i++) add_correction(coder, rest, i, sum);
+        for (uint32_t v = 0; v < coder->vertices; v++)
+            for (size_t k = 0; k < n; k++)
+                coder->value[v * n + k] +=
+                    sum[v * (n + 1) + k] / fmaxf(LEAST_WEIGHT, sum[v * (n + 1) + n]);
+    }
+}
+
+/* Vertices that samples surround stay between them. */
+static void hold_between(Coder *coder, Arena scratch) {
+    const EmissionModel *model = coder->model;
+    size_t n = (size_t)model->rank->components;
+    EmissionBetween between;
+    emission_between_make(model, &scratch, &between);
+    for (uint32_t v = 0; v < coder->vertices; v++) {
+        float whole[PANEL_COMPONENTS_MAX] = {0}, *value = coder->value + v * n;
+        emission_model_add_smooth(model, coder->direction[v], whole);
+        for (size_t k = 0; k < n; k++) whole[k] += value[k];
+        float before[PANEL_COMPONENTS_MAX];
+        memcpy(before, whole, sizeof before);
+        emission_between_hold(&between, coder->direction[v], whole);
+        for (size_t k = 0; k < n; k++) value[k] += whole[k] - before[k];
+    }
+}
+
+/* M and limits of all vertices. */
+static void find_wanted(Coder *coder) {
+    const EmissionModel *model = coder->model;
+    int n = model->rank->components, stride = model->spline.stride;
+    size_t channels = (size_t)model->samples->channels;
+    double reach = model->samples->cone + cell_width(coder->lattice.level);
+    for (uint32_t v = 0; v < coder->vertices; v++) {
+        Vec3 d = coder->direction[v];
+        float *smooth = coder->smooth + (size_t)v * (size_t)stride;
+        float components[PANEL_COMPONENTS_MAX];
+        emission_model_add_smooth(model, d, smooth);
+        memcpy(components, smooth, sizeof *smooth * (size_t)stride);
+        for (int k = 0; k < n; k++)
+            components[k] += coder->value[(size_t)v * (size_t)n + (size_t)k];
+        emission_model_totals(model, components, d, coder->wanted + v * channels);
+        coder->limit[v] = acos_d(fmin(1, (double)d.z)) <= reach
+                              ? BETWEEN_SAMPLES * (float)model->tolerance
+                              : INFINITY;
+    }
+}
+
+/* The level below which an error of a channel counts relative to it: about where it is noise
+ * anyway, and the floor. */
+static void find_least(const EmissionModel *model, float *least) {
     for (int c = 0; c < model->samples->channels; c++)
-        coder.least[c] = fmaxf(coder.least[c], (float)edges->profiles.least[c]);
+        least[c] = (float)fmax(20 * model->dim[c / 3][c % 3], model->samples->floor[c]);
+}
+
+/* The coder of a level: its vertices have their values. */
+static Coder start(const EmissionModel *model, const Rest *rest, int level, Arena *arena) {
+    const EmissionSamples *s = model->samples;
+    size_t n = (size_t)model->rank->components, channels = (size_t)s->channels;
+    Coder coder = {.model = model,
+                   .geodesic = geodesic_create(level, arena),
+                   .lattice = {level, 4},
+                   .near = ARENA_NEW(arena, VertexPoint, s->rows)};
+    size_t count = coder.vertices = vertex_count(coder.lattice);
+    coder.direction = ARENA_NEW(arena, Vec3, count);
+    coder.smooth = ARENA_NEW(arena, float, count *(size_t)model->spline.stride);
+    coder.value = ARENA_NEW(arena, float, count *n);
+    coder.wanted = ARENA_NEW(arena, float, count *channels);
+    coder.limit = ARENA_NEW(arena, float, count);
+    coder.least = ARENA_NEW(arena, float, channels);
+    coder.work = ARENA_NEW(arena, float, channels);
+    vertex_directions(coder.lattice, coder.direction);
+    find_least(model, coder.least);
+    for (int i = 0; i < s->rows; i++)
+        coder.near[i] = vertex_find(coder.geodesic, coder.lattice, s->direction[i]);
+    read_rest(&coder, rest);
+    hold_between(&coder, *arena);
+    sweep(&coder, rest, *arena);
+    find_wanted(&coder);
+    for (int i = 0; i < s->rows; i++)
+        coder.uncoded = fmax(coder.uncoded, uncoded_error(&coder, i, PARDON));
     return coder;
 }
 
-/* The same function as a coded tree: of many directions that is less. */
-static bool code_cells(const EmissionCoder *judge, const KeptCells *cells,
-                       const FitOptions *options, Arena *arena, EmissionTree *out, Error *err) {
-    EmissionModel *model = judge->model;
-    size_t n = (size_t)model->rank->components;
-    EmissionCoder coder = emission_coder_make(model, cells->tree.level, arena);
-    memcpy(coder.least, judge->least, sizeof *coder.least * (size_t)model->samples->channels);
-    coder.threads = options->threads;
-    for (uint32_t v = 0; v < coder.vertices; v++) {
-        float components[PANEL_COMPONENTS_MAX] = {0};
-        tree_interpolate(&cells->tree, coder.direction[v], components);
-        memcpy(coder.value + v * n, components, n * sizeof *components);
-    }
-    emission_coder_find_wanted(&coder);
-    return emission_coder_code(&coder, options, arena, out, err);
-}
+/* ---- coding ----------------------------------------------------------------------------- */
 
-/* Kept numbers of cells, as a tree's report has them. */
-static void report_cells(const EmissionModel *model, const KeptCells *cells, EmissionTree *out) {
-    const EmissionEdges *e = &out->edges;
-    uint32_t rows = 1 + (uint32_t)((e->grid.thetas - 1) * e->grid.phis);
-    out->bytes = cells->bytes;
-    out->missed = cells->missed;
-    out->report = (TreeReport){.stored_rows = rows,
-                               .bytes = tree_size(cells->bytes),
-                               .stored_values = (size_t)rows * (size_t)model->rank->components};
-}
-
-/* Numbers of a source that are kept as they are where a fit would need as many. */
-#define KEPT_VALUES 20000
-
-static bool is_small(const EmissionModel *model) {
-    return (double)model->samples->rows * model->samples->channels <= KEPT_VALUES;
-}
-
-/* An emission as its cells: with edges, where a smooth part would only ring, or small. */
-static bool build_cells(EmissionModel *model, const FitOptions *options, Arena *arena,
-                        EmissionTree *out, Error *err) {
-    KeptCells cells, finer;
-    int level = edge_level(model->samples, options);
-    hold_tolerance(model);
-    if (!emission_model_clear_smooth(model, arena))
-        return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
-    EmissionCoder judge = make_judge(model, &out->edges, arena);
-    if (!make_cells(&judge, &out->edges, level, arena, &cells, err)) return false;
-    while (!options->level && cells.error > model->tolerance && level < EMISSION_LEVEL_MOST) {
-        if (!make_cells(&judge, &out->edges, ++level, arena, &finer, err)) return false;
-        if (finer.error > FINER * cells.error) break;
-        cells = finer;
-    }
-    out->level = cells.tree.level;
-    if (options->basis == FIT_HAAR || !is_small(model)) {
-        if (!code_cells(&judge, &cells, options, arena, out, err)) return false;
-        if (options->basis == FIT_HAAR || tree_size(out->bytes) < tree_size(cells.bytes))
-            return true;
-    }
-    report_cells(model, &cells, out);
-    return true;
-}
-
-static int start_level(const EmissionSamples *s, const FitOptions *options) {
-    if (options->level) return options->level;
-    return s->step_deg < 1.5 ? 7 : s->step_deg < 3 ? 6 : 5;
-}
-
-/* The tree's coder at a level, and what it leaves uncoded at the worst row. */
-typedef struct Start {
-    EmissionCoder coder;
-    float *rest;
-    double uncoded;
-    int worst;
-} Start;
-
-/* Inputs of start(). */
-typedef struct Plan {
-    EmissionModel *model;
-    int level, threads;
-} Plan;
-
-static bool start(const Plan *plan, Arena *arena, Start *out, Error *err) {
-    EmissionModel *model = plan->model;
-    *out = (Start){.rest = emission_coder_rest(model, arena)};
-    if (!emission_coder_start(model, plan->level, out->rest, arena, &out->coder, err) ||
-        !emission_coder_settle(&out->coder, out->rest, *arena, err))
-        return false;
-    out->coder.threads = plan->threads;
-    out->uncoded = emission_coder_uncoded(&out->coder, &out->worst);
-    return true;
-}
-
-/* A beam at the worst row, of the reach that leaves less. *found: there is one. */
-static bool add_beam(const Plan *plan, Arena *arena, Start *best, bool *found, Error *err) {
-    EmissionModel *model = plan->model;
-    static const double reach[2] = {10, 30};
-    const EmissionModel before = *model;
-    EmissionModel chosen = before;
-    int worst = best->worst;
-    *found = false;
-    for (int i = 0; i < 2; i++) {
-        Start one;
-        *model = before;
-        if (!emission_beam_find(model, worst, reach[i], arena)) continue;
-        if (!emission_model_fit_smooth(model, arena))
-            return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
-        if (!start(plan, arena, &one, err)) return false;
-        if (!*found || one.uncoded < best->uncoded) *best = one, chosen = *model;
-        *found = true;
-        if (best->uncoded < BEAM_ENOUGH * model->tolerance) break;
-    }
-    *model = chosen;
-    return true;
-}
-
-/* Where triangles miss samples by far, narrow beams are looked for; they stay if the tree is
- * much better off with them. */
-static bool start_with_beams(const Plan *plan, Arena *arena, Start *out, Error *err) {
-    EmissionModel *model = plan->model;
-    double gate = fmax(BEAM_GATE, 4 * model->tolerance);
-    if (!start(plan, arena, out, err)) return false;
-    if (out->uncoded <= gate) return true;
-    EmissionModel plain = *model;
-    EmissionRank rank = *model->rank; /* whose scores change */
-    Start bare = *out;
-    size_t scores = (size_t)model->samples->rows * (size_t)rank.components;
-    model->rank->score = ARENA_NEW(arena, float, scores);
-    memcpy(model->rank->score, rank.score, scores * sizeof *rank.score);
-    for (bool found = true; found && out->uncoded > gate && model->beams < PANEL_BEAMS_MAX;)
-        if (!add_beam(plan, arena, out, &found, err)) return false;
-    if (model->beams && out->uncoded < BEAM_WORTH * bare.uncoded) return true;
-    *model = plain;
-    *model->rank = rank;
-    *out = bare;
-    return true;
-}
-
-/* A model as it was before a smooth part, with its scores. */
-typedef struct PlainModel {
-    EmissionModel model;
-    EmissionRank rank;
-    float *score;
-} PlainModel;
-
-static PlainModel plain_of(const EmissionModel *model, Arena *arena) {
-    PlainModel out = {*model, *model->rank, NULL};
-    size_t numbers = (size_t)model->samples->rows * (size_t)out.rank.components;
-    out.score =
-        memcpy(ARENA_NEW(arena, float, numbers), out.rank.score, numbers * sizeof *out.score);
-    out.rank.score = out.score;
-    return out;
-}
-
-static size_t smooth_bytes(const EmissionModel *model, const EmissionTree *tree) {
-    size_t sum = tree_size(tree->bytes) + model->spline_size;
-    for (int b = 0; b < model->beams; b++) sum += model->beam[b].size;
-    return sum;
-}
-
-/* *worth false: a small table that the first lattice does not fit: its cells are fewer. */
-static bool build_smooth(EmissionModel *model, const FitOptions *options, Arena *arena,
-                         EmissionTree *out, bool *worth, Error *err) {
-    int level = start_level(model->samples, options);
-    Start first;
-    EmissionCoder coder, finer;
-    Plan plan = {model, level, options->threads};
-    *worth = true;
-    if (out->has_grid && options->basis != FIT_HAAR && is_small(model)) {
-        if (!start(&plan, arena, &first, err)) return false;
-        *worth = first.uncoded <= 0.5 * model->tolerance;
-        if (!*worth) return true;
-    } else if (!start_with_beams(&plan, arena, &first, err)) {
-        return false;
-    }
-    float *rest = first.rest;
-    double uncoded = first.uncoded;
-    coder = first.coder;
-    if (model->beams && model->noise < NO_NOISE * model->tolerance) coder.pardon = 0;
-    while (!options->level && uncoded > 0.5 * model->tolerance && level < EMISSION_LEVEL_MOST) {
-        if (!emission_coder_start(model, level + 1, rest, arena, &finer, err) ||
-            !emission_coder_settle(&finer, rest, *arena, err))
+static bool is_close(const float *m, const float *wanted, const float *least, int channels,
+                     float limit) {
+    for (int c = 0; c < channels; c++) /* what has run away beyond the cone is nobody's wish */
+        if (!(fabsf(m[c] - wanted[c]) <= limit * fmaxf(wanted[c], least[c])) && isfinite(wanted[c]))
             return false;
-        finer.threads = coder.threads;
-        finer.pardon = coder.pardon;
-        double next = emission_coder_uncoded(&finer, &first.worst);
-        if (next > 0.8 * uncoded) break;
-        coder = finer;
-        uncoded = next;
-        level++;
-    }
-    return emission_coder_code(&coder, options, arena, out, err);
+    return true;
 }
 
-bool emission_tree_build(EmissionModel *model, const FitOptions *options, Arena *arena,
+static bool accepts(const void *context, uint32_t vertex, const float *reconstructed) {
+    const Coder *coder = context;
+    const EmissionModel *model = coder->model;
+    int n = model->rank->components, channels = model->samples->channels;
+    float components[PANEL_COMPONENTS_MAX], m[3 * EMISSION_TABLES_MAX];
+    if (isinf(coder->limit[vertex])) return true;
+    memcpy(components, coder->smooth + (size_t)vertex * (size_t)model->spline.stride,
+           sizeof *components * (size_t)model->spline.stride);
+    for (int k = 0; k < n; k++) components[k] += reconstructed[k];
+    emission_model_totals(model, components, coder->direction[vertex], m);
+    return is_close(m, coder->wanted + (size_t)vertex * (size_t)channels, coder->least, channels,
+                    coder->limit[vertex]);
+}
+
+void emission_tree_components(const EmissionModel *model, const Tree *tree, Vec3 d,
+                              float *components) {
+    memset(components, 0, sizeof *components * PANEL_COMPONENTS_MAX);
+    tree_interpolate(tree, d, components);
+    emission_model_add_smooth(model, d, components);
+}
+
+/* How many samples the tree misses; the limits of the vertices around them are tightened. */
+static int tighten(Coder *coder, const Tree *tree) {
+    const EmissionModel *model = coder->model;
+    const EmissionSamples *s = model->samples;
+    int missed = 0;
+    for (int i = 0; i < s->rows; i++) {
+        float components[PANEL_COMPONENTS_MAX];
+        emission_tree_components(model, tree, s->direction[i], components);
+        float excess = row_excess(coder, i, components, PARDON);
+        if (!(excess > (float)model->tolerance)) continue;
+        missed++;
+        for (int q = 0; q < 3; q++) {
+            float *limit = &coder->limit[coder->near[i].vertex[q]];
+            *limit = fmaxf(0.05f * (float)model->tolerance,
+                           fminf(0.6f * *limit, 0.6f * (float)model->tolerance));
+        }
+    }
+    return missed;
+}
+
+static bool code_once(Coder *coder, Arena *arena, EmissionTree *out, Tree *tree, Error *err) {
+    const EmissionModel *model = coder->model;
+    VertexTreeOptions options = {coder->lattice, model->rank->components, accepts, coder,
+                                 model->step,    coder->threads};
+    return (vertex_tree_build(&options, coder->value, arena, &out->bytes, &out->report, err) &&
+            tree_open(out->bytes, tree_size(out->bytes), coder->geodesic, arena, tree, err)) ||
+           error_prefix(err, "emission");
+}
+
+#define LOOSER 2.0f
+#define ROUNDS 10
+#define ATTEMPTS 10
+#define HORIZON 0.01f /* cosine: nobody measures along the panel */
+
+/* Loosens limits until the coder succeeds: none along the panel, twice as wide elsewhere. */
+static bool code_first(Coder *coder, Arena *arena, EmissionTree *out, Tree *tree, Error *err) {
+    Error unheard;
+    if (code_once(coder, arena, out, tree, &unheard)) return true;
+    for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+        for (uint32_t v = 0; v < coder->vertices; v++)
+            coder->limit[v] = coder->direction[v].z < HORIZON ? INFINITY : LOOSER * coder->limit[v];
+        if (code_once(coder, arena, out, tree, &unheard)) return true;
+    }
+    return error_set(err, ERROR_INPUT,
+                     "emission: the tables cannot be kept within %.2g %%: "
+                     "ask for a looser bound (--max-error) or a coarser tree (--level)",
+                     100 * coder->model->tolerance);
+}
+
+/* Codes, checks all samples, tightens around those that it misses, and codes again. */
+static bool code_tree(Coder *coder, Arena *arena, EmissionTree *out, Error *err) {
+    int before = INT32_MAX;
+    Tree tree;
+    Error unheard;
+    for (int round = 0; round < ROUNDS; round++) {
+        const void *good = out->bytes;
+        if (!round && !code_first(coder, arena, out, &tree, err)) return false;
+        if (round && !code_once(coder, arena, out, &tree, &unheard)) {
+            out->bytes = good; /* finer than the coder can: the last one stands */
+            return true;
+        }
+        out->missed = tighten(coder, &tree);
+        if (out->missed == 0 || (round > 3 && out->missed >= before)) return true;
+        before = out->missed;
+    }
+    return true;
+}
+
+/* ---- Haar ------------------------------------------------------------------------------ */
+
+/* The same function as means over triangles. */
+static bool code_haar(const Coder *coder, const FitOptions *options, Arena *arena,
+                      EmissionTree *out, Error *err) {
+    const EmissionModel *model = coder->model;
+    int n = model->rank->components, level = coder->lattice.level;
+    size_t leaves = geodesic_count(level);
+    float *values = ARENA_NEW(arena, float, leaves *(size_t)n), scale[PANEL_COMPONENTS_MAX];
+    for (size_t i = 0; i < leaves; i++) {
+        VertexPoint at =
+            vertex_find(coder->geodesic, coder->lattice, geodesic_center(level, (uint32_t)i));
+        add_values(coder, &at, values + i * (size_t)n);
+    }
+    for (int k = 0; k < n; k++) {
+        scale[k] = 1e-6f;
+        for (int c = 0; c < model->samples->channels; c++)
+            scale[k] = fmaxf(scale[k], fabsf(model->rank->loading[c * n + k]));
+    }
+    double numbers = (double)model->samples->rows * model->samples->channels;
+    HaarTreeOptions tree = {.shape = {level, 4, n, HAAR_AREA},
+                            .keep_share = fit_haar_share(options, numbers, (double)leaves, n),
+                            .component_scale = scale,
+                            .rows = TREE_ROWS_INT16};
+    return haar_tree_build(&tree, values, arena, &out->bytes, &out->report, err) ||
+           error_prefix(err, "emission");
+}
+
+/* ---- the level -------------------------------------------------------------------------- */
+
+bool emission_tree_build(const EmissionModel *model, const FitOptions *options, Arena *arena,
                          EmissionTree *out, Error *err) {
-    double cell = emission_coder_cell(edge_level(model->samples, options));
-    out->has_grid = emission_edges_find(model, cell, is_small(model), arena, &out->edges);
-    if (out->edges.are_there) return build_cells(model, options, arena, out, err);
-    PlainModel plain = plain_of(model, arena);
-    bool worth;
-    if (!build_smooth(model, options, arena, out, &worth, err)) return false;
-    if (!out->has_grid || options->basis == FIT_HAAR || !is_small(model)) return true;
-    PanelGridCells cells = emission_edges_cells(&out->edges, &plain.model, 1);
-    if (worth && smooth_bytes(model, out) <= panel_grid_bytes(&cells.head)) return true;
-    EmissionRank *rank = model->rank;
-    *model = plain.model;
-    *rank = plain.rank;
-    return build_cells(model, options, arena, out, err);
+    double step = model->samples->step_deg;
+    int level = options->level ? options->level : step < 1.5 ? 7 : step < 3 ? 6 : 5;
+    Rest rest = find_rest(model, arena);
+    Coder coder = start(model, &rest, level, arena);
+    while (!options->level && level < LEVEL_MOST && coder.uncoded > ENOUGH * model->tolerance) {
+        Coder finer = start(model, &rest, ++level, arena);
+        if (finer.uncoded > FINER * coder.uncoded) break;
+        coder = finer;
+    }
+    coder.threads = options->threads;
+    out->level = coder.lattice.level;
+    if (options->basis == FIT_HAAR) return code_haar(&coder, options, arena, out, err);
+    return code_tree(&coder, arena, out, err);
 }

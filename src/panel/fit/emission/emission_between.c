@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "panel/fit/emission/emission_colour.h"
+#include "panel/fit/emission/emission_between.h"
 
 #include <math.h>
 
@@ -11,7 +11,7 @@
 
 /* ---- what the samples have --------------------------------------------------------------- */
 
-static void find_bright(EmissionColour *o) {
+static void find_bright(EmissionBetween *o) {
     const EmissionSamples *s = o->model->samples;
     float most = -1;
     for (int c = 1; c < s->channels; c += 3)
@@ -22,7 +22,7 @@ static void find_bright(EmissionColour *o) {
 }
 
 /* ln of a channel over the bright one, of components; what the cosine does cancels. */
-static float ratio_of(const EmissionColour *o, const float *components, int channel) {
+static float ratio_of(const EmissionBetween *o, const float *components, int channel) {
     const EmissionRank *rank = o->model->rank;
     const float *a = rank->loading + channel * rank->components;
     const float *b = rank->loading + o->bright * rank->components;
@@ -32,7 +32,7 @@ static float ratio_of(const EmissionColour *o, const float *components, int chan
 }
 
 /* What a row says of the ratios. Not measured (sigma is INFINITY): anything. */
-static void find_row(EmissionColour *o, int row) {
+static void find_row(EmissionBetween *o, int row) {
     const EmissionSamples *s = o->model->samples;
     const EmissionRank *rank = o->model->rank;
     const float *sigma = s->sigma + (size_t)row * (size_t)s->channels;
@@ -42,14 +42,15 @@ static void find_row(EmissionColour *o, int row) {
     emission_rank_logs(rank, s->channels, rank->score + row * rank->components,
                        emission_rank_fall(rank->cosine_power, s->direction[row]), logs);
     float bright = sigma[o->bright] / exp_f(logs[o->bright]);
+    o->light[row] = logs[o->bright];
     for (int c = 0; c < s->channels; c++) {
         ratio[c] = logs[c] - logs[o->bright];
-        slack[c] = COLOUR_SIGMAS * (bright + sigma[c] / exp_f(logs[c]));
+        slack[c] = BETWEEN_SIGMAS * (bright + sigma[c] / exp_f(logs[c]));
     }
 }
 
 /* The least-squares answer to "all channels by 1", scaled to be so for the bright one. */
-static void find_raise(EmissionColour *o, Arena scratch) {
+static void find_raise(EmissionBetween *o, Arena scratch) {
     const EmissionRank *rank = o->model->rank;
     int n = rank->components;
     double *normal = ARENA_NEW(&scratch, double, n *n);
@@ -68,13 +69,14 @@ static void find_raise(EmissionColour *o, Arena scratch) {
     for (int k = 0; k < n; k++) o->raise[k] = bright > 0.5 ? (float)(right[k] / bright) : 0;
 }
 
-void emission_colour_make(const EmissionModel *model, Arena *arena, EmissionColour *out) {
+void emission_between_make(const EmissionModel *model, Arena *arena, EmissionBetween *out) {
     const EmissionSamples *s = model->samples;
     size_t numbers = (size_t)s->rows * (size_t)s->channels;
-    *out = (EmissionColour){.model = model,
-                            .ratio = ARENA_NEW(arena, float, numbers),
-                            .slack = ARENA_NEW(arena, float, numbers),
-                            .raise = ARENA_NEW(arena, float, model->rank->components)};
+    *out = (EmissionBetween){.model = model,
+                             .light = ARENA_NEW(arena, float, s->rows),
+                             .ratio = ARENA_NEW(arena, float, numbers),
+                             .slack = ARENA_NEW(arena, float, numbers),
+                             .raise = ARENA_NEW(arena, float, model->rank->components)};
     direction_grid_build(s->master, false, arena, &out->grid);
     find_bright(out);
     find_raise(out, *arena);
@@ -84,12 +86,12 @@ void emission_colour_make(const EmissionModel *model, Arena *arena, EmissionColo
 /* ---- around a direction ------------------------------------------------------------------ */
 
 /* Rows and their weights, which sum to 1, none below 0. */
-typedef struct ColourRows {
+typedef struct NearRows {
     int count, row[NEIGHBOURS_MAX];
     float weight[NEIGHBOURS_MAX];
-} ColourRows;
+} NearRows;
 
-static void add_cell(const DirectionGrid *g, int ring, int azimuth, float weight, ColourRows *out) {
+static void add_cell(const DirectionGrid *g, int ring, int azimuth, float weight, NearRows *out) {
     int cell = ring * g->phis + azimuth;
     float sum = 0;
     for (int i = g->start[cell]; i < g->start[cell + 1]; i++) sum += fmaxf(0, g->weight[i]);
@@ -107,8 +109,8 @@ static int last_below(const float *rising, int count, float at) {
 }
 
 /* The ends of the intervals of rings and of azimuths. */
-static ColourRows rows_around(const DirectionGrid *g, Vec3 d) {
-    ColourRows out = {0};
+static NearRows rows_around(const DirectionGrid *g, Vec3 d) {
+    NearRows out = {0};
     float theta = acos_f(fminf(1, d.z)), phi = atan2_f(d.y, d.x);
     phi -= 2 * PI_F * floorf(phi / (2 * PI_F));
     int low = last_below(g->phi, g->phis, phi), high = (low + 1) % g->phis;
@@ -131,7 +133,7 @@ static ColourRows rows_around(const DirectionGrid *g, Vec3 d) {
 }
 
 /* How far from `base`, which is in the range of the rows, a ratio may go to `value`: 0 to 1. */
-static float share_within(const EmissionColour *o, const ColourRows *rows, int channel, float base,
+static float share_within(const EmissionBetween *o, const NearRows *rows, int channel, float base,
                           float value) {
     int channels = o->model->samples->channels;
     float low = INFINITY, high = -INFINITY;
@@ -140,30 +142,45 @@ static float share_within(const EmissionColour *o, const ColourRows *rows, int c
         low = fminf(low, o->ratio[at] - o->slack[at]);
         high = fmaxf(high, o->ratio[at] + o->slack[at]);
     }
-    float width = fmaxf(COLOUR_LEAST, COLOUR_SHARE * (high - low));
+    float width = fmaxf(BETWEEN_LEAST, BETWEEN_SHARE * (high - low));
     low -= width, high += width;
     return value > high  ? (high - base) / (value - base)
            : value < low ? (base - low) / (base - value)
                          : 1;
 }
 
-void emission_colour_hold(const EmissionColour *o, Vec3 direction, float *components) {
+/* The ratios stay in their ranges; from `base`, the samples' linear interpolation. */
+static float colour_share(const EmissionBetween *o, const NearRows *rows, const float *base,
+                          const float *components) {
+    float share = 1;
+    for (int c = 0; c < o->model->samples->channels; c++)
+        share = fminf(share,
+                      share_within(o, rows, c, ratio_of(o, base, c), ratio_of(o, components, c)));
+    return share;
+}
+
+void emission_between_hold(const EmissionBetween *o, Vec3 direction, float *components) {
     if ((double)direction.z < cos_d(o->model->samples->cone)) return;
     const EmissionRank *rank = o->model->rank;
     const float *bright = rank->loading + o->bright * rank->components;
-    ColourRows rows = rows_around(&o->grid, direction);
-    float base[PANEL_COMPONENTS_MAX] = {0}, share = 1, dimmed = 0;
-    for (int i = 0; i < rows.count; i++)
+    NearRows rows = rows_around(&o->grid, direction);
+    float base[PANEL_COMPONENTS_MAX] = {0}, light = 0, raised = 0;
+    for (int i = 0; i < rows.count; i++) {
+        light += rows.weight[i] * exp_f(o->light[rows.row[i]]);
         for (int k = 0; k < rank->components; k++)
             base[k] += rows.weight[i] * rank->score[rows.row[i] * rank->components + k];
-    for (int c = 0; c < o->model->samples->channels; c++)
-        share = fminf(share,
-                      share_within(o, &rows, c, ratio_of(o, base, c), ratio_of(o, components, c)));
+    }
+    float share = o->model->has_edges ? 0 : colour_share(o, &rows, base, components);
     if (!(share < 1)) return;
     for (int k = 0; k < rank->components; k++) {
         float moved = (1 - share) * (base[k] - components[k]);
-        dimmed += bright[k] * moved;
+        raised -= bright[k] * moved;
         components[k] += moved;
     }
-    for (int k = 0; k < rank->components; k++) components[k] -= dimmed * o->raise[k];
+    if (o->model->has_edges) {
+        raised = log_f(light) - rank->mean[o->bright] -
+                 emission_rank_fall(rank->cosine_power, direction);
+        for (int k = 0; k < rank->components; k++) raised -= bright[k] * components[k];
+    }
+    for (int k = 0; k < rank->components; k++) components[k] += raised * o->raise[k];
 }
