@@ -52,14 +52,6 @@ mutations()
     units .build/asan --timeout 10800 -R '^panel_files$'
 }
 
-# beams: every profile of a narrow beam
-beams()
-{
-    PARHELION_BEAMS=all
-    export PARHELION_BEAMS
-    units .build/release -R '^panel_beam$'
-}
-
 # laws: everywhere that they are claimed, where tests/run.sh asks at fewer places or samples
 laws()
 {
@@ -83,7 +75,6 @@ export TSAN_OPTIONS=ignore_noninstrumented_modules=1
 # ---- as it is built for users ----
 needs 'release all'
 of "$panels tests/unit"
-run 'every narrow beam' beams-long beams
 of "$review tests/unit"
 run 'laws everywhere that they are claimed' laws-long laws
 of "$tables tests/bench"

@@ -13,7 +13,7 @@ set(panel_library_sources src/library/parhelion_panel.c src/library/open_panel.c
   src/spectrum/spectral_table.c src/spectrum/wavelengths.c
   src/hemisphere/geodesic.c src/hemisphere/specular_frame.c
   src/hemisphere/vertex/vertex.c src/hemisphere/vertex/vertex_code.c
-  src/hemisphere/vertex/vertex_dense.c src/hemisphere/vertex/vertex_open.c
+  src/hemisphere/vertex/vertex_open.c
   src/hemisphere/vertex/vertex_query.c
   src/hemisphere/tree/tree_open.c src/hemisphere/tree/tree_query.c
   src/hemisphere/tree/tree_stop.c src/hemisphere/tree/tree_sum.c

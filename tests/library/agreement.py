@@ -2,7 +2,7 @@
 """agreement.py BUILD_DIR [--queries N] -- libparhelion-panel and a reader that was written
 from `parhelion help panel-format` alone (panel_reader.py) give the same answers to N random
 questions, shared out over panels of every kind: XYZ, spectra, BRDF, its lambertian part,
-mirror, density. Of an emission kept as its cells these alone are asked.
+mirror, density.
 
 An answer agrees within 1e-6 of the panel's scale: of XYZ and spectra the largest for white,
 of the BRDF and its part the largest in mirror directions up to 89 degrees, or the largest
@@ -29,7 +29,6 @@ panels.use_numpy()
 
 import numpy  # noqa: E402
 from panel_reader import Panel as Reader  # noqa: E402
-from panel_reader_trees import Cells  # noqa: E402
 from report import ROOT, Report, read  # noqa: E402
 
 sys.path.insert(0, os.path.join(ROOT, "src", "library"))
@@ -151,9 +150,7 @@ def check_panel(report, name, path, count, table):
         reader = Reader(file.read(), table)
     with Panel(path) as panel:
         emission = reader.panels[0].emission
-        if emission and isinstance(emission.tree, Cells):
-            check_cells(report, name, panel, reader)
-        elif emission:
+        if emission:
             check_emission(claims, panel, reader, q)
         if reader.panels[0].reflection:
             check_reflection(claims, panel, reader, q, table)
@@ -173,20 +170,6 @@ def check_emission(claims, panel, reader, q):
                    lambda i, d, **shift: reader.emission_spectrum(
                        d, code[i].astype(float), nm, place[i].astype(float), **shift),
                    [viewer])
-
-
-def check_cells(report, name, panel, reader):
-    """The library makes a tree of them, which holds each cell within the stated tolerance."""
-    cells = reader.panels[0].emission.tree
-    viewer = numpy.array(cells.directions, numpy.float32)
-    for code in ([255.0] * 3, [0.0, 255.0, 0.0]):
-        found = panel.emission_xyz(viewer, numpy.full((len(viewer), 3), code, numpy.float32))
-        own = numpy.array([reader.emission_xyz(d, code) for d in cells.directions])
-        far = float(numpy.max(numpy.abs(numpy.log(found / own))))
-        print(f"{name} cells: {len(viewer)} directions, largest difference of a logarithm "
-              f"{far:.2g}, tolerance {cells.tolerance:.2g}")
-        report.claim(far <= cells.tolerance + NEAR, f"{name}: cells differ by {far:.3g}, "
-                                                    f"tolerance {cells.tolerance:.3g}")
 
 
 def check_reflection(claims, panel, reader, q, table):

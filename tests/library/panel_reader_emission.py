@@ -72,33 +72,6 @@ class Spline:
                 b += 1
 
 
-class Beam:
-    def __init__(self, section, components):
-        self.centre, self.narrow = section.take("f", 3), section.take("f", 3)
-        self.core = section.take("f")
-        self.knots = section.take("B", 4)[0]
-        steps = section.take("f", components)
-        self.rows = [[step * n for n in section.take("h", self.knots)] + [0.0] * 3
-                     if step > 0 else None for step in steps]
-
-    def place(self, d):
-        v = [a - b for a, b in zip(d, self.centre)]
-        r2 = dot(v, v) + dot(self.narrow, v) ** 2
-        return 8 * math.log(1 + r2 / self.core ** 2)
-
-    def add(self, d, out):
-        s = self.place(d)
-        if s >= self.knots:
-            return
-        i = int(s)
-        t, r = s - i, 1 - s + i
-        w = (r ** 3 / 6, (3 * t ** 3 - 6 * t * t + 4) / 6, (3 * r ** 3 - 6 * r * r + 4) / 6,
-             t ** 3 / 6)
-        for k, row in enumerate(self.rows):
-            if row:
-                out[k] += dot(w, row[i:i + 4])
-
-
 def slope_shares(x, y, i):
     """What the steepness of the intervals is worth for the slope at level i: {interval: p}."""
     last = len(x) - 1
@@ -144,14 +117,13 @@ class Emission:
         self.components = section.take("B")
         self.has_black = section.take("B") == 1
         counts = section.take("B", 3)
-        beams = section.take("B", 3)[0]
+        section.take("B", 3)
         self.cone, self.exponent, self.power = section.take("f", 3)
         self.levels = [[u / 256 for u in section.take("H", count)] for count in counts]
         tables = sum(counts) + self.has_black
         self.mean = [n / 2048 for n in section.take("h", 3 * tables)]
         self.loading = self.read_loadings(section)
         self.spline = Spline(section, self.components)
-        self.beams = [Beam(section, self.components) for _ in range(beams)]
         assert section.at == len(section.data)
         self.first = [0, 3 * counts[0], 3 * (counts[0] + counts[1]), 3 * sum(counts)]
         self.code_rows = {}
@@ -168,13 +140,11 @@ class Emission:
                                   for n in section.take("bh"[width - 1], channels)]
         return [list(row) for row in zip(*loading)]
 
-    def components_at(self, d, with_beams=True):
+    def components_at(self, d):
         """ln c times the shared power, and t_k."""
         log_c = math.log(max(d[2], 1e-4))
         t = list(self.tree.value(d))
         self.spline.add(d, log_c, t)
-        for beam in self.beams if with_beams else ():
-            beam.add(d, t)
         return self.power * log_c, t
 
     def channel(self, number, at):
@@ -310,8 +280,8 @@ def ranges_of(emission):
     """Of the four sources: [u0, v0, ax, ay, low, high], low and high of both coordinates."""
     points = [[] for _ in range(4)]
 
-    def add(d, with_beams):
-        at = emission.components_at(d, with_beams)
+    def add(d):
+        at = emission.components_at(d)
         for p in range(4):
             levels = len(emission.levels[p]) if p < 3 else int(emission.has_black)
             for i in range(levels):
@@ -327,33 +297,8 @@ def ranges_of(emission):
             d = (total[0] / length * (-1 if octant & 1 else 1),
                  total[1] / length * (-1 if octant & 2 else 1), total[2] / length)
             if d[2] >= emission.cone:
-                add(d, False)
-    for beam in emission.beams:
-        for d in ring_points(beam):
-            near = min(range(len(emission.beams)), key=lambda b: emission.beams[b].place(d))
-            if d[2] > 0 and emission.beams[near] is beam and d[2] >= emission.cone:
-                add(d, True)
+                add(d)
     return [range_of(cloud) for cloud in points]
-
-
-def ring_points(beam):
-    cx, cy, cz = beam.centre
-    g = 1 if cz >= 0 else -1
-    a = -1 / (g + cz)
-    b = cx * cy * a
-    axes = ((1 + g * cx * cx * a, g * b, -g * cx), (b, g + cy * cy * a, -cy), (cx, cy, cz))
-    inner = 0.0
-    for n in range(160):
-        outer = beam.core ** 2 * (math.exp(beam.knots * (n + 1) / 1280) - 1)
-        mid = 0.5 * (inner + outer)
-        inner = outer
-        if mid > 2:
-            return
-        m = math.sqrt(max(0, mid * (1 - mid / 4)))
-        for i in range(0, 32, 4):
-            turn = 2 * math.pi * (i + 0.5) / 32
-            local = (m * math.cos(turn), m * math.sin(turn), 1 - mid / 2)
-            yield tuple(sum(local[k] * axes[k][j] for k in range(3)) for j in range(3))
 
 
 def range_of(cloud):

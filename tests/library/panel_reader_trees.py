@@ -101,37 +101,8 @@ def lattice_corners(level, n):
 
 
 def open_tree(data):
-    kind = {b"VRTX": VertexTree, b"HAAR": HaarTree, b"GRID": Cells}
+    kind = {b"VRTX": VertexTree, b"HAAR": HaarTree}
     return kind[data[:4]](data)
-
-
-# ---- GRID ----------------------------------------------------------------------------------
-
-
-class Cells:
-    """What was measured alone, not what lies between."""
-
-    def __init__(self, data):
-        section = Bytes(data)
-        section.at = 4
-        version, size = section.take("I"), section.take("Q")
-        assert version == 1 and size == len(data)
-        section.take("B", 4)
-        count = section.take("I")
-        rings, azimuths = section.take("H", 2)
-        _, self.least_share, self.tolerance = section.take("f", 3)
-        theta, phi = section.take("f", rings), section.take("f", azimuths)
-        scale = section.take("f", count)
-        places = [(0.0, 0.0)] + [(t, p) for t in theta[1:] for p in phi]
-        self.directions = [(math.sin(t) * math.cos(p), math.sin(t) * math.sin(p), math.cos(t))
-                           for t, p in places]
-        self.rows = [[k * n for k, n in zip(scale, section.take("h", count))] for _ in places]
-        assert set(section.take("B", azimuths)) <= {0, 1}
-        assert (section.at + 7) // 8 * 8 == size
-
-    def value(self, d):
-        """Of the nearest cell."""
-        return self.rows[max(range(len(self.rows)), key=lambda i: dot(self.directions[i], d))]
 
 
 # ---- VRTX ----------------------------------------------------------------------------------

@@ -151,7 +151,8 @@ TEST(noise_is_smoothed_not_stored) {
     fixture_start(&noisy, RECIPE(FOUR CHECK_EMISSION, FINE ", \"noise_relative\": 0.003"), NULL);
     expect_misses("noisy", &noisy, 75, 31, 5000, (Misses){0.005, 0.001});
     assert_true(emission_figure(&noisy, "share_of_source") < 0.008);
-    assert_true(emission_figure(&noisy, "bytes") < 1.5 * emission_figure(&clean, "bytes"));
+    /* The clean one takes 1.6 kB; 3,241 directions of three scores would be 9.7 kB of noise. */
+    assert_true(emission_figure(&noisy, "bytes") < 2.2 * emission_figure(&clean, "bytes"));
     assert_close(json_number_at(noisy.report, "tables/5/noise"), 0.003, 0.2);
 }
 

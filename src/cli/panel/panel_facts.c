@@ -318,10 +318,9 @@ static const Column INFO[] = {
     COLUMN_KEY(
         "judged",
         "what the verdict was made of. `emission` and `reflection`: `beyond_share`, "
-        "`rms_beside_noise`; `emission_peak_error`, of a grid: what the panel may miss beside "
-        "a sample that alone shows a peak, relative; `emission_between_samples` and "
-        "`reflection_between_samples`, of samples without a grid's order: what may be missed "
-        "between them, `light` as a share of it and `worst` in a direction; "
+        "`rms_beside_noise`; `emission_between_samples` and `reflection_between_samples` (of "
+        "samples without a grid's order): what may be missed between them, `light` as a share "
+        "of it and `worst` in a direction; "
         "`reflection_spread`: their noise, relative, rms, of which structure finer than the "
         "samples cannot be told; `coarse`: incidences whose mirror or haze the samples do not "
         "tell, `incidence_deg`, `step_deg`, `mirror` [least, most], maybe `haze_sr` and "

@@ -26,7 +26,7 @@
     5.0f /* sigmas of noise that a coded sample may miss by besides; none where \
             there are edges, which look like noise */
 #define BETWEEN_SAMPLES 1.0f /* tolerances that a vertex may miss by where no sample is missed */
-#define ENOUGH 1.0             /* tolerances: finer triangles are not tried */
+#define ENOUGH 1.0           /* tolerances: finer triangles are not tried */
 #define FINER 0.8            /* what finer triangles must leave of the largest miss */
 
 /* Where a tree is coded and what it is held to. */
