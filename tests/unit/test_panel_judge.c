@@ -268,9 +268,9 @@ TEST(a_peak_that_one_sample_shows_is_coarse_and_one_that_several_show_is_not) {
                 worst = fmax(worst, fabs(white_at(panel, theta, phi) / truth - 1));
             }
         panel_close(panel);
-        if (i < 3) expect_verdict(JUDGE_CARE, JUDGE_CARE, "coarse: emission:");
+        if (i < 2) expect_verdict(JUDGE_CARE, JUDGE_CARE, "coarse: emission:");
         else expect_verdict(JUDGE_GOOD, JUDGE_GOOD, "[]");
-        if (i != 3 && !(worst < 1.5 * told))
+        if (!(worst < told))
             fail_msg("lobe of %g degrees: %g stated, %g found", widths[i], told, worst);
     }
 }
@@ -359,7 +359,7 @@ TEST(lamps_are_fitted_with_darkness_around_them) {
     } cases[] = {{"narrow", narrow_lamp, 1, 30, 0.01, 0.005, 0.02},
                  {"cut-off", cut_off_lamp, 2.5, 30, 0.01, 0.005, 0.025},
                  {"fine cut-off", cut_off_lamp, 1, 30, 0.01, 0.005, 0.016},
-                 {"turning", turning_lamp, 2.5, 10, 0.01, 0.005, 0.04},
+                 {"turning", turning_lamp, 2.5, 10, 0.015, 0.005, 0.04},
                  {"turning, coarse", turning_lamp, 5, 22.5, 0.01, 0.005, 0.1},
                  {"half", half_lamp, 5, 15, 0.01, 0.005, 0.02},
                  {"ellipse", ellipse_lamp, 2.5, 10, 0.015, 0.005, 0.035},
