@@ -343,7 +343,7 @@ def edged(azimuths, drift, steep):
 
 def law_of_colour(report, program):
     """0.004: what X, Y and Z may miss by at the bound of a smooth fit, and an eighth of the
-    neighbours' spread (src/panel/fit/emission/emission_colour.h)."""
+    neighbours' spread (src/panel/fit/emission/emission_between.h)."""
     for azimuths in (4, 8, 16):
         for drift, steep in ((-0.02, 6), (-0.02, 40), (0.03, 12)):
             rows, truth = edged(azimuths, drift, steep)

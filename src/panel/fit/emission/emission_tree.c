@@ -30,7 +30,7 @@
 #define FINER 0.8            /* what finer triangles must leave of the largest miss */
 
 /* Where a tree is coded and what it is held to. */
-typedef struct Coder {
+typedef struct EmissionCoder {
     const EmissionModel *model;
     const Geodesic *geodesic;
     VertexLattice lattice;
@@ -45,27 +45,27 @@ typedef struct Coder {
     VertexPoint *near; /* rows: the triangle around */
     double uncoded;    /* largest relative error of a row before coding, beside its noise */
     int threads;
-} Coder;
+} EmissionCoder;
 
 /* The rest at the samples: scores less the smooth part; and what it is read from between them:
  * the cells of a grid, else a surface for each component. */
-typedef struct Rest {
+typedef struct EmissionRest {
     float *value; /* rows x components */
     float low[PANEL_COMPONENTS_MAX], high[PANEL_COMPONENTS_MAX];
     DirectionGrid grid;
     const float *cell;
     const ScatterSurface *surface[PANEL_COMPONENTS_MAX];
-} Rest;
+} EmissionRest;
 
 /* About how wide a triangle of a level is, radians. */
 static double cell_width(int level) {
     return PI / 2 / (1 << level);
 }
 
-static Rest find_rest(const EmissionModel *model, Arena *arena) {
+static EmissionRest find_rest(const EmissionModel *model, Arena *arena) {
     const EmissionSamples *s = model->samples;
     int n = model->rank->components;
-    Rest rest = {.value = ARENA_NEW(arena, float, s->rows *n)};
+    EmissionRest rest = {.value = ARENA_NEW(arena, float, s->rows *n)};
     float *one = ARENA_NEW(arena, float, s->rows);
     for (int i = 0; i < s->rows; i++) {
         float components[PANEL_COMPONENTS_MAX] = {0};
@@ -92,7 +92,7 @@ static Rest find_rest(const EmissionModel *model, Arena *arena) {
 
 /* What cells or surfaces say; beyond the cone what they say at its edge. What nothing measures
  * cannot run away. */
-static void read_rest(Coder *coder, const Rest *rest) {
+static void read_rest(EmissionCoder *coder, const EmissionRest *rest) {
     const EmissionSamples *s = coder->model->samples;
     size_t n = (size_t)coder->model->rank->components;
     double low = cos_d(s->cone), across = sin_d(s->cone);
@@ -115,7 +115,8 @@ static void read_rest(Coder *coder, const Rest *rest) {
 }
 
 /* The largest relative error of a row's channels, beyond so many sigmas of noise. */
-static float row_excess(const Coder *coder, int row, const float *components, float sigmas) {
+static float row_excess(const EmissionCoder *coder, int row, const float *components,
+                        float sigmas) {
     const EmissionSamples *s = coder->model->samples;
     float excess = 0;
     emission_model_totals(coder->model, components, s->direction[row], coder->work);
@@ -130,7 +131,7 @@ static float row_excess(const Coder *coder, int row, const float *components, fl
 }
 
 /* Adds the values at a point to components. */
-static void add_values(const Coder *coder, const VertexPoint *at, float *components) {
+static void add_values(const EmissionCoder *coder, const VertexPoint *at, float *components) {
     uint32_t n = (uint32_t)coder->model->rank->components;
     for (int q = 0; q < 3; q++)
         for (uint32_t k = 0; k < n; k++)
@@ -138,7 +139,7 @@ static void add_values(const Coder *coder, const VertexPoint *at, float *compone
 }
 
 /* What vertex values leave of a row before they are coded. */
-static double uncoded_error(const Coder *coder, int row, float sigmas) {
+static double uncoded_error(const EmissionCoder *coder, int row, float sigmas) {
     float components[PANEL_COMPONENTS_MAX] = {0};
     emission_model_add_smooth(coder->model, coder->model->samples->direction[row], components);
     add_values(coder, &coder->near[row], components);
@@ -146,7 +147,8 @@ static double uncoded_error(const Coder *coder, int row, float sigmas) {
 }
 
 /* A row's share in the correction of its three vertices, if triangles miss it. */
-static void add_correction(const Coder *coder, const Rest *rest, int row, float *sum) {
+static void add_correction(const EmissionCoder *coder, const EmissionRest *rest, int row,
+                           float *sum) {
     const VertexPoint *at = &coder->near[row];
     size_t n = (size_t)coder->model->rank->components;
     bool is_missed = uncoded_error(coder, row, SWEPT_SIGMAS) > SWEPT * coder->model->tolerance;
@@ -161,7 +163,7 @@ static void add_correction(const Coder *coder, const Rest *rest, int row, float 
 /* Where the surface bends faster than triangles can, or jumps, vertices go beside it until
  * triangles meet the samples: all rows at once, a vertex by the mean of those around (SIRT;
  * Gilbert, J. Theor. Biol. 36, 1972). */
-static void sweep(Coder *coder, const Rest *rest, Arena scratch) {
+static void sweep(EmissionCoder *coder, const EmissionRest *rest, Arena scratch) {
     size_t n = (size_t)coder->model->rank->components;
     size_t numbers = (size_t)coder->vertices * (n + 1);
     float *sum = ARENA_NEW(&scratch, float, numbers);
@@ -176,7 +178,7 @@ static void sweep(Coder *coder, const Rest *rest, Arena scratch) {
 }
 
 /* Vertices that samples surround stay between them. */
-static void hold_between(Coder *coder, Arena scratch) {
+static void hold_between(EmissionCoder *coder, Arena scratch) {
     const EmissionModel *model = coder->model;
     size_t n = (size_t)model->rank->components;
     EmissionBetween between;
@@ -193,7 +195,7 @@ static void hold_between(Coder *coder, Arena scratch) {
 }
 
 /* M and limits of all vertices. */
-static void find_wanted(Coder *coder) {
+static void find_wanted(EmissionCoder *coder) {
     const EmissionModel *model = coder->model;
     int n = model->rank->components, stride = model->spline.stride;
     size_t channels = (size_t)model->samples->channels;
@@ -221,13 +223,14 @@ static void find_least(const EmissionModel *model, float *least) {
 }
 
 /* The coder of a level: its vertices have their values. */
-static Coder start(const EmissionModel *model, const Rest *rest, int level, Arena *arena) {
+static EmissionCoder start(const EmissionModel *model, const EmissionRest *rest, int level,
+                           Arena *arena) {
     const EmissionSamples *s = model->samples;
     size_t n = (size_t)model->rank->components, channels = (size_t)s->channels;
-    Coder coder = {.model = model,
-                   .geodesic = geodesic_create(level, arena),
-                   .lattice = {level, 4},
-                   .near = ARENA_NEW(arena, VertexPoint, s->rows)};
+    EmissionCoder coder = {.model = model,
+                           .geodesic = geodesic_create(level, arena),
+                           .lattice = {level, 4},
+                           .near = ARENA_NEW(arena, VertexPoint, s->rows)};
     size_t count = coder.vertices = vertex_count(coder.lattice);
     coder.direction = ARENA_NEW(arena, Vec3, count);
     coder.smooth = ARENA_NEW(arena, float, count *(size_t)model->spline.stride);
@@ -260,7 +263,7 @@ static bool is_close(const float *m, const float *wanted, const float *least, in
 }
 
 static bool accepts(const void *context, uint32_t vertex, const float *reconstructed) {
-    const Coder *coder = context;
+    const EmissionCoder *coder = context;
     const EmissionModel *model = coder->model;
     int n = model->rank->components, channels = model->samples->channels;
     float components[PANEL_COMPONENTS_MAX], m[3 * EMISSION_TABLES_MAX];
@@ -281,7 +284,7 @@ void emission_tree_components(const EmissionModel *model, const Tree *tree, Vec3
 }
 
 /* How many samples the tree misses; the limits of the vertices around them are tightened. */
-static int tighten(Coder *coder, const Tree *tree) {
+static int tighten(EmissionCoder *coder, const Tree *tree) {
     const EmissionModel *model = coder->model;
     const EmissionSamples *s = model->samples;
     int missed = 0;
@@ -300,7 +303,8 @@ static int tighten(Coder *coder, const Tree *tree) {
     return missed;
 }
 
-static bool code_once(Coder *coder, Arena *arena, EmissionTree *out, Tree *tree, Error *err) {
+static bool code_once(EmissionCoder *coder, Arena *arena, EmissionTree *out, Tree *tree,
+                      Error *err) {
     const EmissionModel *model = coder->model;
     VertexTreeOptions options = {coder->lattice, model->rank->components, accepts, coder,
                                  model->step,    coder->threads};
@@ -315,7 +319,8 @@ static bool code_once(Coder *coder, Arena *arena, EmissionTree *out, Tree *tree,
 #define HORIZON 0.01f /* cosine: nobody measures along the panel */
 
 /* Loosens limits until the coder succeeds: none along the panel, twice as wide elsewhere. */
-static bool code_first(Coder *coder, Arena *arena, EmissionTree *out, Tree *tree, Error *err) {
+static bool code_first(EmissionCoder *coder, Arena *arena, EmissionTree *out, Tree *tree,
+                       Error *err) {
     Error unheard;
     if (code_once(coder, arena, out, tree, &unheard)) return true;
     for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
@@ -330,7 +335,7 @@ static bool code_first(Coder *coder, Arena *arena, EmissionTree *out, Tree *tree
 }
 
 /* Codes, checks all samples, tightens around those that it misses, and codes again. */
-static bool code_tree(Coder *coder, Arena *arena, EmissionTree *out, Error *err) {
+static bool code_tree(EmissionCoder *coder, Arena *arena, EmissionTree *out, Error *err) {
     int before = INT32_MAX;
     Tree tree;
     Error unheard;
@@ -351,7 +356,7 @@ static bool code_tree(Coder *coder, Arena *arena, EmissionTree *out, Error *err)
 /* ---- Haar ------------------------------------------------------------------------------ */
 
 /* The same function as means over triangles. */
-static bool code_haar(const Coder *coder, const FitOptions *options, Arena *arena,
+static bool code_haar(const EmissionCoder *coder, const FitOptions *options, Arena *arena,
                       EmissionTree *out, Error *err) {
     const EmissionModel *model = coder->model;
     int n = model->rank->components, level = coder->lattice.level;
@@ -382,10 +387,10 @@ bool emission_tree_build(const EmissionModel *model, const FitOptions *options, 
                          EmissionTree *out, Error *err) {
     double step = model->samples->step_deg;
     int level = options->level ? options->level : step < 1.5 ? 7 : step < 3 ? 6 : 5;
-    Rest rest = find_rest(model, arena);
-    Coder coder = start(model, &rest, level, arena);
+    EmissionRest rest = find_rest(model, arena);
+    EmissionCoder coder = start(model, &rest, level, arena);
     while (!options->level && level < LEVEL_MOST && coder.uncoded > ENOUGH * model->tolerance) {
-        Coder finer = start(model, &rest, ++level, arena);
+        EmissionCoder finer = start(model, &rest, ++level, arena);
         if (finer.uncoded > FINER * coder.uncoded) break;
         coder = finer;
     }
