@@ -29,26 +29,23 @@ typedef struct EmissionCheck {
     int index; /* of the table */
     float rgb[3];
     double least[3]; /* errors are relative to no less, cd m^-2 */
-    double noise[3]; /* relative */
     double bound;
     FitErrors errors;
 } EmissionCheck;
 
 /* 20 times what is noise even without light, what no meter sees, or a share of the channel's
  * largest value. */
-static void find_least(EmissionCheck *check, Arena scratch) {
-    const AngleTable *table = check->table;
-    for (int j = 0; j < 3; j++) {
-        const EmissionResult *e = check->emission;
-        check->least[j] = fmax(20 * e->dim[check->index][j],
-                               emission_samples_floor(table, j, e->outlier[check->index],
+static void find_least(EmissionCheck *check) {
+    const EmissionResult *e = check->emission;
+    for (int j = 0; j < 3; j++)
+        check->least[j] = fmax(20 * e->noise[check->index].dim[j],
+                               emission_samples_floor(check->table, j, e->outlier[check->index],
                                                       e->model->samples->floor_share));
-        check->noise[j] = emission_samples_noise(table, j, scratch);
-    }
 }
 
 static void add_emission_row(EmissionCheck *check, int i, const float xyz[3]) {
     const EmissionResult *e = check->emission;
+    const EmissionNoise *noise = &e->noise[check->index];
     const float *m = check->table->value + 3 * i;
     double weight = table_row_weight(check->table, i);
     bool is_followed = !e->outlier[check->index][i];
@@ -56,7 +53,7 @@ static void add_emission_row(EmissionCheck *check, int i, const float xyz[3]) {
     int of = 0; /* the channel that misses most */
     for (int j = 0; j < 3; j++) {
         double wanted = (double)m[j], scale = fmax(check->least[j], wanted);
-        double sigma = hypot_d(check->noise[j] * wanted, e->dim[check->index][j]);
+        double sigma = hypot_d(noise->relative[j] * wanted, noise->dim[j]);
         double error = fabs((double)xyz[j] - wanted) / scale;
         if (error > worst) worst = error, of = j;
         if (!is_followed) continue;
@@ -97,7 +94,7 @@ static void add_emission_tables(const FitParts *parts, const Panel *panel, json_
                                .index = i,
                                .bound = fit_required_bound(parts->options, e->model->tolerance)};
         if (of.primary < 3) check.rgb[of.primary] = of.code;
-        find_least(&check, *parts->notes->arena);
+        find_least(&check);
         FitTable one = {.name = from->name,
                         .text_bytes = from->text_bytes,
                         .float32_bytes = parts->set->is_white_only && i
@@ -105,7 +102,7 @@ static void add_emission_tables(const FitParts *parts, const Panel *panel, json_
                                              : 3 * sizeof(float) * (size_t)from->rows,
                         .stored_values = (double)e->tree.report.stored_values / e->table_count,
                         .bytes = (double)emission_bytes(e) / e->table_count,
-                        .noise = e->noise[i]};
+                        .noise = e->noise[i].relative[1]};
         measure_emission(&check, panel, &one);
         fit_table_merge(all, &check.errors);
         fit_table_append(tables, total, &one);

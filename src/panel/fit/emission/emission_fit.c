@@ -53,8 +53,7 @@ static void survey_tables(const Measurement *set, Arena *arena, EmissionResult *
     out->holes.flag = ARENA_NEW(arena, EmissionFlag, EMISSION_FLAGS_MAX);
     for (int i = 0; (table = emission_samples_table(set, out->has_black, i).table); i++) {
         out->table_count = i + 1;
-        out->noise[i] = emission_samples_noise(table, 1, *arena);
-        for (int j = 0; j < 3; j++) out->dim[i][j] = emission_samples_dim(table, j, *arena);
+        out->noise[i] = emission_samples_noise(table, *arena);
         out->outlier[i] = ARENA_NEW(arena, uint8_t, table->rows);
         out->outlier_count +=
             emission_outliers_find(table, out->outlier[i], &out->outliers, *arena);
@@ -207,32 +206,19 @@ static void choose_steps(EmissionModel *model, Arena *arena) {
     }
 }
 
-/* A logarithm follows darkness without end: nothing goes below this share of the floor. */
-#define HELD 0.003
-
-/* Of any table of a primary: black has none where there are none in light. */
-static bool has_edges(const Measurement *set, Arena scratch) {
-    EmissionTable one;
-    for (int i = 0; (one = emission_samples_table(set, false, i)).table; i++)
-        if (emission_samples_have_edges(one.table, scratch)) return true;
-    return false;
-}
-
 static bool build_model(const Measurement *set, const FitOptions *options, Arena *arena,
                         FitNotes *notes, EmissionResult *out, EmissionModel *model) {
     EmissionSamples *samples = ARENA_NEW(arena, EmissionSamples, 1);
     samples->tolerance = options->bound > 0 ? (double)options->bound : TOLERANCE;
     samples->floor_share = (double)options->error_floor;
     EmissionRank *rank = ARENA_NEW(arena, EmissionRank, 1);
-    samples->held_share = HELD;
-    *model = (EmissionModel){.samples = samples,
-                             .rank = rank,
-                             .dim = (const double(*)[3])out->dim,
-                             .tolerance = samples->tolerance};
-    emission_samples_gather(set, out->has_black, out->outlier, arena, samples);
+    *model = (EmissionModel){
+        .samples = samples, .rank = rank, .noise = out->noise, .tolerance = samples->tolerance};
+    emission_samples_gather(set, out->has_black, out->outlier, out->noise, arena, samples);
     emission_rank_find(samples, arena, rank);
     model->is_scattered = emission_samples_are_scattered(samples->master, *arena);
-    model->has_edges = has_edges(set, *arena);
+    for (int i = 0; i < out->table_count - out->has_black; i++)
+        model->has_edges |= out->noise[i].has_edges;
     emission_samples_note(samples, *arena, notes);
     if (model->has_edges)
         fit_note(notes, "the light ends sharply: between samples it is interpolated as it is, "

@@ -19,9 +19,8 @@ typedef struct EmissionResult {
     const EmissionModel *model; /* in the end */
     int table_count;
     bool has_black;
-    double noise[EMISSION_TABLES_MAX];     /* relative, per table; last: black */
-    double dim[EMISSION_TABLES_MAX][3];    /* cd m^-2, per table and channel */
-    uint8_t *outlier[EMISSION_TABLES_MAX]; /* per row */
+    EmissionNoise noise[EMISSION_TABLES_MAX]; /* per table; last: black */
+    uint8_t *outlier[EMISSION_TABLES_MAX];    /* per row */
     int outlier_count, hole_count;
     int shared; /* directions that stand out in every table but the black one */
     EmissionFlag shared_first;

@@ -15,12 +15,12 @@ typedef struct EmissionModel {
     const void *spline_bytes;
     size_t spline_size;
     PanelSpline spline;
-    float *step;            /* per component: what rounding may cost */
-    float *score_noise;     /* per component, of a row's score */
-    const double (*dim)[3]; /* noise without light of every table's X, Y, Z, cd m^-2 */
-    double tolerance;       /* relative to M */
-    bool is_scattered;      /* the samples have no rings */
-    bool has_edges;         /* the light jumps between samples: there is no smooth part */
+    float *step;                /* per component: what rounding may cost */
+    float *score_noise;         /* per component, of a row's score */
+    const EmissionNoise *noise; /* of every table */
+    double tolerance;           /* relative to M */
+    bool is_scattered;          /* the samples have no rings */
+    bool has_edges;             /* the light jumps between samples: there is no smooth part */
 } EmissionModel;
 
 /* Adds the spline to components (PANEL_COMPONENTS_MAX floats). */

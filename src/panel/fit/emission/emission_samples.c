@@ -56,11 +56,6 @@ static bool resample(const Resampler *from, float theta, float phi, float value[
 /* Relative sigma, at least, of values interpolated between a table's directions. */
 #define RESAMPLED_SIGMA 0.002
 
-typedef struct TableNoise {
-    double relative[3], dim[3];
-    double floor[3]; /* cd m^-2, errors are relative to no less */
-} TableNoise;
-
 double emission_samples_floor(const AngleTable *table, int channel, const uint8_t *outlier,
                               double share) {
     double most = 0;
@@ -82,11 +77,11 @@ bool emission_samples_are_scattered(const AngleTable *table, Arena scratch) {
 
 /* ---- edges ------------------------------------------------------------------------------ */
 
-#define JUMP 8.0f /* ratio of neighbours that no smooth lamp has, */
-#define STEEPER \
-    3.0f           /* than the intervals beside it: the flank of a narrow beam is as steep, but \
-                      so are its neighbours */
-#define SEEN 0.05f /* of the largest light */
+/* A jump is a ratio of neighbours that no smooth lamp has, and by far more than the intervals
+ * beside it: the flank of a narrow beam is as steep, but so are its neighbours. */
+#define JUMP 8.0f
+#define STEEPER 3.0f
+#define SEEN 0.05f     /* of the largest light */
 #define DARKNESS 1e-3f /* of the largest light: darkness below it is all the same */
 
 /* Of four samples in a row: do the middle ones jump, and is there light? */
@@ -105,7 +100,7 @@ static float cell_log(const DirectionGrid *g, const float *cell, int ring, int a
     return cell[ring * n + (azimuth % n + n) % n];
 }
 
-bool emission_samples_have_edges(const AngleTable *table, Arena scratch) {
+static bool have_edges(const AngleTable *table, Arena scratch) {
     DirectionGrid grid;
     direction_grid_build(table, false, &scratch, &grid);
     int rings = grid.thetas, n = grid.phis;
@@ -126,34 +121,27 @@ bool emission_samples_have_edges(const AngleTable *table, Arena scratch) {
     return false;
 }
 
-double emission_samples_noise(const AngleTable *table, int channel, Arena scratch) {
-    if (emission_samples_have_edges(table, scratch)) return 0;
-    return emission_samples_are_scattered(table, scratch)
-               ? scatter_surface_table_noise(table, channel, true, scratch)
-               : table_noise_relative(table, channel, scratch);
-}
-
-double emission_samples_dim(const AngleTable *table, int channel, Arena scratch) {
-    return emission_samples_have_edges(table, scratch) ? 0
-                                                       : table_noise_dim(table, channel, scratch);
-}
-
-static TableNoise table_noise(const AngleTable *table, const double floor[3], Arena scratch) {
-    TableNoise noise;
-    for (int j = 0; j < 3; j++) {
-        noise.floor[j] = floor[j];
-        noise.relative[j] = emission_samples_noise(table, j, scratch);
-        noise.dim[j] = emission_samples_dim(table, j, scratch);
+EmissionNoise emission_samples_noise(const AngleTable *table, Arena scratch) {
+    EmissionNoise noise = {.has_edges = have_edges(table, scratch)};
+    bool is_scattered = emission_samples_are_scattered(table, scratch);
+    for (int j = 0; j < 3 && !noise.has_edges; j++) {
+        noise.relative[j] = is_scattered ? scatter_surface_table_noise(table, j, true, scratch)
+                                         : table_noise_relative(table, j, scratch);
+        noise.dim[j] = table_noise_dim(table, j, scratch);
     }
     return noise;
 }
 
+/* A logarithm follows darkness without end: nothing goes below this share of the floor. */
+#define HELD 0.003
+
 static void put_row(EmissionSamples *out, int row, int channel, const float value[3],
-                    const TableNoise *noise) {
+                    const EmissionNoise *noise) {
     for (int j = 0; j < 3; j++) {
+        double floor = out->floor[channel + j];
         size_t at = (size_t)row * (size_t)out->channels + (size_t)(channel + j);
-        double held = out->held_share * noise->floor[j];
-        double m = (double)value[j], scale = fmax(fabs(m), noise->floor[j]);
+        double held = HELD * floor;
+        double m = (double)value[j], scale = fmax(fabs(m), floor);
         out->total[at] =
             m < held && noise->dim[j] < held && held > EMISSION_NO_LIGHT ? (float)held : value[j];
         out->sigma[at] = (float)sqrt(pow_d(noise->relative[j] * m, 2) + pow_d(noise->dim[j], 2) +
@@ -194,8 +182,7 @@ static bool is_on_grid(const AngleTable *grid, const AngleTable *table, Arena sc
 }
 
 static void put_table(EmissionSamples *out, const AngleTable *table, int channel,
-                      const uint8_t *outlier, Arena scratch) {
-    TableNoise noise = table_noise(table, out->floor + channel, scratch);
+                      const uint8_t *outlier, EmissionNoise noise, Arena scratch) {
     int *row = ARENA_NEW(&scratch, int, out->rows);
     if (2 * match_rows(out->master, table, row) > table->rows) {
         for (int i = 0; i < out->rows; i++)
@@ -317,12 +304,10 @@ static bool has_darkness(const AngleTable *table, int channel) {
 }
 
 void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *const *outlier,
-                             Arena *arena, EmissionSamples *out) {
+                             const EmissionNoise *noise, Arena *arena, EmissionSamples *out) {
     const AngleTable *table;
-    *out = (EmissionSamples){.set = set,
-                             .tolerance = out->tolerance,
-                             .floor_share = out->floor_share,
-                             .held_share = out->held_share};
+    *out =
+        (EmissionSamples){.set = set, .tolerance = out->tolerance, .floor_share = out->floor_share};
     find_master(set, has_black, arena, out);
     size_t rows = (size_t)out->rows, numbers = rows * (size_t)out->channels;
     out->direction = ARENA_NEW(arena, Vec3, rows);
@@ -339,6 +324,6 @@ void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *co
                     ? emission_samples_floor(table, j, outlier[i], out->floor_share)
                     : EMISSION_NO_LIGHT;
     for (int i = 0; (table = emission_samples_table(set, has_black, i).table); i++)
-        put_table(out, table, 3 * i, outlier[i], *arena);
+        put_table(out, table, 3 * i, outlier[i], noise[i], *arena);
     for (int c = 0; c < out->channels; c++) fill_unknown(out, c);
 }

@@ -30,7 +30,6 @@ typedef struct EmissionSamples {
     double step_deg;    /* about how far apart neighbours are */
     int azimuths;       /* on a ring */
     double tolerance;   /* relative to M */
-    double held_share;  /* of the floor: nothing goes below it */
     double *floor;      /* channels: errors count relative to no less than this, cd m^-2 */
     double floor_share; /* of a channel's largest value that the floor is */
 } EmissionSamples;
@@ -48,25 +47,25 @@ EmissionTable emission_samples_table(const Measurement *set, bool has_black, int
 /* Have a table's rows no grid's order? */
 bool emission_samples_are_scattered(const AngleTable *table, Arena scratch);
 
-/* Does Y jump between two samples of a grid, as no smooth lamp does? */
-bool emission_samples_have_edges(const AngleTable *table, Arena scratch);
+/* What a table's rows tell of its noise in X, Y and Z: of a grid or of scattered rows. */
+typedef struct EmissionNoise {
+    double relative[3];
+    double dim[3];  /* where there is no light, cd m^-2 */
+    bool has_edges; /* Y jumps between two samples of a grid, as no smooth lamp does. That looks
+                       like noise: none is told then */
+} EmissionNoise;
 
-/* A channel's relative noise, of a grid or of scattered rows. 0 where there are edges, which
- * look like noise. */
-double emission_samples_noise(const AngleTable *table, int channel, Arena scratch);
-
-/* Its noise where there is no light, cd m^-2; likewise. */
-double emission_samples_dim(const AngleTable *table, int channel, Arena scratch);
+EmissionNoise emission_samples_noise(const AngleTable *table, Arena scratch);
 
 /* The least value that errors of a table's channel are relative to: a share of its largest
  * value in rows that outlier (NULL: none) does not mark. */
 double emission_samples_floor(const AngleTable *table, int channel, const uint8_t *outlier,
                               double share);
 
-/* outlier[table]: rows that are not to be believed. In *out tolerance, floor_share and
- * held_share are given. */
+/* outlier[table]: rows that are not to be believed; noise: of every table. In *out tolerance
+ * and floor_share are given. */
 void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *const *outlier,
-                             Arena *arena, EmissionSamples *out);
+                             const EmissionNoise *noise, Arena *arena, EmissionSamples *out);
 
 /* Notes wide gaps between azimuths, and directions without a grid's order. */
 void emission_samples_note(const EmissionSamples *samples, Arena scratch, FitNotes *notes);

@@ -22,12 +22,9 @@
 #define LEAST_WEIGHT 0.05f /* of the samples around a vertex */
 #define SWEPT 0.4          /* of the tolerance: nearer samples are not corrected */
 #define SWEPT_SIGMAS 1.0f  /* of noise besides */
-#define PARDON \
-    5.0f /* sigmas of noise that a coded sample may miss by besides; none where \
-            there are edges, which look like noise */
-#define BETWEEN_SAMPLES 1.0f /* tolerances that a vertex may miss by where no sample is missed */
-#define ENOUGH 1.0           /* tolerances: finer triangles are not tried */
-#define FINER 0.8            /* what finer triangles must leave of the largest miss */
+#define PARDON 5.0f        /* sigmas of noise that a coded sample may miss by besides */
+#define ENOUGH 1.0         /* tolerances: finer triangles are not tried */
+#define FINER 0.8          /* what finer triangles must leave of the largest miss */
 
 /* Where a tree is coded and what it is held to. */
 typedef struct EmissionCoder {
@@ -209,9 +206,8 @@ static void find_wanted(EmissionCoder *coder) {
         for (int k = 0; k < n; k++)
             components[k] += coder->value[(size_t)v * (size_t)n + (size_t)k];
         emission_model_totals(model, components, d, coder->wanted + v * channels);
-        coder->limit[v] = acos_d(fmin(1, (double)d.z)) <= reach
-                              ? BETWEEN_SAMPLES * (float)model->tolerance
-                              : INFINITY;
+        coder->limit[v] =
+            acos_d(fmin(1, (double)d.z)) <= reach ? (float)model->tolerance : INFINITY;
     }
 }
 
@@ -219,7 +215,7 @@ static void find_wanted(EmissionCoder *coder) {
  * anyway, and the floor. */
 static void find_least(const EmissionModel *model, float *least) {
     for (int c = 0; c < model->samples->channels; c++)
-        least[c] = (float)fmax(20 * model->dim[c / 3][c % 3], model->samples->floor[c]);
+        least[c] = (float)fmax(20 * model->noise[c / 3].dim[c % 3], model->samples->floor[c]);
 }
 
 /* The coder of a level: its vertices have their values. */
