@@ -109,6 +109,9 @@ def check_review_without_threads(bench):
     folder = bench.file("review")
     shutil.copytree(cases, folder)
     os.chmod(folder, 0o777)
+    os.remove(os.path.join(folder, "ips.panel"))  # of an older version
+    shutil.copyfile(os.path.join(ROOT, "assets", "panels", "ips_cluster.panel"),
+                    os.path.join(folder, "ips.panel"))
 
     def answer(*limits):
         done = bench.run("review", os.path.join(folder, "not_usable.review.json"), "--json",

@@ -8,6 +8,7 @@ count.
 import html
 import json
 import os
+import random
 import re
 import shutil
 import subprocess
@@ -21,7 +22,6 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "hostile"))
 from judged_scene import request, write_scene  # noqa: E402
 from report import Report  # noqa: E402
 
-NOT_USABLE = os.path.join(ROOT, "..", "shared/data/cases/faults/not_usable.panel")
 GREY = {"name": "grey", "pbrMetallicRoughness": {"baseColorFactor": [0.4, 0.4, 0.4, 1]}}
 BARE = {"name": "bare"}
 POST = (dict(GREY, name="post"), [-0.035, 0.005, 0.35], 0.45)  # before the bar
@@ -189,11 +189,23 @@ def check_hidden_sweep(report, reviews):
 
 # ---- panels, materials, limits --------------------------------------------------------------
 
+def not_usable(reviews):
+    """A panel of nothing but noise."""
+    r, table = random.Random(1), os.path.join(reviews.folder, "noise.csv")
+    out = os.path.join(reviews.folder, "not_usable.panel")
+    with open(table, "w", encoding="utf-8") as file:
+        file.write("theta,phi,X,Y,Z\n")
+        for theta in range(0, 81, 4):
+            for phi in range(0, 360 if theta else 1, 15):
+                y = 500 * 2 ** r.uniform(-2, 2)
+                file.write(f"{theta},{phi},{0.95 * y:.6g},{y:.6g},{1.09 * y:.6g}\n")
+    subprocess.run([reviews.program, "panel", "fit", table, "-o", out, "--force", "--quiet"],
+                   check=True, capture_output=True)
+    return out
+
+
 def check_panel(report, reviews):
-    if not os.path.exists(NOT_USABLE):
-        report.skip("a panel that is not usable: no shared data")
-        return
-    write_scene(reviews.folder, panel=NOT_USABLE)
+    write_scene(reviews.folder, panel=not_usable(reviews))
     for options in ((), ("--strict",)):
         case, found = claim_unjudged(report, f"not usable {options}", reviews, asked(),
                                      "panel not usable", "not usable", *options)

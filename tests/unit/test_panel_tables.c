@@ -47,7 +47,7 @@ TEST(tables_name_file_line_and_value) {
         {"theta,phi,X,Y,Z\n5,40,1,x7,1\n", {"line 2", "'x7'", "a finite number"}},
         {"theta,phi,X,Y,Z\n", {"table.csv", "no rows", ""}},
         {"", {"table.csv", "is empty", "a header line"}},
-        {"theta,phi,Y,x,y\n5,40,10,0.8,0.1\n", {"header line", "'x' is unknown", ""}},
+        {"theta,phi,Y,x,y\n5,40,10,0.8,0.7\n", {"line 2", "x 0.8, y 0.7", "CIE 1931"}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Error err = bad_file("table.csv", cases[i].text);

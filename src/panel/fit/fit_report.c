@@ -53,7 +53,7 @@ static void add_emission_row(EmissionCheck *check, int i, const float xyz[3]) {
     int of = 0; /* the channel that misses most */
     for (int j = 0; j < 3; j++) {
         double wanted = (double)m[j], scale = fmax(check->least[j], wanted);
-        double sigma = hypot_d(noise->relative[j] * wanted, noise->dim[j]);
+        double sigma = emission_noise_sigma(noise, j, wanted);
         double error = fabs((double)xyz[j] - wanted) / scale;
         if (error > worst) worst = error, of = j;
         if (!is_followed) continue;

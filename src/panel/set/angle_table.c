@@ -244,24 +244,44 @@ static bool reject_other_columns(const CsvTable *csv, const char *const *wanted,
     return true;
 }
 
+/* X and Z from luminance and chromaticity; a row without light may have any chromaticity. */
+static bool xyz_from_yxy(const RawTable *raw, float *value, int line, Arena *arena, Error *err) {
+    float y_cd_m2 = value[0], x = value[1], y = value[2];
+    if (!(x >= 0) || !(y >= 0) || !(x + y <= 1) || (y == 0 && y_cd_m2 != 0)) {
+        return error_at(err, ERROR_INPUT, raw->file, place_of(line, arena),
+                        "chromaticity is x %g, y %g, required: a point of the CIE 1931 diagram",
+                        (double)x, (double)y);
+    }
+    float scale = y > 0 ? y_cd_m2 / y : 0;
+    value[0] = scale * x;
+    value[1] = y_cd_m2;
+    value[2] = scale * (1 - x - y);
+    return true;
+}
+
 /* Address space for the text of one file and its numbers; given back when they are sorted. */
 #define SCRATCH_BYTES ((size_t)64 << 30)
 
 static bool read_xyz(const char *file, const char *name, Arena *scratch, RawTable *out,
                      Error *err) {
     static const char *const xyz[] = {"theta", "phi", "X", "Y", "Z"};
+    static const char *const yxy[] = {"theta", "phi", "Y", "x", "y"};
     CsvTable csv;
     RawTable raw;
     if (!csv_table_read(file, scratch, &csv, err)) return false;
-    if (!start_rows(&csv, name, scratch, &raw, err) || !reject_other_columns(&csv, xyz, 5, err))
+    bool is_yxy = csv_table_column(&csv, "x") >= 0 && csv_table_column(&csv, "X") < 0;
+    const char *const *wanted = is_yxy ? yxy : xyz;
+    if (!start_rows(&csv, name, scratch, &raw, err) || !reject_other_columns(&csv, wanted, 5, err))
         return false;
     float *value = ARENA_NEW(scratch, float, 3 * (size_t)csv.rows);
     for (int j = 0; j < 3; j++) {
-        int column = csv_table_column(&csv, xyz[2 + j]);
-        if (column < 0) return missing_column(&csv, xyz[2 + j], err);
+        int column = csv_table_column(&csv, wanted[2 + j]);
+        if (column < 0) return missing_column(&csv, wanted[2 + j], err);
         for (int i = 0; i < csv.rows; i++)
             value[3 * i + j] = csv.cell[(size_t)i * (size_t)csv.columns + (size_t)column];
     }
+    for (int i = 0; i < csv.rows && is_yxy; i++)
+        if (!xyz_from_yxy(&raw, value + 3 * i, csv.line[i], scratch, err)) return false;
     raw.value = value;
     raw.channels = 3;
     raw.is_emission = true;

@@ -35,7 +35,7 @@ typedef struct AngleTable {
     const AngleOutlier *pole_outlier;
 } AngleTable;
 
-/* Columns theta, phi and X, Y, Z. */
+/* Columns theta, phi and X, Y, Z (or Y, x, y). */
 bool angle_table_read_xyz(const char *file, const char *name, Arena *arena, AngleTable *out,
                           Error *err);
 

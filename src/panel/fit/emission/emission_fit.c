@@ -16,7 +16,7 @@
 
 /* Relative. Conoscopes repeat within 1 to 2 %; what is left of the noise is in the surface
  * through the samples already. */
-#define TOLERANCE 0.008
+#define TOLERANCE 0.005
 
 /* ---- what is known of the tables -------------------------------------------------------- */
 

@@ -121,10 +121,14 @@ static bool have_edges(const AngleTable *table, Arena scratch) {
     return false;
 }
 
+double emission_noise_sigma(const EmissionNoise *noise, int channel, double value) {
+    return noise->has_edges ? 0 : hypot_d(noise->relative[channel] * value, noise->dim[channel]);
+}
+
 EmissionNoise emission_samples_noise(const AngleTable *table, Arena scratch) {
     EmissionNoise noise = {.has_edges = have_edges(table, scratch)};
     bool is_scattered = emission_samples_are_scattered(table, scratch);
-    for (int j = 0; j < 3 && !noise.has_edges; j++) {
+    for (int j = 0; j < 3; j++) {
         noise.relative[j] = is_scattered ? scatter_surface_table_noise(table, j, true, scratch)
                                          : table_noise_relative(table, j, scratch);
         noise.dim[j] = table_noise_dim(table, j, scratch);
@@ -144,8 +148,8 @@ static void put_row(EmissionSamples *out, int row, int channel, const float valu
         double m = (double)value[j], scale = fmax(fabs(m), floor);
         out->total[at] =
             m < held && noise->dim[j] < held && held > EMISSION_NO_LIGHT ? (float)held : value[j];
-        out->sigma[at] = (float)sqrt(pow_d(noise->relative[j] * m, 2) + pow_d(noise->dim[j], 2) +
-                                     pow_d(LEAST_SIGMA * out->tolerance * scale, 2));
+        double sigma = emission_noise_sigma(noise, j, m);
+        out->sigma[at] = (float)hypot_d(sigma, LEAST_SIGMA * out->tolerance * scale);
     }
 }
 

@@ -51,9 +51,12 @@ bool emission_samples_are_scattered(const AngleTable *table, Arena scratch);
 typedef struct EmissionNoise {
     double relative[3];
     double dim[3];  /* where there is no light, cd m^-2 */
-    bool has_edges; /* Y jumps between two samples of a grid, as no smooth lamp does. That looks
-                       like noise: none is told then */
+    bool has_edges; /* Y jumps between two samples of a grid, as no smooth lamp does. Edges look
+                       like noise: the fit then takes none for it */
 } EmissionNoise;
+
+/* A value's standard deviation that the fit and its errors pardon, cd m^-2. */
+double emission_noise_sigma(const EmissionNoise *noise, int channel, double value);
 
 EmissionNoise emission_samples_noise(const AngleTable *table, Arena scratch);
 
