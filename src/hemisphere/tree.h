@@ -3,12 +3,12 @@
  *
  * Two bases stand behind one view: Haar trees (this header) and vertex trees (vertex_tree.h).
  * tree_open and tree_query.h take either; the blob's magic number distinguishes them. Here is
- * what both are made of; haar/haar_tree.h and vertex/vertex_tree_build.h make them.
+ * what both are made of; tree/haar_tree.h and tree/vertex_tree_build.h make them.
  *
  * A tree is one blob, little-endian, to be stored in a file. tree_open makes of it what
  * queries read (tree_query.h): of a Haar tree views into the blob, of a vertex tree rows in
  * the arena. A Haar row is the detail of one child
- * (haar/haar.h): `components` numbers.
+ * (tree/haar.h): `components` numbers.
  *
  * Blob      TreeHeader | octant means, float32 | scales, float32 (integer rows only) | nodes
  *           level by level | rows. Must lie at an address that is a multiple of 8.

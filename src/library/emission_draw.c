@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "hemisphere/sampling/sampling_tree_build.h"
+#include "hemisphere/tree/sampling_tree_build.h"
 #include "panel/query/panel_emission.h"
 
 #define LEVEL 6

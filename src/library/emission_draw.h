@@ -10,7 +10,7 @@
  * Memory   the arena's. Threads: constant after making it.
  */
 #pragma once
-#include "hemisphere/sampling/sampling_tree.h"
+#include "hemisphere/tree/sampling_tree.h"
 #include "panel/query/panel.h"
 
 typedef struct EmissionDraw {

@@ -12,12 +12,12 @@ set(panel_library_sources src/library/parhelion_panel.c src/library/open_panel.c
   src/base/sort.c src/print/print.c src/print/printable.c src/print/utf8.c
   src/spectrum/spectral_table.c src/spectrum/wavelengths.c
   src/hemisphere/geodesic.c src/hemisphere/specular_frame.c
-  src/hemisphere/vertex/vertex.c src/hemisphere/vertex/vertex_code.c
-  src/hemisphere/vertex/vertex_open.c
-  src/hemisphere/vertex/vertex_query.c
+  src/hemisphere/tree/vertex.c src/hemisphere/tree/vertex_code.c
+  src/hemisphere/tree/vertex_open.c
+  src/hemisphere/tree/vertex_query.c
   src/hemisphere/tree/tree_open.c src/hemisphere/tree/tree_query.c
   src/hemisphere/tree/tree_stop.c src/hemisphere/tree/tree_sum.c
-  src/hemisphere/sampling/sampling_tree.c src/hemisphere/sampling/sampling_tree_build.c
+  src/hemisphere/tree/sampling_tree.c src/hemisphere/tree/sampling_tree_build.c
   src/panel/shape/least_squares.c src/panel/shape/panel_levels.c
   src/panel/shape/panel_spline.c
   src/panel/shape/spectral_warp.c src/panel/shape/spot_ground.c)

@@ -10,7 +10,7 @@
 #include "base/mathf.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "hemisphere/haar/haar_tree.h"
+#include "hemisphere/tree/haar_tree.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* test_hemisphere_sampling.c -- directions are drawn as their density says. */
-#include "hemisphere/sampling/sampling_tree_build.h"
+#include "hemisphere/tree/sampling_tree_build.h"
 #include "hemisphere_fixture.h"
 
 #include <float.h>
 
-#include "hemisphere/sampling/sampling_tree.h"
+#include "hemisphere/tree/sampling_tree.h"
 /* Function `function` alone. */
 static SamplingMix sampling_only(int function) {
     return (SamplingMix){.count = 1, .function = {function}, .weight = {1}};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* test_hemisphere_tree.c -- compressed trees and their queries. */
-#include "hemisphere/haar/haar_tree.h"
+#include "hemisphere/tree/haar_tree.h"
 #include "hemisphere/tree/tree_expand.h"
 #include "hemisphere/tree/tree_sum.h"
 #include "hemisphere_fixture.h"

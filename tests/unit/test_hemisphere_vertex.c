@@ -3,12 +3,12 @@
 #include "hemisphere/tree/tree_expand.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_sum.h"
-#include "hemisphere/vertex/vertex_open.h"
-#include "hemisphere/vertex/vertex_tree_build.h"
+#include "hemisphere/tree/vertex_open.h"
+#include "hemisphere/tree/vertex_tree_build.h"
 #include "hemisphere_fixture.h"
 
-#include "hemisphere/vertex/vertex.h"
-#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/tree/vertex.h"
+#include "hemisphere/tree/vertex_tree.h"
 #include "vertex_bound.h"
 
 static const VertexLattice LATTICES[] = {{0, 4}, {1, 2}, {3, 4}, {4, 2}, {6, 4}, {7, 2}};

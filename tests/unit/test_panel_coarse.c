@@ -5,7 +5,7 @@
 #include "fixture.h"
 
 #include "base/sampler.h"
-#include "hemisphere/vertex/vertex.h"
+#include "hemisphere/tree/vertex.h"
 #include "panel/set/panel_coarse.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_info.h"

@@ -8,7 +8,7 @@
 
 #include "base/sampler.h"
 #include "hemisphere/geodesic.h"
-#include "hemisphere/sampling/sampling_tree_build.h"
+#include "hemisphere/tree/sampling_tree_build.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"

@@ -3,9 +3,9 @@
  * linear between them, below their base level too; Haar trees keep their triangles' means. */
 #include "hemisphere/tree/tree_expand.h"
 #include "hemisphere/tree/tree_stop.h"
-#include "hemisphere/vertex/vertex.h"
-#include "hemisphere/vertex/vertex_open.h"
-#include "hemisphere/vertex/vertex_tree_build.h"
+#include "hemisphere/tree/vertex.h"
+#include "hemisphere/tree/vertex_open.h"
+#include "hemisphere/tree/vertex_tree_build.h"
 #include "hemisphere_fixture.h"
 #include "vertex_bound.h"
 

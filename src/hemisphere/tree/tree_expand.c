@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-#include "hemisphere/haar/haar.h"
+#include "hemisphere/tree/haar.h"
 #include "hemisphere/tree/tree_query.h"
-#include "hemisphere/vertex/vertex.h"
-#include "hemisphere/vertex/vertex_open.h"
+#include "hemisphere/tree/vertex.h"
+#include "hemisphere/tree/vertex_open.h"
 
 static float integer_at(const char *from, bool is_byte, size_t index) {
     return is_byte ? ((const int8_t *)(const void *)from)[index]

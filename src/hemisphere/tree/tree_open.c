@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "hemisphere/tree.h"
-#include "hemisphere/vertex/vertex_open.h"
-#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/tree/vertex_open.h"
+#include "hemisphere/tree/vertex_tree.h"
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "blobs are little-endian in place");
 _Static_assert(sizeof(TreeHeader) == 56 && sizeof(TreeNode) == 8, "the blob's layout");

@@ -6,8 +6,8 @@
 #include "base/mathf.h"
 #include "hemisphere/rows.h"
 #include "hemisphere/tree/tree_sum.h"
-#include "hemisphere/vertex/vertex_open.h"
-#include "hemisphere/vertex/vertex_query.h"
+#include "hemisphere/tree/vertex_open.h"
+#include "hemisphere/tree/vertex_query.h"
 
 static const uint32_t NO_NODE = UINT32_MAX;
 

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hemisphere/vertex/vertex.h"
-#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/tree/vertex.h"
+#include "hemisphere/tree/vertex_tree.h"
 
 /* All values at the base level stand as they are, none as details, so that those of a coarser
  * level are a base too. The base's rows are in the order of its own lattice; a coarser base has

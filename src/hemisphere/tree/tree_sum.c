@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "hemisphere/rows.h"
-#include "hemisphere/vertex/vertex_open.h"
-#include "hemisphere/vertex/vertex_query.h"
+#include "hemisphere/tree/vertex_open.h"
+#include "hemisphere/tree/vertex_query.h"
 
 /* sum += weight * 4 * blocks details from `from` on, 8 bits each; blocks is 1 or 4. */
 static inline void add_bytes(const char *from, Float4 weight, int blocks, Float4 *sum) {

@@ -7,7 +7,7 @@
 #include "base/count.h"
 #include "base/mathd.h"
 #include "base/units.h"
-#include "hemisphere/sampling/sampling_tree_build.h"
+#include "hemisphere/tree/sampling_tree_build.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_reflection.h"

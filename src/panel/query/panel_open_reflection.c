@@ -6,7 +6,7 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
-#include "hemisphere/sampling/sampling_tree_build.h"
+#include "hemisphere/tree/sampling_tree_build.h"
 #include "hemisphere/tree/tree_open.h"
 #include "panel/query/panel_reflection_layout.h"
 #include "spectrum/fresnel.h"

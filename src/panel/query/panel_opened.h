@@ -8,7 +8,7 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
-#include "hemisphere/sampling/sampling_tree.h"
+#include "hemisphere/tree/sampling_tree.h"
 #include "hemisphere/tree.h"
 #include "panel/query/panel.h"
 #include "panel/query/panel_file.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/mathd.h"
-#include "hemisphere/vertex/vertex.h"
+#include "hemisphere/tree/vertex.h"
 
 #define LEVEL 5 /* of the lattice: 2.8 degrees between its directions */
 #define SIGMAS 2.0

@@ -6,7 +6,7 @@
 
 #include "base/mathd.h"
 #include "base/mathf.h"
-#include "hemisphere/vertex/vertex.h"
+#include "hemisphere/tree/vertex.h"
 #include "panel/fit/common/scatter_surface.h"
 #include "panel/shape/least_squares.h"
 #include "panel/query/panel_components.h"

@@ -10,7 +10,7 @@
 #include "base/mathd.h"
 #include "base/vec.h"
 #include "hemisphere/specular_frame.h"
-#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/tree/vertex_tree.h"
 #include "panel/fit/common/direction_grid.h"
 #include "panel/fit/common/scatter_surface.h"
 #include "panel/fit/reflection/reflection_parts.h"

@@ -6,7 +6,7 @@
  *          a judge for each.
  */
 #pragma once
-#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/tree/vertex_tree.h"
 
 /* Calls the caller's test and remembers: what lies well within a distance from the value that
  * was accepted once is taken as accepted, in any direction. The finished tree is checked

@@ -8,7 +8,7 @@
  */
 #pragma once
 #include "base/error.h"
-#include "hemisphere/haar/haar.h"
+#include "hemisphere/tree/haar.h"
 #include "hemisphere/tree.h"
 
 /* Lossless: keep_share 1 and TREE_ROWS_FLOAT; leaves come back to the rounding of float32. */

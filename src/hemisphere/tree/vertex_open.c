@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "hemisphere/vertex/vertex_open.h"
+#include "hemisphere/tree/vertex_open.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "hemisphere/vertex/vertex_code.h"
-#include "hemisphere/vertex/vertex_query.h"
+#include "hemisphere/tree/vertex_code.h"
+#include "hemisphere/tree/vertex_query.h"
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "blobs are little-endian in place");
 _Static_assert(sizeof(VertexHeader) == 32, "the blob's layout");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "hemisphere/vertex/vertex.h"
+#include "hemisphere/tree/vertex.h"
 
 #include <stdlib.h>
 

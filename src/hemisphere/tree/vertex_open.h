@@ -7,7 +7,7 @@
  */
 #pragma once
 #include "base/error.h"
-#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/tree/vertex_tree.h"
 
 /* tree_open of a blob whose magic number is VERTEX_MAGIC, at a multiple of 8. */
 bool vertex_tree_open(const void *blob, size_t size, const Geodesic *geodesic, Arena *arena,

@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "base/error.h"
-#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/tree/vertex_tree.h"
 
 /* values: vertex_count(lattice) x components, finite. Fails (ERROR_INPUT) on values that are
  * not finite, and when a stored value cannot be made acceptable (named by its direction): the

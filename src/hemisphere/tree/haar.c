@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "hemisphere/haar/haar.h"
+#include "hemisphere/tree/haar.h"
 
 #include <math.h>
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "hemisphere/vertex/vertex_query.h"
+#include "hemisphere/tree/vertex_query.h"
 
 #include "hemisphere/rows.h"
-#include "hemisphere/vertex/vertex.h"
-#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/tree/vertex.h"
+#include "hemisphere/tree/vertex_tree.h"
 
 /* The base level's three rows. */
 static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps) {

@@ -7,14 +7,14 @@
  * are stored, from the coarse levels to the fine; where that is not accepted, the weights grow,
  * and the detail of the level that would help most (gradient^2 over diagonal) is added. In the
  * end the details that matter least are dropped as long as everything stays accepted. */
-#include "hemisphere/vertex/vertex_choose.h"
+#include "hemisphere/tree/vertex_choose.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/parallel.h"
-#include "hemisphere/vertex/vertex.h"
+#include "hemisphere/tree/vertex.h"
 
 /* ---- what the caller accepts ------------------------------------------------------------- */
 

@@ -14,7 +14,7 @@
  */
 #pragma once
 #include "hemisphere/tree.h"
-#include "hemisphere/vertex/vertex.h"
+#include "hemisphere/tree/vertex.h"
 
 /* ---- the blob ----------------------------------------------------------------------------
  *

@@ -4,7 +4,7 @@
  * Threads  any number, on a constant Tree. Fails: never.
  */
 #pragma once
-#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/tree/vertex_tree.h"
 
 /* HOT. The interpolation between vertices. */
 void vertex_tree_walk(const Tree *tree, Vec3 direction, TreeTaps *taps);

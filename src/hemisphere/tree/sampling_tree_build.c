@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "hemisphere/sampling/sampling_tree_build.h"
+#include "hemisphere/tree/sampling_tree_build.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/units.h"
-#include "hemisphere/sampling/sampling_code.h"
+#include "hemisphere/tree/sampling_code.h"
 
 _Static_assert(sizeof(SamplingHeader) == 16, "the blob's layout");
 

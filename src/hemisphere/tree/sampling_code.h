@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "hemisphere/sampling/sampling_tree.h"
+#include "hemisphere/tree/sampling_tree.h"
 
 #define SAMPLING_RICE_BITS 3 /* of the parameter, in front of every function's steps */
 

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "hemisphere/vertex/vertex_tree_build.h"
+#include "hemisphere/tree/vertex_tree_build.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/mathd.h"
-#include "hemisphere/vertex/vertex.h"
-#include "hemisphere/vertex/vertex_choose.h"
-#include "hemisphere/vertex/vertex_code.h"
-#include "hemisphere/vertex/vertex_open.h"
+#include "hemisphere/tree/vertex.h"
+#include "hemisphere/tree/vertex_choose.h"
+#include "hemisphere/tree/vertex_code.h"
+#include "hemisphere/tree/vertex_open.h"
 
 /* ---- the closed loop --------------------------------------------------------------------- */
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "hemisphere/haar/haar_tree.h"
+#include "hemisphere/tree/haar_tree.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "base/error.h"
-#include "hemisphere/sampling/sampling_tree.h"
+#include "hemisphere/tree/sampling_tree.h"
 
 typedef struct SamplingOptions {
     int level;           /* of the leaf integrals */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "hemisphere/vertex/vertex_code.h"
+#include "hemisphere/tree/vertex_code.h"
 
 #include <stdlib.h>
 #include <string.h>

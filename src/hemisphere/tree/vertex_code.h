@@ -6,7 +6,7 @@
  */
 #pragma once
 #include "base/error.h"
-#include "hemisphere/vertex/vertex_tree.h"
+#include "hemisphere/tree/vertex_tree.h"
 
 /* A coded function: integers for every vertex of the lattice. */
 typedef struct VertexCode {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: drawing directions. No allocation, no lock, no libm. */
-#include "hemisphere/sampling/sampling_tree.h"
+#include "hemisphere/tree/sampling_tree.h"
 #include "base/mathf.h"
 
 #define BELOW_ONE 0x1.fffffep-1f
