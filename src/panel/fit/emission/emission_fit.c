@@ -53,10 +53,10 @@ static void survey_tables(const Measurement *set, Arena *arena, EmissionResult *
     out->holes.flag = ARENA_NEW(arena, EmissionFlag, EMISSION_FLAGS_MAX);
     for (int i = 0; (table = emission_samples_table(set, out->has_black, i).table); i++) {
         out->table_count = i + 1;
-        out->noise[i] = emission_samples_noise(table, *arena);
         out->outlier[i] = ARENA_NEW(arena, uint8_t, table->rows);
         out->outlier_count +=
             emission_outliers_find(table, out->outlier[i], &out->outliers, *arena);
+        out->noise[i] = emission_samples_noise(table, out->outlier[i], *arena);
         out->hole_count += emission_outliers_find_holes(table, &out->holes, *arena);
     }
     find_shared(set, out);
@@ -193,6 +193,21 @@ static void find_score_noise(EmissionModel *model, Arena *arena) {
                                         : table_noise_plain(&table, k, *arena));
 }
 
+#define NOISY 0.5 /* of the tolerance */
+
+/* Noise of a channel due to the scores' noise; the median of all. */
+static double channel_noise(const EmissionModel *model, Arena scratch) {
+    const EmissionRank *rank = model->rank;
+    int n = rank->components, channels = model->samples->channels;
+    double *list = ARENA_NEW(&scratch, double, channels);
+    for (int c = 0; c < channels; c++) {
+        for (int k = 0; k < n; k++)
+            list[c] += pow_d((double)rank->loading[c * n + k] * (double)model->score_noise[k], 2);
+        list[c] = sqrt(list[c]);
+    }
+    return sort_median(list, channels);
+}
+
 /* Rounding steps of the components: together they may cost a sixth of the tolerance. */
 static void choose_steps(EmissionModel *model, Arena *arena) {
     const EmissionRank *rank = model->rank;
@@ -224,6 +239,7 @@ static bool build_model(const Measurement *set, const FitOptions *options, Arena
         fit_note(notes, "the light ends sharply: between samples it is interpolated as it is, "
                         "not as its logarithm");
     find_score_noise(model, arena);
+    model->is_noisy = channel_noise(model, *arena) > NOISY * model->tolerance;
     round_model(model);
     choose_steps(model, arena);
     return emission_model_fit_smooth(model, arena);

@@ -20,6 +20,7 @@ typedef struct EmissionModel {
     const EmissionNoise *noise; /* of every table */
     double tolerance;           /* relative to M */
     bool is_scattered;          /* the samples have no rings */
+    bool is_noisy;              /* between rows a surface is read that noise does not bend */
     bool has_edges;             /* the light jumps between samples: there is no smooth part */
 } EmissionModel;
 

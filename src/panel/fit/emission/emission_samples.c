@@ -100,15 +100,18 @@ static float cell_log(const DirectionGrid *g, const float *cell, int ring, int a
     return cell[ring * n + (azimuth % n + n) % n];
 }
 
-static bool have_edges(const AngleTable *table, Arena scratch) {
+static bool have_edges(const AngleTable *table, const uint8_t *outlier, Arena scratch) {
     DirectionGrid grid;
+    size_t numbers = 3 * (size_t)table->rows;
+    float *value = ARENA_NEW(&scratch, float, numbers);
+    for (size_t i = 0; i < numbers; i++) value[i] = outlier[i / 3] ? NAN : table->value[i];
     direction_grid_build(table, false, &scratch, &grid);
     int rings = grid.thetas, n = grid.phis;
-    float *cell = direction_grid_cells(&grid, table->value, 3, &scratch), most = 1e-30f;
+    float *cell = direction_grid_cells(&grid, value, 3, &scratch), most = 1e-30f;
     if (grid.is_scattered || rings < 3) return false;
     for (int i = 0; i < rings * n; i++) most = fmaxf(most, cell[3 * i + 1]);
     for (int i = 0; i < rings * n; i++)
-        cell[i] = log_f(fmaxf(0, cell[3 * i + 1]) / most + DARKNESS);
+        cell[i] = isnan(cell[3 * i + 1]) ? NAN : log_f(fmaxf(0, cell[3 * i + 1]) / most + DARKNESS);
     for (int i = 0; i < rings * n; i++) {
         int ring = i / n, a = i % n;
         float out[4], turn[4];
@@ -125,8 +128,9 @@ double emission_noise_sigma(const EmissionNoise *noise, int channel, double valu
     return noise->has_edges ? 0 : hypot_d(noise->relative[channel] * value, noise->dim[channel]);
 }
 
-EmissionNoise emission_samples_noise(const AngleTable *table, Arena scratch) {
-    EmissionNoise noise = {.has_edges = have_edges(table, scratch)};
+EmissionNoise emission_samples_noise(const AngleTable *table, const uint8_t *outlier,
+                                     Arena scratch) {
+    EmissionNoise noise = {.has_edges = have_edges(table, outlier, scratch)};
     bool is_scattered = emission_samples_are_scattered(table, scratch);
     for (int j = 0; j < 3; j++) {
         noise.relative[j] = is_scattered ? scatter_surface_table_noise(table, j, true, scratch)

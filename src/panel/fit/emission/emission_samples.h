@@ -58,7 +58,9 @@ typedef struct EmissionNoise {
 /* A value's standard deviation that the fit and its errors pardon, cd m^-2. */
 double emission_noise_sigma(const EmissionNoise *noise, int channel, double value);
 
-EmissionNoise emission_samples_noise(const AngleTable *table, Arena scratch);
+/* outlier: rows that show no edge. */
+EmissionNoise emission_samples_noise(const AngleTable *table, const uint8_t *outlier,
+                                     Arena scratch);
 
 /* The least value that errors of a table's channel are relative to: a share of its largest
  * value in rows that outlier (NULL: none) does not mark. */

@@ -45,7 +45,7 @@ typedef struct EmissionCoder {
 } EmissionCoder;
 
 /* The rest at the samples: scores less the smooth part; and what it is read from between them:
- * the cells of a grid, else a surface for each component. */
+ * the cells of a grid, else (or of noisy rows) a surface for each component. */
 typedef struct EmissionRest {
     float *value; /* rows x components */
     float low[PANEL_COMPONENTS_MAX], high[PANEL_COMPONENTS_MAX];
@@ -57,6 +57,10 @@ typedef struct EmissionRest {
 /* About how wide a triangle of a level is, radians. */
 static double cell_width(int level) {
     return PI / 2 / (1 << level);
+}
+
+static bool reads_surface(const EmissionModel *model) {
+    return model->is_scattered || (model->is_noisy && !model->has_edges);
 }
 
 static EmissionRest find_rest(const EmissionModel *model, Arena *arena) {
@@ -77,7 +81,7 @@ static EmissionRest find_rest(const EmissionModel *model, Arena *arena) {
             rest.low[k] = fminf(rest.low[k], one[i]);
             rest.high[k] = fmaxf(rest.high[k], one[i]);
         }
-        if (model->is_scattered)
+        if (reads_surface(model))
             rest.surface[k] = scatter_surface_make(s->master, false, one, 1, arena);
     }
     direction_grid_build(s->master, false, arena, &rest.grid);
@@ -93,19 +97,20 @@ static void read_rest(EmissionCoder *coder, const EmissionRest *rest) {
     const EmissionSamples *s = coder->model->samples;
     size_t n = (size_t)coder->model->rank->components;
     double low = cos_d(s->cone), across = sin_d(s->cone);
+    bool is_surface = reads_surface(coder->model);
     for (uint32_t v = 0; v < coder->vertices; v++) {
         Vec3 d = coder->direction[v];
         double r = sqrt((double)(d.x * d.x + d.y * d.y));
         if ((double)d.z < low)
             d = vec3((float)(d.x * across / r), (float)(d.y * across / r), (float)low);
         float *to = coder->value + v * n;
-        if (!coder->model->is_scattered) {
+        if (!is_surface) {
             GridTaps taps;
             direction_grid_taps(&rest->grid, acos_f(fminf(1, d.z)), atan2_f(d.y, d.x), &taps);
             direction_grid_read(&taps, rest->cell, (int)n, to);
         }
         for (size_t k = 0; k < n; k++) {
-            if (coder->model->is_scattered) scatter_surface_read(rest->surface[k], d, &to[k]);
+            if (is_surface) scatter_surface_read(rest->surface[k], d, &to[k]);
             to[k] = clampf(to[k], rest->low[k], rest->high[k]);
         }
     }
@@ -148,7 +153,8 @@ static void add_correction(const EmissionCoder *coder, const EmissionRest *rest,
                            float *sum) {
     const VertexPoint *at = &coder->near[row];
     size_t n = (size_t)coder->model->rank->components;
-    bool is_missed = uncoded_error(coder, row, SWEPT_SIGMAS) > SWEPT * coder->model->tolerance;
+    float sigmas = coder->model->is_noisy ? PARDON : SWEPT_SIGMAS;
+    bool is_missed = uncoded_error(coder, row, sigmas) > SWEPT * coder->model->tolerance;
     for (int q = 0; q < 3; q++) sum[at->vertex[q] * (n + 1) + n] += at->weight[q];
     for (size_t k = 0; k < n && is_missed; k++) {
         float miss = rest->value[(size_t)row * n + k];
