@@ -8,8 +8,8 @@ passed=0 failed=0
 names='exp|exp2|expm1|log|log2|log10|log1p|pow|sin|cos|tan|sincos|asin|acos|atan|atan2|sinh'
 names="$names|cosh|tanh|cbrt|erf|erfc|hypot|tgamma|lgamma"
 
-for name in base text spectrum hemisphere hemisphere_vertex hemisphere_tree \
-    hemisphere_sampling sky image panel_query panel_set panel_fit_common \
+for name in base text spectrum hemisphere hemisphere_tree \
+    sky image panel_query panel_set panel_fit_common \
     panel_fit_emission panel_fit_reflection panel_fit import_set vision review \
     review_request review_symbol import_text import_scatter import_luminaire import scene bvh \
     light camera path film kernel render shaders_facets shaders; do
