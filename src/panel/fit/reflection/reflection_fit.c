@@ -33,7 +33,7 @@ typedef struct ReflectionMisses {
 #define PEAK_SHARE 0.35  /* of that where a grid is within 1/e of its largest value */
 #define GUIDED_SHARE 0.6 /* of tables between whose rows no sample checks the tree */
 #define HELD_FROM 0.05f  /* radians behind their edge: triangles reach across it */
-#define HELD_ROOM 4.0    /* times the bound, for what is held outside of the samples */
+#define HELD_ROOM 3.0    /* times the bound, for what is held outside of the samples */
 #define TIGHTEST 0.2     /* of the bound, beyond what the components leave out: rounding */
 #define ATTEMPTS 8
 #define LOOSER 1.3f
