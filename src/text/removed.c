@@ -80,7 +80,7 @@ const RemovedWord removed_words[] = {
     {"--kind", "spectra", "the set has them in its table of primaries"},
     {"--kind", "brdf-spectrum", "panel eval --brdf has a row for each wavelength"},
     {"--kind", "brdf-map",
-     "--kind brdf draws the plane of incidence, panel eval --brdf --grid asks"},
+     "--kind brdf draws the plane of incidence, panel eval --brdf --grid has any other direction"},
     {"--kind", "mirror", "--kind reflectance has the mirror part"},
     {"--kind", "halo", "panel info has the halo of a white square"},
     {"panel plot", "--contour", "panel report has the angles at which limits are crossed"},

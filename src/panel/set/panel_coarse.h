@@ -3,7 +3,7 @@
  *
  * Every level of a tree is a whole function of its own, so a panel can be evaluated at any of
  * them; the finest one is the panel itself, to the bit. What is no tree stays as it is: the
- * smooth part and the beams of an emission, spectra, the mirror, the narrow lobe, and what
+ * smooth part of an emission, spectra, the mirror, and what
  * opening made of the whole panel (panel_sample, panel_pdf, albedos).
  *
  * Vertices A level of the vertex basis is no mean: it has the whole panel's values at the
